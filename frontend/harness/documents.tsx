@@ -91,12 +91,15 @@ export function showRobot(editor: RobotEditor, draw: (robot: Robot) => ReactNode
   return () => read() as Robot;
 }
 
-/** Types into a field in place of what it says, and presses Enter. */
-export async function write(field: HTMLElement | string, text: string): Promise<void> {
+/** Types into a field in place of what it says. */
+export async function type(field: HTMLElement | string, text: string): Promise<void> {
   const input = typeof field === 'string' ? screen.getByTestId(field) : field;
   await user.clear(input);
-  await user.type(input, `${text}{Enter}`);
+  await user.type(input, text);
 }
+
+/** Types into a field, and presses Enter. */
+export const write = (field: HTMLElement | string, text: string) => type(field, `${text}{Enter}`);
 
 /** Chooses from a list that opens at a field. */
 export async function choose(field: HTMLElement, option: string): Promise<void> {

@@ -3,7 +3,7 @@ import { Notifications, notifications } from '@mantine/notifications';
 import { QueryClientProvider } from '@tanstack/react-query';
 import { act, cleanup, render } from '@testing-library/react';
 import userEvent, { PointerEventsCheckLevel } from '@testing-library/user-event';
-import type { ReactElement } from 'react';
+import type { ReactElement, ReactNode } from 'react';
 import { onTestFinished, vi } from 'vitest';
 import { queries } from '@/api/queries';
 import type { ActionModel, Diagnostic } from '@/api/types';
@@ -27,17 +27,19 @@ queries.setDefaultOptions({ queries: { retry: false } });
 /** Types and clicks without waiting, and without computing styles before each click. */
 export const user = userEvent.setup({ delay: null, pointerEventsCheck: PointerEventsCheckLevel.Never });
 
-/** Renders a component as the page does, with its theme, notifications and queries. */
-export function show(element: ReactElement) {
-  return render(
+function Page({ children }: { readonly children: ReactNode }) {
+  return (
     <QueryClientProvider client={queries}>
       <MantineProvider theme={theme} env="test" withCssVariables={false} withGlobalClasses={false}>
         <Notifications />
-        {element}
+        {children}
       </MantineProvider>
-    </QueryClientProvider>,
+    </QueryClientProvider>
   );
 }
+
+/** Renders a component as the page does, with its theme, notifications and queries. */
+export const show = (element: ReactElement) => render(element, { wrapper: Page });
 
 export interface TestProject {
   /** Nodes by tree; the first node of each is its root. */

@@ -2,13 +2,13 @@ import { screen } from '@testing-library/react';
 import { describe, expect, it } from 'vitest';
 import robotUrdf from '@/model/robot/template/robot.urdf?raw';
 import { motorOf } from '@/model/robot/joints';
-import { choose, lookOnly, openRobot, showRobot, URDF, write } from '../../../harness/documents';
+import { choose, lookOnly, openRobot, showRobot, type, URDF, write } from '../../../harness/documents';
 import { user } from '../../../harness/testing';
 import { JointFields } from './JointFields';
 
 const CASTER = '<joint name="caster_joint" type="fixed">';
-const asType = (type: string, more = '') => ({
-  [URDF]: robotUrdf.replace(CASTER, `<joint name="caster_joint" type="${type}"><axis xyz="0 0 1"/>${more}`),
+const asType = (kind: string, more = '') => ({
+  [URDF]: robotUrdf.replace(CASTER, `<joint name="caster_joint" type="${kind}"><axis xyz="0 0 1"/>${more}`),
 });
 const LIMIT = '<limit lower="-1.5707963" upper="0.5" effort="1" velocity="1"/>';
 
@@ -36,8 +36,9 @@ describe('the fields of a joint', () => {
 
   it('rename it, and refuse a taken name', async () => {
     const { joint } = fields();
-    await write('joint-name', 'laser_joint');
+    await type('joint-name', 'laser_joint');
     expect(screen.getByText('The name laser_joint is used twice')).toBeInTheDocument();
+    await user.keyboard('{Enter}');
     expect(joint().name).toBe('caster_joint');
     await write('joint-name', 'hinge');
     expect(joint().name).toBe('hinge');

@@ -2,7 +2,7 @@ import { screen } from '@testing-library/react';
 import { describe, expect, it } from 'vitest';
 import { partOf } from '@/model/robot/types';
 import robotYaml from '@/model/robot/template/robot.yaml?raw';
-import { openRobot, ROBOT, showRobot, write } from '../../../harness/documents';
+import { openRobot, ROBOT, showRobot, type, write } from '../../../harness/documents';
 import { user } from '../../../harness/testing';
 import { PartFields } from './PartFields';
 
@@ -56,7 +56,7 @@ describe('the fields of a part', () => {
 
   it('rename a sensor, or refuse its name', async () => {
     const { robot } = fields('sensor scan');
-    await write('part-name', 'camera');
+    await type('part-name', 'camera');
     expect(screen.getByText('The name camera is used twice')).toBeInTheDocument();
     await write('part-name', 'front');
     expect(robot().sensors.map(({ name }) => name)).toEqual(['front', 'camera']);
@@ -64,7 +64,7 @@ describe('the fields of a part', () => {
 
   it('rename a link, or refuse its name', async () => {
     const { robot } = fields('link caster_link');
-    await write('part-name', 'laser_link');
+    await type('part-name', 'laser_link');
     expect(screen.getByText('The name laser_link is used twice')).toBeInTheDocument();
     await write('part-name', 'rear');
     expect(robot().urdf.links.has('rear')).toBe(true);

@@ -53,10 +53,14 @@ describe('ValueFields', () => {
     expect(screen.getByTestId('value-max_angular')).toHaveValue('180');
     await write('value-max_angular', '90');
     expect(onChange).toHaveBeenLastCalledWith('max_angular', expect.closeTo(Math.PI / 2, 6));
-    await write('value-max_angular', '99999');
-    const [, most] = onChange.mock.lastCall as [string, number];
-    expect(most).toBeGreaterThan(2 * Math.PI);
-    expect(most).toBeLessThan((99_999 * Math.PI) / 180);
+  });
+
+  it('keep angles within their bounds, in degrees', async () => {
+    const onChange = fields('lidar', { fov: Math.PI });
+    await write('value-fov', '999');
+    expect(onChange).toHaveBeenLastCalledWith('fov', expect.closeTo(2 * Math.PI + 0.001, 5));
+    await write('value-fov', '0');
+    expect(onChange).toHaveBeenLastCalledWith('fov', expect.closeTo(0.011, 5));
   });
 
   it.each(['front', '/front camera', `/${'a'.repeat(200)}`, ''])('refuse the topic "%s"', async (topic) => {

@@ -55,12 +55,10 @@ describe('what is selected of a robot', () => {
 
   it('is copied five centimetres beside itself', () => {
     const editor = openRobot();
-    select(editor, ['link caster_link']);
-    const before = pose(editor, 'link caster_link');
+    select(editor, ['sensor camera']);
     duplicateSelected(editor);
-    const [key] = selected(editor);
-    expect(key).not.toBe('link caster_link');
-    expect(pose(editor, key!)).toEqual([before[0], 0.05, ...before.slice(2)]);
+    expect(selected(editor)).toEqual(['sensor camera_2']);
+    expect(pose(editor, 'sensor camera_2')).toEqual([0.162, 0.05, 0.11, 0, 0, 0]);
   });
 
   it('moves by steps of the grid along the axes of the view; one undo takes all steps back', () => {

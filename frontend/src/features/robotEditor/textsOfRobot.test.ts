@@ -8,7 +8,7 @@ describe('textsOfRobot', () => {
   it('are those of our template, named after its folder', async () => {
     const { requests } = fakeServer({});
     const texts = await textsOfRobot(TEMPLATE, 'my_first_robot');
-    expect(texts.yaml).toContain('\nname: My first robot\n');
+    expect(texts.yaml).toMatch(/^name: "?My first robot"?$/m);
     expect(texts.yaml).toContain('format: bt-studio/robot');
     expect(texts).toMatchObject({ urdf: robotUrdf, urdfName: 'robot.urdf' });
     expect(requests).toEqual([]);

@@ -52,17 +52,24 @@ describe('frames where the processor draws', () => {
     await vi.waitFor(() => expect(deleted).toHaveBeenCalledTimes(2));
   });
 
-  it('wait until the last one is drawn, and for a pause after it', async () => {
+  it.each([
+    [0, 80],
+    [30, 80],
+    [100, 200],
+    [900, 1000],
+  ])('that took %s ms are followed by a pause of %s ms', async (cost, pause) => {
     const { frames } = showScene(<Throttled />);
+    await vi.waitFor(() => expect(frames()).toBeGreaterThan(0));
     isDone = false;
     const before = frames();
-    const start = performance.now();
-    draw();
+    const now = vi.spyOn(performance, 'now').mockReturnValue(5000);
+    const timeouts = vi.spyOn(globalThis, 'setTimeout');
     draw();
     await vi.waitFor(() => expect(frames()).toBe(before + 1));
     expect(deleted).not.toHaveBeenCalled();
+    now.mockReturnValue(5000 + cost);
     isDone = true;
-    await vi.waitFor(() => expect(frames()).toBe(before + 2));
-    expect(performance.now() - start).toBeGreaterThanOrEqual(80);
+    await vi.waitFor(() => expect(timeouts.mock.calls.map(([, delay]) => delay)).toContain(pause));
+    expect(deleted).toHaveBeenCalledOnce();
   });
 });

@@ -1,4 +1,5 @@
 import { afterEach, describe, expect, it, vi } from 'vitest';
+import type * as WebGl from './webgl';
 
 const none = HTMLCanvasElement.prototype.getContext;
 const lose = vi.fn();
@@ -21,7 +22,8 @@ async function ask(renderer: string | null, isNamed = true) {
         },
   );
   Object.assign(HTMLCanvasElement.prototype, { getContext });
-  return { ...(await import('./webgl')), getContext };
+  const asked: typeof WebGl = await import('./webgl');
+  return { ...asked, getContext };
 }
 
 afterEach(() => {

@@ -94,8 +94,8 @@ describe('the stage of an editor', () => {
     const { editor, camera, rerender } = stage();
     expect(editor.view?.forward()).toEqual([1, 0]);
     const [x, y] = editor.view!.center();
-    expect(x).toBeCloseTo(0, 0);
-    expect(y).toBeCloseTo(0, 0);
+    expect(x).toBeCloseTo(4);
+    expect(y).toBeCloseTo(0);
     expect(editor.view?.cancel()).toBe(false);
     expect(camera.position.length()).toBeGreaterThan(1);
     rerender(<group />);

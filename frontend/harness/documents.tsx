@@ -1,4 +1,4 @@
-import { screen } from '@testing-library/react';
+import { screen, waitFor, within } from '@testing-library/react';
 import type { ReactNode } from 'react';
 import { useStore } from 'zustand';
 import type { Editor } from '@/features/editor3d/editing';
@@ -104,7 +104,13 @@ export const write = (field: HTMLElement | string, text: string) => type(field, 
 /** Chooses from a list that opens at a field. */
 export async function choose(field: HTMLElement, option: string): Promise<void> {
   await user.click(field);
-  await user.click(await screen.findByRole('option', { name: option }));
+  // Lists that were open before may still be on the page.
+  const list = await waitFor(() => {
+    const found = document.getElementById(field.getAttribute('aria-controls') ?? '');
+    if (!found) throw new Error('the list is not open');
+    return found;
+  });
+  await user.click(await within(list).findByRole('option', { name: option }));
 }
 
 /** A mesh of one triangle, so many metres wide. */

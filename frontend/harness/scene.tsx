@@ -95,13 +95,10 @@ export function showScene(element: ReactElement) {
 }
 
 /** The objects of a class in a scene, in their order. */
-export function objectsOf<T extends THREE.Object3D>(
-  root: THREE.Object3D,
-  kind: abstract new (...args: never[]) => T,
-): T[] {
+export function objectsOf<T extends THREE.Object3D>(root: THREE.Object3D, kind: { prototype: T }): T[] {
   const found: T[] = [];
   root.traverse((object) => {
-    if (object instanceof kind) found.push(object);
+    if (object instanceof (kind as unknown as abstract new () => T)) found.push(object);
   });
   return found;
 }
@@ -140,11 +137,11 @@ export function watchPictures(): Loading[] {
   URL.createObjectURL = () => `blob:${loading.length}`;
   URL.revokeObjectURL = () => undefined;
   vi.spyOn(THREE.TextureLoader.prototype, 'load').mockImplementation((address, onLoad, _, onError) => {
-    const texture = new THREE.Texture();
+    const texture = new THREE.Texture<HTMLImageElement>();
     loading.push({
       address,
       arrive: (width = 1, height = 1) => {
-        texture.image = { width, height };
+        texture.image = { width, height } as HTMLImageElement;
         onLoad?.(texture);
         return texture;
       },

@@ -1,12 +1,24 @@
 import { act, screen, waitFor, within } from '@testing-library/react';
 import { describe, expect, it, vi } from 'vitest';
-import { choose, lookOnly, openRobot, showRobot, stl, takesFile, URDF, write } from '../../../harness/documents';
+import {
+  choose,
+  lookOnly,
+  openRobot,
+  showRobot,
+  stl,
+  takesFile,
+  URDF,
+  write,
+} from '../../../harness/documents';
 import robotUrdf from '@/model/robot/template/robot.urdf?raw';
 import { fakeServer, user } from '../../../harness/testing';
 import { bodiesOf } from '@/model/robot/solids';
 import { BodyFields } from './BodyFields';
 
-function fields(name: string, more: { isSized?: boolean; texts?: Record<string, string>; prepare?: () => void } = {}) {
+function fields(
+  name: string,
+  more: { isSized?: boolean; texts?: Record<string, string>; prepare?: () => void } = {},
+) {
   const editor = openRobot(more.texts);
   more.prepare?.();
   const robot = showRobot(editor, (now) => (
@@ -158,7 +170,9 @@ describe('the fields of a body', () => {
     expect(opened).toHaveBeenCalledOnce();
     fakeServer(takesFile('robots/mine/meshes/arm.stl'));
     await user.upload(input, new File([stl(1)], 'arm.stl'));
-    await waitFor(() => expect(bodies().at(-1)?.visual).toMatchObject({ shape: 'mesh', file: 'meshes/arm.stl' }));
+    await waitFor(() =>
+      expect(bodies().at(-1)?.visual).toMatchObject({ shape: 'mesh', file: 'meshes/arm.stl' }),
+    );
   });
 
   it('are only seen in a project that may only be seen', () => {

@@ -68,7 +68,11 @@ describe('the fields of the wheels', () => {
     const robot = wheels();
     await write(field, text);
     const now = robot();
-    const value = { 'wheel-radius': now.wheelRadius, 'wheel-width': wheelWidth(now), 'wheel-track': now.track };
+    const value = {
+      'wheel-radius': now.wheelRadius,
+      'wheel-width': wheelWidth(now),
+      'wheel-track': now.track,
+    };
     expect(value[field as keyof typeof value]).toBeCloseTo(kept, 6);
   });
 

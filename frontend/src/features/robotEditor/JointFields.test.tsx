@@ -12,12 +12,18 @@ const asType = (kind: string, more = '') => ({
 });
 const LIMIT = '<limit lower="-1.5707963" upper="0.5" effort="1" velocity="1"/>';
 
-function fields(texts: Record<string, string> = {}, name = 'caster_joint', prepare = () => undefined as void) {
+function fields(
+  texts: Record<string, string> = {},
+  name = 'caster_joint',
+  prepare = () => undefined as void,
+) {
   const editor = openRobot(texts);
   prepare();
   let now = name;
   const robot = showRobot(editor, (shown) => {
-    const joint = shown.urdf.joints.get(now) ?? [...shown.urdf.joints.values()].find(({ child }) => child === 'caster_link')!;
+    const joint =
+      shown.urdf.joints.get(now) ??
+      [...shown.urdf.joints.values()].find(({ child }) => child === 'caster_link')!;
     now = joint.name;
     return <JointFields editor={editor} robot={shown} joint={joint} />;
   });

@@ -38,7 +38,7 @@ describe('the dialogue for a new robot', () => {
   it('makes a robot of the template, runs with it, and opens it', async () => {
     const { openFile } = dialog();
     await user.type(await name(), '{Enter}');
-    await waitFor(() => expect(openFile).toHaveBeenCalledWith('robots/my_robot/robot.yaml'));
+    await waitFor(() => expect(openFile).toHaveBeenCalledWith('robots/my_robot/robot.yaml', undefined));
     const project = useProjectStore.getState();
     expect(project.currentText('robots/my_robot/robot.urdf')).toBe(robotUrdf);
     expect(project.currentText('robots/my_robot/robot.yaml')).toMatch(/name: "?My robot"?/);
@@ -51,7 +51,7 @@ describe('the dialogue for a new robot', () => {
     expect(await name()).toHaveValue('my_own_rover');
     await user.click(screen.getByRole('switch', { name: 'Run this project with it' }));
     await user.click(screen.getByTestId('new-robot-ok'));
-    await waitFor(() => expect(openFile).toHaveBeenCalledWith('robots/my_own_rover/robot.yaml'));
+    await waitFor(() => expect(openFile).toHaveBeenCalledWith('robots/my_own_rover/robot.yaml', undefined));
     const project = useProjectStore.getState();
     expect(project.currentText('robots/my_own_rover/rover.urdf')).toBe('<robot name="rover"/>');
     expect(project.settings?.robot).toBeUndefined();

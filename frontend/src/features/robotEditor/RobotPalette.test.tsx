@@ -46,6 +46,8 @@ describe('the palette of a robot', () => {
     expect(await screen.findByText('Of this robot')).toBeInTheDocument();
     expect(screen.queryByText('assets/b.stl')).toBeNull();
     await user.click(screen.getByRole('menuitem', { name: 'meshes/a.stl' }));
-    expect([...robot().urdf.links.values()].at(-1)?.visuals).toMatchObject([{ file: 'meshes/a.stl', size: [1, 1, 1] }]);
+    expect([...robot().urdf.links.values()].at(-1)?.visuals).toMatchObject([
+      { file: 'meshes/a.stl', size: [1, 1, 1] },
+    ]);
   });
 });

@@ -24,9 +24,9 @@ const size = (scene: RobotScene, key: string) =>
     .map((part) => Math.round(part * 1e3) / 1e3);
 
 /** What is seen of a sensor's sight: the lines after the frame. */
-const sight = (scene: RobotScene, key: string) =>
-  objectsOf(scene.nodeOf(key)!, THREE.LineSegments).at(1);
-const reach = (lines: THREE.LineSegments) => Math.max(...valuesOf(lines.geometry).filter((_, at) => at % 3 === 0));
+const sight = (scene: RobotScene, key: string) => objectsOf(scene.nodeOf(key)!, THREE.LineSegments).at(1);
+const reach = (lines: THREE.LineSegments) =>
+  Math.max(...valuesOf(lines.geometry).filter((_, at) => at % 3 === 0));
 
 describe('RobotScene', () => {
   it('draws each part where it is, as large as it is', () => {
@@ -110,7 +110,10 @@ describe('RobotScene', () => {
     async (name) => {
       openProject({});
       fakeServer({ 'GET /projects/p1/files/robots/mine/meshes/a.stl': new Response(stl(1)) });
-      const urdf = robotUrdf.replace('<box size="0.3 0.22 0.1"/>', `<mesh filename="${name}" scale="2 1 1"/>`);
+      const urdf = robotUrdf.replace(
+        '<box size="0.3 0.22 0.1"/>',
+        `<mesh filename="${name}" scale="2 1 1"/>`,
+      );
       const { scene, onArrival } = shown(robotYaml, urdf);
       await vi.waitFor(() => expect(onArrival).toHaveBeenCalled());
       expect(size(scene, 'link base_link')).toEqual([2, 1, 0]);

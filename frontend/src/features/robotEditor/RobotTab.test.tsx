@@ -25,7 +25,10 @@ describe('the tab of a robot', () => {
     expect(screen.getByTestId('robot-view')).toBeInTheDocument();
     expect(screen.getByRole('listbox', { name: '6 parts' })).toBeInTheDocument();
     expect(screen.queryByRole('heading', { name: /problem/ })).toBeNull();
-    expect(screen.getAllByRole('radio').map((radio) => (radio as HTMLInputElement).value)).toEqual(['move', 'turn']);
+    expect(screen.getAllByRole('radio').map((radio) => (radio as HTMLInputElement).value)).toEqual([
+      'move',
+      'turn',
+    ]);
   });
 
   it('notes what was typed into either text as a step of undo', () => {
@@ -55,7 +58,9 @@ describe('the tab of a robot', () => {
   });
 
   it('counts the problems of a robot that can be shown', () => {
-    tab({ [ROBOT]: robotYaml.replace('wheel_torque: 1.5', 'wheel_torque: -1').replace('rays: 360', 'rays: 0') });
+    tab({
+      [ROBOT]: robotYaml.replace('wheel_torque: 1.5', 'wheel_torque: -1').replace('rays: 360', 'rays: 0'),
+    });
     expect(screen.getByRole('heading', { name: '2 problems' })).toBeInTheDocument();
     expect(screen.getByTestId('robot-view')).toBeInTheDocument();
   });

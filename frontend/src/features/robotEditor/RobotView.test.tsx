@@ -9,7 +9,8 @@ function view(prepare: () => void = () => undefined) {
   const editor = openRobot();
   prepare();
   const robot = showRobot(editor, (now) => <RobotView editor={editor} robot={now} />);
-  const press = (key: string, more = {}) => fireEvent.keyDown(screen.getByTestId('robot-view'), { key, ...more });
+  const press = (key: string, more = {}) =>
+    fireEvent.keyDown(screen.getByTestId('robot-view'), { key, ...more });
   const pose = (key: string) => partOf(robot(), key)!.pose.map((part) => Math.round(part * 1e4) / 1e4 + 0);
   return { editor, robot, press, pose };
 }
@@ -17,7 +18,10 @@ function view(prepare: () => void = () => undefined) {
 describe('the view of a robot', () => {
   it('is one control, which says what it shows where there is no WebGL', () => {
     view();
-    expect(screen.getByRole('application', { name: /^The robot in 3D\./ })).toHaveAttribute('data-things', '6');
+    expect(screen.getByRole('application', { name: /^The robot in 3D\./ })).toHaveAttribute(
+      'data-things',
+      '6',
+    );
     expect(screen.getByRole('note')).toHaveTextContent('the robot is not shown in 3D');
   });
 

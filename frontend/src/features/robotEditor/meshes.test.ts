@@ -30,7 +30,10 @@ describe('the meshes of a robot', () => {
   ])('of %s units are brought with the scale %s', async (width, scale) => {
     const editor = openRobot();
     fakeServer(takesFile('robots/mine/meshes/arm.stl'));
-    expect(await bringHere(editor, new File([stl(width)], 'arm.stl'))).toEqual({ file: 'meshes/arm.stl', scale });
+    expect(await bringHere(editor, new File([stl(width)], 'arm.stl'))).toEqual({
+      file: 'meshes/arm.stl',
+      scale,
+    });
   });
 
   it('are not brought where they cannot be read', async () => {

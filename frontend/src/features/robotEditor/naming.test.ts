@@ -17,7 +17,9 @@ describe('nameWords', () => {
     expect(problem('base_link')).toBeNull();
     expect(problem('my link')).toBe(BAD);
     expect(problem('caster_link')).toBe('The name caster_link is used twice');
-    expect(nameWords(robot, 'joint', 'caster_joint', t)('laser_joint')).toBe('The name laser_joint is used twice');
+    expect(nameWords(robot, 'joint', 'caster_joint', t)('laser_joint')).toBe(
+      'The name laser_joint is used twice',
+    );
   });
 });
 

@@ -40,7 +40,8 @@ describe('ChoiceCards', () => {
     const { container } = cards('room');
     expect(container.querySelectorAll('img')).toHaveLength(1);
     expect(screen.getByTestId('choice-room').querySelector('img')).toHaveAttribute('src', '/room.jpg');
-    const symbol = (id: string) => screen.getByTestId(`choice-${id}`).querySelector('svg')?.getAttribute('class');
+    const symbol = (id: string) =>
+      screen.getByTestId(`choice-${id}`).querySelector('svg')?.getAttribute('class');
     expect(symbol('default')).toContain('robot');
     expect(symbol('none')).toContain('plug-connected');
     expect(symbol('hall')).toContain('world');

@@ -136,7 +136,7 @@ describe('the chooser of universe and robot', () => {
     await user.click(choice('mine'));
     expect(screen.getByTestId('change-robot')).toHaveTextContent('Change it');
     await user.click(screen.getByTestId('change-robot'));
-    expect(openFile).toHaveBeenCalledExactlyOnceWith('robots/mine/robot.yaml');
+    expect(openFile).toHaveBeenCalledExactlyOnceWith('robots/mine/robot.yaml', undefined);
     expect(useUniverseChooser.getState().isOpen).toBe(false);
     expect(useNewRobot.getState().base).toBeNull();
   });

@@ -1,6 +1,10 @@
 import { act, screen, waitFor } from '@testing-library/react';
 import { describe, expect, it, onTestFinished } from 'vitest';
-import { closeUniverseChooser, openUniverseChooser, useUniverseChooser } from '@/store/dialogs/universeChooser';
+import {
+  closeUniverseChooser,
+  openUniverseChooser,
+  useUniverseChooser,
+} from '@/store/dialogs/universeChooser';
 import { fakeServer, openProject, show, user } from '../../../harness/testing';
 import { UniverseDialog } from './UniverseDialog';
 

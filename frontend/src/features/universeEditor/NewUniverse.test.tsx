@@ -45,7 +45,7 @@ describe('the dialogue for a new universe', () => {
     const { openFile } = dialog();
     expect(await name()).toHaveValue('my_own_room');
     await user.click(screen.getByTestId('new-universe-ok'));
-    await waitFor(() => expect(openFile).toHaveBeenCalledWith('universes/my_own_room.yaml'));
+    await waitFor(() => expect(openFile).toHaveBeenCalledWith('universes/my_own_room.yaml', undefined));
     const project = useProjectStore.getState();
     expect(project.currentText('universes/my_own_room.yaml')).toBe('name: Room\n');
     expect(project.settings?.universe).toBe('my_own_room');
@@ -57,7 +57,7 @@ describe('the dialogue for a new universe', () => {
     await name();
     await user.click(screen.getByRole('switch', { name: 'Run this project there' }));
     await write(await name(), 'Second');
-    await waitFor(() => expect(openFile).toHaveBeenCalledWith('universes/Second.yaml'));
+    await waitFor(() => expect(openFile).toHaveBeenCalledWith('universes/Second.yaml', undefined));
     expect(useProjectStore.getState().settings?.universe).toBeUndefined();
   });
 

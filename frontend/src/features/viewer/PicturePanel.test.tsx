@@ -12,7 +12,9 @@ const none = HTMLCanvasElement.prototype.getContext;
 /** Pictures are decoded and drawn at once. */
 beforeEach(() => {
   frames.clear();
-  vi.stubGlobal('createImageBitmap', () => Promise.resolve({ width: 320, height: 240, close: () => undefined }));
+  vi.stubGlobal('createImageBitmap', () =>
+    Promise.resolve({ width: 320, height: 240, close: () => undefined }),
+  );
   Object.assign(HTMLCanvasElement.prototype, { getContext: () => ({ drawImage: () => undefined }) });
   onTestFinished(() => {
     HTMLCanvasElement.prototype.getContext = none;
@@ -34,7 +36,14 @@ function panel(executor: State = 'application_running') {
 
 const publish = (t: number) =>
   act(async () => {
-    frames.publish({ type: 'camera', t, sensor: 'camera', width: 320, height: 240, jpeg: new Uint8Array([1]) });
+    frames.publish({
+      type: 'camera',
+      t,
+      sensor: 'camera',
+      width: 320,
+      height: 240,
+      jpeg: new Uint8Array([1]),
+    });
     await vi.waitFor(() => expect(document.querySelector('canvas')?.dataset['frames']).toBeDefined());
   });
 
@@ -58,17 +67,27 @@ describe('PicturePanel', () => {
     now.mockReturnValue(1000);
     useSessionStore.setState({ simTime: 2.05 });
     await act(async () => {
-      frames.publish({ type: 'camera', t: 2, sensor: 'camera', width: 320, height: 240, jpeg: new Uint8Array([1]) });
+      frames.publish({
+        type: 'camera',
+        t: 2,
+        sensor: 'camera',
+        width: 320,
+        height: 240,
+        jpeg: new Uint8Array([1]),
+      });
       await vi.waitFor(() => expect(canvas.dataset['frames']).toBe('2'));
     });
     expect(screen.getByTestId('camera-figures')).toHaveTextContent('320 × 240 · 1.0 Hz · 50 ms late');
   });
 
-  it.each(['idle', 'connected', 'universe_ready'] as const)('shows no picture of a world in the state %s', async (state) => {
-    panel();
-    await publish(1);
-    act(() => useSessionStore.setState({ executor: state }));
-    expect(screen.getByText('Nothing yet')).toBeInTheDocument();
-    expect(screen.queryByTestId('camera-figures')).toBeNull();
-  });
+  it.each(['idle', 'connected', 'universe_ready'] as const)(
+    'shows no picture of a world in the state %s',
+    async (state) => {
+      panel();
+      await publish(1);
+      act(() => useSessionStore.setState({ executor: state }));
+      expect(screen.getByText('Nothing yet')).toBeInTheDocument();
+      expect(screen.queryByTestId('camera-figures')).toBeNull();
+    },
+  );
 });

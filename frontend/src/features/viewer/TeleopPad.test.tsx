@@ -88,7 +88,10 @@ describe('the pad', () => {
     expect(button).toHaveAttribute('title', `${name} (${key})`);
     fireEvent.pointerDown(button, { pointerId: 1 });
     expect(direction()).toEqual(wanted);
-    expect(executor.sentAs('teleop').at(-1)).toEqual({ linear: wanted.linear * 0.3, angular: wanted.angular });
+    expect(executor.sentAs('teleop').at(-1)).toEqual({
+      linear: wanted.linear * 0.3,
+      angular: wanted.angular,
+    });
     const held = screen.getAllByRole('button').filter((each) => each.dataset['held'] === 'true');
     expect(held).toEqual([button]);
     fireEvent.pointerUp(button);
@@ -114,7 +117,8 @@ describe('the pad', () => {
   it('leaves keys that mean something else', async () => {
     await pad();
     for (const key of ['ctrlKey', 'metaKey', 'altKey']) expect(down('KeyW', { [key]: true })).toBe(false);
-    for (const id of ['field', 'choice', 'slider']) expect(down('KeyW', {}, screen.getByTestId(id))).toBe(false);
+    for (const id of ['field', 'choice', 'slider'])
+      expect(down('KeyW', {}, screen.getByTestId(id))).toBe(false);
     expect(down('KeyX')).toBe(false);
     expect(direction()).toEqual(STILL);
   });

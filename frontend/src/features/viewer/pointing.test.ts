@@ -10,7 +10,9 @@ const SCENE: Scene = {
   type: 'scene',
   name: 'room',
   t: 0,
-  objects: [{ id: 7, body: 'crate', link: '', kind: 'dynamic', shapes: [BOX], pose: [2, 1, 0.5, 0, 0, 0, 1] }],
+  objects: [
+    { id: 7, body: 'crate', link: '', kind: 'dynamic', shapes: [BOX], pose: [2, 1, 0.5, 0, 0, 0, 1] },
+  ],
   meshes: {},
   lights: [],
   ground_color: [1, 1, 1, 1],

@@ -42,11 +42,21 @@ async function begin(introduction: Partial<Introspection> = { state: 'paused' })
   shown.camera.position.set(0, 0, 10);
   shown.camera.lookAt(0, 0, 0);
   const { canvas, camera } = shown;
-  const at = (x: number, y: number, more: object = {}) => ({ button: 0, pointerId: 1, ...pixelOf(camera, x, y, 1), ...more });
+  const at = (x: number, y: number, more: object = {}) => ({
+    button: 0,
+    pointerId: 1,
+    ...pixelOf(camera, x, y, 1),
+    ...more,
+  });
   const down = (x: number, y: number, more = {}) => fireEvent.pointerDown(canvas, at(x, y, more));
-  const move = (x: number, y: number, more = {}) => fireEvent.pointerMove(canvas, at(x, y, { buttons: 1, ...more }));
+  const move = (x: number, y: number, more = {}) =>
+    fireEvent.pointerMove(canvas, at(x, y, { buttons: 1, ...more }));
   const up = (x: number, y: number, more = {}) => fireEvent.pointerUp(canvas, at(x, y, more));
-  const crate = () => world.object(1)!.position.toArray().map((part) => Math.round(part * 1e4) / 1e4 + 0);
+  const crate = () =>
+    world
+      .object(1)!
+      .position.toArray()
+      .map((part) => Math.round(part * 1e4) / 1e4 + 0);
   return { ...shown, executor, world, down, move, up, crate };
 }
 

@@ -12,7 +12,7 @@ import { ThingScene } from './ThingScene';
 
 const SHAPE: Shape = { shape: 'box', size: [1, 1, 1], pose: [0, 0, 0, 0, 0, 0, 1], color: [1, 0, 0, 1] };
 
-class Boxes extends ThingScene<{ readonly key: string; readonly x: number }> {
+class Boxes extends ThingScene<{ readonly key: string }> {
   protected stateOf(): unknown {
     return '';
   }
@@ -20,8 +20,8 @@ class Boxes extends ThingScene<{ readonly key: string; readonly x: number }> {
     node.add(this.meshOf(SHAPE));
     node.add(frameOf(node));
   }
-  protected put(node: THREE.Group, { x }: { readonly x: number }): void {
-    node.position.set(x, 0, 0.5);
+  protected put(node: THREE.Group, { key }: { readonly key: string }): void {
+    node.position.set(key === 'far' ? 8 : 0, 0, 0.5);
   }
 }
 
@@ -35,12 +35,7 @@ function stage(prepare: () => void = () => undefined) {
     stand: vi.fn((): Stand | null => (editor.store.getState().selection.length > 0 ? STAND : null)),
     held: () => [],
     commit: vi.fn(),
-    show: vi.fn(() =>
-      scene.show([
-        { key: 'near', x: 0 },
-        { key: 'far', x: 8 },
-      ]),
-    ),
+    show: vi.fn(() => scene.show([{ key: 'near' }, { key: 'far' }])),
   };
   const dragHandler = { take: vi.fn(() => null), drop: vi.fn(), click: vi.fn() };
   const drawing = { isOn: () => false, move: vi.fn(), click: vi.fn(), end: vi.fn(() => false) };

@@ -52,7 +52,12 @@ function begin(textures: Pictures | null = null) {
   return { scene: new PlainScene(true, onArrival, textures), onArrival };
 }
 
-const size = (scene: PlainScene, key: string) => scene.boundsOf([key]).getSize(new THREE.Vector3()).toArray().map((part) => Math.round(part * 1e4) / 1e4);
+const size = (scene: PlainScene, key: string) =>
+  scene
+    .boundsOf([key])
+    .getSize(new THREE.Vector3())
+    .toArray()
+    .map((part) => Math.round(part * 1e4) / 1e4);
 const mark = (scene: PlainScene, key: string) =>
   scene.nodeOf(key)!.children.find(({ userData }) => userData['isMark'])!;
 const faint = (scene: PlainScene, key: string) =>

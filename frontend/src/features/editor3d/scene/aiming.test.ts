@@ -101,7 +101,7 @@ describe('forwardOf', () => {
   ] as const)('is the axis away from a camera at %o', (from, axis) => {
     const camera = cameraAbove();
     camera.up.set(0, 0, 1);
-    camera.position.set(...from);
+    camera.position.fromArray([...from]);
     camera.lookAt(0, 0, 0);
     camera.updateMatrixWorld(true);
     expect(forwardOf(camera)).toEqual(axis);

@@ -24,7 +24,7 @@ const model = () => screen.getByRole('combobox', { name: 'Robot' });
 describe('the fields of a robot in a universe', () => {
   it('choose another robot: one of the project, or one that we ship', async () => {
     const { thing } = fields();
-    await waitFor(() => expect(model()).toHaveValue('Turtle'));
+    await waitFor(() => expect(model()).toHaveValue('Turtle'), { timeout: 10_000 });
     await choose(model(), 'Rover');
     expect(thing('robot')).toMatchObject({ model: 'rover' });
     await choose(model(), 'mine');

@@ -32,11 +32,11 @@ describe('TextureField', () => {
     expect(await options(input)).toContain('assets/gone.png');
   });
 
-  it('lists a chosen picture once', async () => {
-    expect(
-      (await options(field('assets/wall.PNG').input)).filter((each) => each === 'assets/wall.PNG'),
-    ).toHaveLength(1);
-    expect((await options(field('brick').input)).filter((each) => each === 'Brick')).toHaveLength(1);
+  it.each([
+    ['assets/wall.PNG', 'assets/wall.PNG'],
+    ['brick', 'Brick'],
+  ])('lists the chosen picture %s once', async (value, label) => {
+    expect((await options(field(value).input)).filter((each) => each === label)).toHaveLength(1);
   });
 
   it('says which was chosen; none is nothing', async () => {

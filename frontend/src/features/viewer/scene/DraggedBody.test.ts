@@ -7,7 +7,12 @@ import { carriable, DraggedBody, poseOf } from './DraggedBody';
 import { pyramidOf } from './HelperViews';
 import { World } from './World';
 
-const box = (...size: number[]): Shape => ({ shape: 'box', size, pose: [0, 0, 0, 0, 0, 0, 1], color: [1, 0, 0, 1] });
+const box = (...size: number[]): Shape => ({
+  shape: 'box',
+  size,
+  pose: [0, 0, 0, 0, 0, 0, 1],
+  color: [1, 0, 0, 1],
+});
 const HALF = Math.SQRT1_2;
 
 const SCENE: Scene = {
@@ -16,11 +21,25 @@ const SCENE: Scene = {
   t: 0,
   objects: [
     { id: 1, body: 'wall', link: '', kind: 'static', shapes: [box(10, 0.2, 1)], pose: [5, 0, 0, 0, 0, 0, 1] },
-    { id: 2, body: 'robot', link: 'base', kind: 'robot', shapes: [box(1, 1, 1)], pose: [1, 2, 0, 0, 0, HALF, HALF] },
+    {
+      id: 2,
+      body: 'robot',
+      link: 'base',
+      kind: 'robot',
+      shapes: [box(1, 1, 1)],
+      pose: [1, 2, 0, 0, 0, HALF, HALF],
+    },
     { id: 3, body: 'robot', link: 'arm', kind: 'robot', shapes: [box(1, 1, 1)], pose: [2, 2, 1, 0, 0, 0, 1] },
     { id: 4, body: 'person', link: '', kind: 'actor', shapes: [box(1, 1, 1)], pose: [0, 5, 0, 0, 0, 0, 1] },
     { id: 5, body: 'tower', link: '', kind: 'dynamic', shapes: [box(3, 3, 9)], pose: [0, 9, 0, 0, 0, 0, 1] },
-    { id: 6, body: 'carpet', link: '', kind: 'dynamic', shapes: [box(1, 3.1, 0.1)], pose: [9, 9, 0, 0, 0, 0, 1] },
+    {
+      id: 6,
+      body: 'carpet',
+      link: '',
+      kind: 'dynamic',
+      shapes: [box(1, 3.1, 0.1)],
+      pose: [9, 9, 0, 0, 0, 0, 1],
+    },
   ],
   meshes: {},
   lights: [],

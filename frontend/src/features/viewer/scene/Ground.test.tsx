@@ -8,9 +8,14 @@ import type { Pictures } from './TextureCache';
 type Floor = THREE.Mesh<THREE.PlaneGeometry, THREE.MeshStandardMaterial>;
 
 function ground(more: Partial<Parameters<typeof Ground>[0]> = {}) {
-  const element = (props: typeof more) => <Ground color={[1, 0.5, 0, 1]} isDark={false} isSimple={false} {...props} />;
+  const element = (props: typeof more) => (
+    <Ground color={[1, 0.5, 0, 1]} isDark={false} isSimple={false} {...props} />
+  );
   const { scene, rerender } = showScene(element(more));
-  return { floor: () => objectsOf(scene, THREE.Mesh)[0] as Floor, change: (next: typeof more) => rerender(element(next)) };
+  return {
+    floor: () => objectsOf(scene, THREE.Mesh)[0] as Floor,
+    change: (next: typeof more) => rerender(element(next)),
+  };
 }
 
 describe('Ground', () => {

@@ -70,7 +70,11 @@ describe('coordinate frames', () => {
     const world = new World(SCENE, true);
     const view = new FramesView(SCENE, world);
     view.show(false);
-    expect(objectsOf(world.group, THREE.AxesHelper).map(({ visible }) => visible)).toEqual([false, false, false]);
+    expect(objectsOf(world.group, THREE.AxesHelper).map(({ visible }) => visible)).toEqual([
+      false,
+      false,
+      false,
+    ]);
     expect(view.origin.visible).toBe(false);
     view.show(true);
     expect(view.origin.visible).toBe(true);

@@ -10,7 +10,9 @@ const SUNS = [
 ];
 
 function lights(more: Partial<Parameters<typeof Lights>[0]> = {}) {
-  const { scene } = showScene(<Lights scene={{ lights: SUNS }} bounds={box(20)} isDark={false} hasShadows {...more} />);
+  const { scene } = showScene(
+    <Lights scene={{ lights: SUNS }} bounds={box(20)} isDark={false} hasShadows {...more} />,
+  );
   const [sky] = objectsOf(scene, THREE.HemisphereLight);
   return { sky: sky!, suns: objectsOf(scene, THREE.DirectionalLight) };
 }
@@ -36,7 +38,9 @@ describe('Lights', () => {
     expect([left, right, top, bottom, near, far]).toEqual([-half, half, half, -half, 0.1, half * 5]);
     expect(suns[0]!.position.length()).toBeCloseTo(half * 2);
     expect(suns[0]!.shadow.mapSize.toArray()).toEqual([2048, 2048]);
-    expect([suns[0]!.shadow.bias, suns[0]!.shadow.normalBias, suns[0]!.shadow.radius]).toEqual([-0.0004, 0.02, 5]);
+    expect([suns[0]!.shadow.bias, suns[0]!.shadow.normalBias, suns[0]!.shadow.radius]).toEqual([
+      -0.0004, 0.02, 5,
+    ]);
   });
 
   it('cast none where the processor draws', () => {
@@ -46,9 +50,17 @@ describe('Lights', () => {
   it('are weaker at night', () => {
     const { sky, suns } = lights({ isDark: true });
     expect(suns.map(({ intensity }) => intensity)).toEqual([0.75, 4.5]);
-    expect([sky.intensity, sky.color.getHexString(), sky.groundColor.getHexString()]).toEqual([0.9, 'b9c6e6', '2a2d36']);
+    expect([sky.intensity, sky.color.getHexString(), sky.groundColor.getHexString()]).toEqual([
+      0.9,
+      'b9c6e6',
+      '2a2d36',
+    ]);
     const day = lights().sky;
-    expect([day.intensity, day.color.getHexString(), day.groundColor.getHexString()]).toEqual([1.35, 'ffffff', 'b9b4aa']);
+    expect([day.intensity, day.color.getHexString(), day.groundColor.getHexString()]).toEqual([
+      1.35,
+      'ffffff',
+      'b9b4aa',
+    ]);
     expect(day.position.toArray()).toEqual([0, 0, 1]);
   });
 

@@ -41,7 +41,12 @@ function robotAt(x: number, t: number): Poses {
   poses.setUint16(0, units & 0xffff, true);
   poses.setInt8(2, units >> 16);
   poses.setUint8(9, 3);
-  return { type: 'poses', t, ids: new Uint8Array(new Uint16Array([2]).buffer), poses: new Uint8Array(poses.buffer) };
+  return {
+    type: 'poses',
+    t,
+    ids: new Uint8Array(new Uint16Array([2]).buffer),
+    poses: new Uint8Array(poses.buffer),
+  };
 }
 
 function stage(more: Partial<ViewOptions> = {}) {

@@ -46,7 +46,9 @@ describe('the surroundings of a world', () => {
   });
 
   it('have a grid of a metre', () => {
-    expect(surroundings().grids).toEqual([{ side: 40, step: 1, z: 0.0035, opacity: 0.45, transparent: true }]);
+    expect(surroundings().grids).toEqual([
+      { side: 40, step: 1, z: 0.0035, opacity: 0.45, transparent: true },
+    ]);
     expect(surroundings({ hasGrid: false }).grids).toEqual([]);
   });
 
@@ -79,7 +81,10 @@ describe('look', () => {
 
   function orbit(camera: THREE.Camera) {
     const controls = { target: new THREE.Vector3(1, 1, 0), enableDamping: true, update: vi.fn() };
-    return { controls, look: (more: object) => look(camera, controls as unknown as Orbit, { ...sight, ...more }) };
+    return {
+      controls,
+      look: (more: object) => look(camera, controls as unknown as Orbit, { ...sight, ...more }),
+    };
   }
 
   it('shows all from the side', () => {
@@ -88,7 +93,9 @@ describe('look', () => {
     to({});
     expect(round(controls.target)).toEqual([1, 0, 0.2]);
     expect(round(camera.position)).toEqual(
-      [1 - 0.62 * diagonal, -0.42 * diagonal, 0.2 + 0.58 * diagonal].map((part) => Math.round(part * 1e3) / 1e3),
+      [1 - 0.62 * diagonal, -0.42 * diagonal, 0.2 + 0.58 * diagonal].map(
+        (part) => Math.round(part * 1e3) / 1e3,
+      ),
     );
     expect(controls.update).toHaveBeenCalled();
     expect(controls.enableDamping).toBe(true);

@@ -32,7 +32,11 @@ describe('TextureCache', () => {
   function cache() {
     const loading = watchPictures();
     const onLoaded = vi.fn();
-    return { loading, onLoaded, textures: new TextureCache({ wood: WOOD, odd: { ...WOOD, tile: [] } }, onLoaded) };
+    return {
+      loading,
+      onLoaded,
+      textures: new TextureCache({ wood: WOOD, odd: { ...WOOD, tile: [] } }, onLoaded),
+    };
   }
 
   it('decodes a picture once, for all that wait and all that come later', () => {

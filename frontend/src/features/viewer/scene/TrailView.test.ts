@@ -10,9 +10,11 @@ function walked(count: number) {
 }
 
 const drawn = (view: TrailView, count: number) =>
-  [...(view.line.geometry.getAttribute('instanceStart') as THREE.InterleavedBufferAttribute).data.array.slice(0, count)].map(
-    (value) => Math.round(value * 1e4) / 1e4,
-  );
+  [
+    ...(
+      view.line.geometry.getAttribute('instanceStart') as THREE.InterleavedBufferAttribute
+    ).data.array.slice(0, count),
+  ].map((value) => Math.round(value * 1e4) / 1e4);
 
 describe('TrailView', () => {
   it('draws a line just above the floor from point to point', () => {

@@ -40,7 +40,12 @@ beforeEach(() => currentPoses.clear());
 describe('the objects of a world', () => {
   it('are where the scene says, named by body and link', () => {
     const world = new World(SCENE, true);
-    expect(world.group.children.map(({ name }) => name)).toEqual(['wall', 'robot/base', 'robot/arm', 'crate']);
+    expect(world.group.children.map(({ name }) => name)).toEqual([
+      'wall',
+      'robot/base',
+      'robot/arm',
+      'crate',
+    ]);
     expect(world.object(1)?.position.toArray()).toEqual([5, 0, 0]);
     expect(world.object(9)).toBeUndefined();
     expect(world.bounds.max.toArray()).toEqual([5.5, 5, 4.5]);

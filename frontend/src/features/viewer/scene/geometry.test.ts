@@ -43,7 +43,10 @@ describe('GeometryCache', () => {
   });
 
   it('reads a mesh, and adds the normals that it lacks', () => {
-    const cache = new GeometryCache({ a: TRIANGLE, b: { ...TRIANGLE, normals: floats(0, 1, 0, 0, 1, 0, 0, 1, 0) } });
+    const cache = new GeometryCache({
+      a: TRIANGLE,
+      b: { ...TRIANGLE, normals: floats(0, 1, 0, 0, 1, 0, 0, 1, 0) },
+    });
     const plain = cache.get(shape('mesh', [2, 2, 2], 'a'));
     expect(valuesOf(plain)).toEqual([0, 0, 0, 1, 0, 0, 0, 1, 0]);
     expect([...plain.index!.array]).toEqual([0, 1, 2]);

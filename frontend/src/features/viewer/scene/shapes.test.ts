@@ -10,7 +10,12 @@ const SHAPE: Shape = { shape: 'box', size: [1, 1, 1], pose: [1, 2, 3, 0, 0, 1, 0
 const pictures = () => {
   const waiting: ((texture: THREE.Texture) => void)[] = [];
   const whenLoaded = vi.fn((_: string, take: (texture: THREE.Texture) => void) => void waiting.push(take));
-  return { whenLoaded, tileOf: vi.fn(() => [0.5, 0.5] as const), dispose: vi.fn(), waiting } satisfies Pictures & {
+  return {
+    whenLoaded,
+    tileOf: vi.fn(() => [0.5, 0.5] as const),
+    dispose: vi.fn(),
+    waiting,
+  } satisfies Pictures & {
     waiting: unknown;
   };
 };

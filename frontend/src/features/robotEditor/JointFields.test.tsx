@@ -15,7 +15,7 @@ const LIMIT = '<limit lower="-1.5707963" upper="0.5" effort="1" velocity="1"/>';
 function fields(
   texts: Record<string, string> = {},
   name = 'caster_joint',
-  prepare = () => undefined as void,
+  prepare: () => void = () => undefined,
 ) {
   const editor = openRobot(texts);
   prepare();

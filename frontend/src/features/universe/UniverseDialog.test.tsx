@@ -17,7 +17,7 @@ describe('the dialogue for universe and robot', () => {
     expect(screen.queryByRole('dialog')).toBeNull();
     act(() => openUniverseChooser());
     expect(screen.getByRole('dialog', { name: 'Where the robot is' })).toBeInTheDocument();
-    expect(await screen.findByTestId('worlds')).toBeInTheDocument();
+    expect(await screen.findByTestId('worlds', {}, { timeout: 20_000 })).toBeInTheDocument();
     await user.click(screen.getByRole('button', { name: 'Close' }));
     expect(useUniverseChooser.getState().isOpen).toBe(false);
     await waitFor(() => expect(screen.queryByTestId('worlds')).toBeNull());

@@ -1,14 +1,14 @@
+import { screen } from '@testing-library/react';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { streams, type StreamOptions } from '@/store/session/streams';
-import { show } from '../../../harness/testing';
+import { show, user } from '../../../harness/testing';
 import { useStream } from './useStream';
 
 const announced = vi.fn();
-let handle: ReturnType<typeof useStream>;
 
 function Wants({ isWanted, options }: { readonly isWanted: boolean; readonly options: StreamOptions }) {
-  handle = useStream('camera', isWanted, options);
-  return null;
+  const handle = useStream('camera', isWanted, options);
+  return <button onClick={() => handle.current?.update({ max_hz: 1 })}>slower</button>;
 }
 
 const POSE = { eye: [1, 0, 0], target: [0, 0, 0] } satisfies NonNullable<StreamOptions['camera_pose']>;
@@ -24,7 +24,6 @@ describe('useStream', () => {
   it('wants the stream as long as it is wanted', () => {
     const { rerender, unmount } = show(<Wants isWanted={false} options={{ max_hz: 5 }} />);
     expect(announced).not.toHaveBeenCalled();
-    expect(handle.current).toBeNull();
     rerender(<Wants isWanted options={{ max_hz: 5 }} />);
     expect(last()).toEqual(['camera', { max_hz: 5 }]);
     rerender(<Wants isWanted={false} options={{ max_hz: 5 }} />);
@@ -42,9 +41,12 @@ describe('useStream', () => {
     expect(last()).toEqual(['camera', { max_hz: 9, width: 320, camera_pose: POSE }]);
   });
 
-  it('lets its options be changed by hand', () => {
-    show(<Wants isWanted options={{ max_hz: 5 }} />);
-    handle.current?.update({ max_hz: 1 });
+  it('lets its options be changed by hand while it is wanted', async () => {
+    const { rerender } = show(<Wants isWanted options={{ max_hz: 5 }} />);
+    await user.click(screen.getByRole('button'));
     expect(last()).toEqual(['camera', { max_hz: 1 }]);
+    rerender(<Wants isWanted={false} options={{ max_hz: 5 }} />);
+    await user.click(screen.getByRole('button'));
+    expect(last()).toEqual(['camera', null]);
   });
 });

@@ -1,3 +1,4 @@
+import { useEffect } from 'react';
 import { afterAll, beforeEach, describe, expect, it, vi } from 'vitest';
 import { showScene } from '../../../harness/scene';
 import { useThrottledInvalidate } from './useThrottledInvalidate';
@@ -27,10 +28,16 @@ afterAll(() => {
   HTMLCanvasElement.prototype.getContext = none;
 });
 
-let draw: () => void = () => undefined;
-function Throttled() {
-  draw = useThrottledInvalidate();
+function Throttled({ onDraw }: { readonly onDraw: (draw: () => void) => void }) {
+  const draw = useThrottledInvalidate();
+  useEffect(() => onDraw(draw), [draw, onDraw]);
   return null;
+}
+
+function begin() {
+  const given = vi.fn<(draw: () => void) => void>();
+  const { frames } = showScene(<Throttled onDraw={given} />);
+  return { frames, draw: () => given.mock.lastCall?.[0]() };
 }
 
 beforeEach(() => {
@@ -40,7 +47,7 @@ beforeEach(() => {
 
 describe('frames where the processor draws', () => {
   it('come one by one: those that are asked for meanwhile are one', async () => {
-    const { frames } = showScene(<Throttled />);
+    const { frames, draw } = begin();
     await vi.waitFor(() => expect(frames()).toBeGreaterThan(0));
     const before = frames();
     draw();
@@ -58,7 +65,7 @@ describe('frames where the processor draws', () => {
     [100, 200],
     [900, 1000],
   ])('that took %s ms are followed by a pause of %s ms', async (cost, pause) => {
-    const { frames } = showScene(<Throttled />);
+    const { frames, draw } = begin();
     await vi.waitFor(() => expect(frames()).toBeGreaterThan(0));
     isDone = false;
     const before = frames();

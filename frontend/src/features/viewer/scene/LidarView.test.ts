@@ -1,4 +1,4 @@
-import * as THREE from 'three';
+import type * as THREE from 'three';
 import { describe, expect, it, vi } from 'vitest';
 import type { Scan } from '@/generated/messages';
 import { valuesOf } from '../../../../harness/scene';

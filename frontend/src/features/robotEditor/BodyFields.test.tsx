@@ -53,8 +53,10 @@ describe('the fields of a body', () => {
 
   it('ask for the sliding sideways of a wheel, up to all of it', async () => {
     const { robot } = fields('wheel_left_link', { isSized: false });
+    await write('part-skid', '0.5');
+    expect(robot().raw['skid']).toMatchObject({ wheel_left_link: 0.5 });
     await write('part-skid', '3');
-    expect(robot().raw['skid']).toMatchObject({ wheel_left_link: 1 });
+    expect(screen.getByTestId('part-skid')).toHaveValue('1');
     expect(screen.queryByTestId('shape-0')).toBeNull();
     expect(screen.queryByTestId('add-body')).toBeNull();
     expect(screen.queryByTestId('shape-0-x')).toBeNull();

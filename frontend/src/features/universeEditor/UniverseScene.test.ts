@@ -40,7 +40,7 @@ describe('UniverseScene', () => {
     expect(size(scene, 'carpet')).toEqual([4, 4, 0]);
   });
 
-  it('stands a person at the beginning of the way, who looks along it', () => {
+  it('stands a person at the beginning of the way, facing along it', () => {
     const { scene } = shown(HALL.replace('[[0, 0], [2, 0], [2, 2]]', '[[1, 1], [1, 3]]'));
     const node = scene.nodeOf('walker')!;
     const person = node.children[0]!;

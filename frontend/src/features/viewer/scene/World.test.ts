@@ -71,7 +71,7 @@ describe('the objects of a world', () => {
     expect(world.bounds.max.z).toBeCloseTo(1.5);
   });
 
-  it('receive shadows where they stand still', () => {
+  it('receive shadows where they are static', () => {
     const world = new World(SCENE, true);
     const receives = (id: number) => objectsOf(world.object(id)!, THREE.Mesh)[0]?.receiveShadow;
     expect([receives(1), receives(4)]).toEqual([true, false]);

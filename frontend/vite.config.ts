@@ -43,5 +43,13 @@ export default defineConfig({
     // Property tests on a busy machine: long, and never endless.
     testTimeout: 60_000,
     restoreMocks: true,
+    // The build for Node loads a second three.js, whose objects are none of ours.
+    alias: [
+      {
+        find: /^@react-three\/fiber$/,
+        replacement: here('./node_modules/@react-three/fiber/dist/react-three-fiber.esm.js'),
+      },
+    ],
+    server: { deps: { inline: [/@react-three\//] } },
   },
 });

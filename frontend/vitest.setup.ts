@@ -55,3 +55,7 @@ afterEach(cleanup);
 
 // jsdom draws no pictures, and would say so each time it is asked to.
 HTMLCanvasElement.prototype.getContext = () => null;
+
+// jsdom knows no pointers that could be captured.
+Element.prototype.setPointerCapture ??= () => undefined;
+Element.prototype.releasePointerCapture ??= () => undefined;

@@ -124,11 +124,13 @@ interface ColorFieldProps {
 }
 
 export function ColorField({ label, value, onChange, onEnd }: ColorFieldProps) {
+  // What is typed is no colour until its last digit.
+  const [draft, setDraft] = useState<{ of: string; text: string }>({ of: value, text: value });
   return (
     <ColorInput
       size="xs"
       label={label}
-      value={value}
+      value={draft.of === value ? draft.text : value}
       format={value.length > 7 ? 'hexa' : 'hex'}
       swatches={SWATCHES}
       swatchesPerRow={6}
@@ -136,10 +138,14 @@ export function ColorField({ label, value, onChange, onEnd }: ColorFieldProps) {
       popoverProps={{ withinPortal: true }}
       eyeDropperButtonProps={{ 'aria-label': label }}
       onChange={(next) => {
+        setDraft({ of: value, text: next });
         if (/^#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?$/.test(next)) onChange(next);
       }}
       onChangeEnd={onEnd}
-      onBlur={onEnd}
+      onBlur={() => {
+        setDraft({ of: value, text: value });
+        onEnd();
+      }}
     />
   );
 }

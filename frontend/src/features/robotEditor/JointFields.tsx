@@ -107,7 +107,10 @@ function Motion({ editor, robot, joint }: JointFieldsProps) {
               step={factor > 1 ? 5 : 0.01}
               onCommit={(value) => {
                 const [lower, upper] = limits ?? [0, 0];
-                const next: [number, number] = at === 0 ? [value / factor, upper] : [lower, value / factor];
+                const wish = value / factor;
+                // A limit that was set to the other one may be beyond it by what was rounded.
+                const next: [number, number] =
+                  at === 0 ? [Math.min(wish, upper), upper] : [lower, Math.max(wish, lower)];
                 edit(editor, 'joint', (now) => setJoint(now, name, { limits: next }));
               }}
             />

@@ -37,9 +37,10 @@ export class Assets {
 
   /** The shapes of a URDF in the project. */
   model(path: string): Fetched<Shape[]> {
-    return this.fetched(this.models, path, () => {
+    // A promise also where the text is no URDF: the view draws a mark in its place instead of failing.
+    return this.fetched(this.models, path, async () => {
       const text = path.endsWith('.urdf') ? (useProjectStore.getState().currentText(path) ?? '') : '';
-      return Promise.resolve(resolved(urdfShapes(text), path));
+      return resolved(urdfShapes(text), path);
     });
   }
 

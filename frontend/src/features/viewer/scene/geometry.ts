@@ -28,6 +28,8 @@ export class GeometryCache {
 
   private painted(shape: Shape, tile: readonly [number, number]): THREE.BufferGeometry {
     const whole = this.make(shape);
+    // A mesh of which nothing is known here: who shows it brings the triangles.
+    if (!whole.hasAttribute('position')) return whole;
     const uvs = this.meshes[shape.mesh ?? '']?.uvs;
     if (uvs) {
       whole.setAttribute('uv', new THREE.BufferAttribute(floatsOf(uvs), 2));

@@ -1,0 +1,110 @@
+import { describe, expect, it, vi } from 'vitest';
+import { stl } from '../../../../harness/documents';
+import { valuesOf } from '../../../../harness/scene';
+import { fakeServer, openProject } from '../../../../harness/testing';
+import { Assets } from './assets';
+
+const urdf = (mesh: string) =>
+  `<robot name="r"><link name="base"><visual><geometry><mesh filename="${mesh}"/></geometry></visual></link></robot>`;
+
+function begin(
+  texts: Readonly<Record<string, string>> = {},
+  answers: Readonly<Record<string, unknown>> = {},
+) {
+  const server = fakeServer(answers);
+  openProject({ texts });
+  const onArrival = vi.fn();
+  const assets = new Assets(onArrival);
+  const arrived = (count = 1) => vi.waitFor(() => expect(onArrival).toHaveBeenCalledTimes(count));
+  return { assets, onArrival, arrived, ...server };
+}
+
+const MESH = { 'GET /projects/p1/files/assets/a.stl': new Response(stl(2)) };
+
+describe('meshes', () => {
+  it('are fetched once, and there when they are', async () => {
+    const { assets, arrived, requests } = begin({}, MESH);
+    const entry = assets.mesh('assets/a.stl');
+    expect(entry).toEqual({ value: null, failed: false });
+    await arrived();
+    expect(assets.mesh('assets/a.stl')).toBe(entry);
+    expect(valuesOf(entry.value!)).toEqual([0, 0, 0, 2, 0, 0, 0, 1, 0]);
+    expect(requests).toHaveLength(1);
+  });
+
+  it('fail where there is no such file, or none that can be read', async () => {
+    const { assets, arrived } = begin({}, { 'GET /projects/p1/files/a.obj': new Response('nothing') });
+    const gone = assets.mesh('assets/a.stl');
+    const empty = assets.mesh('a.obj');
+    await arrived(2);
+    expect([gone, empty]).toEqual([
+      { value: null, failed: true },
+      { value: null, failed: true },
+    ]);
+  });
+
+  it('are freed at the end, and those that come later say nothing', async () => {
+    const { assets, arrived, onArrival } = begin({}, MESH);
+    const entry = assets.mesh('assets/a.stl');
+    await arrived();
+    const freed = vi.fn();
+    entry.value!.addEventListener('dispose', freed);
+    const late = assets.mesh('assets/gone.stl');
+    assets.dispose();
+    expect(freed).toHaveBeenCalledOnce();
+    await vi.waitFor(() => expect(late.failed).toBe(true));
+    await Promise.resolve();
+    expect(onArrival).toHaveBeenCalledOnce();
+  });
+});
+
+describe('robots', () => {
+  it('of the project are read from it; their meshes are files of it', async () => {
+    const { assets, arrived, requests } = begin({ 'robots/mine/urdf/mine.urdf': urdf('./meshes/a.stl') });
+    const entry = assets.robot('mine');
+    await arrived();
+    expect(entry.value).toMatchObject([{ shape: 'mesh', mesh: 'robots/mine/urdf/meshes/a.stl' }]);
+    expect(requests).toEqual([]);
+  });
+
+  it('name meshes of their package from its top', async () => {
+    const { assets, arrived } = begin({ 'robots/mine/urdf/mine.urdf': urdf('package://mine/meshes/a.stl') });
+    const entry = assets.robot('mine');
+    await arrived();
+    expect(entry.value).toMatchObject([{ mesh: 'robots/mine/meshes/a.stl' }]);
+  });
+
+  it('that we ship are asked for', async () => {
+    const { assets, arrived, requests } = begin(
+      { 'robots/other/a.urdf': '' },
+      {
+        'GET /catalog/robots/rover/urdf': new Response(
+          urdf('a.stl').replace(/<mesh[^>]*>/, '<box size="1 1 1"/>'),
+        ),
+      },
+    );
+    const entry = assets.robot('rover');
+    await arrived();
+    expect(entry.value).toMatchObject([{ shape: 'box', size: [1, 1, 1] }]);
+    expect(entry.value?.[0]).not.toHaveProperty('mesh');
+    expect(requests).toHaveLength(1);
+  });
+
+  it('fail where there is none, or no URDF', async () => {
+    const { assets, arrived } = begin({ 'robots/mine/a.urdf': 'no xml' });
+    const entries = [assets.robot('mine'), assets.robot('gone')];
+    await arrived(2);
+    expect(entries.map(({ failed }) => failed)).toEqual([true, true]);
+  });
+});
+
+describe('models', () => {
+  it('are read from the project; other formats cannot be shown', async () => {
+    const { assets, arrived } = begin({ 'models/a.urdf': urdf('a.stl'), 'models/b.xacro': urdf('a.stl') });
+    const [known, other] = [assets.model('models/a.urdf'), assets.model('models/b.xacro')];
+    await arrived(2);
+    expect(known.value).toMatchObject([{ mesh: 'models/a.stl' }]);
+    expect(other).toEqual({ value: null, failed: true });
+    expect(assets.model('models/a.urdf')).toBe(known);
+  });
+});

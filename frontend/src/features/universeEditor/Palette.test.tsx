@@ -1,0 +1,105 @@
+import { fireEvent, screen, waitFor } from '@testing-library/react';
+import { describe, expect, it, vi } from 'vitest';
+import { DRAGGED } from '@/features/editor3d/PlaceButton';
+import { EMPTY_STL, openUniverse, showUniverse, stl, takesFile } from '../../../harness/documents';
+import { fakeServer, user } from '../../../harness/testing';
+import { KINDS } from './commands';
+import { Palette } from './Palette';
+
+const ROBOTS = [
+  { id: 'turtle2', name: 'Turtle', description: '' },
+  { id: 'mine', name: 'Theirs', description: '' },
+];
+
+function palette(others: Readonly<Record<string, string>> = {}, answers = {}) {
+  const server = fakeServer({ 'GET /catalog/robots': ROBOTS, ...answers });
+  const editor = openUniverse(undefined, others);
+  return { editor, server, ...showUniverse(editor, () => <Palette editor={editor} />) };
+}
+
+describe('the palette of a universe', () => {
+  it('places each kind of thing by a click', async () => {
+    const { universe } = palette();
+    const before = universe().things.length;
+    for (const kind of KINDS) await user.click(screen.getByTestId(`place-${kind}`));
+    expect(universe().things).toHaveLength(before + KINDS.length);
+    expect(universe().things.map(({ id }) => id)).toEqual(
+      expect.arrayContaining(['wall', 'box', 'cylinder', 'sphere', 'crate_2', 'ball_2', 'floor', 'person']),
+    );
+    expect(screen.getByRole('button', { name: 'Place: Person who walks' })).toBe(
+      screen.getByTestId('place-person'),
+    );
+  });
+
+  it('lets one be dragged to the view', () => {
+    palette();
+    const data = { setData: vi.fn(), effectAllowed: '' };
+    fireEvent.dragStart(screen.getByTestId('place-wall'), { dataTransfer: data });
+    expect(data.setData).toHaveBeenCalledWith(DRAGGED, '{"kind":"wall"}');
+    expect(data.effectAllowed).toBe('copy');
+  });
+
+  it('offers robots of the project first, each id once', async () => {
+    const { thing } = palette({ 'robots/mine/robot.yaml': '' });
+    await user.click(screen.getByTestId('place-robot'));
+    await screen.findByRole('menuitem', { name: 'Turtle' });
+    expect(screen.getAllByRole('menuitem').map(({ textContent }) => textContent)).toEqual(['mine', 'Turtle']);
+    await user.click(screen.getByRole('menuitem', { name: 'mine' }));
+    expect(thing('robot_2')).toMatchObject({ model: 'mine' });
+  });
+
+  it('offers the meshes and models of the project in order, without those of robots', async () => {
+    const { thing } = palette({
+      'robots/mine/meshes/base.stl': '',
+      'models/b.sdf': '',
+      'assets/a.glb': '',
+      'models/arm.xacro': '',
+      'notes.md': '',
+    });
+    await user.click(screen.getByTestId('place-file'));
+    expect(await screen.findByText('Of this project')).toBeInTheDocument();
+    const items = screen.getAllByRole('menuitem').map(({ textContent }) => textContent);
+    expect(items).toEqual([
+      'assets/a.glb',
+      'models/arm.xacro',
+      'models/b.sdf',
+      'Bring a mesh… (STL, OBJ, DAE, PLY, GLB)',
+    ]);
+    await user.click(screen.getByRole('menuitem', { name: 'models/b.sdf' }));
+    expect(thing('b')).toMatchObject({ shape: 'sdf', file: 'models/b.sdf' });
+  });
+
+  it('says that there is no mesh yet', async () => {
+    palette();
+    await user.click(screen.getByTestId('place-file'));
+    expect(await screen.findByText('This project has no meshes yet')).toBeInTheDocument();
+  });
+
+  it('refuses a mesh that cannot be read, with the reason', async () => {
+    const { universe, server } = palette();
+    await user.upload(screen.getByTestId('mesh-file'), new File([EMPTY_STL], 'empty.stl'));
+    expect(await screen.findByText(/empty\.stl cannot be used: it has no triangles/)).toBeInTheDocument();
+    expect(universe().things).toHaveLength(5);
+    expect(server.requests.filter(({ method }) => method === 'POST')).toEqual([]);
+  });
+
+  it('asks for a file on the way that the page has for it', async () => {
+    palette();
+    const input = screen.getByTestId<HTMLInputElement>('mesh-file');
+    expect(input.accept).toBe('.stl,.obj,.dae,.ply,.glb');
+    const choose = vi.spyOn(input, 'click').mockImplementation(() => undefined);
+    await user.click(screen.getByTestId('place-file'));
+    await user.click(await screen.findByRole('menuitem', { name: /Bring a mesh/ }));
+    expect(choose).toHaveBeenCalledOnce();
+  });
+
+  it('puts a mesh into the project, and places it', async () => {
+    const { thing } = palette();
+    const { requests } = fakeServer(takesFile('assets/chair.stl'));
+    await user.upload(screen.getByTestId('mesh-file'), new File([stl(1)], 'chair.stl'));
+    await waitFor(() => expect(thing('chair')).toMatchObject({ shape: 'mesh', file: 'assets/chair.stl' }));
+    expect(requests.find(({ method }) => method === 'POST')?.body).toMatchObject({
+      files: [{ path: 'assets/chair.stl', base_revision: 0, content_base64: btoa(stl(1)) }],
+    });
+  });
+});

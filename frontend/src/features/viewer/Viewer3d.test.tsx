@@ -1,0 +1,126 @@
+import { act, screen } from '@testing-library/react';
+import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
+import { registerCommands } from '@/commands/registry';
+import type { Scene } from '@/generated/messages';
+import { useRunStore } from '@/store/run/store';
+import { frames } from '@/store/session/frames';
+import { useSessionStore } from '@/store/session/store';
+import { streams } from '@/store/session/streams';
+import { pretendWebGl } from '../../../harness/scene';
+import { openProject, show, user } from '../../../harness/testing';
+import { Viewer3d } from './Viewer3d';
+
+pretendWebGl('NVIDIA');
+
+const SCENE: Scene = {
+  type: 'scene',
+  name: 'room',
+  t: 0,
+  objects: [{ id: 1, body: 'wall', link: '', kind: 'static', shapes: [], pose: [0, 0, 0, 0, 0, 0, 1] }],
+  meshes: {},
+  lights: [],
+  ground_color: [1, 1, 1, 1],
+  sensors: [],
+};
+
+const wanted = new Map<string, unknown>();
+
+beforeEach(() => {
+  localStorage.clear();
+  wanted.clear();
+  streams.connect((stream, options) => wanted.set(stream, options));
+  onTestFinished(() => {
+    streams.disconnect();
+    frames.clear();
+    useRunStore.setState(useRunStore.getInitialState(), true);
+    useSessionStore.setState({ executor: 'idle', isLaunching: false });
+  });
+});
+
+function viewer(texts: Record<string, string> = {}) {
+  openProject({ texts });
+  return show(<Viewer3d />);
+}
+
+const begin = () => {
+  act(() => {
+    useSessionStore.setState({ executor: 'visualization_ready' });
+    frames.publish(SCENE);
+  });
+};
+
+describe('the 3D view without a world', () => {
+  it('says how one begins, and begins it', async () => {
+    const run = vi.fn();
+    onTestFinished(registerCommands([{ id: 'run.run', group: 'run', labelKey: '', run }]));
+    viewer();
+    expect(screen.getByText('Press Run to start the world.')).toBeInTheDocument();
+    expect(screen.getByTestId('viewer-3d')).toHaveAttribute('data-objects', '0');
+    await user.click(screen.getByRole('button', { name: 'Run' }));
+    expect(run).toHaveBeenCalledOnce();
+  });
+
+  it('says that it waits for the world', () => {
+    viewer();
+    act(() => useSessionStore.setState({ isLaunching: true }));
+    expect(screen.getByText('Waiting for the world…')).toBeInTheDocument();
+    expect(screen.queryByRole('button', { name: 'Run' })).toBeNull();
+    act(() => useSessionStore.setState({ isLaunching: false, executor: 'universe_ready' }));
+    expect(screen.getByText('Waiting for the world…')).toBeInTheDocument();
+    act(() => useSessionStore.setState({ executor: 'connected' }));
+    expect(screen.getByText('Press Run to start the world.')).toBeInTheDocument();
+  });
+
+  it('says why nothing can run', () => {
+    viewer();
+    act(() => useRunStore.setState({ runBlocker: 'viewer' as never }));
+    expect(screen.queryByText('Press Run to start the world.')).toBeNull();
+    expect(screen.queryByRole('button', { name: 'Run' })).toBeNull();
+  });
+});
+
+describe('the 3D view of a world', () => {
+  it('shows it with its tools, until it is taken down', () => {
+    viewer();
+    begin();
+    expect(screen.getByTestId('viewer-3d')).toHaveAttribute('data-objects', '1');
+    expect(screen.getByRole('img', { name: 'The world in 3D' })).toBeInTheDocument();
+    expect(screen.getByRole('toolbar', { name: 'Tools of the 3D view' })).toBeInTheDocument();
+    expect(screen.queryByText('Press Run to start the world.')).toBeNull();
+    act(() => useSessionStore.setState({ executor: 'connected' }));
+    expect(screen.queryByRole('toolbar')).toBeNull();
+  });
+
+  it('begins with the world that is there already', () => {
+    frames.publish(SCENE);
+    useSessionStore.setState({ executor: 'paused' });
+    viewer();
+    expect(screen.getByTestId('viewer-3d')).toHaveAttribute('data-objects', '1');
+  });
+
+  it('wants poses and, while rays are shown, scans', async () => {
+    viewer();
+    begin();
+    expect(wanted.get('poses')).toEqual({ max_hz: 30 });
+    expect(wanted.get('scan')).toEqual({ max_hz: 10 });
+    await user.click(screen.getByRole('button', { name: 'Show in the view' }));
+    await user.click(await screen.findByRole('menuitemcheckbox', { name: 'LIDAR rays' }));
+    expect(wanted.get('scan')).toBeNull();
+    expect(JSON.parse(localStorage.getItem('bts.viewer') ?? '{}')).toMatchObject({ rays: false, grid: true });
+  });
+
+  it('shows the camera where the program uses pictures, or where one wants it', async () => {
+    viewer({ 'actions/See.py': 'from sensor_msgs.msg import Image' });
+    begin();
+    expect(screen.getByTestId('camera-inset')).toBeInTheDocument();
+    await user.click(screen.getByRole('button', { name: 'Show in the view' }));
+    await user.click(await screen.findByRole('menuitemcheckbox', { name: "Robot's camera" }));
+    expect(screen.queryByTestId('camera-inset')).toBeNull();
+  });
+
+  it('shows no camera to a program without pictures', () => {
+    viewer();
+    begin();
+    expect(screen.queryByTestId('camera-inset')).toBeNull();
+  });
+});

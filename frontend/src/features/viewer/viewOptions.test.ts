@@ -1,0 +1,32 @@
+import { beforeEach, describe, expect, it } from 'vitest';
+import { keepViewOptions, loadViewOptions } from './viewOptions';
+
+beforeEach(() => localStorage.clear());
+
+describe('the options of the 3D view', () => {
+  it('begin with what helps to read the world', () => {
+    expect(loadViewOptions()).toEqual({
+      rays: true,
+      trail: true,
+      grid: true,
+      frames: false,
+      frustum: true,
+      follow: false,
+      camera: null,
+      viewpoint: { kind: 'default' },
+    });
+  });
+
+  it('are kept, but for where one looks from', () => {
+    keepViewOptions({ ...loadViewOptions(), rays: false, camera: true, viewpoint: { kind: 'top' } });
+    expect(localStorage.getItem('bts.viewer')).not.toContain('viewpoint');
+    expect(loadViewOptions()).toMatchObject({ rays: false, camera: true, viewpoint: { kind: 'default' } });
+  });
+
+  it('are the defaults where what was kept cannot be read, or lacks some', () => {
+    localStorage.setItem('bts.viewer', '{');
+    expect(loadViewOptions().rays).toBe(true);
+    localStorage.setItem('bts.viewer', '{"grid": false}');
+    expect(loadViewOptions()).toMatchObject({ grid: false, rays: true });
+  });
+});

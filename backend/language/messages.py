@@ -15,11 +15,14 @@ _FROM_PAGE: Final = frozenset(
     {"initialized", "shutdown", "exit", "$/cancelRequest", "completionItem/resolve", "codeAction/resolve"}
 )
 _TO_PAGE: Final = frozenset({"textDocument/publishDiagnostics"})
+_HINT: Final = 4
 _METHOD_NOT_FOUND: Final = -32601
 _INVALID_REQUEST: Final = -32600
 # `Go to [Twist](file:///…)`: the place is one of this machine, and opens nothing in a browser.
 _GO_TO: Final = re.compile(r"\n*^Go to (?:\[[^\]]*\]\(file:[^)]*\)(?: \| |, )?)+$", re.MULTILINE)
 _FILE_LINK: Final = re.compile(r"\[([^\]]*)\]\(file:[^)]*\)")
+# ```` ```xml <class 'Turn'> ````: how `ty` names a class.
+_CLASS: Final = re.compile(r"```xml\n<class '([^']*)'>")
 # A configuration that a finding mentions is ours, not the user's.
 _LOOKED_IN: Final = re.compile(r"\n\s*Looked in these locations[\s\S]*$")
 
@@ -62,7 +65,17 @@ def for_page(message: Any) -> tuple[Message | None, Message | None]:
         return _cleaned(message), None
     if "id" in message:
         return None, {"jsonrpc": "2.0", "id": message["id"], "result": None}
-    return (_cleaned(message), None) if message["method"] in _TO_PAGE else (None, None)
+    return (_without_hints(_cleaned(message)), None) if message["method"] in _TO_PAGE else (None, None)
+
+
+def _without_hints(message: Message) -> Message:
+    """Findings without hints: an argument that `terminate` must take and does not use is no mistake."""
+    params: Any = message.get("params")
+    found = params.get("diagnostics") if isinstance(params, dict) else None
+    if not isinstance(found, list):
+        return message
+    kept = [each for each in found if not (isinstance(each, dict) and each.get("severity") == _HINT)]
+    return message | {"params": params | {"diagnostics": kept}}
 
 
 def _cleaned(value: Any) -> Any:
@@ -78,6 +91,7 @@ def _cleaned(value: Any) -> Any:
 def _text(value: Any) -> Any:
     if not isinstance(value, str):
         return _cleaned(value)
+    value = _CLASS.sub(r"```python\nclass \1", value)
     return _FILE_LINK.sub(r"\1", _GO_TO.sub("", _LOOKED_IN.sub("", value)))
 
 

@@ -45,7 +45,7 @@ def test_an_editor_knows_neighbours_follows_revisions_and_leaves_nothing(
     with opened(contained, f"/ws/projects/{with_actions}/language") as page:
         page.begin()
         page.open(GO, SOURCE.replace("import Turn\n", "import Turn\nfrom Spin import Spin\n"))
-        assert page.at("definition", 3, 18)["uri"] == "file:///project/actions/Turn.py"
+        assert page.at("definition", 3, 18)[0]["uri"] == "file:///project/actions/Turn.py"
         assert page.at("definition", 4, 18)["uri"] == GO, "only the import itself is known"
         spin = {"path": "actions/Spin.py", "base_revision": 0, "content": "class Spin:\n    pass\n"}
         api.save(with_actions, spin)

@@ -56,3 +56,16 @@ def test_the_user_reads_no_places_of_this_machine():
         {"method": "textDocument/publishDiagnostics", "params": {"uri": "u", "diagnostics": [finding]}}
     )
     assert shown["params"]["diagnostics"][0]["message"] == "Cannot find module `x`"
+
+
+def test_hints_are_no_findings():
+    found = [{"message": "wrong", "severity": 1}, {"message": "unused argument", "severity": 4}]
+    message = {"method": "textDocument/publishDiagnostics", "params": {"uri": "u", "diagnostics": found}}
+    told, _ = for_page(message)
+    assert [each["message"] for each in told["params"]["diagnostics"]] == ["wrong"]
+
+
+def test_a_class_is_named_as_python_names_it():
+    message = {"id": 1, "result": {"contents": {"value": "```xml\n<class 'Turn'>\n```\n---\nTurns."}}}
+    told, _ = for_page(message)
+    assert told["result"]["contents"]["value"] == "```python\nclass Turn\n```\n---\nTurns."

@@ -18,13 +18,12 @@ _TO_PAGE: Final = frozenset({"textDocument/publishDiagnostics"})
 _HINT: Final = 4
 _METHOD_NOT_FOUND: Final = -32601
 _INVALID_REQUEST: Final = -32600
-# `Go to [Twist](file:///…)`: the place is one of this machine, and opens nothing in a browser.
-_GO_TO: Final = re.compile(r"\n*^Go to (?:\[[^\]]*\]\(file:[^)]*\)(?: \| |, )?)+$", re.MULTILINE)
+# Links to files are places of this machine, and open nothing in a browser.
 _FILE_LINK: Final = re.compile(r"\[([^\]]*)\]\(file:[^)]*\)")
 # ```` ```xml <class 'Turn'> ````: how `ty` names a class.
 _CLASS: Final = re.compile(r"```xml\n<class '([^']*)'>")
-# A configuration that a finding mentions is ours, not the user's.
-_LOOKED_IN: Final = re.compile(r"\n\s*Looked in these locations[\s\S]*$")
+# Where a module was looked for is a list of our folders, not the user's.
+_LOOKED_IN: Final = re.compile(r"\n\s*(?:info: )?Searched in the following paths[\s\S]*$")
 
 
 def for_server(message: Any, root_uri: str) -> tuple[Message | None, Message | None]:
@@ -92,7 +91,7 @@ def _text(value: Any) -> Any:
     if not isinstance(value, str):
         return _cleaned(value)
     value = _CLASS.sub(r"```python\nclass \1", value)
-    return _FILE_LINK.sub(r"\1", _GO_TO.sub("", _LOOKED_IN.sub("", value)))
+    return _FILE_LINK.sub(r"\1", _LOOKED_IN.sub("", value))
 
 
 def _error(message_id: Any, code: int, text: str) -> Message:

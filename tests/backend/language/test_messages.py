@@ -48,9 +48,7 @@ def test_the_user_reads_no_places_of_this_machine():
     hover = "```python\n(class) Twist\n```\n---\nSee [node](file:///x/node.py)."
     shown, _ = for_page({"id": 1, "result": {"contents": {"kind": "markdown", "value": hover}}})
     assert shown["result"]["contents"]["value"] == "```python\n(class) Twist\n```\n---\nSee node."
-    finding = {
-        "message": "Cannot find module `x`\n\ninfo: Searched in the following paths during module resolution:\ninfo:   1. /data"
-    }
+    finding = {"message": "Cannot find module `x`\n\ninfo: Searched in the following paths:\ninfo: 1. /data"}
     shown, _ = for_page(
         {"method": "textDocument/publishDiagnostics", "params": {"uri": "u", "diagnostics": [finding]}}
     )

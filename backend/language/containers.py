@@ -39,7 +39,7 @@ class ContainerServer:
 
     async def begin(self, contents: Mapping[str, bytes], library: str, python: str) -> None:
         """Sends the first files, with which the server starts."""
-        await self._send_files({"pyrefly.toml": configuration(self.root, library, python)})
+        await self._send_files({"ty.toml": configuration(self.root, library, python)})
         await self.sync(contents)
 
     async def sync(self, contents: Mapping[str, bytes]) -> Sync:

@@ -2,7 +2,7 @@
 
 The layout:
 
-<data>/language/projects/<id>/pyrefly.toml     ours: a project's own configuration is never written
+<data>/language/projects/<id>/ty.toml          ours: a project's own configuration is never written
 <data>/language/projects/<id>/files/…          its Python files, and nothing else
 <data>/language/library-<key>/…                what every project can import: the engine, ROS messages
 """
@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Final
 from uuid import uuid4
 
 from backend.config.environment import REPOSITORY, environment
-from backend.language import message_stubs
+from backend.language import message_stubs, rclpy_types
 from backend.language.library import configuration
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ class Folder:
         """Makes the folder with its configuration."""
         (self.files / "actions").mkdir(parents=True, exist_ok=True)
         text = configuration(str(self.files), str(library()), sys.executable)
-        _write(self.home / "pyrefly.toml", text.encode())
+        _write(self.home / "ty.toml", text.encode())
 
     def sync(self, contents: Mapping[str, bytes]) -> Sync:
         """Makes the folder contain exactly the Python files among these files."""
@@ -101,7 +101,7 @@ def library() -> Path:
 def _library_key(site_packages: Path) -> str:
     """Changes with the interpreter, with what is installed, and with how stubs are made."""
     installed = sorted(entry.name for entry in os.scandir(site_packages) if entry.name.endswith("-info"))
-    how = Path(message_stubs.__file__).read_bytes()
+    how = b"".join(Path(path).read_bytes() for path in (message_stubs.__file__, rclpy_types.__file__))
     return hashlib.sha256(repr((sys.prefix, str(REPOSITORY), installed)).encode() + how).hexdigest()[:16]
 
 

@@ -1,4 +1,4 @@
-"""The packages that a project's Python can import, for a language server: the engine, stubs of ROS messages.
+"""The packages that a project's Python can import, for a language server: engine, rclpy, stubs of messages.
 
 On localhost the folder is made beside the data (`folder.py`); for containers it is made with their image:
 `python -m backend.language.library SITE_PACKAGES REPOSITORY FOLDER`.
@@ -9,13 +9,20 @@ from __future__ import annotations
 import json
 import sys
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
-from backend.language import message_stubs
+from backend.language import message_stubs, rclpy_types
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 ENGINE: Final = ("tree_gardener",)
 # Python parts of ROS without wheels, under the names that actions import.
 ROS_PYTHON: Final = "executor/ros_python"
+RULES: Final = {
+    # `self.scan = None` until the first message comes, as in most actions, is no mistake.
+    "missing-union-attribute": "ignore",
+}
 # `tree_tools` is what actions of JdeRobot's projects import; the engine installs it under that name.
 _TREE_TOOLS: Final = "from tree_gardener.tree_tools import *\n"
 
@@ -24,6 +31,7 @@ def make_library(site_packages: Path, repository: Path, folder: Path) -> None:
     """Makes the library in a new folder."""
     folder.mkdir(parents=True)
     message_stubs.write_message_stubs(site_packages, folder)
+    rclpy_types.write_annotated(site_packages, folder)
     for package in ENGINE:
         (folder / package).symlink_to(repository / package, target_is_directory=True)
     for offered in sorted((repository / ROS_PYTHON).iterdir()):
@@ -33,15 +41,19 @@ def make_library(site_packages: Path, repository: Path, folder: Path) -> None:
 
 
 def configuration(files: str, library: str, python: str) -> str:
-    """Returns the language server's `pyrefly.toml`: where the project is, and what it can import."""
-    values = {
-        "project-includes": [f"{files}/**/*.py"],
+    """Returns the language server's `ty.toml`: where the project is, and what it can import."""
+    environment = {
+        "python": python,
         # Other actions are imported as `actions.<Name>` or by their bare name, as in the engine's loader.
-        "search-path": [files, f"{files}/actions", library],
-        "python-interpreter-path": python,
+        "root": [files, f"{files}/actions"],
+        "extra-paths": [library],
     }
+    return _table("environment", environment) + _table("rules", RULES)
+
+
+def _table(name: str, values: Mapping[str, object]) -> str:
     # JSON strings and lists are valid TOML.
-    return "".join(f"{name} = {json.dumps(value)}\n" for name, value in values.items())
+    return f"[{name}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in values.items())
 
 
 if __name__ == "__main__":

@@ -15,13 +15,15 @@ _FROM_PAGE: Final = frozenset(
     {"initialized", "shutdown", "exit", "$/cancelRequest", "completionItem/resolve", "codeAction/resolve"}
 )
 _TO_PAGE: Final = frozenset({"textDocument/publishDiagnostics"})
+_HINT: Final = 4
 _METHOD_NOT_FOUND: Final = -32601
 _INVALID_REQUEST: Final = -32600
-# `Go to [Twist](file:///…)`: the path is on this machine, and cannot be opened in a browser.
-_GO_TO: Final = re.compile(r"\n*^Go to (?:\[[^\]]*\]\(file:[^)]*\)(?: \| |, )?)+$", re.MULTILINE)
+# Links to files are places of this machine, and open nothing in a browser.
 _FILE_LINK: Final = re.compile(r"\[([^\]]*)\]\(file:[^)]*\)")
-# A configuration that a finding mentions is ours, not the user's.
-_LOOKED_IN: Final = re.compile(r"\n\s*Looked in these locations[\s\S]*$")
+# ```` ```xml <class 'Turn'> ````: how `ty` names a class.
+_CLASS: Final = re.compile(r"```xml\n<class '([^']*)'>")
+# Where a module was looked for is a list of our folders, not the user's.
+_LOOKED_IN: Final = re.compile(r"\n\s*(?:info: )?Searched in the following paths[\s\S]*$")
 
 
 def for_server(message: Any, root_uri: str) -> tuple[Message | None, Message | None]:
@@ -62,7 +64,17 @@ def for_page(message: Any) -> tuple[Message | None, Message | None]:
         return _cleaned(message), None
     if "id" in message:
         return None, {"jsonrpc": "2.0", "id": message["id"], "result": None}
-    return (_cleaned(message), None) if message["method"] in _TO_PAGE else (None, None)
+    return (_without_hints(_cleaned(message)), None) if message["method"] in _TO_PAGE else (None, None)
+
+
+def _without_hints(message: Message) -> Message:
+    """Findings without hints: an argument that `terminate` must take and does not use is no mistake."""
+    params: Any = message.get("params")
+    found = params.get("diagnostics") if isinstance(params, dict) else None
+    if not isinstance(found, list):
+        return message
+    kept = [each for each in found if not (isinstance(each, dict) and each.get("severity") == _HINT)]
+    return message | {"params": params | {"diagnostics": kept}}
 
 
 def _cleaned(value: Any) -> Any:
@@ -78,7 +90,8 @@ def _cleaned(value: Any) -> Any:
 def _text(value: Any) -> Any:
     if not isinstance(value, str):
         return _cleaned(value)
-    return _FILE_LINK.sub(r"\1", _GO_TO.sub("", _LOOKED_IN.sub("", value)))
+    value = _CLASS.sub(r"```python\nclass \1", value)
+    return _FILE_LINK.sub(r"\1", _LOOKED_IN.sub("", value))
 
 
 def _error(message_id: Any, code: int, text: str) -> Message:

@@ -115,14 +115,25 @@ class ProcessServer:
         await asyncio.to_thread(self._folder.remove)
 
 
+def environment_of(home: Path) -> dict[str, str]:
+    """Returns the environment of a language server: one thread, its configuration, and nothing of ours."""
+    return {
+        "PATH": os.defpath,
+        "HOME": str(home),
+        "LANG": "C.UTF-8",
+        "TY_CONFIG_FILE": str(home / "ty.toml"),
+        "TY_MAX_PARALLELISM": "1",
+    }
+
+
 class ProcessLauncher:
-    """Starts `pyrefly lsp` as a child process with one thread, low priority, and an empty environment.
+    """Starts `ty server` as a child process with one thread, low priority, and an empty environment.
 
     The child ends when its input ends, so it never outlives the web server.
     """
 
     def __init__(self, command: tuple[str, ...] = ()) -> None:
-        self._command = command or (str(Path(sys.executable).with_name("pyrefly")), "lsp", "-j", "1")
+        self._command = command or (str(Path(sys.executable).with_name("ty")), "server")
 
     async def start(self, project_id: UUID, user: User, contents: Mapping[str, bytes]) -> Server:
         folder = Folder(project_id)
@@ -132,7 +143,7 @@ class ProcessLauncher:
             process = await asyncio.create_subprocess_exec(
                 *self._command,
                 cwd=folder.home,
-                env={"PATH": os.defpath, "HOME": str(folder.home), "LANG": "C.UTF-8"},
+                env=environment_of(folder.home),
                 stdin=asyncio.subprocess.PIPE,
                 stdout=asyncio.subprocess.PIPE,
                 stderr=asyncio.subprocess.DEVNULL,

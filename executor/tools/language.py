@@ -32,7 +32,7 @@ __all__ = ["LIBRARY", "put_files", "serve_editor"]
 
 # Modules that every project can import; written when the image is built.
 LIBRARY: Final = "/opt/bt-studio/library"
-COMMAND: Final = (str(Path(sys.executable).with_name("pyrefly")), "lsp", "-j", "1")
+COMMAND: Final = (str(Path(sys.executable).with_name("ty")), "server")
 STOP_S: Final = 2.0
 WATCH_S: Final = 1.0
 NO_ROOM: Final = 1011
@@ -51,7 +51,13 @@ async def serve_editor(connection: ServerConnection, home: Path, command: tuple[
     process = await asyncio.create_subprocess_exec(
         *command,
         cwd=home,
-        env={"PATH": os.defpath, "HOME": str(home), "LANG": "C.UTF-8"},
+        env={
+            "PATH": os.defpath,
+            "HOME": str(home),
+            "LANG": "C.UTF-8",
+            "TY_CONFIG_FILE": str(home / "ty.toml"),
+            "TY_MAX_PARALLELISM": "1",
+        },
         stdin=asyncio.subprocess.PIPE,
         stdout=asyncio.subprocess.PIPE,
         stderr=asyncio.subprocess.DEVNULL,

@@ -231,7 +231,7 @@ async def test_python_is_read_in_containers_of_its_users(stack, ann, ben, projec
         assert inspected == ["none", "true", "10001:10001", "1"]
     programs = stack.compose("exec", "-T", "web", "ls", "/opt/bt-studio/.venv/bin").stdout.split()
     assert "uvicorn" in programs
-    assert not {"ruff", "pyrefly"} & set(programs)
+    assert not {"ruff", "ty"} & set(programs)
 
     go = "file:///project/actions/Go.py"
     source = "from geometry_msgs.msg import Twist\nfrom actions.Turn import Turn\nTwist().linear."

@@ -29,7 +29,7 @@ USED_BY: Final[dict[str, tuple[str, str]]] = {
     "lxml-stubs": ("executor/robots/urdf.py", "lxml"),
     "mypy": ("Makefile", "$(BIN)/mypy"),
     "pycollada": ("docs/how-to/make-a-robot.md", "DAE"),
-    "pyrefly": ("backend/language/servers.py", "pyrefly"),
+    "ty": ("backend/language/servers.py", 'with_name("ty")'),
     "pytest-asyncio": ("pyproject.toml", "asyncio_mode"),
     "pytest-django": ("pyproject.toml", "DJANGO_SETTINGS_MODULE"),
     "pytest-timeout": ("pyproject.toml", "timeout = "),

@@ -30,9 +30,9 @@ def test_it_knows_messages_engine_and_neighbours_and_unsaved_text(host, with_act
         assert labels[:3] == ["x", "y", "z"]
         assert "Cannot find" not in json.dumps(page.told)
 
-        place = page.at("definition", 3, 18)
+        [place] = page.at("definition", 3, 18)
         assert place["uri"] == "file:///project/actions/Turn.py"
-        assert page.at("hover", 1, 32)["contents"]["value"].endswith("`geometry_msgs/msg/Twist`")
+        assert page.at("hover", 1, 32)["contents"]["value"].rstrip().endswith("`geometry_msgs/msg/Twist`")
         found = page.at("references", 3, 18, context={"includeDeclaration": True})
         assert {each["uri"] for each in found} == {GO, "file:///project/actions/Turn.py"}
 
@@ -49,13 +49,15 @@ def test_it_follows_the_revisions_of_the_project(host, with_actions, api):
     with opened(host, f"/ws/projects/{with_actions}/language") as page:
         page.begin()
         page.open(GO, SOURCE.replace("from Turn import Turn", "from Spin import Spin"))
-        assert page.at("definition", 3, 18)["uri"] == GO, "only the import itself is known"
+        assert not page.at("definition", 3, 18), "there is no such file"
         api.save(
             with_actions,
             {"path": "actions/Spin.py", "base_revision": 0, "content": "class Spin:\n    pass\n"},
         )
         deadline = time.monotonic() + 60
-        while page.at("definition", 3, 18)["uri"] != "file:///project/actions/Spin.py":
+        while [each["uri"] for each in page.at("definition", 3, 18) or ()] != [
+            "file:///project/actions/Spin.py"
+        ]:
             assert time.monotonic() < deadline
             time.sleep(0.05)
 

@@ -21,14 +21,14 @@ def folder(settings_of, tmp_path):
 def test_it_holds_the_python_of_the_project_and_nothing_that_configures(folder):
     files = {
         "actions/Go.py": b"x = 1\n",
-        "pyrefly.toml": b'python-interpreter-path = "/tmp/evil"\n',
-        "actions/pyproject.toml": b"[tool.pyrefly]\n",
+        "ty.toml": b'[environment]\npython = "/tmp/evil"\n',
+        "actions/pyproject.toml": b"[tool.ty]\n",
         "trees/MainTree.json": b"{}",
     }
     assert folder.sync(files) == Sync(created=("actions/Go.py",), changed=(), deleted=())
     assert [p.name for p in folder.files.rglob("*") if p.is_file()] == ["Go.py"]
-    ours = tomllib.loads((folder.home / "pyrefly.toml").read_text())
-    assert str(library()) in ours["search-path"]
+    ours = tomllib.loads((folder.home / "ty.toml").read_text())
+    assert str(library()) in ours["environment"]["extra-paths"]
 
 
 def test_it_follows_changes_and_says_which(folder):

@@ -45,14 +45,24 @@ def test_requests_of_the_server_are_answered_here():
 
 
 def test_the_user_reads_no_places_of_this_machine():
-    hover = (
-        "```python\n(class) Twist\n```\n---\nSee [node](file:///x/node.py).\n\n"
-        "Go to [Twist](file:///data/library/geometry_msgs/msg/__init__.pyi#L2,7)"
-    )
+    hover = "```python\n(class) Twist\n```\n---\nSee [node](file:///x/node.py)."
     shown, _ = for_page({"id": 1, "result": {"contents": {"kind": "markdown", "value": hover}}})
     assert shown["result"]["contents"]["value"] == "```python\n(class) Twist\n```\n---\nSee node."
-    finding = {"message": "Cannot find module `x`\n  Looked in these locations (from config in `/data/p`):"}
+    finding = {"message": "Cannot find module `x`\n\ninfo: Searched in the following paths:\ninfo: 1. /data"}
     shown, _ = for_page(
         {"method": "textDocument/publishDiagnostics", "params": {"uri": "u", "diagnostics": [finding]}}
     )
     assert shown["params"]["diagnostics"][0]["message"] == "Cannot find module `x`"
+
+
+def test_hints_are_no_findings():
+    found = [{"message": "wrong", "severity": 1}, {"message": "unused argument", "severity": 4}]
+    message = {"method": "textDocument/publishDiagnostics", "params": {"uri": "u", "diagnostics": found}}
+    told, _ = for_page(message)
+    assert [each["message"] for each in told["params"]["diagnostics"]] == ["wrong"]
+
+
+def test_a_class_is_named_as_python_names_it():
+    message = {"id": 1, "result": {"contents": {"value": "```xml\n<class 'Turn'>\n```\n---\nTurns."}}}
+    told, _ = for_page(message)
+    assert told["result"]["contents"]["value"] == "```python\nclass Turn\n```\n---\nTurns."

@@ -48,7 +48,7 @@ function keepFindings({ uri, diagnostics }: Published): void {
     to: item.range.end,
     severity: SEVERITIES[item.severity ?? 1] ?? 'info',
     message: item.message,
-    source: `pyrefly ${item.code ?? ''}`.trim(),
+    source: `ty ${item.code ?? ''}`.trim(),
   }));
   useLanguageStore.setState(({ findings }) => ({ findings: { ...findings, [path]: found } }));
 }

@@ -1,4 +1,5 @@
 import py_trees
+from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import LaserScan
 
@@ -12,12 +13,13 @@ class NewAction(py_trees.behaviour.Behaviour):
     INPUT_PORTS = {"limit": Port(float, default=1.0, description="How near counts, in m.")}
 
     def setup(self, **kwargs):
+        node: Node = kwargs["node"]
         self.scan = None
-        self.subscription = kwargs["node"].create_subscription(
+        self.subscription = node.create_subscription(
             LaserScan, "/scan", self.on_scan, qos_profile_sensor_data
         )
 
-    def on_scan(self, scan):
+    def on_scan(self, scan: LaserScan):
         self.scan = scan
 
     def update(self):

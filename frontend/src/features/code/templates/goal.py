@@ -2,6 +2,7 @@ import py_trees
 from action_msgs.msg import GoalStatus
 from nav2_msgs.action import NavigateToPose
 from rclpy.action import ActionClient
+from rclpy.node import Node
 
 from tree_gardener.ports import Port, get_input
 
@@ -15,8 +16,9 @@ class NewAction(py_trees.behaviour.Behaviour):
     }
 
     def setup(self, **kwargs):
+        node: Node = kwargs["node"]
         # This one is Nav2's; another action comes from the package that defines it.
-        self.client = ActionClient(kwargs["node"], NavigateToPose, "/navigate_to_pose")
+        self.client = ActionClient(node, NavigateToPose, "/navigate_to_pose")
         self.sending = None
         self.result = None
 

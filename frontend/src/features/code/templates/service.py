@@ -1,4 +1,5 @@
 import py_trees
+from rclpy.node import Node
 from std_srvs.srv import Trigger
 
 from tree_gardener.ports import Port, get_input, set_output
@@ -11,7 +12,7 @@ class NewAction(py_trees.behaviour.Behaviour):
     OUTPUT_PORTS = {"answer": Port(str, default="{=}", description="What the service says.")}
 
     def setup(self, **kwargs):
-        self.node = kwargs["node"]
+        self.node: Node = kwargs["node"]
         self.client = None
         self.call = None
 

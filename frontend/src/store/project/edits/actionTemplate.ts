@@ -54,6 +54,7 @@ export function actionSource(
       : ports.map(DECLARED).join('\n');
   const printed = `get_input(self, "${ports[0] ?? 'message'}")`;
   return `import py_trees
+from rclpy.node import Node
 
 from tree_gardener.ports import Port, get_input
 
@@ -66,7 +67,7 @@ ${declared}
     }
 
     def setup(self, **kwargs):
-        self.node = kwargs["node"]  # the rclpy node: make publishers and subscriptions here
+        self.node: Node = kwargs["node"]  # make publishers and subscriptions with it
 
     def initialise(self):
         """Called when the node starts, before its first update."""

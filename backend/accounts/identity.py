@@ -28,7 +28,7 @@ LINKS: Final = "links"
 """Where a session keeps the read-only links that were opened: ids of links by ids of projects."""
 MOST_SEEN: Final = 4096
 
-_seen: Final[LRUCache[str, int]] = LRUCache(MOST_SEEN)
+seen_users: Final[LRUCache[str, int]] = LRUCache(MOST_SEEN)
 _lock: Final = Lock()
 
 
@@ -46,7 +46,7 @@ def identify(cookies: Mapping[str, str]) -> User | None:
     user = _read_at_once(key, last_seen(cookies)) or _read(key)
     if user is not None and not user.is_guest:
         with _lock:
-            _seen[key] = user.pk
+            seen_users[key] = user.pk
     return user
 
 
@@ -98,7 +98,7 @@ def _store() -> Any:
 def last_seen(cookies: Mapping[str, str]) -> int | None:
     """Whose account these cookies were when they were last shown here; no right follows from it."""
     with _lock:
-        return _seen.get(cookies.get(settings.SESSION_COOKIE_NAME, ""))
+        return seen_users.get(cookies.get(settings.SESSION_COOKIE_NAME, ""))
 
 
 @lru_cache(maxsize=1)

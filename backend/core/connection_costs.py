@@ -48,8 +48,12 @@ class ConnectionCosts:
         try:
             yield
         finally:
-            if self._is_on and self.owner is not None:
-                budgets.spend(self.owner, time.thread_time() - began_s)
+            self.spend(time.thread_time() - began_s)
+
+    def spend(self, used_s: float) -> None:
+        """Books processor time."""
+        if self._is_on and self.owner is not None:
+            budgets.spend(self.owner, used_s)
 
     def rest_s(self) -> float:
         """For how many seconds nothing more may be read from this connection."""

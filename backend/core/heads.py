@@ -18,6 +18,8 @@ from backend.core.websocket import read_at_most
 if TYPE_CHECKING:
     import asyncio
 
+CONNECTION_S: Final = 0.0005
+"""Of the event loop's time, for a connection that opens and closes: so much was measured."""
 HEAD_S: Final = 15.0
 """From the beginning of a connection, or of its next request, to the end of the head."""
 HEAD_BYTES: Final = 64 * 1024
@@ -41,9 +43,9 @@ class PatientProtocol(HttpToolsProtocol):
         """Begins to wait for the first head."""
         super().connection_made(transport)
         self._costs = ConnectionCosts(self.client[0] if self.client else None)
-        with self._costs.booked():
-            read_at_most(transport, READ_HEAD_BYTES)
-            self._wait_for_head()
+        read_at_most(transport, READ_HEAD_BYTES)
+        self._wait_for_head()
+        self._costs.spend(CONNECTION_S)
         self._rest_if_due()
 
     def connection_lost(self, exc: Exception | None) -> None:
@@ -60,9 +62,8 @@ class PatientProtocol(HttpToolsProtocol):
         self._rest_if_due()
 
     def _rest_if_due(self) -> None:
-        """Reads no further head for a while; a body that has begun is cheap, and its sender is known."""
-        is_between = self._in_head or self._is_idle()
-        if is_between and self._is_ours() and (rest_s := self._costs.rest_s()):
+        """Reads nothing more for a while, if the owner has used more than their share."""
+        if self._is_ours() and (rest_s := self._costs.rest_s()):
             self.transport.pause_reading()
             if self._rest is not None:
                 self._rest.cancel()

@@ -16,11 +16,16 @@ if TYPE_CHECKING:
     from asgiref.typing import HTTPScope, WebSocketScope
 
 
+def user_owner(user_id: int) -> str:
+    """Names a user as the owner of what they use."""
+    return f"user {user_id}"
+
+
 def owner_of(scope: HTTPScope | WebSocketScope) -> str:
     """The user, or the address."""
     headers = headers_of(scope)
     user = last_seen(cookies_of(headers.get("cookie", "")))
     if user is not None:
-        return f"user {user}"
+        return user_owner(user)
     client = scope.get("client")
     return stranger(address_of(client[0] if client else None, headers))

@@ -44,6 +44,11 @@ class Turns:
             if not queue.waiting:
                 del self._queues[owner]
 
+    async def rest(self, owner: str) -> None:
+        """Waits as long as the owner must rest; others need not wait for it."""
+        if environment().is_team and (rest_s := self._budgets.rest_s(owner)):
+            await asyncio.sleep(rest_s)
+
     def spend(self, owner: str, used_s: float) -> None:
         """Books processor time, in seconds."""
         if environment().is_team:

@@ -19,7 +19,9 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
 from backend.core.problems import NotFoundError
 from backend.core.websocket import READ_BYTES, read_at_most
+from backend.ingress.owners import user_owner
 from backend.ingress.sockets import ID, Call, Closed
+from backend.ingress.turns import turns as shares
 from backend.sessions import queries, writes
 from backend.sessions.choices import SessionState
 from backend.sessions.maintenance import attendance, say
@@ -39,6 +41,9 @@ ADDRESS: Final = re.compile(rf"^/ws/sessions/{ID}/(control|stream)$")
 PING: Final = re.compile(r'"command"\s*:\s*"ping"')
 LONGEST_PING: Final = 100
 MESSAGES_IN_TURN: Final = 4
+MESSAGE_S: Final = 0.00015
+BYTE_S: Final = 2e-9
+"""Of the event loop's time, for a message of an executor and for each of its bytes: so much was measured."""
 POLL_S: Final = 0.03
 QUEUE_POLL_S: Final = 1.0
 # A container with many processes ends seconds after its sockets, and later on a busy host.
@@ -86,7 +91,7 @@ async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
                 if is_control:
                     read_at_most(manager.transport, READ_BYTES)
                     attendance.join(session_id, send)
-                closed = await _relay(manager, noted, send)
+                closed = await _relay(manager, noted, send, user_owner(user.pk))
     except (OSError, InvalidHandshake, TimeoutError) as error:
         log.warning("session %s: no %s socket: %s", session_id, channel, error)
         closed = Closed(EXECUTOR_FAILED, "The executor does not answer.")
@@ -147,10 +152,10 @@ async def _when_ready(session_id: UUID, user: User, send: ASGISendCallable | Non
 
 
 async def _relay(
-    manager: ClientConnection, receive: ASGIReceiveCallable, send: ASGISendCallable
+    manager: ClientConnection, receive: ASGIReceiveCallable, send: ASGISendCallable, owner: str
 ) -> Closed | None:
     up = asyncio.create_task(_browser_to_manager(receive, manager))
-    down = asyncio.create_task(_manager_to_browser(manager, send))
+    down = asyncio.create_task(_manager_to_browser(manager, send, owner))
     try:
         done, _ = await asyncio.wait((up, down), return_when=asyncio.FIRST_COMPLETED)
         first = up if up in done else down
@@ -177,7 +182,8 @@ async def _browser_to_manager(receive: ASGIReceiveCallable, manager: ClientConne
         await turns.next()
 
 
-async def _manager_to_browser(manager: ClientConnection, send: ASGISendCallable) -> Closed | None:
+async def _manager_to_browser(manager: ClientConnection, send: ASGISendCallable, owner: str) -> Closed | None:
+    """Hands on what the executor says: at the pace of the browser, and no faster than its user's share."""
     turns = _Turns()
     try:
         while True:
@@ -186,6 +192,8 @@ async def _manager_to_browser(manager: ClientConnection, send: ASGISendCallable)
                 await send({"type": "websocket.send", "text": message, "bytes": None})
             else:
                 await send({"type": "websocket.send", "bytes": message, "text": None})
+            shares.spend(owner, MESSAGE_S + BYTE_S * len(message))
+            await shares.rest(owner)
             await turns.next()
     except ConnectionClosed as error:
         return _closed_by(error)

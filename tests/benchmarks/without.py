@@ -19,7 +19,7 @@ def one_write() -> None:
     """Writes by the ORM, as on SQLite."""
     from backend.projects.storage import at_once
 
-    at_once.has_room = lambda _: False
+    at_once.has_room = lambda writing: not writing
 
 
 def one_read() -> None:
@@ -33,7 +33,7 @@ def threads() -> None:
     """Python's thread pool, whose threads take turns."""
     from backend.ingress import handler
 
-    handler.Threads = PlainThreads  # type: ignore[assignment, misc]
+    handler.Threads = PlainThreads  # type: ignore[attr-defined, assignment]
 
 
 class PlainThreads:
@@ -99,7 +99,7 @@ def serializers() -> None:
     """Makes a serializer for each request, as DRF's documentation does."""
     from backend.accounts.api import requests
 
-    requests._reader = lambda serializer: serializer()  # type: ignore[assignment]
+    requests._reader = lambda serializer: serializer()
 
 
 def pages() -> None:
@@ -125,8 +125,8 @@ def notices() -> None:
     """Sends the notice of a save in the request's thread, with an event loop of its own."""
     from backend.core import notify
 
-    notify._teller.serve = lambda _: None  # type: ignore[method-assign]
-    notify.serve = notify._teller.serve  # type: ignore[misc]
+    notify._teller.serve = lambda loop: None  # type: ignore[method-assign]
+    notify.serve = notify._teller.serve
 
 
 def frozen() -> None:

@@ -1,7 +1,8 @@
 """Finds tests that replace private state: `python -m tests.tools.seams`, a part of `make lint`.
 
 A test passes a fake by a constructor's argument or a public name. What still assigns to a private attribute
-of another object, or patches one, is listed in `private_state.txt`, which only shrinks (`--write`).
+of another object, or patches one, is listed in `private_state.txt`, which only shrinks (`--write`). Benchmarks
+are no tests: they measure the product without one of its parts.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 ROOT: Final = Path(__file__).resolve().parents[2]
+LEFT_OUT: Final = ROOT / "tests" / "benchmarks"
 LIST: Final = Path(__file__).with_name("private_state.txt")
 PATCHES: Final = {"setattr", "delattr", "object"}
 OWN: Final = {"self", "cls"}
@@ -67,6 +69,7 @@ def main(arguments: list[str]) -> int:
     found = [
         f"{path.relative_to(ROOT)} {name}"
         for path in sorted((ROOT / "tests").rglob("*.py"))
+        if LEFT_OUT not in path.parents
         for name in find(path.read_text(encoding="utf-8"))
     ]
     return shrinking.compare(

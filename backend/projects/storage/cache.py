@@ -38,22 +38,22 @@ class _List(NamedTuple):
 
 
 _lock: Final = Lock()
-_contents: Final[LRUCache[str, bytes]] = LRUCache(ROOM, getsizeof=len)
-_lists: Final[LRUCache[UUID, _List]] = LRUCache(FILES, getsizeof=lambda one: len(one.files))
+kept_contents: Final[LRUCache[str, bytes]] = LRUCache(ROOM, getsizeof=len)
+kept_lists: Final[LRUCache[UUID, _List]] = LRUCache(FILES, getsizeof=lambda one: len(one.files))
 
 
 def put(sha256: str, data: bytes) -> None:
     """Keeps a content."""
     if len(data) <= LARGEST:
         with _lock:
-            _contents[sha256] = data
+            kept_contents[sha256] = data
 
 
 def contents(wanted: Iterable[str]) -> dict[str, bytes]:
     """The contents of these hashes, in at most one query."""
     hashes = set(wanted)
     with _lock:
-        found = {sha256: _contents[sha256] for sha256 in hashes if sha256 in _contents}
+        found = {sha256: kept_contents[sha256] for sha256 in hashes if sha256 in kept_contents}
     if missing := hashes - found.keys():
         for sha256, data in Blob.objects.filter(sha256__in=missing).values_list("sha256", "data"):
             found[sha256] = bytes(data)
@@ -65,13 +65,13 @@ def put_files(project: Project, files: Mapping[str, Existing]) -> None:
     """Keeps the files of the revision that a locked project is at, or that a save just made."""
     if len(files) <= FILES:
         with _lock:
-            _lists[project.pk] = _List(project.revision, project.updated_at, files)
+            kept_lists[project.pk] = _List(project.revision, project.updated_at, files)
 
 
 def files(project: Project) -> dict[str, Existing] | None:
     """The files of this very revision, if they are kept."""
     with _lock:
-        found = _lists.get(project.pk)
+        found = kept_lists.get(project.pk)
     if found is None or (found.revision, found.at) != (project.revision, project.updated_at):
         return None
     return dict(found.files)

@@ -30,7 +30,7 @@ def test_a_session_that_was_seen_takes_one_query(person, django_assert_num_queri
     _, who = known(person)
     with django_assert_num_queries(1):
         found = who()
-    identity._seen.clear()
+    identity.seen_users.clear()
     with django_assert_num_queries(2):
         expected = who()
     fields = [field.attname for field in User._meta.concrete_fields]
@@ -43,7 +43,7 @@ def test_a_session_that_is_another_users_by_now_is_theirs(person):
     bob = person("bob")
     ada.client.force_login(bob.user)  # the same browser, with a new key
     key = ada.client.cookies[settings.SESSION_COOKIE_NAME].value
-    identity._seen[key] = ada.user.pk
+    identity.seen_users[key] = ada.user.pk
     assert identity.identify({settings.SESSION_COOKIE_NAME: key}) == bob.user
     assert who() is None
 
@@ -90,7 +90,7 @@ def test_a_change_of_what_the_session_holds_is_seen(person):
 
 
 def test_only_so_many_are_remembered(person, monkeypatch):
-    monkeypatch.setattr(identity, "_seen", LRUCache(2))
+    monkeypatch.setattr(identity, "seen_users", LRUCache(2))
     cookies = []
     for name in ("ada", "bob", "cleo"):
         ada = person(name)

@@ -239,7 +239,7 @@ async def test_messages_that_are_there_already_leave_other_sockets_their_turn():
     manager: Any = Manager()
     for relaying in (
         lambda: _browser_to_manager(receive, manager),
-        lambda: _manager_to_browser(manager, send),
+        lambda: _manager_to_browser(manager, send, "user 1"),
     ):
         left, turns = messages, 0
         other = asyncio.create_task(count_turns())

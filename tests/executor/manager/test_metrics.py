@@ -7,7 +7,8 @@ from prometheus_client.parser import text_string_to_metric_families
 from executor.manager.metrics import metrics_text
 from executor.manager.server import Traffic
 from executor.session.ladder import State
-from executor.session.protocol import About, Session
+from executor.session.protocol import Session
+from executor.session.stage import About
 
 # Dashboards and alerts of users go by these.
 COUNTERS = {"commands_total", "commands_refused_total", "events_total", "frames_total", "snapshots_total"}

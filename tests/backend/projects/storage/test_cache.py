@@ -15,8 +15,8 @@ def fresh(monkeypatch):
     """Caches that are empty, and as large as a test says."""
 
     def make(*, room=cache.ROOM, files=cache.FILES):
-        monkeypatch.setattr(cache, "_contents", LRUCache(room, getsizeof=len))
-        monkeypatch.setattr(cache, "_lists", LRUCache(files, getsizeof=cache._lists.getsizeof))
+        monkeypatch.setattr(cache, "kept_contents", LRUCache(room, getsizeof=len))
+        monkeypatch.setattr(cache, "kept_lists", LRUCache(files, getsizeof=cache.kept_lists.getsizeof))
 
     make()
     return make

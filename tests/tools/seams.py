@@ -1,8 +1,8 @@
 """Finds tests that replace private state: `python -m tests.tools.seams`, a part of `make lint`.
 
 A test passes a fake by a constructor's argument or a public name. What still assigns to a private attribute
-of another object, or patches one, is listed in `private_state.txt`, which only shrinks (`--write`). Benchmarks
-are no tests: they measure the product without one of its parts.
+of another object, or patches one, is listed in `private_state.txt`, which only shrinks (`--write`).
+Benchmarks are no tests: they measure the product without one of its parts.
 """
 
 from __future__ import annotations

@@ -33,7 +33,11 @@ export default defineConfig({
   },
   test: {
     environment: 'jsdom',
-    include: ['src/**/*.test.{ts,tsx}'],
+    // Tests of modules share what is loaded, which takes most of their time. Each file of components has its own.
+    projects: [
+      { extends: true, test: { name: 'modules', include: ['src/**/*.test.ts'], isolate: false } },
+      { extends: true, test: { name: 'components', include: ['src/**/*.test.tsx'] } },
+    ],
     setupFiles: ['./vitest.setup.ts'],
     // Styles are left out, but for the colours that pictures are drawn with.
     css: { include: [/tokens\.css\?raw$/] },

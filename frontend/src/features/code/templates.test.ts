@@ -2,7 +2,7 @@ import { expect, it } from 'vitest';
 import { ACTION_TEMPLATES, actionSource } from './templates';
 
 it('offers an action first', () => {
-  expect(ACTION_TEMPLATES).toEqual(['action', 'condition', 'service', 'goal']);
+  expect(ACTION_TEMPLATES).toEqual(['action', 'condition', 'service', 'goal', 'control', 'decorator']);
 });
 
 it.each(ACTION_TEMPLATES)('names the class of a template “%s” as its file', (kind) => {
@@ -13,7 +13,7 @@ it.each(ACTION_TEMPLATES)('names the class of a template “%s” as its file', 
 });
 
 it('has another text for each', () => {
-  expect(new Set(ACTION_TEMPLATES.map((kind) => actionSource('Go', kind))).size).toBe(4);
+  expect(new Set(ACTION_TEMPLATES.map((kind) => actionSource('Go', kind))).size).toBe(ACTION_TEMPLATES.length);
   expect(actionSource('Go', 'condition')).toContain('NODE_KIND = "Condition"');
   expect(actionSource('Go', 'action')).not.toContain('NODE_KIND = "Condition"');
 });

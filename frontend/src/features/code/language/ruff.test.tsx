@@ -106,7 +106,7 @@ describe('applyFix', () => {
   const place = (line: number, column: number) => ({ line, column });
   const finding = {
     code: 'F401',
-    severity: 'warning',
+    severity: 'warning' as const,
     message: '',
     start: place(1, 1),
     end: place(1, 2),
@@ -117,7 +117,7 @@ describe('applyFix', () => {
         { start: place(2, 5), end: place(2, 6), content: '2' },
       ],
     },
-  } as const;
+  };
 
   it('makes all its edits', () => {
     const view = editor('import os\nx = 1');

@@ -14,7 +14,7 @@ describe('servedMark', () => {
       to: place(to),
       severity: 'warning',
       message: 'unused',
-      source: 'pyrefly',
+      source: 'ty',
     });
   };
 
@@ -24,7 +24,7 @@ describe('servedMark', () => {
       to: 9,
       severity: 'warning',
       message: 'unused',
-      source: 'pyrefly',
+      source: 'ty',
     });
     expect(mark([0, 0], [1, 1])).toMatchObject({ from: 0, to: 11 });
   });

@@ -35,7 +35,8 @@ RUN --mount=type=cache,target=/root/.cache --mount=type=secret,id=ca,target=/run
 # What a language server is shown: the engine, and stubs of ROS messages.
 COPY backend/__init__.py /build/backend/__init__.py
 COPY executor/ros_python /opt/bt-studio/executor/ros_python
-COPY backend/language/__init__.py backend/language/library.py backend/language/message_stubs.py /build/backend/language/
+COPY backend/language/__init__.py backend/language/library.py backend/language/message_stubs.py \
+     backend/language/rclpy_types.py /build/backend/language/
 RUN /opt/bt-studio/.venv/bin/python -m backend.language.library \
       /opt/bt-studio/.venv/lib/python3.11/site-packages /opt/bt-studio /opt/bt-studio/library
 

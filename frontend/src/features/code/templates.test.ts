@@ -13,7 +13,9 @@ it.each(ACTION_TEMPLATES)('names the class of a template “%s” as its file', 
 });
 
 it('has another text for each', () => {
-  expect(new Set(ACTION_TEMPLATES.map((kind) => actionSource('Go', kind))).size).toBe(ACTION_TEMPLATES.length);
+  expect(new Set(ACTION_TEMPLATES.map((kind) => actionSource('Go', kind))).size).toBe(
+    ACTION_TEMPLATES.length,
+  );
   expect(actionSource('Go', 'condition')).toContain('NODE_KIND = "Condition"');
   expect(actionSource('Go', 'action')).not.toContain('NODE_KIND = "Condition"');
 });

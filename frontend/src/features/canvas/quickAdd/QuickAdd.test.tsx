@@ -178,7 +178,9 @@ describe('a name that no block has', () => {
   it('that is a question is a condition first', () => {
     open({ text: 'IsHome' });
     const made = screen.getAllByTestId(/^quick-add-new-/).map(({ dataset }) => dataset['testid']);
-    expect(made).toEqual(['Condition', 'Action', 'Control', 'Decorator'].map((kind) => `quick-add-new-${kind}`));
+    expect(made).toEqual(
+      ['Condition', 'Action', 'Control', 'Decorator'].map((kind) => `quick-add-new-${kind}`),
+    );
   });
 
   it('can be the other kind by a press', () => {

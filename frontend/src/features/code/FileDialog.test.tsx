@@ -10,6 +10,7 @@ import {
 import { useProjectStore } from '@/store/project';
 import { fakeServer, openProject, show, user, watchNavigation } from '../../../harness/testing';
 import { FileDialog } from './FileDialog';
+import { ACTION_TEMPLATES } from './templates';
 
 const store = () => useProjectStore.getState();
 const field = () => screen.getByRole('textbox') as HTMLInputElement;
@@ -48,7 +49,7 @@ describe('a new file', () => {
     expect(field()).toHaveAccessibleName(label);
     expect(field()).toHaveAttribute('placeholder', example);
     expect(field()).toHaveValue('');
-    expect(screen.queryAllByRole('radio')).toHaveLength(kind === 'action' ? 4 : 0);
+    expect(screen.queryAllByRole('radio')).toHaveLength(kind === 'action' ? ACTION_TEMPLATES.length : 0);
     expect(screen.getByTestId('file-dialog-ok')).toHaveTextContent('Create');
   });
 

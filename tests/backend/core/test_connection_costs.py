@@ -81,8 +81,9 @@ async def listening():
             writer.transport.abort()
             with contextlib.suppress(OSError):
                 await writer.wait_closed()
-        while tasks := server.server_state.tasks:
-            await asyncio.wait(tasks)
+        async with asyncio.timeout(60):
+            while server.server_state.connections or server.server_state.tasks:  # noqa: ASYNC110 - uvicorn's
+                await asyncio.sleep(0)
 
 
 async def answered(reader):
@@ -126,11 +127,12 @@ async def open_socket(connect, owner):
     return reader, writer
 
 
-async def close_code(reader):
-    async with asyncio.timeout(60):
-        first, length = await reader.readexactly(2)
-        assert first & 15 == 8
-        return struct.unpack("!H", (await reader.readexactly(length))[:2])[0]
+async def ended(reader):
+    """Waits for the end. What the client still sends may overtake the close frame, which is then lost."""
+    with contextlib.suppress(ConnectionResetError):
+        async with asyncio.timeout(60):
+            said = await reader.read()
+            assert said == b"" or struct.unpack("!xxH", said[:4]) == (1009,)
 
 
 @pytest.mark.usefixtures("budgets")
@@ -144,10 +146,10 @@ async def test_unfinished_messages_of_one_owner_are_bounded_together(monkeypatch
         second, more = await open_socket(connect, 1)
         more.write(part)
         done, _ = await asyncio.wait(
-            [asyncio.ensure_future(close_code(reader)) for reader in (first, second)],
+            [asyncio.ensure_future(ended(reader)) for reader in (first, second)],
             return_when=asyncio.FIRST_COMPLETED,
         )
-        assert {task.result() for task in done} == {1009}
+        assert [task.result() for task in done] == [None]
         assert not other.at_eof()
         _, again = await open_socket(connect, 2)
         again.write(part)

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import tomllib
 
-from backend.language.library import configuration
+from backend.language.library import RULES, configuration
 
 
 def test_the_configuration_is_toml_with_the_search_path() -> None:
     found = tomllib.loads(configuration('/a "b"', "/lib", "/usr/bin/python"))
-    assert found["search-path"] == ['/a "b"', '/a "b"/actions', "/lib"]
-    assert found["python-interpreter-path"] == "/usr/bin/python"
-    assert found["project-includes"] == ['/a "b"/**/*.py']
+    assert found["environment"] == {
+        "root": ['/a "b"', '/a "b"/actions'],
+        "extra-paths": ["/lib"],
+        "python": "/usr/bin/python",
+    }
+    assert found["rules"] == RULES

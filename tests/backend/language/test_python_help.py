@@ -192,14 +192,13 @@ def test_the_python_that_we_ship_is_understood(editor, path):
     text = path.read_text(encoding="utf-8")
     document = editor(text, path.stem)
     assert document.findings() == []
-    assert "class Behaviour" in document.hover("Behaviour)", 2)
+    base = re.findall(r"^class \w+\((?:[\w.]*\.)?(\w+)\):", text, re.MULTILINE)[0]
+    assert f"class {base}" in document.hover(f"{base})", 2)
     for name in re.findall(r"^from \w+\.(?:msg|srv|action) import (\w+)", text, re.MULTILINE):
         assert f"class {name}" in document.hover(f"import {name}", 8), name
-    first = next(
-        line for line in text.splitlines() if line.startswith("        return py_trees.common.Status.")
-    )
-    document.change(text.replace(first, "        py_trees.common.Status.", 1))
-    found = document.ask("completion", "        py_trees.common.Status.", 31)
+    status = re.findall(r"\b(?:py_trees\.common\.)?Status\.(?=[A-Z])", text)[0]
+    document.change(f"{text}\n{status}\n")
+    found = document.ask("completion", f"\n{status}\n", 1 + len(status))
     assert {"SUCCESS", "FAILURE", "RUNNING"} <= {each["label"] for each in found["items"]}
 
 

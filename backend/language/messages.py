@@ -45,13 +45,20 @@ def _initialize(params: Any, root_uri: str) -> Message:
     given = params if isinstance(params, dict) else {}
     capabilities = given.get("capabilities")
     known = capabilities if isinstance(capabilities, dict) else {}
+    document = known.get("textDocument")
+    # A server that may be asked for findings sends none by itself, and the page does not ask.
+    offered = (
+        {name: each for name, each in document.items() if name != "diagnostic"}
+        if isinstance(document, dict)
+        else {}
+    )
     return {
         "processId": None,
         "clientInfo": {"name": "bt-studio"},
         "rootUri": root_uri,
         "workspaceFolders": [{"uri": root_uri, "name": "project"}],
         # Without these capabilities the server does not request the page's configuration.
-        "capabilities": {"textDocument": known.get("textDocument", {})}
+        "capabilities": {"textDocument": offered}
         | ({"general": known["general"]} if "general" in known else {}),
     }
 

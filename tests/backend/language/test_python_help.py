@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[3]
 TEMPLATES = sorted((ROOT / "frontend/src/features/code/templates").glob("*.py"))
 EXAMPLES = sorted((ROOT / "examples").glob("*/actions/*.py"))
 BEHAVIOURS = sorted((ROOT / "backend/catalog/behaviours/actions").glob("*.py"))
-CAPABILITIES = {"textDocument": {"hover": {"contentFormat": ["markdown", "plaintext"]}}}
+CAPABILITIES = {"textDocument": {"hover": {"contentFormat": ["markdown", "plaintext"]}, "diagnostic": {}}}
 BUILTINS = {"print", "len", "ArithmeticError", "abs"}
 HELPER = """\
 from rclpy.node import Node

@@ -103,9 +103,9 @@ class Child:
         if isinstance(message, Beat):
             self.vitals.beat(message)
         elif type(message) in _TASKS:
-            self.vitals.task = _TASKS[type(message)]  # a hang may keep the next beat from being sent
+            self.vitals.task = _TASKS[type(message)]  # set here, since a hang may prevent the next beat
         if isinstance(message, Fault) and message.kind == "timeout":
-            pass  # a slow tick may still end well
+            pass  # a tick that is only slow may still end normally
         elif not isinstance(message, _NOT_STORED):
             self._said[type(message)] = message
 

@@ -99,7 +99,7 @@ class Children:
         child = self.living.pop(kind, None)
         if child is None:
             return
-        child.end(reason)  # steps that wait for it fail now
+        child.end(reason)  # steps that wait for this child fail now
         self._lost(child, reason)
         self.leaving.add((kind, child.number))
         if grace_s:

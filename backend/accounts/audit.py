@@ -56,7 +56,7 @@ def note(
 
 
 def forget_old(now: datetime) -> int:
-    """Removes expired sign-ins, and old entries; returns the number of these.
+    """Removes expired sign-ins and old entries; returns the number of removed entries.
 
     Entries are kept for `BT_STUDIO_AUDIT_DAYS`.
     """

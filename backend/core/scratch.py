@@ -149,7 +149,7 @@ class ScratchUploads(FileUploadHandler):
     """Writes the files of forms to temporary files, as Django's upload handler."""
 
     def new_file(self, *args: Any, **kwargs: Any) -> None:
-        """Makes the file for the next file of a form."""
+        """Opens a temporary file for the next upload of a form."""
         super().new_file(*args, **kwargs)
         self.file = scratch().file()
 

@@ -29,7 +29,7 @@ _SAME: dict[type[Struct], type[Struct]] = {
 
 
 def forward(stage: Stage, child: Child, event: ChildSaid) -> None:
-    """Sends a message of a living child to the clients that it is for."""
+    """Sends a message of a living child to its receivers among the clients."""
     message = event.message
     match message:
         case child_messages.Tick():

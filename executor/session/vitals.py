@@ -97,7 +97,7 @@ class Vitals:
 
     @property
     def hangs(self) -> bool:
-        """Whether it was inactive for so long that users must be notified."""
+        """Whether the child has been inactive for so long that users must be notified."""
         if self.task == STARTING:
             # No user code runs yet, and importing large libraries may hold the interpreter lock.
             return self.silent_s >= FROZEN_S and self.idle_s >= FAULT_AFTER_S

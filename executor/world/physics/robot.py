@@ -158,15 +158,15 @@ class BulletRobot:
         return wheels | self._motors.states() if self._motors else wheels
 
     def scan(self, lidar: Lidar) -> LidarReading:
-        """Measures now."""
+        """Returns a scan at the current time."""
         return self._lidars[lidar.name].scan(self._clock_s, self._pose_of(lidar.link))
 
     def imu(self, imu: Imu) -> ImuReading:
-        """Measures now."""
+        """Returns a measurement of the IMU at the current time."""
         return self._proprioception.imu(imu, self._clock_s)
 
     def battery(self, battery: Battery) -> BatteryReading:
-        """Measures now."""
+        """Returns the current state of the battery."""
         return self._proprioception.battery(battery)
 
     def pressed(self) -> frozenset[Zone]:

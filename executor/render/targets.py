@@ -16,7 +16,7 @@ MOST_SIZES: Final = 6
 
 
 class Targets:
-    """Framebuffers of the last sizes. With `samples` > 1 the hardware smooths the edges."""
+    """Framebuffers of the most recently used sizes. With `samples` > 1 the hardware smooths the edges."""
 
     def __init__(self, context: Any, samples: int) -> None:
         self._context = context

@@ -25,11 +25,11 @@ Event = TypeVar("Event", bound=Struct)
 
 
 class _Message(Struct, tag_field="type", omit_defaults=True):
-    """A message without a question."""
+    """A message that expects no answer."""
 
 
 class _Asked(Struct, tag_field="type", omit_defaults=True, kw_only=True):
-    """A message that asks, or the answer to one; `request` is None where nobody waits for an answer."""
+    """A request, or the answer to one; `request` is its token, or None if nobody waits for an answer."""
 
     request: str | None = None
 
@@ -78,7 +78,7 @@ class Reset(_Asked, tag="reset"):
 
 
 class SetSpeed(_Asked, tag="set_speed"):
-    """Simulated seconds a second of real time."""
+    """Set the number of simulated seconds for each second of real time."""
 
     speed: float
 
@@ -172,7 +172,7 @@ class StepTick(_Message, tag="step"):
 
 
 class SetTickRate(_Asked, tag="set_tick_rate"):
-    """Ticks a second of simulated time."""
+    """Set the number of ticks for each second of simulated time."""
 
     tick_hz: float
 

@@ -20,7 +20,7 @@ class Shape(Struct, omit_defaults=True):
         color: [r, g, b, a], each 0 to 1, sRGB.
         mesh: key in `Scene.meshes` for a mesh, else "".
         texture: key in `Scene.textures`, or "" for none; the colour tints it.
-        ceiling: overhead, or the upper part of a wall: drawn for robots' cameras, not for views of the world.
+        ceiling: whether it is a ceiling or the upper part of a wall, which only robots' cameras see.
     """
 
     shape: Literal["box", "cylinder", "sphere", "capsule", "plane", "mesh"]

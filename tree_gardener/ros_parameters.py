@@ -1,8 +1,8 @@
 """The parameters of the node that ticks a tree: read once and checked; errors name the place.
 
-An argument (`--tick_hz=5.0`, outside of `--ros-args`) goes before every file of parameters. Among files, and
-with ROS 2's own `-p`, the last does not always win: rcl keeps the whole number of one file beside the decimal
-one of the next and takes the former, and sections count in the order in which they first stood in a file.
+An argument (`--tick_hz=5.0`, outside of `--ros-args`) overrides all files of parameters. Among files and ROS
+2's own `-p`, the last one does not always win. If one gives a whole number and a later one a decimal number,
+rcl keeps both and uses the whole number. Sections apply in the order in which they first appear in any file.
 """
 
 import dataclasses

@@ -38,7 +38,7 @@ def note(
         actor_name: the name that a failed sign-in gave.
         subject: the name of the changed object at that time.
         subject_id: its key.
-        detail: whatever else explains the entry; nothing secret.
+        detail: additional facts; nothing secret.
     """
     if not environment().is_team:
         return
@@ -56,7 +56,7 @@ def note(
 
 
 def forget_old(now: datetime) -> int:
-    """Removes expired sign-ins, and old entries; returns the number of these.
+    """Removes expired sign-ins and old entries; returns the number of removed entries.
 
     Entries are kept for `BT_STUDIO_AUDIT_DAYS`.
     """

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 LINKS: Final = "links"
-"""Where a session keeps the read-only links that were opened: ids of links by ids of projects."""
+"""The session's key of the opened read-only links: ids of links by ids of projects."""
 MOST_SEEN: Final = 4096
 
 seen_users: Final[LRUCache[str, int]] = LRUCache(MOST_SEEN)
@@ -35,8 +35,8 @@ _lock: Final = Lock()
 def identify(cookies: Mapping[str, str]) -> User | None:
     """Returns the local user, the user who is signed in, a guest with a link, or None.
 
-    Session and user are read from the database at each request, so that nobody is let in for longer than it
-    says. What this process keeps is only whose session it was, to read both at once.
+    Session and user are read from the database at each request, so that a revoked right ends immediately. The
+    process caches only the user id of each session, to read both in one query.
     """
     if not environment().is_team:
         return the_local_user()
@@ -51,7 +51,7 @@ def identify(cookies: Mapping[str, str]) -> User | None:
 
 
 def _read(key: str) -> User | None:
-    """The user of a session by Django's own way."""
+    """Returns the user of a session as Django does, in two queries."""
     request = HttpRequest()
     request.session = _store()(key)
     links = _links(request.session)
@@ -63,7 +63,7 @@ def _read(key: str) -> User | None:
 
 
 def _read_at_once(key: str, user_id: int | None) -> User | None:
-    """The same in one statement, if the session is still that of this user; else `_read` decides."""
+    """Does the same in one query, if the session still belongs to this user; otherwise calls `_read`."""
     if user_id is None:
         return None
     now = connection.ops.adapt_datetimefield_value(timezone.now())
@@ -96,14 +96,14 @@ def _store() -> Any:
 
 
 def last_seen(cookies: Mapping[str, str]) -> int | None:
-    """Whose account these cookies were when they were last shown here; no right follows from it."""
+    """Returns the id of the user whom these cookies last identified in this process; it grants no right."""
     with _lock:
         return seen_users.get(cookies.get(settings.SESSION_COOKIE_NAME, ""))
 
 
 @lru_cache(maxsize=1)
 def the_local_user() -> User:
-    """On localhost nobody can change the one user, so one look is enough."""
+    """Returns the one user on localhost. Nobody can change it, so it is read once."""
     return local_user()
 
 

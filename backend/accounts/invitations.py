@@ -35,7 +35,7 @@ def invite(*, acting_user: User, group: Group | None, days: int, max_uses: int) 
     """Makes a link for `max_uses` people that works for `days` days.
 
     Raises:
-        TeacherRequiredError: the user may not bring people here.
+        TeacherRequiredError: the user may not invite people.
     """
     if not may_invite(acting_user):
         raise TeacherRequiredError("Invitations are for teachers and administrators.")
@@ -54,7 +54,7 @@ def invite(*, acting_user: User, group: Group | None, days: int, max_uses: int) 
 
 @transaction.atomic
 def revoke(invitation_id: UUID, *, acting_user: User) -> None:
-    """Takes an invitation back; accounts that were made with it stay.
+    """Revokes an invitation; accounts that were made with it stay.
 
     Raises:
         NotFoundError: this user made no such invitation.

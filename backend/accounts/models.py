@@ -16,8 +16,8 @@ MAX_GROUP_NAME = 80
 class User(AbstractUser):
     """A person who owns projects.
 
-    `links` is no column: it names the read-only links that the user has opened in this browser,
-    whether they have an account or not. A guest is a user that is not stored.
+    `links` is not a column: it has the read-only links that were opened in this browser, with or without an
+    account. A guest is a user that is not stored.
     """
 
     is_teacher = models.BooleanField(

@@ -1,8 +1,8 @@
 """Announces that a user's rights may have become fewer, so that open sockets check them again.
 
-A websocket is judged when it is opened. Who is then taken out of a project, signs out or is deactivated must
-not continue to listen: every open socket follows the notices, and asks the usual place what is
-allowed now. Notices are hints and may be lost (the command line cannot send them), hence `RECHECK_S`.
+A websocket is checked when it opens. A user who is later removed from a project, signs out or is deactivated
+must not receive more. So every open socket follows these notices, and repeats the usual check of rights.
+Notices may be lost, and the command line cannot send them; therefore sockets also check every `RECHECK_S`.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ if TYPE_CHECKING:
 GROUP: Final = "rights"
 RECHECK_S: Final = 60.0
 SETTLE_S: Final = 0.3
-"""Signing out tells before it forgets the session."""
+"""Seconds between a notice and the check. At a sign-out the notice comes before the session is deleted."""
 
 lessened = Signal()
-"""Sent with `user_id` and `project_id`, one of them None, when it is committed."""
+"""The signal of fewer rights, sent after the commit with `user_id` and `project_id`, one of which is None."""
 
 
 def lessen(*, user_id: int | None = None, project_id: UUID | None = None) -> None:
@@ -44,7 +44,7 @@ def _tell(user_id: int | None, project_id: UUID | None) -> None:
 
 @asynccontextmanager
 async def notices() -> AsyncIterator[Callable[[], Awaitable[dict[str, Any]]]]:
-    """Gives a function that waits for the next notice; its `user_id` is None when it may be about anybody."""
+    """Yields a function that waits for the next notice, whose `user_id` is None if it may concern all."""
     layer = get_channel_layer()
     channel = await layer.new_channel()
     await layer.group_add(GROUP, channel)

@@ -1,4 +1,4 @@
-"""Signals of accounts for other apps."""
+"""Signals that accounts send to other apps."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ def local_user() -> User:
 
 
 def user_named(name: str) -> User | None:
-    """Returns the active or inactive account with this name or e-mail address."""
+    """Returns the account, active or not, with this name or e-mail address."""
     return User.objects.filter(Q(username=name) | Q(email__iexact=name or "-")).first()
 
 
@@ -63,8 +63,8 @@ def create_account(
     """Makes an account for someone; its address counts as verified.
 
     Raises:
-        InvalidInputError: name, address or password cannot be used.
-        AccountTakenError: somebody has the name or the address.
+        InvalidInputError: the name, the address or the password is invalid.
+        AccountTakenError: another account has the name or the address.
     """
     from allauth.account.models import EmailAddress  # noqa: PLC0415 - models must be loaded
 
@@ -90,10 +90,10 @@ def create_account(
 
 @transaction.atomic
 def delete_account(user: User) -> None:
-    """Removes a user with everything they own; what they wrote in others' projects stays, without a name.
+    """Removes a user with everything they own; their revisions of others' projects stay, without a name.
 
     Raises:
-        LastAdministratorError: nobody could look after the server any more.
+        LastAdministratorError: the user is the last administrator.
     """
     others = User.objects.select_for_update().filter(is_superuser=True, is_active=True).exclude(pk=user.pk)
     if user.is_superuser and not others.exists():

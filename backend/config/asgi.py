@@ -1,4 +1,4 @@
-"""The ASGI application: Django for HTTP, relays for sockets, and the start and end of the server."""
+"""The ASGI application: Django for HTTP, the routes of sockets, and the start and end of the server."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ class InvalidEnvironmentError(ValueError):
 
 
 class Environment(TeamSettings):
-    """The settings of the web server; each field is the variable `BT_STUDIO_<FIELD>`."""
+    """The settings of the web server; the variable of each field is `BT_STUDIO_<FIELD>`."""
 
     model_config = SettingsConfigDict(env_prefix=PREFIX, extra="ignore", frozen=True)
 
@@ -174,7 +174,7 @@ def sentence(error: ValidationError) -> str:
 
 
 def _shown(field: str, value: object) -> str:
-    """The wrong value, unless it is a secret."""
+    """Returns the wrong value as text for the message, or nothing if it is a secret."""
     known = Environment.model_fields.get(field)
     return "" if known is not None and known.annotation is SecretStr else f" (it is {value!r})"
 

@@ -1,7 +1,7 @@
 """Adds examples to the OpenAPI document: recorded requests to a real server, with their answers.
 
-`examples.json` is recorded by `tests/backend/test_examples.py`, which plays the same story at each run and
-fails when an endpoint answers otherwise than it shows.
+`tests/backend/test_examples.py` records `examples.json`. It makes the same requests at each run, and fails if
+an answer differs from the recorded one.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""The page `/metrics`: the sums over all workers, and the numbers of this moment, in Prometheus' text format.
+"""The page `/metrics`: sums over all workers and current numbers, in Prometheus' text format.
 
-The multiprocess mode of `prometheus_client` is not used. It keeps files for each process that ever ran, and
-our workers share pages of memory, which outlive a worker and are free again with the server (`numbers.py`).
-Its registry, metric families and text format fit both.
+The multiprocess mode of `prometheus_client` is not used, since it keeps files for each process that ever ran.
+Our workers share memory that outlives a worker and is released with the server (`numbers.py`). Only the
+registry, the metric families and the text format of the library are used.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ CONTENT_TYPE: Final = CONTENT_TYPE_PLAIN_0_0_4
 
 
 class Counted:
-    """Counts of all workers."""
+    """Collects counters and histograms, summed over all workers."""
 
     def collect(self) -> Iterator[Metric]:
         yield counter_family(metrics.requests)
@@ -34,7 +34,7 @@ class Counted:
 
 
 class Current:
-    """The sessions and the waiting work of this moment."""
+    """Collects the current numbers of sessions and of waiting jobs."""
 
     def collect(self) -> Iterator[Metric]:
         yield _gauges("bt_studio_sessions", "Executors by state.", counts())

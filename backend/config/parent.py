@@ -1,8 +1,8 @@
-"""The parent of several web workers and their pool: it holds the port, and replaces each that ends or hangs.
+"""The parent of several web workers and their pool: it holds the port, and replaces workers that end or hang.
 
-It answers no request itself and runs no user's work, so there is little that could end it. Workers are
-programs of their own (a fork of a process with threads is no safe place to be) which inherit the listening
-socket: a connection that comes while one of them is replaced waits for another.
+It answers no requests and does no user's work, so it hardly ever crashes. Workers are new processes and not
+forks, since a fork of a process with threads is unsafe. They inherit the listening socket, so a connection
+that arrives while one of them is replaced waits for another.
 """
 
 from __future__ import annotations
@@ -33,16 +33,16 @@ log = logging.getLogger(__name__)
 
 TICK_S: Final = 1.0
 HUNG_S: Final = 60.0
-"""For how long a worker's event loop, or all of its request threads, may make no progress."""
+"""Seconds for which a worker's event loop, or all of its request threads, may make no progress."""
 SHORT_LIFE_S: Final = 10.0
-"""Who dies sooner is started again after a pause."""
+"""Seconds. A worker that ends sooner is restarted after a pause."""
 FIRST_PAUSE_S: Final = 0.5
 LONGEST_PAUSE_S: Final = 30.0
 FUTILE: Final = 5
-"""After so many starts in a row that came to nothing, of every worker, the server ends."""
+"""The number of failed starts in a row, of every worker, after which the server ends."""
 POOL_PAGE: Final = "pool.numbers"
 STOP_S: Final = 20.0
-"""How long workers may take to end that were asked to."""
+"""Seconds that workers may take to end after the signal."""
 ENDING: Final = (signal.SIGTERM, signal.SIGINT)
 
 
@@ -71,11 +71,11 @@ class Child:
         self._beat = (0.0, 0.0)
         self._is_given_up = False
         self.failures = 0
-        """Starts in a row that came to nothing."""
+        """Failed starts in a row."""
 
     @property
     def has_started(self) -> bool:
-        """Whether the worker answers, or did until it hung."""
+        """Whether the worker has answered since its start."""
         return self._process is not None and bool(self._page[STARTED])
 
     def start_if_due(self, now_s: float) -> None:
@@ -87,14 +87,14 @@ class Child:
             self._command,
             cwd=REPOSITORY,
             pass_fds=self._descriptors,
-            # Nothing is ever written: when the pipe closes, the worker knows that the parent has ended.
+            # Nothing is ever written to this pipe: when it closes, the worker knows that the parent ended.
             stdin=subprocess.PIPE,
             start_new_session=True,  # Ctrl+C is for the parent, which passes it on
         )
         self._since_s, self._beat, self._is_given_up = now_s, (0.0, 0.0), False
 
     def ended(self, now_s: float) -> int | None:
-        """Returns the exit status once after the worker has ended; another start is due then."""
+        """Returns the exit status, once after the worker has ended, and schedules its restart."""
         if self._process is None or (status := self._process.poll()) is None:
             return None
         has_lived = self.has_started and now_s - self._since_s >= SHORT_LIFE_S
@@ -104,10 +104,10 @@ class Child:
         return status
 
     def hangs(self, passed_s: float) -> bool:
-        """Whether the worker made no progress for too long; reported once.
+        """Whether the worker made no progress for too long; True only once.
 
         Args:
-            passed_s: since the last call; if it is long, the parent itself was suspended.
+            passed_s: seconds since the last call. If they are many, the parent itself was suspended.
         """
         if self._process is None or not self._page[STARTED] or self._is_given_up:
             return False
@@ -124,7 +124,7 @@ class Child:
                 self._process.send_signal(number)
 
     def close_input(self) -> None:
-        """Closes the worker's standard input, which tells it that the parent ends."""
+        """Closes the worker's standard input, by which it learns that the parent ends."""
         if self._process is not None and self._process.stdin is not None:
             self._process.stdin.close()
 
@@ -163,7 +163,7 @@ class Parent:
         """Serves until a signal arrives; returns the signal.
 
         Raises:
-            ServeError: the workers do not start, or none does any more.
+            ServeError: the workers do not start, or none can be restarted.
         """
         with ExitStack() as stack:
             folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="bt-studio-")))
@@ -197,7 +197,7 @@ class Parent:
         self._told = number
 
     def _look(self, now_s: float, passed_s: float) -> None:
-        """One round: notes the dead, ends those that hang, starts what is due."""
+        """Does one round: notes ended children, kills those that hang, starts those that are due."""
         for worker in (self._pool, *self._workers):
             if worker.hangs(passed_s):
                 log.error("the %s hangs and is replaced", worker.name)
@@ -272,7 +272,7 @@ def serve_by_several(listener: socket.socket, count: int, *, on_ready: Callable[
     """Serves with several workers until SIGINT or SIGTERM; ends like a single server.
 
     Raises:
-        ServeError: the workers do not start, or none does any more.
+        ServeError: the workers do not start, or none can be restarted.
     """
     set_up(environment().log_level, environment().log_style)
     proxies.at_start()

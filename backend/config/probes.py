@@ -1,15 +1,15 @@
-"""Answers orchestrators and monitors before any guard: alive, ready, metrics; and writes the access log.
+"""Answers probes of orchestrators and monitors (alive, ready, metrics) before the guard; logs all requests.
 
-* `/health/live`: this process answers, and its request threads made progress within a minute. It is slow to
-  give up, since an orchestrator's restart would complete the work of an attacker.
-* `/health/ready`: it answers and its database does, and a request thread was free within ten seconds.
-* `/metrics`: Prometheus' text, for programs of this machine, or those that show `BT_STUDIO_METRICS_TOKEN`.
+* `/health/live`: this process answers, and its request threads made progress within a minute. The time is
+  long, since under an attack a restart by the orchestrator would do the attacker's work.
+* `/health/ready`: the process and its database answer, and a request thread was free within ten seconds.
+* `/metrics`: Prometheus' text, for programs on this machine, or those that send `BT_STUDIO_METRICS_TOKEN`.
 
-Where several workers answer for one server (`parent.py`), whichever is asked answers for all of them: the
-server is alive and ready while one of them is, and its counters are the sum of theirs.
+If a server has several workers (`parent.py`), each of them answers for all: the server is alive and ready
+while one of them is, and its counters are the sum of theirs.
 
-Probes name the server by its address, by a name that it answers for, or not at all: a page of another site,
-whose name was made to point here, learns nothing.
+The `Host` of a probe must be an address, a known name of the server, or missing. So a page of another site
+whose name was rebound to this server learns nothing.
 """
 
 from __future__ import annotations
@@ -49,9 +49,9 @@ METRICS: Final = "/metrics"
 
 
 NOT_READY_S: Final = 10.0
-"""For how long no request thread has been free."""
+"""Seconds without a free request thread, after which the server is not ready."""
 NOT_LIVE_S: Final = 60.0
-"""For how long no request thread has come to the end of a request."""
+"""Seconds without the end of any request, after which the server is not alive."""
 
 
 def probed(application: ASGI3Application, threads: Threads) -> ASGI3Application:
@@ -161,7 +161,7 @@ def _may_measure(scope: HTTPScope, headers: Mapping[str, str]) -> bool:
 
 
 def trouble() -> str:
-    """Returns why the database cannot be used; empty if it can."""
+    """Returns the reason why the database cannot be used; empty if it can."""
     from django.db import Error, connection  # noqa: PLC0415 - Django must be set up first
 
     try:

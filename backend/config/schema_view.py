@@ -1,4 +1,4 @@
-"""The OpenAPI document."""
+"""The views of the OpenAPI document."""
 
 from __future__ import annotations
 

@@ -31,13 +31,16 @@ log = logging.getLogger(__name__)
 
 GRACE_S: Final = 2
 QUEUE: Final = 2048
-"""Connections that may wait to be accepted."""
+"""The largest number of connections that wait to be accepted."""
 GARBAGE_EVERY_S: Final = 24 * 3600
 LOOK_FOR_GARBAGE_S: Final = 600
 DATABASE_PATIENCE_S: Final = 60.0
 SWITCH_S: Final = 0.0005
-"""After how long a thread that computes lets another one run. A request releases the interpreter's lock at
-each query and has to get it back: with Python's 5 ms, two busy threads cost it some 10 ms a query."""
+"""Seconds after which a computing thread lets another one run.
+
+A request releases the interpreter's lock at each query and must get it back. With Python's default of 5 ms,
+two busy threads delay each query by about 10 ms.
+"""
 MIGRATION_LOCK: Final = 0x62742D73747564
 
 
@@ -49,8 +52,8 @@ class ServeError(Exception):
 def ended_by_interrupt() -> Iterator[None]:
     """Makes Ctrl+C end the process itself, as SIGTERM does, while it starts.
 
-    Python drops a `KeyboardInterrupt` that is raised in the callback of a weak reference, and imports have
-    many of those: the server would continue to serve.
+    Python drops a `KeyboardInterrupt` that is raised in the callback of a weak reference. Imports run many
+    such callbacks, so without this the server could continue.
     """
     before = signal.getsignal(signal.SIGINT)
     if before is signal.default_int_handler:
@@ -106,7 +109,7 @@ def make_data_folder(folder: Path) -> None:
 
 
 def _make_secret_key(path: Path) -> None:
-    """Makes the key if there is none; it appears whole, since another server may read it at once."""
+    """Makes the key if there is none. The file appears atomically, since another server may read it."""
     if path.exists():
         return
     partial = path.with_name(f"{path.name}.{secrets.token_hex(8)}")
@@ -181,7 +184,7 @@ def await_database(url: str, patience_s: float = DATABASE_PATIENCE_S) -> None:
 
 @contextmanager
 def _alone() -> Iterator[None]:
-    """Keeps web servers that start together from migrating one PostgreSQL database at once."""
+    """Prevents web servers that start together from migrating one PostgreSQL database at the same time."""
     from django.db import connection  # noqa: PLC0415
 
     if connection.vendor != "postgresql":
@@ -208,8 +211,8 @@ def run(
         listener: the socket.
         on_ready: called once requests are answered.
         log_level: the least severe line that is printed.
-        accepts_at_once: how many connections the event loop takes before it does something else. A worker
-            that shares the socket takes few, or the first to wake takes all.
+        accepts_at_once: the number of connections that the event loop accepts before it does other work. It
+            is small for workers that share the socket: otherwise the first to wake would take all.
     """
     set_up(log_level, environment().log_style)
     sys.setswitchinterval(SWITCH_S)
@@ -253,7 +256,7 @@ def _make_server(on_ready: Callable[[], None], accepts_at_once: int) -> uvicorn.
 
 
 def warm_up() -> None:
-    """Imports what the first requests need, then cleans up once a day if no other server did."""
+    """Imports the modules of the first requests, then cleans up once a day if no other server did."""
     from django.db import connection  # noqa: PLC0415
 
     import backend.config.urls  # noqa: F401, PLC0415
@@ -276,7 +279,7 @@ def warm_up() -> None:
 
 
 def write_ready_file(path: Path, url: str, port: int) -> None:
-    """Reports the server's address to a program that waits; the file appears whole, for its owner alone."""
+    """Writes the server's address for a program that waits: atomically, and readable only by the owner."""
     partial = path.with_name(path.name + ".partial")
     descriptor = os.open(partial, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
     with os.fdopen(descriptor, "w", encoding="utf-8") as file:

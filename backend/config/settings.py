@@ -14,7 +14,7 @@ ENVIRONMENT = environment()
 
 
 def _secret_key() -> str:
-    """The key of the environment, the one that `serve` keeps in the data folder, or one for this process."""
+    """Returns the key of the environment, or that of the data folder (made by `serve`), or a random one."""
     if given := ENVIRONMENT.secret_key.get_secret_value():
         return given
     try:
@@ -130,7 +130,7 @@ CACHES: dict[str, dict[str, Any]] = {
     if _REDIS
     else {"BACKEND": "django.core.cache.backends.locmem.LocMemCache"}
 }
-# Not `cached_db`: Redis costs a request more than the query that it saves.
+# `cached_db` would be slower: Redis costs a request more than the query that it saves.
 SESSION_ENGINE = "django.contrib.sessions.backends.db"
 SESSION_COOKIE_NAME = ("__Host-" if ENVIRONMENT.is_https else "") + "bt_studio_session"
 SESSION_COOKIE_AGE = 14 * 24 * 3600
@@ -162,7 +162,7 @@ ACCOUNT_ADAPTER = "backend.accounts.sign_in.adapters.AccountAdapter"
 ACCOUNT_LOGIN_METHODS = {"email", "username"}
 ACCOUNT_SIGNUP_FIELDS = ["username*", "email*", "password1*", "password2*"]
 ACCOUNT_UNIQUE_EMAIL = True
-# Without a mail server nobody could follow the link.
+# Without a mail server nobody would receive the link.
 ACCOUNT_EMAIL_VERIFICATION = "mandatory" if ENVIRONMENT.smtp_url.get_secret_value() else "none"
 ACCOUNT_EMAIL_SUBJECT_PREFIX = ""
 ACCOUNT_DEFAULT_HTTP_PROTOCOL = "https" if ENVIRONMENT.is_https else "http"
@@ -199,7 +199,7 @@ MFA_SUPPORTED_TYPES = ["totp", "recovery_codes"]
 # Where no mail is sent, no address is ever verified.
 MFA_ALLOW_UNVERIFIED_EMAIL = not ENVIRONMENT.smtp_url.get_secret_value()
 MFA_TOTP_ISSUER = "BT Studio"
-# A code may change while one types it (RFC 6238, section 5.2: one step for delay and clocks).
+# A code may change while the user types it (RFC 6238, section 5.2: one step for delay and clocks).
 MFA_TOTP_TOLERANCE = 1
 
 REST_FRAMEWORK: dict[str, Any] = {

@@ -24,7 +24,7 @@ class FrontEndFiles(WhiteNoiseMiddleware):  # type: ignore[misc]
         super().__init__(get_response, settings)
 
     def __call__(self, request: HttpRequest) -> HttpResponse:
-        """Looks for files but where there are none."""
+        """Serves a file if there is one; skips paths that never name files."""
         is_api = request.path_info.startswith("/api/")
         answer: HttpResponse = self.get_response(request) if is_api else super().__call__(request)
         return answer

@@ -12,7 +12,7 @@ from pydantic_settings import BaseSettings
 
 MIN_SECRET_KEY = 32
 CONNECTION_S = 600
-"""How long a connection to PostgreSQL is kept; a server process does not give back what it once used."""
+"""Seconds for which a connection to PostgreSQL is kept; its process there returns memory only at its end."""
 DEFAULT_PORTS = {"smtp": 25, "smtp+starttls": 587, "smtps": 465}
 
 

@@ -1,4 +1,4 @@
-"""All URLs of a server with accounts: those of a local one, and the pages with forms."""
+"""All URLs of a server with accounts: those of a local server, and the pages with forms."""
 
 from __future__ import annotations
 

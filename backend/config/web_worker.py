@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 STDIN: Final = 0
 ORPHAN_S: Final = 10.0
-"""How long a worker may take to end whose parent has gone."""
+"""Seconds that a worker may take to end after its parent has ended."""
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -51,7 +51,7 @@ def _ready() -> None:
 
 
 def _end_with_parent(folder: Path) -> None:
-    """The parent never writes; where it ends, whatever way, so does this."""
+    """Ends this worker with its parent: the pipe, which stays empty, closes even if the parent was killed."""
     while os.read(STDIN, 1):
         pass
     shutil.rmtree(folder, ignore_errors=True)  # a killed parent could not do it

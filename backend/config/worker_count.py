@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from backend.config.environment import Environment
 
 CONNECTIONS: Final = 10
-"""To the database, that one worker may hold: of threads for requests and launches, and for sockets."""
+"""Connections to the database that one worker may hold: for request and launch threads, and for sockets."""
 SPARE: Final = 10
 """Connections for the parent, a backup, the command line and a console."""
 
@@ -20,7 +20,7 @@ def judge_workers(settings: Environment) -> None:
     """Refuses several workers where only one is possible.
 
     Raises:
-        ServeError: why, and what to do.
+        ServeError: several workers are not possible; the text says why, and what to do.
     """
     if settings.workers <= 1 or settings.may_be_several:
         return
@@ -45,7 +45,7 @@ def workers_of(settings: Environment) -> int:
     """Returns the number of workers: the configured one, or what the machine and the database have room for.
 
     Raises:
-        ServeError: the database does not admit as many connections as are needed.
+        ServeError: the database does not allow as many connections as needed.
     """
     if not settings.may_be_several or settings.workers == 1:
         return 1
@@ -60,7 +60,7 @@ def workers_of(settings: Environment) -> int:
 
 
 def admitted_connections(url: str) -> int:
-    """Returns the number of connections that the database admits."""
+    """Returns the number of connections that the database allows."""
     import psycopg  # noqa: PLC0415 - localhost does without
 
     with psycopg.connect(url, connect_timeout=5) as connection:

@@ -1,4 +1,4 @@
-"""The one place that says from which address a request comes, and whether a proxy is in between."""
+"""Decides from which address a request comes, and whether a proxy forwarded it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 FORWARDED: Final = ("x-forwarded-for", "forwarded", "x-real-ip", "x-forwarded-proto")
-"""Headers that proxies add; anybody may send them."""
+"""Headers that proxies add. Any client can send them, too, so they are no proof of a proxy."""
 _UNBELIEVED: Final = (
     "Requests come through a reverse proxy (they have the header %s), but BT_STUDIO_PROXY_HOPS is 0: all "
     "users seem to come from one address, the proxy's. Set it to the number of proxies in front."
@@ -26,11 +26,11 @@ _EXPECTED: Final = (
 
 
 def address_of(connection: str | None, headers: Mapping[str, str]) -> str | None:
-    """The client's address: what the outermost proxy that we believe wrote down, or the connection's.
+    """Returns the client's address: the one that the outermost trusted proxy added, or the connection's.
 
     Args:
         connection: the address at the other end of the connection.
-        headers: those of the request, by their names in lower case.
+        headers: the headers of the request, by their names in lower case.
     """
     hops = environment().proxy_hops
     forwarded = [part.strip() for part in headers.get("x-forwarded-for", "").split(",")]
@@ -42,7 +42,7 @@ def address_of(connection: str | None, headers: Mapping[str, str]) -> str | None
 
 
 def network_of(address: str | None) -> str:
-    """Returns what counts as one address: for IPv6 the /64, since a machine can use all addresses in it."""
+    """Returns the network that counts as one address: for IPv6 the /64, all of which one machine can use."""
     if not address:
         return "?"
     found = ip_address(address)
@@ -52,12 +52,12 @@ def network_of(address: str | None) -> str:
 
 
 def stranger(address: str | None) -> str:
-    """Names the owner of what clients use that are not known yet: all of one address together."""
+    """Returns the owner of the resources that unidentified clients use: one owner per address."""
     return f"address {network_of(address)}"
 
 
 def is_on_this_machine(connection: str | None, headers: Mapping[str, str]) -> bool:
-    """Whether a program of this machine asks for itself, and no proxy here for somebody else."""
+    """Whether a program on this machine sent the request for itself, not a local proxy for somebody else."""
     if any(name in headers for name in FORWARDED):
         return False
     try:
@@ -67,19 +67,19 @@ def is_on_this_machine(connection: str | None, headers: Mapping[str, str]) -> bo
 
 
 class _Proxies:
-    """Logs once that there is a proxy that the settings do not name."""
+    """Warns once about a proxy that the settings do not name."""
 
     def __init__(self) -> None:
         self.is_said = False
 
     def at_start(self) -> None:
-        """Warns at the start where https is set and no proxy is."""
+        """Warns at the start if the public address uses https but no proxy is configured."""
         settings = environment()
         if settings.is_team and settings.is_https and not settings.proxy_hops:
             log.warning(_EXPECTED)
 
     def see(self, headers: Mapping[str, str]) -> None:
-        """Warns at the first request with a header of a proxy."""
+        """Warns at the first request that has a header of a proxy."""
         if self.is_said or environment().proxy_hops or not environment().is_team:
             return
         name = next((name for name in FORWARDED if name in headers), None)

@@ -1,7 +1,7 @@
-"""Books what a connection costs the event loop: who uses more than their share is read later.
+"""Books the event-loop time of each connection. Reading pauses for owners who exceed their share.
 
-Heads, frames and connections that are refused cost no request thread, but each takes the event loop, for
-which everybody waits.
+Heads, frames and refused connections need no request thread, but they take time of the event loop, for which
+all connections wait.
 """
 
 from __future__ import annotations
@@ -19,20 +19,20 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 COSTS: Final = "bt_studio.connection_costs"
-"""The `ConnectionCosts` in the scope of a request or a socket."""
+"""The key of the `ConnectionCosts` in the scope of a request or a socket."""
 MOST_UNFINISHED: Final = 128 << 20
-"""Bytes of messages that are not whole yet, of all sockets of one owner: twice the largest message."""
+"""Bytes of incomplete messages on all sockets of one owner: twice the largest message."""
 _unfinished: Final[Counter[str]] = Counter()
 
 
 class ConnectionCosts:
-    """The costs of one connection, and who pays them.
+    """The costs of one connection, and the owner who pays them.
 
     Args:
-        address: the other end's.
+        address: the address of the other end.
 
     Attributes:
-        owner: who pays. It is the address until more is known; where that is a proxy's, nobody.
+        owner: the owner who pays: the address until the user is known; nobody if it is a proxy's address.
     """
 
     def __init__(self, address: str | None) -> None:
@@ -43,7 +43,7 @@ class ConnectionCosts:
 
     @contextmanager
     def booked(self) -> Iterator[None]:
-        """Books the processor time of a block. The clock is the thread's: waiting costs nothing."""
+        """Books the processor time of a block. The clock is that of the thread, so waiting costs nothing."""
         began_s = time.thread_time()
         try:
             yield
@@ -56,11 +56,11 @@ class ConnectionCosts:
             budgets.spend(self.owner, used_s)
 
     def rest_s(self) -> float:
-        """For how many seconds nothing more may be read from this connection."""
+        """Returns the number of seconds for which this connection must not be read."""
         return budgets.rest_s(self.owner) if self._is_on and self.owner is not None else 0.0
 
     def hold(self, size: int) -> bool:
-        """Counts bytes of a message that is not whole yet; False if its owner has too many of them."""
+        """Counts bytes of an incomplete message; returns False if its owner holds too many of them."""
         if not self._is_on or self.owner is None:
             return True
         self._held += size
@@ -68,7 +68,7 @@ class ConnectionCosts:
         return _unfinished[self.owner] <= MOST_UNFINISHED
 
     def release(self) -> None:
-        """The message is whole, or will never be."""
+        """Releases the counted bytes: the message is complete, or will never be."""
         if self.owner is None or not self._held:
             return
         _unfinished[self.owner] -= self._held
@@ -77,13 +77,13 @@ class ConnectionCosts:
             del _unfinished[self.owner]
 
     def belong_to(self, owner: str) -> None:
-        """Books for this owner from now on."""
+        """Sets the owner for whom later costs are booked."""
         self.release()
         self.owner = owner
 
 
 def known(scope: Any, owner: str) -> None:
-    """Books the connection of a request or a socket for its owner from now on."""
+    """Sets the owner for whom later costs of this request's or socket's connection are booked."""
     costs = scope.get(COSTS)
     if costs is not None:
         costs.belong_to(owner)

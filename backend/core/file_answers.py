@@ -1,4 +1,4 @@
-"""Answers that lie in a file, and are sent from there part by part: never all of them in memory."""
+"""Responses whose body is a file, which is sent in parts and never held in memory as a whole."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ PART: Final = 1024 * 1024
 
 
 class FileAnswer(StreamingHttpResponse):
-    """A file from its beginning to its end.
+    """A response that sends a whole file.
 
-    The handler takes the file, sends it and closes it; handlers that know nothing of it read the response as
-    a stream. A response that is closed before that closes its file.
+    Our handler takes the file, sends it and closes it. Other handlers, such as the test client, read the
+    response as a stream. If nobody took the file, closing the response closes it.
     """
 
     def __init__(self, file: IO[bytes], **options: Any) -> None:
@@ -27,13 +27,13 @@ class FileAnswer(StreamingHttpResponse):
         self.headers["Content-Length"] = str(size)
 
     def take(self) -> IO[bytes]:
-        """The file, which is now the caller's to close."""
+        """Returns the file, which the caller must close."""
         assert self._file is not None  # noqa: S101 - it is taken once
         file, self._file = self._file, None
         return file
 
     def close(self) -> None:
-        """Ends the response, and the file if nobody took it."""
+        """Closes the response, and the file if nobody took it."""
         super().close()
         if self._file is not None:
             self._file.close()

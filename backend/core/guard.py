@@ -1,15 +1,15 @@
-"""Decides without any I/O which requests and sockets the server accepts.
+"""Decides which requests and sockets the server accepts; does no I/O.
 
-Three rules on localhost, the first two on a server with accounts, the same for pages, the API and sockets:
+Three rules apply on localhost, the first two on a server with accounts. They are the same for pages, the API
+and sockets:
 
-* the `Host` is one of ours, so that a rebound DNS name of a foreign page gets nothing (421);
-* an `Origin`, when the browser sends one, is that host itself, by http or https as users open it (403).
-  Sockets must send one, for a browser lets every page open them; a program that shows the token instead
-  needs none;
-* the request carries the cookie that the link with the token was exchanged for, or the token (403).
+* The `Host` is a name of this server, so that a foreign page cannot reach it by DNS rebinding (421).
+* An `Origin`, if there is one, is that same host, by http or https as users open it (403). Sockets must have
+  one, because browsers let every page open them; programs that send the token need none.
+* The request has the token, or the cookie that the browser got in exchange for the token (403).
 
-The token is new at each start. The cookie's value is derived from it, so that reading one does
-not give the other, and its name carries the port, since browsers share cookies among ports.
+The token is new at each start. The cookie's value is derived from it, so that a stolen cookie does not reveal
+the token. The cookie's name contains the port, since browsers share cookies among ports.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ LINK_HINT: Final = (
 
 @dataclass(frozen=True, slots=True)
 class Facts:
-    """The facts that the guard needs of a request or of the opening of a socket."""
+    """The facts of a request, or of the opening of a socket, by which the guard decides."""
 
     method: str
     host: str
@@ -49,7 +49,7 @@ class Facts:
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """Why a request goes no further."""
+    """The reason why a request is refused."""
 
     status: int
     code: str
@@ -59,38 +59,38 @@ class Refusal:
 
 @dataclass(frozen=True, slots=True)
 class Keys:
-    """The token of this start, and what is derived from it."""
+    """The token of this start, and the cookie that is derived from it."""
 
     token: str
 
     @property
     def cookie_value(self) -> str:
-        """The value that a browser's cookie must have."""
+        """Returns the value that a browser's cookie must have."""
         return hmac.new(self.token.encode(), b"bt-studio cookie", hashlib.sha256).hexdigest()
 
     def is_token(self, candidate: str | None) -> bool:
-        """Compares in constant time."""
+        """Whether this is the token. Takes constant time, so that timing reveals nothing."""
         return candidate is not None and hmac.compare_digest(candidate.encode(), self.token.encode())
 
     def is_cookie(self, candidate: str | None) -> bool:
-        """Compares in constant time."""
+        """Whether this is the cookie's value. Takes constant time, as above."""
         return candidate is not None and hmac.compare_digest(candidate.encode(), self.cookie_value.encode())
 
 
 @lru_cache(maxsize=1)
 def keys() -> Keys:
-    """The keys of this process; the token comes from the environment or from chance."""
+    """Returns the keys of this process. The token comes from the environment, or is random."""
     return Keys(environment().token.get_secret_value() or secrets.token_urlsafe(24))
 
 
 def host_name(host: str) -> str:
-    """The name in a `Host` header, without the port, in lower case."""
+    """Returns the name in a `Host` header, without the port, in lower case."""
     name, _, port = host.rpartition(":")
     return (name if name and port.isdigit() else host).lower()
 
 
 def cookie_name(host: str) -> str:
-    """The cookie of the server that this `Host` header names."""
+    """Returns the name of the cookie for the server that this `Host` header names."""
     _, _, port = host.rpartition(":")
     return f"{COOKIE_PREFIX}_{port}" if port.isdigit() else COOKIE_PREFIX
 
@@ -100,7 +100,7 @@ def judge(
 ) -> Refusal | None:
     """Returns why the request is refused, or None when it may pass.
 
-    With `accounts` there is no link to know; the session identifies the user later.
+    With `accounts` there is no token to check; the session identifies the user later.
     """
     if refusal := judge_host(facts.host, extra_hosts):
         return refusal
@@ -120,7 +120,7 @@ def judge(
 
 
 def judge_host(host: str, extra_hosts: tuple[str, ...]) -> Refusal | None:
-    """Returns why a host is refused, or None for a name of this server."""
+    """Returns why a host is refused, or None if it is a name of this server."""
     if host_name(host) in LOOPBACK_HOSTS or host_name(host) in extra_hosts:
         return None
     return Refusal(
@@ -137,7 +137,8 @@ def _judge_origin(facts: Facts) -> Refusal | None:
         is_harmless = facts.method in SAFE_METHODS and not facts.socket
         allowed = is_harmless or not foreign
     else:
-        # A GET with a foreign Origin is a cross-origin read: no header of ours lets a page see it.
+        # A GET with a foreign Origin is a cross-origin read. No header of ours allows a page to see the
+        # answer.
         own = {f"{scheme}://{facts.host.lower()}" for scheme in facts.schemes}
         allowed = facts.origin.lower() in own
     if allowed:
@@ -151,7 +152,7 @@ def _judge_origin(facts: Facts) -> Refusal | None:
 
 
 def known_hosts() -> tuple[str, ...]:
-    """The host names of this server in addition to those of loopback."""
+    """Returns the host names of this server in addition to those of the loopback interface."""
     settings = environment()
     public = (host_name(settings.public_host),) if settings.public_url else ()
     return public + tuple(host.lower() for host in settings.allowed_hosts)
@@ -160,18 +161,18 @@ def known_hosts() -> tuple[str, ...]:
 def schemes_of(host: str, connection: str) -> tuple[str, ...]:
     """Returns the schemes by which pages of this host may be opened; `connection` is that of this request.
 
-    A page that came by plain http, which anybody on its way may have written, is not of a server that
-    its users open by https.
+    If users open the server by https, a page that was loaded by plain http is not accepted as ours: anybody
+    on the network may have changed it.
     """
     settings = environment()
     if settings.public_url and host.lower() == settings.public_host:
         return (urlsplit(settings.public_url).scheme,)
     if host_name(host) in LOOPBACK_HOSTS:
         return (connection,)
-    # Of a further name the settings say no more; a tunnel in front of it may do TLS.
+    # The settings do not say how an additional name is opened: a tunnel in front of it may add TLS.
     return ("https",) if settings.is_https else ("http", "https")
 
 
 def check(facts: Facts) -> Refusal | None:
-    """Judges with the settings of this server."""
+    """Calls `judge` with the settings of this server."""
     return judge(facts, keys(), extra_hosts=known_hosts(), accounts=environment().is_team)

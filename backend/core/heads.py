@@ -1,7 +1,7 @@
-"""Bounds what a connection may cost before its request is known: the time and the size of a request's head.
+"""Limits the time and the size of a request's head: the cost of a connection before its request is known.
 
-uvicorn waits without end for a head that comes byte by byte, and keeps all of it in memory. Connections of an
-owner who used more than their share of the event loop are not read for a while.
+uvicorn waits without limit for a head that arrives byte by byte, and keeps all of it in memory. Reading
+pauses on connections of an owner who exceeded their share of the event loop.
 """
 
 from __future__ import annotations
@@ -19,17 +19,18 @@ if TYPE_CHECKING:
     import asyncio
 
 CONNECTION_S: Final = 0.0005
-"""Of the event loop's time, for a connection that opens and closes: so much was measured."""
+"""Event-loop time in seconds to open and close a connection, as measured."""
 HEAD_S: Final = 15.0
-"""From the beginning of a connection, or of its next request, to the end of the head."""
+"""Seconds from the start of a connection, or of its next request, to the end of the head."""
 HEAD_BYTES: Final = 64 * 1024
 READ_HEAD_BYTES: Final = 8 * 1024
-"""Read at a time of a head, each line of which is a call: thousands fit into the 256 KiB of asyncio."""
+"""Bytes that are read at a time until the head is complete. Each header line costs one Python call, and
+thousands of them fit into the 256 KiB that asyncio reads by default."""
 READ_BODY_BYTES: Final = 256 * 1024
 
 
 class PatientProtocol(HttpToolsProtocol):
-    """uvicorn's protocol, whose patience has an end."""
+    """uvicorn's protocol with a limit of time and size for each head."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -40,7 +41,7 @@ class PatientProtocol(HttpToolsProtocol):
         self._rest: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Begins to wait for the first head."""
+        """Starts the timeout of the first head."""
         super().connection_made(transport)
         self._costs = ConnectionCosts(self.client[0] if self.client else None)
         read_at_most(transport, READ_HEAD_BYTES)
@@ -49,20 +50,20 @@ class PatientProtocol(HttpToolsProtocol):
         self._rest_if_due()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Waits no longer."""
+        """Stops the timeout."""
         self._stop_waiting()
         if self._rest is not None:
             self._rest.cancel()
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
-        """Books what the bytes cost."""
+        """Processes received bytes and books their processor time."""
         with self._costs.booked():
             self._received(data)
         self._rest_if_due()
 
     def _rest_if_due(self) -> None:
-        """Reads nothing more for a while, if the owner has used more than their share."""
+        """Pauses reading if the owner has exceeded their share."""
         if self._is_ours() and (rest_s := self._costs.rest_s()):
             self.transport.pause_reading()
             if self._rest is not None:
@@ -78,7 +79,7 @@ class PatientProtocol(HttpToolsProtocol):
         return not self.transport.is_closing() and self.transport.get_protocol() is self
 
     def _received(self, data: bytes) -> None:
-        """Counts what comes outside of bodies; between two requests that may be empty lines without end."""
+        """Counts bytes outside of bodies. Between requests a client could send empty lines without end."""
         before = self._in_head or self._is_idle()
         super().data_received(data)
         if not self._is_ours():
@@ -94,12 +95,12 @@ class PatientProtocol(HttpToolsProtocol):
             self._wait_for_head()
 
     def on_message_begin(self) -> None:
-        """A head begins."""
+        """Notes that a head begins."""
         super().on_message_begin()
         self._in_head = True
 
     def on_headers_complete(self) -> None:
-        """It is whole."""
+        """Stops the timeout and reads larger parts: the head is complete."""
         self._in_head, self._head_bytes = False, 0
         self._stop_waiting()
         read_at_most(self.transport, READ_BODY_BYTES)
@@ -107,7 +108,7 @@ class PatientProtocol(HttpToolsProtocol):
         self.scope[COSTS] = self._costs  # type: ignore[typeddict-unknown-key]
 
     def on_message_complete(self) -> None:
-        """The next thing that comes is a head."""
+        """Reads small parts again: the next bytes are a head."""
         read_at_most(self.transport, READ_HEAD_BYTES)
         super().on_message_complete()
 

@@ -1,6 +1,6 @@
-"""Locks by name that last until the end of a transaction, among all web servers of one database.
+"""Named locks among all web servers of one database. They last until the end of the transaction.
 
-On SQLite a transaction that writes is alone from its beginning (`IMMEDIATE`), so that nothing is to be done.
+On SQLite these functions do nothing: a writing transaction is exclusive from its beginning (`IMMEDIATE`).
 """
 
 from __future__ import annotations
@@ -20,5 +20,5 @@ def transaction_lock(name: str, *, shared: bool = False) -> None:
 
 
 def lock_number(name: str) -> int:
-    """The number under which PostgreSQL knows the lock."""
+    """Returns the key of the lock for PostgreSQL's advisory locks, which are numbered."""
     return int.from_bytes(hashlib.sha256(name.encode()).digest()[:8], signed=True)

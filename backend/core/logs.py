@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 MOST_ALIKE: Final = 20
-"""Lines of one kind in a period; what a client can cause without end must not fill a disk."""
+"""Warnings of one kind in a period that are written: no client must be able to fill the disk with them."""
 PERIOD_S: Final = 60.0
 NOISY: Final = ("websockets", "uvicorn.error", "asyncio")
 
@@ -23,7 +23,7 @@ class JsonFormatter(logging.Formatter):
     """`{time, level, logger, message, …}`; `facts` of a record become fields of the line."""
 
     def format(self, record: logging.LogRecord) -> str:
-        """One line, whatever the text holds."""
+        """Returns one line, even if the text contains line breaks."""
         line = {
             "time": datetime.fromtimestamp(record.created, UTC).isoformat(timespec="milliseconds"),
             "level": record.levelname.lower(),
@@ -37,21 +37,22 @@ class JsonFormatter(logging.Formatter):
 
 
 class TextFormatter(logging.Formatter):
-    """For people."""
+    """Formats lines for people, such as in a terminal."""
 
     def __init__(self) -> None:
         super().__init__("%(asctime)s %(levelname)s %(name)s: %(message)s")
 
     def format(self, record: logging.LogRecord) -> str:
-        """The line, with the facts of the record behind it."""
+        """Returns the line, followed by the facts of the record."""
         facts = getattr(record, "facts", {})
         return super().format(record) + "".join(f" {name}={value}" for name, value in facts.items())
 
 
 class Flood(logging.Filter):
-    """Drops warnings of a kind that came too often, and says how many with the first of the next period.
+    """Drops warnings of a kind that come too often.
 
-    A kind is a text before its arguments are put in. Errors are never dropped.
+    The first one of the next period says how many were dropped. The kind of a warning is its format string.
+    Errors are never dropped.
 
     Args:
         clock: monotonic time in seconds.
@@ -65,7 +66,7 @@ class Flood(logging.Filter):
         self._dropped: dict[tuple[str, str], int] = {}
 
     def filter(self, record: logging.LogRecord) -> bool:
-        """Whether the line is written."""
+        """Returns whether the line is written."""
         if record.levelno > logging.WARNING:
             return True
         now_s = self._clock()
@@ -83,12 +84,12 @@ class Flood(logging.Filter):
 
 
 def set_up(level: str, style: Literal["text", "json"]) -> None:
-    """Sends the log lines of this process to its standard error."""
+    """Configures logging: the lines of this process go to its standard error."""
     handler = logging.StreamHandler(sys.stderr)
     handler.setFormatter(JsonFormatter() if style == "json" else TextFormatter())
     handler.addFilter(Flood())
     logging.basicConfig(level=level.upper(), handlers=[handler])
     for name in NOISY:
         logging.getLogger(name).setLevel(logging.WARNING)
-    # Refusals are answers, not news.
+    # Django warns about each 4xx answer. These are normal here, and the access log has them.
     logging.getLogger("django.request").setLevel(logging.ERROR)

@@ -1,4 +1,4 @@
-"""Sends notices over the channel layer from whatever thread; nobody waits for them to arrive."""
+"""Sends notices over the channel layer from any thread, without waiting for their delivery."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ log = logging.getLogger(__name__)
 
 
 class _Teller:
-    """Knows the event loop of the server, in which its sockets wait for notices."""
+    """Sends notices in the event loop of the server, where the sockets wait for them."""
 
     def __init__(self) -> None:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._sending: set[asyncio.Task[None]] = set()
 
     def serve(self, loop: asyncio.AbstractEventLoop | None) -> None:
-        """From now on notices are sent from this loop; without one, by the thread that tells them."""
+        """Sets the loop that sends notices; without a loop, the calling thread sends them."""
         self._loop = loop
 
     def tell(self, group: str, notice: Mapping[str, Any]) -> None:
-        """Sends a notice to all in a group."""
+        """Sends a notice to all members of a group."""
         if self._loop is None:
             async_to_sync(get_channel_layer().group_send)(group, notice)
         else:
@@ -35,14 +35,14 @@ class _Teller:
 
     def _begin(self, group: str, notice: Mapping[str, Any]) -> None:
         task = asyncio.get_running_loop().create_task(self._send(group, notice))
-        self._sending.add(task)  # a loop holds its tasks weakly
+        self._sending.add(task)  # the loop has only weak references to its tasks
         task.add_done_callback(self._sending.discard)
 
     async def _send(self, group: str, notice: Mapping[str, Any]) -> None:
         try:
             await get_channel_layer().group_send(group, notice)
         except Exception:
-            # A lost notice does no harm: what it tells of is stored.
+            # A lost notice does no harm: the change that it announces is stored.
             log.exception("a notice was not sent")
 
 

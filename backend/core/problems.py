@@ -1,12 +1,12 @@
 """Errors as RFC 9457 problem documents.
 
-    StudioError                 status, code, title, hint; subclasses per app in its `errors.py`
+    StudioError                 status, code, title, hint; each app has subclasses in its `errors.py`
     ├─ InvalidInputError        422, names the field
     ├─ NotFoundError            404
-    └─ (projects, sessions: see there)
+    └─ (see `errors.py` of projects and sessions)
 
-Views raise; `exception_handler` turns these, DRF's own errors and those of a database that is out of
-reach or out of room into answers, and nothing else.
+Views raise them. `exception_handler` turns them into answers, as well as DRF's own errors and those of a
+database that cannot be reached or is full. Every other error becomes a 500.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from rest_framework.response import Response
 log = logging.getLogger(__name__)
 
 DISK_FULL = frozenset({"SQLITE_FULL", "SQLITE_IOERR_WRITE", "53100"})
-"""How the databases say that there is no room to write."""
+"""The error codes of SQLite and PostgreSQL for a full disk."""
 RETRY_S = 5
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:bt-studio:problem:"
@@ -39,14 +39,14 @@ class StudioError(Exception):
         detail: one sentence that says what happened.
         hint: what to do now.
         field: the part of the request that is wrong, as a dotted path.
-        extra: further members of the problem document.
+        extra: additional members of the problem document.
     """
 
     status: ClassVar[int] = 400
     code: ClassVar[str] = "bad_request"
     title: ClassVar[str] = "The request cannot be carried out"
     retry_after_s: ClassVar[int] = 0
-    """When to ask again; 0 where that does not help."""
+    """Seconds after which the client may try again; 0 if that does not help."""
 
     def __init__(self, detail: str, *, hint: str = "", field: str = "", **extra: Any) -> None:
         super().__init__(detail)
@@ -56,7 +56,7 @@ class StudioError(Exception):
         self.extra = extra
 
     def document(self) -> dict[str, Any]:
-        """The problem document."""
+        """Returns the problem document."""
         return problem(
             self.status,
             self.code,
@@ -69,7 +69,7 @@ class StudioError(Exception):
 
 
 class InvalidInputError(StudioError):
-    """A value in the request cannot be used."""
+    """A value in the request is invalid."""
 
     status = 422
     code = "invalid_input"
@@ -77,7 +77,7 @@ class InvalidInputError(StudioError):
 
 
 class NotFoundError(StudioError):
-    """There is no such thing, or not for this user."""
+    """The resource does not exist, or this user may not know that it does."""
 
     status = 404
     code = "not_found"
@@ -100,12 +100,12 @@ def problem(
 
 
 def problem_response(document: dict[str, Any], headers: dict[str, str] | None = None) -> JsonResponse:
-    """A problem document as Django's response, for what happens outside DRF."""
+    """Returns a problem document as Django's response, for errors outside of DRF."""
     return JsonResponse(document, status=document["status"], content_type=MEDIA_TYPE, headers=headers)
 
 
 def exception_handler(error: Exception, context: dict[str, Any]) -> Response | None:
-    """DRF's hook: every known error becomes a problem document, the others become a logged 500."""
+    """Converts an error of a view (DRF's hook): known ones to a problem document, others to a logged 500."""
     headers: dict[str, str] = {}
     if isinstance(error, StudioError):
         document = error.document()
@@ -139,7 +139,7 @@ def exception_handler(error: Exception, context: dict[str, Any]) -> Response | N
 
 
 def disk_full() -> dict[str, Any]:
-    """There is no room to write."""
+    """Returns the problem document for a full disk."""
     return problem(
         507,
         "disk_full",
@@ -149,7 +149,10 @@ def disk_full() -> dict[str, Any]:
 
 
 def database_problem(error: OperationalError) -> dict[str, Any]:
-    """No transaction was committed: the client may try again as soon as the database can write."""
+    """Returns the problem document for an error of the database.
+
+    The transaction was not committed, so the client may try again as soon as the database can write.
+    """
     cause = error.__cause__
     code = getattr(cause, "sqlite_errorname", None) or getattr(cause, "sqlstate", None)
     if code in DISK_FULL:
@@ -163,7 +166,7 @@ def database_problem(error: OperationalError) -> dict[str, Any]:
 
 
 def _first_message(detail: Any, path: str = "") -> tuple[str, str]:
-    """The first leaf of DRF's nested error structure, with its dotted path."""
+    """Returns the first leaf of DRF's nested error structure, with its dotted path."""
     if isinstance(detail, dict):
         key, value = next(iter(detail.items()))
         own = "" if key == "non_field_errors" else str(key)
@@ -179,12 +182,12 @@ def _first_message(detail: Any, path: str = "") -> tuple[str, str]:
 
 
 def not_found(request: HttpRequest, exception: Exception | None = None) -> JsonResponse:
-    """Django's 404."""
+    """Answers 404 for addresses that no view serves, as Django's `handler404`."""
     return problem_response(problem(404, "not_found", detail="There is nothing at this address."))
 
 
 def server_error(request: HttpRequest) -> JsonResponse:
-    """Django's 500; the traceback is in the log only."""
+    """Answers 500, as Django's `handler500`; the traceback is in the log only."""
     return problem_response(
         problem(
             500,

@@ -1,4 +1,4 @@
-"""Reads of an ASGI scope of a request or a socket, before Django sees it."""
+"""Functions that read the ASGI scope of a request or a socket, before Django sees it."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 
 
 def headers_of(scope: HTTPScope | WebSocketScope) -> dict[str, str]:
-    """The headers by their names in lower case."""
+    """Returns the headers by their names in lower case."""
     return {name.decode("latin-1").lower(): value.decode("latin-1") for name, value in scope["headers"]}
 
 
 def cookies_of(header: str) -> dict[str, str]:
-    """Reads a `Cookie` header; a broken one holds no cookies."""
+    """Returns the cookies of a `Cookie` header; none if it is malformed."""
     try:
         return {name: morsel.value for name, morsel in SimpleCookie(header).items()}
     except CookieError:
@@ -28,7 +28,7 @@ def cookies_of(header: str) -> dict[str, str]:
 
 
 def scheme_of(scope: HTTPScope | WebSocketScope, headers: Mapping[str, str]) -> str:
-    """`http` or `https`: as the proxy that we believe says, else as the connection is."""
+    """Returns `http` or `https`: what a trusted proxy reports, otherwise that of the connection."""
     told = headers.get("x-forwarded-proto", "") if environment().proxy_hops else ""
     scheme = told or scope.get("scheme", "http")
     return "https" if scheme in {"https", "wss"} else "http"

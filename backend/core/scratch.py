@@ -1,7 +1,7 @@
-"""Files that are there while a request is: together bounded, and never the last room of the disk.
+"""Temporary files of requests. Their total size is limited, and they never fill the disk.
 
-None of them has a name, so that nothing is left of one whatever happens. The workers of one server share the
-bound equally, and the keys.
+They have no names, so that none remains after a crash. Each worker of a server gets an equal part of the
+limit; keys apply to all workers.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 class NoRoomError(StudioError):
-    """All users' large bodies, uploads and downloads together take what they may."""
+    """The temporary files of all users together have reached the limit."""
 
     status = 503
     code = "busy"
@@ -40,7 +40,7 @@ class NoRoomError(StudioError):
 
 
 class AlreadyThereError(StudioError):
-    """Of some files one user has one at a time."""
+    """The user already has a file of this key, of which each user may have one at a time."""
 
     status = 429
     code = "throttled"
@@ -58,21 +58,22 @@ class Scratch:
 
     @property
     def used(self) -> int:
-        """Returns the number of bytes that are taken."""
+        """Returns the number of bytes in use."""
         with self._lock:
             return self._used
 
     def file(self, *, expected: int = 0, key: str = "") -> ScratchFile:
-        """A new file.
+        """Makes a new file.
 
         Args:
-            expected: how many bytes it will have, as far as that is known. They are not taken yet: a slow
-                sender would keep others out.
-            key: there is only one file of a key at a time.
+            expected: its size in bytes, as far as known. They are not reserved, or a slow sender would keep
+                others out.
+            key: an optional key; only one file of a key exists at a time.
 
         Raises:
-            NoRoomError, AlreadyThereError: not now.
-            OSError: the disk is full, or as good as full (ENOSPC).
+            NoRoomError: the limit is reached.
+            AlreadyThereError: there is a file of this key.
+            OSError: the disk is full, or almost full (ENOSPC).
         """
         self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
         with self._lock:
@@ -89,13 +90,13 @@ class Scratch:
                 raise
 
     def take(self, size: int) -> None:
-        """Counts bytes before they are written."""
+        """Adds bytes to the count, before they are written."""
         with self._lock:
             self._require(size)
             self._used += size
 
     def give_back(self, size: int, place: Place | None) -> None:
-        """Counts them no longer."""
+        """Subtracts bytes from the count, and frees the place of the key."""
         with self._lock:
             self._used -= size
             if place is not None:
@@ -112,7 +113,7 @@ class Scratch:
 
 
 class ScratchFile(io.FileIO):
-    """A file that counts what it takes."""
+    """A temporary file that counts its bytes against the limit."""
 
     def __init__(self, scratch: Scratch, place: Place | None) -> None:
         self._taken, self._place, self._scratch = 0, place, scratch
@@ -121,16 +122,16 @@ class ScratchFile(io.FileIO):
         super().__init__(descriptor, "r+")
 
     def write(self, data: ReadableBuffer) -> int:
-        """Writes at the end, or over what is there."""
+        """Writes at the current position; only bytes beyond the end count."""
         end = self.tell() + memoryview(data).nbytes
-        # Where nothing is left to count, the disk is still looked at: others fill it, too.
+        # The free disk space is checked even if no byte is added: other programs fill the disk, too.
         more = max(0, end - self._taken)
         self._scratch.take(more)
         self._taken += more
         return super().write(data)
 
     def close(self) -> None:
-        """Ends the file, which has no name, and gives back its room."""
+        """Closes the file, which deletes it, and subtracts its bytes from the count."""
         if not self.closed:
             super().close()
             self._scratch.give_back(self._taken, self._place)
@@ -138,36 +139,36 @@ class ScratchFile(io.FileIO):
 
 @lru_cache(maxsize=1)
 def scratch() -> Scratch:
-    """The temporary files of this process."""
+    """Returns the temporary files of this process."""
     settings = environment()
     most = settings.max_temporary_bytes // (siblings.family.size if siblings.family else 1)
     return Scratch(settings.data_dir / "uploads", most, settings.min_free_bytes)
 
 
 class ScratchUploads(FileUploadHandler):
-    """Django's hook: files of forms are temporary files like any other."""
+    """Writes the files of forms to temporary files, as Django's upload handler."""
 
     def new_file(self, *args: Any, **kwargs: Any) -> None:
-        """A file of a form begins."""
+        """Opens a temporary file for the next upload of a form."""
         super().new_file(*args, **kwargs)
         self.file = scratch().file()
 
     def receive_data_chunk(self, raw_data: bytes, start: int) -> None:
-        """More of it."""
+        """Writes the next part."""
         view = memoryview(raw_data)
         try:
             while view:
                 view = view[self.file.write(view) :]
         except BaseException:
-            self.file.close()  # Django closes only what has come to its end
+            self.file.close()  # Django closes only complete files
             raise
 
     def file_complete(self, file_size: int) -> UploadedFile[Any]:
-        """All of it."""
+        """Returns the complete file."""
         self.file.seek(0)
         return UploadedFile(self.file, self.file_name, self.content_type, file_size, self.charset)
 
     def upload_interrupted(self) -> None:
-        """There is no more of it."""
+        """Closes the incomplete file: the client is gone."""
         if hasattr(self, "file"):
             self.file.close()

@@ -16,30 +16,31 @@ if TYPE_CHECKING:
     from websockets.http11 import Request
 
 READ_BYTES: Final = 4 << 10
+"""Bytes that are read at a time from an accepted client."""
 READ_LITTLE_BYTES: Final = 1 << 10
-"""The same of a client who is not accepted yet, or who has nothing to say."""
+"""The same for a client who is not accepted yet, or who may not send."""
 LARGEST_MESSAGE: Final = 64 << 20
 SMALL_BYTES: Final = 4 << 10
-"""The largest message from a client who is not accepted yet, or who has nothing to say."""
+"""The largest message, in bytes, from a client who is not accepted yet, or who may not send."""
 MOST_BYTES: Final = "bt_studio.most_bytes"
-"""What the largest message may be, where the message that accepts a socket says it."""
+"""The key of the largest message in bytes, in the ASGI message that accepts a socket."""
 IDLE_FRAMES: Final = 100
-"""Frames a second that may come and say nothing: pings, pongs, and tiny parts of a message."""
+"""Frames a second without content that a client may send: pings, pongs, and tiny parts of a message."""
 TINY: Final = 256
 POLICY_VIOLATION: Final = 1008
 TOO_BIG: Final = 1009
 
 
 def read_at_most(transport: Any, size: int) -> None:
-    """Makes asyncio read less at a time than its 256 KiB."""
+    """Limits how many bytes asyncio reads at a time; its default is 256 KiB."""
     transport.max_size = size
 
 
 class PatientSocket(WebSocketsSansIOProtocol):
-    """Reads little at a time, rests when its owner has used their share, bounds what costs nothing.
+    """uvicorn's websocket with small reads, pauses for owners over their share, and a limit of empty frames.
 
-    All frames in what is read are parsed at once. In the 256 KiB that asyncio reads there can be thousands,
-    for which every other socket would wait.
+    All frames of one read are parsed at once. The 256 KiB that asyncio reads by default can contain thousands
+    of them, and all other sockets would wait meanwhile.
     """
 
     _is_resting = False
@@ -53,7 +54,7 @@ class PatientSocket(WebSocketsSansIOProtocol):
 
     @property
     def read_paused(self) -> bool:
-        """Uvicorn's flag: it reads on when its application has taken a message, but not during a rest."""
+        """The flag of uvicorn: it resumes reading when the application took a message, but not in a pause."""
         return self._has_backlog and not self._is_resting
 
     @read_paused.setter
@@ -61,20 +62,20 @@ class PatientSocket(WebSocketsSansIOProtocol):
         self._has_backlog = value
 
     def connection_made(self, transport: BaseTransport) -> None:
-        """Called by uvicorn."""
+        """Starts the limits of a new connection; called by uvicorn."""
         read_at_most(transport, READ_LITTLE_BYTES)
         super().connection_made(transport)
         self._costs = ConnectionCosts(self.client[0] if self.client else None)
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Called by asyncio; a rest ends."""
+        """Cancels a pause; called by asyncio."""
         if self._rest is not None:
             self._rest.cancel()
         self._costs.release()
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
-        """Called by asyncio."""
+        """Processes received bytes and books their processor time; called by asyncio."""
         if not self._costs.hold(len(data)) and self.handshake_complete and not self.close_sent:
             self.conn.fail(TOO_BIG, "too many large messages at once")
             self.handle_parser_exception()
@@ -93,19 +94,19 @@ class PatientSocket(WebSocketsSansIOProtocol):
             self.transport.resume_reading()
 
     def handle_connect(self, event: Request) -> None:
-        """A client who is not known yet sends little."""
+        """Limits messages to `SMALL_BYTES` until the client is identified."""
         self.conn.max_message_size = SMALL_BYTES
         super().handle_connect(event)
         if self.handshake_initiated and not self.handshake_complete:
             self.scope[COSTS] = self._costs  # type: ignore[typeddict-unknown-key]
 
     def send_receive_event_to_app(self) -> None:
-        """Called by uvicorn: a message is whole."""
+        """Passes a complete message to the application; called by uvicorn."""
         self._costs.release()
         super().send_receive_event_to_app()
 
     async def send(self, message: ASGISendEvent) -> None:
-        """An accepted one sends what its route takes."""
+        """Sends a message of the application; the one that accepts the socket sets its largest message."""
         if message["type"] == "websocket.accept":
             most: Any = message.get(MOST_BYTES, self.config.ws_max_size)
             self.conn.max_message_size = most
@@ -114,7 +115,7 @@ class PatientSocket(WebSocketsSansIOProtocol):
         await super().send(message)
 
     def handle_ping(self) -> None:
-        """Answers; a client who reads no pongs is sent none, since nothing else bounds them."""
+        """Answers with a pong, unless the client does not read: unread pongs would pile up without limit."""
         if not self._is_too_idle():
             if self.writable.is_set():
                 super().handle_ping()
@@ -122,17 +123,17 @@ class PatientSocket(WebSocketsSansIOProtocol):
                 self.conn.data_to_send()
 
     def handle_pong(self, event: Frame) -> None:
-        """Counts, for anybody may send pongs that nobody waits for."""
+        """Counts the frame: clients can send pongs that nobody requested."""
         if not self._is_too_idle():
             super().handle_pong(event)
 
     def handle_cont(self, event: Frame) -> None:
-        """Counts the parts that a message was not cut into for its size."""
+        """Counts parts of a message that are smaller than its size requires."""
         if len(event.data) >= TINY or event.fin or not self._is_too_idle():
             super().handle_cont(event)
 
     def _is_too_idle(self) -> bool:
-        """Whether more comes that says nothing than may; the socket is then closed."""
+        """Whether too many frames without content arrived; the socket is then closed."""
         now = self.loop.time()
         if now - self._since > 1:
             self._idle_frames, self._since = 0, now

@@ -1,7 +1,7 @@
-"""Reads the bodies of requests: headers are judged first, what comes is bounded, and threads write files.
+"""Reads the bodies of requests: checks the headers first, limits size and speed, and writes files in threads.
 
-Nobody is trusted with more than a megabyte before they are known. An *upload* is the body of one of a few
-routes that take an archive: it may be as large as its user has room, and goes straight to a file.
+Unidentified clients may send at most a megabyte. An *upload* is the body of one of the few routes that accept
+an archive. It may be as large as the user's quota allows, and is written directly to a file.
 """
 
 from __future__ import annotations
@@ -34,41 +34,41 @@ if TYPE_CHECKING:
     from backend.core.scratch import Scratch
 
 UNKNOWN_BYTES: Final = 1024 * 1024
-"""What a client may send that is not signed in."""
+"""The largest body, in bytes, of a client that is not signed in."""
 GUEST_BYTES: Final = 8 * 1024 * 1024
-"""What one may send that came by a read-only link: two texts of a tree, to look at it as XML."""
+"""The largest body, in bytes, of a guest with a read-only link: two texts of a tree, to view it as XML."""
 IN_MEMORY: Final = 4 * 1024 * 1024
-"""A body above this lies in a file."""
+"""Bytes; larger bodies are kept in a file."""
 PART: Final = 1024 * 1024
-"""What is written to a file at once."""
+"""Bytes that are written to a file at once."""
 PATIENCE_S: Final = 30.0
 SLOWEST: Final = 8 * 1024
-"""Bytes a second, after the first `PATIENCE_S`, below which a body is given up."""
+"""Bytes a second. After the first `PATIENCE_S`, slower bodies are refused."""
 LARGE_AT_ONCE: Final = 4
 """Bodies above `UNKNOWN_BYTES` that one user, or all guests together, may send at a time."""
 UPLOADS_AT_ONCE: Final = 1
 RETRY_S: Final = 5
 BODY: Final = "bt_studio.body"
-"""Where the scope of a request keeps its body, a file that can be sought."""
+"""The key of the body, a seekable file, in the scope of a request."""
 
 
 class Body(NamedTuple):
-    """A body, as a file that can be sought."""
+    """A body as a seekable file."""
 
     file: IO[bytes]
     is_whole: bool = True
-    """Whether all of it was read; what the guard refuses is not."""
+    """Whether all of it was read. The body of a request that the guard refuses is not read."""
 
 
 class Refused(NamedTuple):
-    """Why a body is not read."""
+    """The reason why a body is not read."""
 
     document: dict[str, Any]
     headers: dict[str, str]
 
 
 class BodyRefusedError(Exception):
-    """A body is too large, too slow, or from somebody who may not send it."""
+    """The body is too large or too slow, or its sender may not send it."""
 
     def __init__(self, document: dict[str, Any], retry_s: int | None = None) -> None:
         super().__init__(document["code"])
@@ -76,17 +76,17 @@ class BodyRefusedError(Exception):
 
 
 class ClientLeftError(Exception):
-    """The connection ended before the request was whole."""
+    """The connection ended before the request was complete."""
 
 
 @dataclass(frozen=True, slots=True)
 class Upload:
-    """A route that takes archives; all others take at most `BT_STUDIO_MAX_REQUEST_BYTES`.
+    """A route that accepts archives; all others accept at most `BT_STUDIO_MAX_REQUEST_BYTES`.
 
     Attributes:
-        path: its address.
-        room: says how many bytes a user may send there; raises a StudioError where it is none.
-        kind: the content type of what is streamed; forms, for one, are not.
+        path: the path of the route.
+        room: returns the number of bytes that a user may send there; raises a StudioError if it is none.
+        kind: the content type of streamed bodies; other types, such as forms, are not streamed.
     """
 
     path: str
@@ -99,7 +99,7 @@ class Upload:
 
 
 def body_of(request: Any) -> IO[bytes]:
-    """The body of a request that no parser reads, as a file that can be sought."""
+    """Returns the body of a request that no parser reads, as a seekable file."""
     scope = getattr(request, "scope", {})
     return scope[BODY] if BODY in scope else io.BytesIO(request.body)
 
@@ -108,9 +108,9 @@ class Bodies:
     """Reads bodies.
 
     Args:
-        asking: threads that may ask the database.
+        asking: threads with a connection to the database.
         upload: the route for archives, if there is one.
-        scratch: where large bodies lie while they are needed.
+        scratch: the temporary files for large bodies.
     """
 
     def __init__(self, asking: Threads, upload: Upload | None, scratch: Scratch) -> None:
@@ -121,11 +121,11 @@ class Bodies:
     async def read(
         self, scope: HTTPScope, receive: ASGIReceiveCallable, owner: str | None = None
     ) -> AsyncIterator[Body]:
-        """Reads one body; it is there until the block ends. `owner` is for whom threads work.
+        """Reads one body, which exists until the block ends. Threads work on behalf of `owner`.
 
         Raises:
-            BodyRefusedError: it is not, or no longer, read.
-            ClientLeftError: there is nobody to answer.
+            BodyRefusedError: the body is refused, before or while it is read.
+            ClientLeftError: the connection ended.
         """
         reading = _Reading(self, scope, receive, owner)
         try:
@@ -148,7 +148,7 @@ class Bodies:
         return await self._asking.run(asyncio.get_running_loop(), partial(_asked, work), owner)
 
     async def write(self, work: Callable[[], Any]) -> Any:
-        """Writes to the disk, or reads from it, in a thread."""
+        """Calls a function that writes to the disk, or reads from it, in a thread."""
         return await self._writing.run(asyncio.get_running_loop(), work)
 
 
@@ -158,7 +158,7 @@ def _asked(work: Callable[[], Any]) -> Any:
 
 
 class _Reading:
-    """One body."""
+    """The reading of one body."""
 
     def __init__(
         self, bodies: Bodies, scope: HTTPScope, receive: ASGIReceiveCallable, owner: str | None
@@ -173,10 +173,10 @@ class _Reading:
         self._size = 0
 
     async def whole(self) -> Body:
-        """Reads it to its end."""
+        """Reads the body to its end."""
         declared = self._declared()
         if declared or "transfer-encoding" in self._headers:
-            # Who is refused for their headers sends nothing: the guard's middleware says why.
+            # A request that is refused for its headers needs no body: the guard's middleware answers it.
             if guard.check(facts_of(self._scope)) is not None:
                 return Body(io.BytesIO(), is_whole=False)
             await self._admit(declared or 0)
@@ -192,7 +192,7 @@ class _Reading:
         return int(text) if text.isascii() and text.isdigit() else None
 
     async def _admit(self, declared: int) -> None:
-        """Judges what the headers say."""
+        """Checks the headers."""
         upload = self._bodies.upload
         user = None
         if upload is not None and upload.takes(self._scope, self._headers.get("content-type", "")):
@@ -205,11 +205,11 @@ class _Reading:
             raise _too_large(environment().max_request_bytes)
         if declared > self._most:
             await self._allow_more(declared)
-        if declared > self._in_memory:  # refused before it is sent where there is no room for all of it
+        if declared > self._in_memory:  # refused before it is sent if the disk has no room for all of it
             self._file = await self._bodies.write(partial(self._bodies.scratch.file, expected=declared))
 
     async def _allow_more(self, size: int) -> None:
-        """Called when more comes than everybody may send."""
+        """Checks the sender before more than `UNKNOWN_BYTES` are accepted."""
         if self._place is None:
             user = await self._sender()
             if user is None:

@@ -1,7 +1,7 @@
-"""Django for HTTP, each request from beginning to end in one of a few threads that stay.
+"""Runs Django for HTTP; one thread of a fixed pool handles each request from beginning to end.
 
-Django's own ASGI handler makes a thread for each request and changes between it and the event loop several
-times, although no view here is asynchronous. That cost more than most of the answers.
+Django's own ASGI handler makes a thread for each request and switches between it and the event loop several
+times, although no view here is asynchronous. This took longer than most views.
 """
 
 from __future__ import annotations
@@ -43,30 +43,30 @@ if TYPE_CHECKING:
     from backend.ingress.bodies import Refused, Upload
 
 THREADS: Final = {"local": 8, "team": 8}
-"""By mode; each has a connection to the database."""
+"""Request threads, by mode; each has a connection to the database."""
 THREADS_OF_SEVERAL: Final = 4
-"""The same for each of several workers."""
+"""Request threads of each of several workers."""
 OWNERS_SHARE: Final = 4
-"""On a server with accounts, one user, or all strangers and guests behind one address, have one in four."""
+"""One owner (a user, or all others behind one address) may use one thread in four, if there are accounts."""
 HASHING: Final = ("/accounts/", "/admin/")
-"""Where passwords come, each of which takes a processor a third of a second."""
+"""Paths that receive passwords. Hashing one takes a third of a second of processor time."""
 MOST_WAITING: Final = 600
 RETRY_S: Final = 30
 LOOP_S: Final = 0.0005
-"""Of the event loop's time, for one request: so much was measured."""
+"""Event-loop time in seconds for one request, as measured."""
 LINGER_S: Final = 10.0
 LINGER_BYTES: Final = 64 * 1024 * 1024
-"""For how long, and how much of a body, is thrown away that was refused."""
+"""Seconds and bytes for which a refused body is still read and discarded."""
 
 
 class Answer(NamedTuple):
-    """A response that needs its thread no longer."""
+    """A response that no longer needs its thread."""
 
     status: int
     headers: list[tuple[bytes, bytes]]
     body: bytes
     file: IO[bytes] | None = None
-    """Where the body lies that is too large for memory."""
+    """The body, if it is too large for memory."""
 
 
 class Unfinished(NamedTuple):
@@ -77,10 +77,11 @@ class Unfinished(NamedTuple):
 
 
 class ThreadedHandler(ASGIHandler):
-    """Django as an ASGI application for HTTP alone.
+    """Django as an ASGI application for HTTP only.
 
     Args:
-        hashing: how many passwords are hashed at once; by default as many as suit the machine.
+        upload: the route for archives, if there is one.
+        hashing: the number of passwords that are hashed at once; the default depends on the machine.
     """
 
     def __init__(self, upload: Upload | None = None, *, hashing: int | None = None) -> None:
@@ -97,13 +98,13 @@ class ThreadedHandler(ASGIHandler):
         self._bodies = Bodies(self.threads, upload, scratch())
 
     async def __call__(self, scope: HTTPScope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:  # type: ignore[override]
-        """Reads the request, has a thread answer it, and sends the answer."""
+        """Reads the request, answers it in a thread, and sends the answer."""
         owner = owner_of(scope)
         known(scope, owner)
         turns.spend(owner, LOOP_S)
         try:
             async with self._bodies.read(scope, receive, owner) as body:
-                # What a request sets for itself (language, address) must not stay with the thread.
+                # Context variables of a request (language, address) must not stay set in the thread.
                 context = contextvars.copy_context()
                 work = partial(context.run, self._answer, scope, body.file)
                 async with self._turn(scope) as has_turn:
@@ -122,7 +123,7 @@ class ThreadedHandler(ASGIHandler):
             await (_send(answer, send) if body.is_whole else _send_and_close(answer, receive, send))
 
     async def _send_file(self, answer: Answer, file: IO[bytes], send: ASGISendCallable) -> None:
-        """Sends it as fast as it is taken; a client that takes nothing is given up."""
+        """Sends a file as fast as the client reads; closes the connection of a client that reads nothing."""
         with file:
             await _send(answer, send, last=False)
             while part := await self._bodies.write(partial(file.read, PART)):
@@ -132,7 +133,10 @@ class ThreadedHandler(ASGIHandler):
 
     @asynccontextmanager
     async def _turn(self, scope: HTTPScope) -> AsyncIterator[bool]:
-        """Waits, without a thread, while as many passwords are hashed as may be; yields whether it did."""
+        """Limits how many passwords are hashed at once; yields whether this request is one of them.
+
+        It waits without holding a thread, so that sign-ins do not delay other requests.
+        """
         if scope["method"] != "POST" or not scope["path"].startswith(HASHING):
             yield False
             return
@@ -172,7 +176,7 @@ class ThreadedHandler(ASGIHandler):
         return self._taken(request, self.get_response(request))
 
     def _complete(self, unfinished: Unfinished) -> Answer | Unfinished:
-        """The other half of an answer: what the views' own middleware would do after it included."""
+        """Completes a deferred response, including the part of the middleware that follows the view."""
         request, deferred = unfinished
         signals.request_started.send(sender=type(self), scope=getattr(request, "scope", None))
         return self._taken(request, ConditionalGetMiddleware(lambda _: deferred.complete())(request))
@@ -189,16 +193,16 @@ class ThreadedHandler(ASGIHandler):
 
 
 def _timed(work: Callable[[], Answer | Unfinished]) -> tuple[Answer | Unfinished, float]:
-    """Works, and returns the processor time that it took, in seconds."""
+    """Returns the result, and the processor time that it took in seconds."""
     began_s = time.thread_time()
     return work(), time.thread_time() - began_s
 
 
 async def _ended(work: Future[Any]) -> None:
-    """Returns when the work is done, whatever became of it; others may wait for it, too."""
+    """Waits until the work succeeded or failed; others may wait for it, too."""
     waiting = asyncio.wrap_future(work)
     await asyncio.wait([waiting])
-    waiting.exception()  # that of `work` is what counts
+    waiting.exception()  # marks it as retrieved; the caller reads that of `work`
 
 
 def _closed(response: Any) -> Answer:
@@ -209,7 +213,7 @@ def _closed(response: Any) -> Answer:
 
 
 def _tell_length(scope: HTTPScope, body: IO[bytes]) -> None:
-    """A body that came in chunks has a length by now; without one nobody would look for it."""
+    """Sets the length of a body that came in chunks: without a length, Django's parsers read no body."""
     if any(name == b"transfer-encoding" for name, _ in scope["headers"]):
         kept = [row for row in scope["headers"] if row[0] not in {b"transfer-encoding", b"content-length"}]
         size = body.seek(0, os.SEEK_END)
@@ -230,10 +234,10 @@ def _refusal(scope: HTTPScope, refused: Refused) -> Answer:
 
 
 async def _send_and_close(answer: Answer, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
-    """Answers before the body has come, then closes the connection.
+    """Answers before the body has arrived, then closes the connection.
 
-    A connection that is closed while its client still sends takes the answer along: the client hears of the
-    end before it has read. So what comes is thrown away for a while.
+    If the connection closes while the client still sends, TCP resets it and the client loses the answer. So
+    the rest of the body is read and discarded for a while.
     """
     kept = [header for header in answer.headers if header[0].lower() != b"content-length"]
     length = (b"Content-Length", str(len(answer.body)).encode())

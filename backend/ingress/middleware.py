@@ -48,14 +48,14 @@ HEADERS: Final[dict[str, str]] = {
 
 
 def page_policy() -> str:
-    """The policy of pages with forms: signing in may lead to the provider's page."""
+    """Returns the policy of pages with forms: sign-in may redirect to the provider's page."""
     issuer = environment().oidc_issuer
     origin = "/".join(issuer.split("/")[:3])
     return CONTENT_SECURITY_POLICY.replace("form-action 'self'", f"form-action 'self' {origin}".rstrip())
 
 
 def headers_of_all() -> dict[str, str]:
-    """The headers of every answer."""
+    """Returns the security headers of every answer."""
     settings = environment()
     if not settings.is_https or not settings.hsts_days:
         return HEADERS
@@ -63,34 +63,34 @@ def headers_of_all() -> dict[str, str]:
 
 
 class Middleware:
-    """A middleware that looks at requests and answers."""
+    """Base of middleware with a hook before the view and one after it."""
 
     def __init__(self, get_response: Callable[[HttpRequest], HttpResponseBase]) -> None:
         self.get_response = get_response
 
     def __call__(self, request: HttpRequest) -> HttpResponseBase:
-        """Django's entry."""
+        """Calls the hooks and the view; called by Django."""
         return self.after(request, self.before(request) or self.get_response(request))
 
     def before(self, request: HttpRequest) -> HttpResponseBase | None:
-        """May answer in place of the view."""
+        """Returns an answer in place of the view's, or None."""
         return None
 
     def after(self, request: HttpRequest, response: HttpResponseBase) -> HttpResponseBase:
-        """May change the answer."""
+        """Returns the answer, possibly changed."""
         return response
 
 
 class SecurityHeaders(Middleware):
-    """Puts the security headers on every answer."""
+    """Adds the security headers to every answer."""
 
     def after(self, request: HttpRequest, response: HttpResponseBase) -> HttpResponseBase:
-        """Adds what the view did not set itself."""
+        """Adds the headers that the view did not set."""
         return secured(request.path_info, response)
 
 
 def secured(path: str, response: HttpResponseBase) -> HttpResponseBase:
-    """Puts the security headers on the answer to a request for this path."""
+    """Adds the security headers to the answer to a request for this path."""
     if path.startswith(PAGES):
         # Under `no-referrer`, browsers send forms with `Origin: null`.
         response.headers["Referrer-Policy"] = "same-origin"
@@ -111,7 +111,7 @@ class Guard(Middleware):
         client_address.set(address_of(request.META.get("REMOTE_ADDR"), headers))
         proxies.see(headers)
         if "\0" in request.path_info or "%00" in request.META.get("QUERY_STRING", ""):
-            # No name holds one, and no database stores one.
+            # No name may contain NUL, and PostgreSQL cannot store it.
             sentence = "An address holds no NUL character."
             return problem_response(problem(400, "bad_address", detail=sentence))
         facts = facts_of(request)
@@ -151,7 +151,7 @@ def exchange(request: HttpRequest, host: str) -> HttpResponse:
 
 
 def refuse(request: HttpRequest, refusal: guard.Refusal) -> HttpResponse:
-    """Answers a person in HTML, a program with a problem document."""
+    """Answers a browser in HTML, a program with a problem document."""
     document = problem(refusal.status, refusal.code, detail=refusal.detail, hint=refusal.hint)
     if "text/html" not in request.META.get("HTTP_ACCEPT", "") or request.path_info.startswith("/api/"):
         return problem_response(document)

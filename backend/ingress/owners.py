@@ -1,7 +1,8 @@
-"""For whom a request or a socket takes something of which there is not enough for everybody.
+"""Owners: the users or addresses to whom the shared resources of requests and sockets are charged.
 
-Nothing is looked up for it, since it is asked before anything is known: a user is one whose session this
-server has read before. All others, whatever cookies they show, count as one behind each address.
+The owner is needed before the request is read, so the database is not queried. A user is recognized if this
+process has read their session before. All others behind one address count as one owner, whatever cookies they
+send.
 """
 
 from __future__ import annotations
@@ -17,12 +18,12 @@ if TYPE_CHECKING:
 
 
 def user_owner(user_id: int) -> str:
-    """Names a user as the owner of what they use."""
+    """Returns the name of a user as an owner."""
     return f"user {user_id}"
 
 
 def owner_of(scope: HTTPScope | WebSocketScope) -> str:
-    """The user, or the address."""
+    """Returns the owner of a request or a socket: the user, otherwise the address."""
     headers = headers_of(scope)
     user = last_seen(cookies_of(headers.get("cookie", "")))
     if user is not None:

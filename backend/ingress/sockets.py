@@ -1,8 +1,8 @@
-"""Checks every websocket before an app serves it, and finds that app.
+"""Checks every websocket and passes it to its app.
 
-Apps register their sockets in `routes` of `backend.config.asgi`: a pattern of the path, a coroutine that is
-called once the guard has let the socket pass and it is accepted, and what a user must still be allowed to do
-for it to stay open.
+Apps register their sockets in `routes` of `backend.config.asgi`. A route has a pattern of the path, a
+coroutine that serves the accepted socket, and a check of the right that its user needs as long as the socket
+is open.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 PROTOCOL: Final = "bt-studio.v1"
 ID: Final = r"([0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12})"
-"""What of an address is a project's or a session's id."""
+"""The pattern of the id of a project or a session in a path."""
 POLICY_VIOLATION: Final = 1008
 SIGNED_OUT: Final = 4401
 FORBIDDEN: Final = 4404
@@ -44,11 +44,11 @@ _REASON_BYTES: Final = 120  # a close frame holds 123
 OF_A_USER: Final = 100
 """Sockets that one user may have open: each page has up to four."""
 OF_AN_ADDRESS: Final = 500
-"""The same of all guests, and of all whom the server has not seen before, behind one address."""
+"""Sockets that all guests and unidentified clients behind one address may have open."""
 HANDSHAKE_S: Final = 0.002
-"""Of the event loop's time, for a socket that opens: so much was measured."""
+"""Event-loop time in seconds to open a socket, as measured."""
 AT_THE_DOOR: Final = 2
-"""Of these, how many are asked at a time who they are; the others wait."""
+"""Sockets of one owner whose users are looked up at a time; the others wait."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,10 +72,10 @@ Handler = Callable[[Call, "ASGIReceiveCallable", "ASGISendCallable"], Awaitable[
 
 
 class Route(NamedTuple):
-    """The app that serves a socket, and what its user must be allowed to do.
+    """The app that serves a socket, and the right that its user needs.
 
-    `may` is given the id in the address and the user, and raises a StudioError when they may no longer.
-    Guests say nothing, and users at most `most_bytes` at a time.
+    `may` receives the id in the path and the user; it raises a StudioError if the user lacks the right. The
+    largest message of a user has `most_bytes`; guests may send hardly anything.
     """
 
     handler: Handler
@@ -84,7 +84,7 @@ class Route(NamedTuple):
 
 
 class Crowd:
-    """Counts the sockets of each owner, and lets few of them in at a time."""
+    """Limits the open sockets of each owner, and how many of them open at a time."""
 
     def __init__(self) -> None:
         self.sockets: Counter[str] = Counter()
@@ -92,7 +92,7 @@ class Crowd:
 
     @contextlib.asynccontextmanager
     async def place(self, owner: str) -> AsyncIterator[asyncio.Semaphore | None]:
-        """The owner's door for as long as a socket is open; None where they have too many."""
+        """Counts a socket while it is open; yields the owner's semaphore, or None if they have too many."""
         most = OF_AN_ADDRESS if owner.startswith("address") else OF_A_USER
         if self.sockets[owner] >= most and environment().is_team:
             yield None
@@ -110,7 +110,7 @@ _crowd: Final = Crowd()
 
 
 def refusal(scope: WebSocketScope) -> guard.Refusal | None:
-    """Why the socket goes no further, by the same rules as for pages."""
+    """Returns why the socket is refused, by the same rules as for pages, or None."""
     return guard.check(facts_of(scope))
 
 
@@ -120,20 +120,20 @@ async def serve(
     receive: ASGIReceiveCallable,
     send: ASGISendCallable,
 ) -> None:
-    """Serves a socket whose path is one of these; all others are refused."""
+    """Serves a socket whose path has a route; refuses all others."""
     await receive()  # websocket.connect
     found = _route(routes, scope["path"])
     owner = owner_of(scope)
     known(scope, owner)
     async with _crowd.place(owner) as door:
-        # Whether this user may see what the path names is for the handler to ask.
+        # The handler checks whether this user may access the project or session that the path names.
         user = None
         if found is not None and door is not None and refusal(scope) is None:
             async with door, turns.turn(owner):
                 user = await _user(scope)
                 turns.spend(owner, HANDSHAKE_S)
         if found is None or user is None:
-            # A close before the accept makes the server answer the handshake with 403.
+            # If the socket is closed before it is accepted, uvicorn answers the handshake with 403.
             await send({"type": "websocket.close", "code": POLICY_VIOLATION, "reason": ""})
             return
         await _serve(*found, user, scope, receive, send)
@@ -168,7 +168,7 @@ async def _serve(  # noqa: PLR0913, PLR0917 - a socket
 async def _while_allowed(
     route: Route, call: Call, scope: WebSocketScope, receive: ASGIReceiveCallable, send: ASGISendCallable
 ) -> Closed | None:
-    """Serves until the socket ends by itself, or its user is no longer allowed to have it."""
+    """Serves until the socket ends, or its user loses the right to it."""
     serving = asyncio.ensure_future(route.handler(call, receive, send))
     watching = asyncio.create_task(_until_forbidden(route, call, scope))
     try:

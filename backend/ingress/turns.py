@@ -1,4 +1,4 @@
-"""Requests of an owner who has used more than their share wait for their turn, one behind the other."""
+"""Delays the requests of owners who exceeded their share; they then start one after the other."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
 
 class Turns:
-    """Begins requests. On a server of one user all begin at once.
+    """Decides when requests may start. On a server with one user, all start immediately.
 
     Args:
-        budgets: what owners have used.
+        budgets: the processor time that owners have used.
     """
 
     def __init__(self, budgets: Budgets) -> None:
@@ -28,7 +28,7 @@ class Turns:
 
     @asynccontextmanager
     async def turn(self, owner: str) -> AsyncIterator[None]:
-        """Waits until the owner may continue. One request at a time, while the owner is over their share."""
+        """Waits until the owner may continue; an owner over their share has one request at a time."""
         if not environment().is_team or (owner not in self._queues and not self._budgets.rest_s(owner)):
             yield
             return
@@ -36,7 +36,7 @@ class Turns:
         queue.waiting += 1
         try:
             async with queue.lock:
-                # Once: frames of the same owner may prolong the rest without end.
+                # It sleeps only once: frames of the same owner could extend the time without end.
                 await asyncio.sleep(self._budgets.rest_s(owner))
                 yield
         finally:
@@ -45,7 +45,7 @@ class Turns:
                 del self._queues[owner]
 
     async def rest(self, owner: str) -> None:
-        """Waits as long as the owner must rest; others need not wait for it."""
+        """Waits as long as the owner must; other owners continue."""
         if environment().is_team and (rest_s := self._budgets.rest_s(owner)):
             await asyncio.sleep(rest_s)
 
@@ -62,4 +62,4 @@ class _Queue:
 
 
 turns: Final = Turns(budgets)
-"""Those of this process, for requests and for sockets."""
+"""The turns of this process, for requests and for sockets."""

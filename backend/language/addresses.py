@@ -1,8 +1,8 @@
-"""Names of files in messages: `file:///project/…` for the page, real paths for the server.
+"""Translates addresses of files in messages: `file:///project/…` for the page, real paths for the server.
 
-The page never learns where its files lie on this machine, and cannot name any other file: an address of
-the page that leads out of the project is refused. Addresses of the server that lie outside the project
-(a library's source) become `file:///library/…`, which says what to show and opens nothing.
+The page must not learn where its files are on this machine, nor name any other file: addresses that leave the
+project are refused. Addresses of the server outside the project (a library's source) become
+`file:///library/…`, which the page shows but cannot open.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
-"""The socket between an open page and a language server of its own.
+"""The socket between an open page and its language server.
 
-Each page has its own server, since what is typed and not saved differs between two tabs on one project;
-the folder that they read is the project's. The relay knows the protocol just well enough to keep the
-page inside its project: it rewrites addresses, passes on what an editor needs, and answers the rest.
+Each page has its own server, since two tabs on one project have different unsaved texts; they read the same
+folder. The relay keeps the page inside its project: it translates addresses, passes on the messages that an
+editor needs, and answers all others itself.
 
-Close codes: 4404 no such project; 4408 idle (the page connects again at the next need); 4413 out of
-memory, 4500 the server ended (the page tries again, with pauses); 4429 too many; 4503 not offered here.
+Close codes: 4404 no such project; 4408 idle (the page reconnects when it needs the server again); 4413 out of
+memory, 4500 the server ended (the page reconnects after pauses); 4429 too many; 4503 not offered here.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ async def serve_language(call: Call, receive: ASGIReceiveCallable, send: ASGISen
 
 async def _serve(page: Page, following: Following) -> Closed | None:
     starting = launcher()
-    # Only users of the project may start a server on it.
+    # Reading the files also checks that the user may access the project, before a server starts.
     contents = await sync_to_async(_contents)(page)
     server = await starting.start(page.project_id, page.user, contents)
     try:
@@ -157,7 +157,7 @@ class Relay:
         return Closed(ENDED, "The language server has ended.")
 
     async def _follow(self, following: Following) -> Closed | None:
-        """Brings the folder in step with each new revision, and says so to the server."""
+        """Updates the folder after each new revision, and notifies the server."""
         while True:
             await following()
             try:

@@ -1,4 +1,4 @@
-"""Language servers in their users' containers; the web server only sends files and relays bytes."""
+"""Language servers in the containers of their users; the web server only sends files and relays bytes."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class ContainerServer:
-    """A language server behind a socket of `executor.tools`."""
+    """A language server that is reached over a socket of `executor.tools`."""
 
     def __init__(self, connection: ClientConnection, home: str) -> None:
         self._connection = connection
@@ -38,7 +38,7 @@ class ContainerServer:
         return f"{self._home}/files"
 
     async def begin(self, contents: Mapping[str, bytes], library: str, python: str) -> None:
-        """Sends the first files, with which the server starts."""
+        """Sends the initial files and starts the server."""
         await self._send_files({"ty.toml": configuration(self.root, library, python)})
         await self.sync(contents)
 

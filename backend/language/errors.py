@@ -10,7 +10,7 @@ class UnavailableError(Exception):
 
 
 class PythonRefusedError(StudioError):
-    """The source is not valid Python; `diagnostics` says where."""
+    """The source is not valid Python; `diagnostics` has the places."""
 
     status = 422
     code = "python_refused"

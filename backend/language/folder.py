@@ -1,8 +1,8 @@
-"""The files that a language server reads: a project's Python, following its revisions.
+"""The folder that a language server reads: the Python files of a project's newest revision.
 
 The layout:
 
-<data>/language/projects/<id>/ty.toml          ours: a project's own configuration is never written
+<data>/language/projects/<id>/ty.toml          our configuration; that of a project is never used
 <data>/language/projects/<id>/files/…          its Python files, and nothing else
 <data>/language/library-<key>/…                what every project can import: the engine, ROS messages
 """
@@ -99,7 +99,7 @@ def library() -> Path:
 
 
 def _library_key(site_packages: Path) -> str:
-    """Changes with the interpreter, with what is installed, and with how stubs are made."""
+    """Returns a key that changes with the interpreter, the installed packages, and the maker of the stubs."""
     installed = sorted(entry.name for entry in os.scandir(site_packages) if entry.name.endswith("-info"))
     how = b"".join(Path(path).read_bytes() for path in (message_stubs.__file__, rclpy_types.__file__))
     return hashlib.sha256(repr((sys.prefix, str(REPOSITORY), installed)).encode() + how).hexdigest()[:16]
@@ -117,7 +117,7 @@ def _make_library(site_packages: Path, folder: Path) -> None:
 
 
 def _write(path: Path, data: bytes) -> None:
-    """A reader sees the old bytes or the new ones."""
+    """Writes a file atomically: a reader sees the old bytes or the new ones."""
     partial = path.with_name(f".{path.name}.{uuid4().hex}.partial")
     partial.write_bytes(data)
     partial.replace(path)

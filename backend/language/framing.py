@@ -1,4 +1,4 @@
-"""The framing of the language server protocol: JSON bodies behind a `Content-Length` header. No I/O."""
+"""The framing of the language server protocol: JSON bodies after a `Content-Length` header; does no I/O."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _END: Final = b"\r\n\r\n"
 
 
 class FramingError(ValueError):
-    """The stream violates the protocol; the rest of it is useless."""
+    """The stream violates the protocol; the rest of it cannot be read."""
 
 
 def framed(body: bytes) -> bytes:
@@ -19,13 +19,13 @@ def framed(body: bytes) -> bytes:
 
 
 class Unframer:
-    """Cuts a stream of bytes into bodies."""
+    """Splits a stream of bytes into bodies."""
 
     def __init__(self) -> None:
         self._buffer = bytearray()
 
     def feed(self, data: bytes) -> list[bytes]:
-        """Takes received bytes, and returns the bodies that are complete.
+        """Adds received bytes; returns the bodies that are complete.
 
         Raises:
             FramingError: a header cannot be read, or a body is too large.

@@ -20,15 +20,15 @@ ENGINE: Final = ("tree_gardener",)
 # Python parts of ROS without wheels, under the names that actions import.
 ROS_PYTHON: Final = "executor/ros_python"
 RULES: Final = {
-    # `self.scan = None` until the first message comes, as in most actions, is no mistake.
+    # Most actions set `self.scan = None` until the first message arrives. This is not an error.
     "missing-union-attribute": "ignore",
 }
-# `tree_tools` is what actions of JdeRobot's projects import; the engine installs it under that name.
+# Actions of JdeRobot's projects import `tree_tools`; the engine installs it under that name.
 _TREE_TOOLS: Final = "from tree_gardener.tree_tools import *\n"
 
 
 def make_library(site_packages: Path, repository: Path, folder: Path) -> None:
-    """Makes the library in a new folder."""
+    """Makes the folder of the library."""
     folder.mkdir(parents=True)
     message_stubs.write_message_stubs(site_packages, folder)
     rclpy_types.write_annotated(site_packages, folder)

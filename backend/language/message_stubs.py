@@ -1,8 +1,8 @@
 """Type stubs of ROS messages.
 
-The classes that ROS generates declare no types, so that a language server knows the names of a message's
-fields and nothing below them. Their sources do hold the types, as literals: they are read as syntax
-trees, never imported, and written as `.pyi` packages.
+The classes that ROS generates declare no types, so a language server knows the names of a message's fields
+but not their types. The sources contain the types as literals. They are read as syntax trees, never imported,
+and written as `.pyi` packages.
 """
 
 from __future__ import annotations
@@ -130,7 +130,7 @@ def _class(interface: Interface, package: str, kind: str, used: set[str]) -> str
 
 
 def _python_type(ros: str, package: str, used: set[str]) -> tuple[str, str]:
-    """The types that a field has when it is read, and when it is assigned."""
+    """Returns the types of a field when it is read, and when it is assigned."""
     if sequence := _SEQUENCE.match(ros) or _ARRAY.match(ros):
         inner = _python_type(sequence[1], package, used)[0]
         return f"list[{inner}]", f"Iterable[{inner}]"

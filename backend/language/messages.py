@@ -1,4 +1,4 @@
-"""Filters the messages between a page and its language server. No I/O.
+"""Filters the messages between a page and its language server; does no I/O.
 
 The page's settings for interpreters, folders or commands are ignored: only the server's configuration decides
 which programs run.
@@ -18,16 +18,16 @@ _TO_PAGE: Final = frozenset({"textDocument/publishDiagnostics"})
 _HINT: Final = 4
 _METHOD_NOT_FOUND: Final = -32601
 _INVALID_REQUEST: Final = -32600
-# Links to files are places of this machine, and open nothing in a browser.
+# Links to files reveal paths of this machine, and a browser cannot open them.
 _FILE_LINK: Final = re.compile(r"\[([^\]]*)\]\(file:[^)]*\)")
-# ```` ```xml <class 'Turn'> ````: how `ty` names a class.
+# `ty` names a class in this way: ```` ```xml <class 'Turn'> ````.
 _CLASS: Final = re.compile(r"```xml\n<class '([^']*)'>")
-# Where a module was looked for is a list of our folders, not the user's.
+# The list of paths in which `ty` looked for a module reveals our folders, not the user's.
 _LOOKED_IN: Final = re.compile(r"\n\s*(?:info: )?Searched in the following paths[\s\S]*$")
 
 
 def for_server(message: Any, root_uri: str) -> tuple[Message | None, Message | None]:
-    """Filters a message of the page: the part for the server, and the answer to the page instead."""
+    """Filters a message of the page; returns the message for the server, and an answer for the page."""
     if not isinstance(message, dict):
         return None, _error(None, _INVALID_REQUEST, "A message is an object.")
     method = message.get("method")
@@ -64,7 +64,7 @@ def _initialize(params: Any, root_uri: str) -> Message:
 
 
 def for_page(message: Any) -> tuple[Message | None, Message | None]:
-    """Filters a message of the server: the part for the page, and the answer to the server instead."""
+    """Filters a message of the server; returns the message for the page, and an answer for the server."""
     if not isinstance(message, dict):
         return None, None
     if "method" not in message:
@@ -75,7 +75,7 @@ def for_page(message: Any) -> tuple[Message | None, Message | None]:
 
 
 def _without_hints(message: Message) -> Message:
-    """Findings without hints: an argument that `terminate` must take and does not use is no mistake."""
+    """Removes hints from findings: an unused argument that `terminate` is required to have is no error."""
     params: Any = message.get("params")
     found = params.get("diagnostics") if isinstance(params, dict) else None
     if not isinstance(found, list):
@@ -85,7 +85,7 @@ def _without_hints(message: Message) -> Message:
 
 
 def _cleaned(value: Any) -> Any:
-    """Without places of this machine in what the user reads."""
+    """Removes paths of this machine from texts for the user."""
     if isinstance(value, dict):
         return {
             key: _text(each) if key in {"value", "message", "documentation"} else _cleaned(each)

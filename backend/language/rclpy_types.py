@@ -1,7 +1,7 @@
 """A copy of rclpy with the return types that its sources leave out.
 
-A language server knows the type of what a function returns only if the function says it. The functions of
-rclpy that actions call most often do not: after `node.get_logger().` nothing would be offered.
+A language server infers the type of a call's result from the declared return type. The functions of rclpy
+that actions call most often declare none, so there would be no completions after `node.get_logger().`.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ RETURNED: Final[Mapping[str, Mapping[str, str]]] = {
     "task.py": {"Future.cancelled": "bool", "Future.done": "bool"},
     "timer.py": {"Timer.is_canceled": "bool", "Timer.is_ready": "bool"},
 }
-"""By file: methods and the types that they return, as their source and its callers show."""
+"""The methods of each file with their return types, found in their source and its callers."""
 _IMPORTS: Final = {
     "Future": "from rclpy.task import Future\n",
     "RcutilsLogger": "from rclpy.impl.rcutils_logger import RcutilsLogger\n",
@@ -75,7 +75,7 @@ class _Method:
 
 
 def _methods(source: str) -> list[_Method]:
-    """The methods without a return type."""
+    """Returns the methods without a return type."""
     return [
         _Method(owner, function)
         for owner in ast.parse(source).body

@@ -24,7 +24,7 @@ RULES: Final = "F,B,E7,E9,W605,PLE,RUF100"
 IGNORED: Final = "F821,F405,F811,B027"
 _MAX_FINDINGS: Final = 200
 
-# From arguments and source to exit status and output; the status is None after a timeout.
+# A function from arguments and source to exit status and output; the status is None after a timeout.
 Run = Callable[[list[str], str], tuple[int | None, str]]
 
 
@@ -97,7 +97,7 @@ def _run(run: Run, arguments: list[str], source: str, filename: str) -> tuple[in
 
 
 def run_beside(arguments: list[str], source: str) -> tuple[int | None, str]:
-    """Runs ruff as a child of this process."""
+    """Runs ruff as a child process."""
     try:
         done = subprocess.run(
             [str(Path(sys.executable).with_name("ruff")), *arguments],

@@ -1,8 +1,8 @@
-"""Starting language servers: the contract, and the child process that localhost uses.
+"""The interface of language servers, and the implementation by child processes for localhost.
 
-Where sessions run in containers, language servers do, too (`containers.py`), since there they interpret
-files of people who do not know each other. A server with accounts that has no containers offers none, and
-says so.
+On servers that run sessions in containers, language servers also run there (`containers.py`), since their
+users must be isolated from each other. A server with accounts but without containers offers no language
+servers, and reports so.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from backend.accounts.models import User
 
-# Address space, not memory: this stops a runaway; the limit of memory is enforced below.
+# This limits the address space of a server out of control. The limit of memory is enforced below.
 ADDRESS_SPACE_BYTES: Final = 8 * 1024**3
 STOP_S: Final = 2.0
 _CHUNK_BYTES: Final = 64 * 1024
@@ -62,10 +62,10 @@ class Launcher(Protocol):
     """Starts language servers."""
 
     async def start(self, project_id: UUID, user: User, contents: Mapping[str, bytes]) -> Server:
-        """Starts one on the files of a project, for one of its users.
+        """Starts a language server on the files of a project, for one of its users.
 
         Raises:
-            UnavailableError: there is none here, or it cannot be started.
+            UnavailableError: this server offers none, or it cannot be started.
         """
 
 
@@ -116,7 +116,7 @@ class ProcessServer:
 
 
 def environment_of(home: Path) -> dict[str, str]:
-    """Returns the environment of a language server: one thread, its configuration, and nothing of ours."""
+    """Returns the environment of a language server, without any variable of the web server."""
     return {
         "PATH": os.defpath,
         "HOME": str(home),

@@ -1,7 +1,7 @@
 """Connects the web server to a user's tools: a container per user that reads files for the editor.
 
-The container is `executor.tools`, started by the launcher of the sessions. Its id and token follow from the
-user, so that every web server finds the same one, and nothing is stored.
+The container runs `executor.tools`; the launcher of the sessions starts it. Its id and token are derived from
+the user, so that every web server finds the same container and nothing needs to be stored.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ if TYPE_CHECKING:
 
 _NAMESPACE: Final = UUID("1d0a2f0e-6f0b-5c5e-9b57-0f6a1a8f6c11")
 ANSWER_S: Final = 15.0
-# Tools that are just ending are found ended a moment later.
+# If the tools are just ending, the next attempt finds them ended and starts them again.
 _ATTEMPTS: Final = 3
 _PAUSE_S: Final = 0.3
 _MAX_BYTES: Final = 16 << 20
 paths: Final[dict[str, str]] = {}
-"""Where the tools listen that were opened, by their ids."""
+"""The addresses of opened tools, by their ids."""
 
 
 def tools_id(user: User) -> str:
@@ -48,7 +48,7 @@ def token(made_id: str) -> str:
 
 
 def _path(made_id: str, *, is_known_good: bool) -> str:
-    """Where the tools listen; the launcher is asked unless they were there a moment ago."""
+    """Returns the address of the tools; calls the launcher unless the known address is still good."""
     if not is_known_good or made_id not in paths:
         limit_s = environment().session_start_timeout_s
         paths[made_id] = launcher().open_tools(made_id, token(made_id), timeout_s=limit_s)
@@ -90,7 +90,7 @@ async def open_editor(user: User) -> ClientConnection:
 
 
 def run_ruff(user: User, arguments: list[str], source: str) -> tuple[int | None, str]:
-    """Runs ruff in a user's tools; returns status and output, None as status when it took too long.
+    """Runs ruff in a user's tools; returns status and output. The status is None after a timeout.
 
     Raises:
         CheckerUnavailableError: the tools cannot be started, or do not answer.

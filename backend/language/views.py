@@ -1,4 +1,4 @@
-"""Formatting and checking of Python that is being written; nothing is stored."""
+"""Views that format and check Python while a user edits it; nothing is stored."""
 
 from __future__ import annotations
 
@@ -55,6 +55,6 @@ class Lint(APIView):
 
 
 def _answered(view: APIView, request: Request, name: str, work: Callable[[], Any]) -> Deferred:
-    """Answers with what ruff says, for which no thread of a request waits."""
+    """Returns a deferred answer with the result of ruff, so that no request thread waits for it."""
     asked = checkers.ask(f"user {user_of(request).pk}", work)
     return Deferred(view, request, asked, lambda done: Response({name: done.result()}))

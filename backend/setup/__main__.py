@@ -73,7 +73,7 @@ def stop(sentence: str) -> NoReturn:
 
 
 def say(sentence: str) -> None:
-    """Prints the present step of set-up."""
+    """Prints the current step of the set-up."""
     print(f"set-up: {sentence}", flush=True)
 
 

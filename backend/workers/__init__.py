@@ -1,5 +1,5 @@
-"""Heavy work of the web server in a few processes: bounded, fair to users, with a deadline.
+"""Runs heavy work of the web server in a few processes, with limits, fairness to users, and a deadline.
 
-A view hands its work to `pool.ask` and answers with a `deferred.Deferred`: the thread of the request is free
-meanwhile. The possible jobs are in `jobs`; these functions know neither Django nor the database.
+A view passes its work to `pool.ask` and returns a `deferred.Deferred`, so the thread of the request is free
+meanwhile. The module `jobs` has the functions; they use neither Django nor the database.
 """

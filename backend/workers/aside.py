@@ -1,7 +1,7 @@
-"""Threads for work that waits and does not compute, so that no thread of a request waits for it.
+"""Threads for work that is not for the pool of processes, so that no request thread waits for it.
 
-The pool of processes is for work that computes. Unpacking a zip needs more memory than a worker may have, and
-zlib releases the interpreter lock; a formatter in a container only has to be awaited.
+The pool is for work that computes in Python. Unpacking a zip needs more memory than a worker may have, and
+zlib releases the interpreter lock. A formatter in a container only has to be awaited.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ class Aside:
     """A few threads that users share in turn; each user has a limited number.
 
     Args:
-        name: of the threads.
-        threads: how many there are; they start with the first work.
-        per_owner: how many work for one owner at a time.
-        waiting: how much may wait.
+        name: the prefix of the threads' names.
+        threads: the number of threads; they start with the first work.
+        per_owner: the number of threads that may work for one owner at a time.
+        waiting: the number of calls that may wait.
     """
 
     def __init__(self, name: str, threads: int, per_owner: int, waiting: int) -> None:
@@ -44,7 +44,7 @@ class Aside:
         """Runs the work on the next free thread.
 
         Raises:
-            BusyError: too much waits already.
+            BusyError: too many calls wait.
         """
         task = _Task(work, Future())
         with self._changed:

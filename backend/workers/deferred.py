@@ -25,8 +25,7 @@ class Deferred(HttpResponse):
         view: the view, whose handlers also convert errors of the work.
         request: the request.
         work: the future of the work.
-        finish: makes the answer from the finished work, in a thread for requests; it may return another
-            Deferred.
+        finish: makes the answer from the result, in a request thread; it may return another Deferred.
     """
 
     streaming = True  # there is no content yet for a middleware
@@ -44,7 +43,7 @@ class Deferred(HttpResponse):
         self._view, self._request, self._finish = view, request, finish
 
     def rest(self) -> None:
-        """Releases the connection to the database while it waits; the request and its files stay open."""
+        """Releases the connection to the database during the wait; the request and its files stay open."""
         signals.request_finished.send(sender=type(self))
 
     def complete(self) -> HttpResponseBase:
@@ -60,7 +59,7 @@ class Deferred(HttpResponse):
             if hasattr(response, "render"):
                 response.render()
         ours, theirs = cast("Any", self)._resource_closers, cast("Any", response)._resource_closers
-        theirs.extend(ours)  # the request is closed with its answer
+        theirs.extend(ours)  # closing the answer closes the request
         ours.clear()
         for name, value in self.headers.items():
             response.headers.setdefault(name, value)
@@ -68,7 +67,7 @@ class Deferred(HttpResponse):
 
 
 class Waiting:
-    """The innermost middleware: completes deferred answers for handlers that cannot wait for them."""
+    """The innermost middleware. It completes deferred answers for handlers that cannot wait for them."""
 
     def __init__(self, get_response: Callable[[HttpRequest], HttpResponseBase]) -> None:
         self._get_response = get_response

@@ -1,9 +1,9 @@
-"""Errors of work that was handed to the pool.
+"""Errors of jobs in the pool.
 
 StudioError
-├─ BusyError         503, with Retry-After: too much waits already
-├─ TookTooLongError  422: the deadline passed, the worker was ended
-└─ WorkFailedError   422: the worker died, for want of memory as a rule
+├─ BusyError         503, with Retry-After: too many jobs wait
+├─ TookTooLongError  422: the job exceeded its deadline, the worker was killed
+└─ WorkFailedError   422: the worker crashed, usually for lack of memory
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from backend.core.problems import StudioError
 
 
 class BusyError(StudioError):
-    """Too much work waits for a worker."""
+    """Too many jobs wait for a worker."""
 
     status = 503
     code = "busy"

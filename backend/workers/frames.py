@@ -1,6 +1,6 @@
 """Messages between the pool and a worker: a length, then msgpack.
 
-Not pickle, since a worker that has read users' files cannot be trusted.
+Pickle would be unsafe, since a worker that has read users' files cannot be trusted.
 """
 
 from __future__ import annotations

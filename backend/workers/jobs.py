@@ -29,7 +29,7 @@ def warm_up() -> None:
 
 
 def report(files: Files) -> Answer:
-    """Returns problems and actions of a project."""
+    """Returns the problems and the actions of a project."""
     import translator  # noqa: PLC0415 - as above
 
     try:
@@ -53,8 +53,8 @@ def app(files: Files, *, universe: str, built_in: bytes | None) -> Answer:
 
     Args:
         files: the project.
-        universe: where to run; "" for the project's own choice.
-        built_in: the document of a universe of that name that the project does not have.
+        universe: the name of the universe; "" for the project's own choice.
+        built_in: the document of the built-in universe of that name, if the project has none.
     """
     import translator  # noqa: PLC0415
 
@@ -71,9 +71,9 @@ def app(files: Files, *, universe: str, built_in: bytes | None) -> Answer:
 
 
 def _universe(files: Files, name: str, built_in: bytes | None) -> str | dict[str, str]:
-    """A universe of the project as document with its assets, or the id of a built-in one.
+    """Returns a universe of the project as a document with its assets, or the id of a built-in one.
 
-    Where the project has robots of its own, a built-in universe goes as document, too: they come with it.
+    If the project has custom robots, a built-in universe is also returned as a document, which includes them.
     """
     from translator.diagnostic import Place, TranslatorError, diagnostic  # noqa: PLC0415
 
@@ -100,7 +100,7 @@ def app_zip(files: Files) -> Answer:
 
 
 def package(files: Files, *, name: str | None) -> Answer:
-    """Returns the ROS 2 package with the engine beside it."""
+    """Returns a zip of the ROS 2 package and of the engine's package."""
     import translator  # noqa: PLC0415
 
     made = translator.to_ros2_package(translator.load(files), name=name)
@@ -121,9 +121,9 @@ def package_preview(files: Files, *, name: str | None) -> Answer:
 
 
 def opened(files: Files, *, name: str, repair: bool) -> Answer:
-    """Returns the files of a new project, made of one of JdeRobot's, of Groot2's, or of BT.CPP XML.
+    """Returns the files of a new project, made from a project of JdeRobot or Groot2, or from BT.CPP XML.
 
-    `repair` escapes bare `&` and `<` in attributes of XML, which is offered when the XML cannot be read.
+    `repair` escapes bare `&` and `<` in attributes of XML. The client offers it if the XML cannot be read.
     """
     import translator  # noqa: PLC0415
 
@@ -138,7 +138,7 @@ def inspect(source: str, *, filename: str) -> Answer:
 
 
 def write_tree(diagram: str, *, base: str, ids: Sequence[str]) -> Answer:
-    """Returns a diagram as XML, patched into an earlier text of it if there is one."""
+    """Returns a diagram as XML; with an earlier text, only the differences change in it."""
     from translator.tree_text import write_tree_text  # noqa: PLC0415
 
     return _text(write_tree_text(_tree(diagram), base=base, ids=ids))
@@ -147,7 +147,7 @@ def write_tree(diagram: str, *, base: str, ids: Sequence[str]) -> Answer:
 def read_tree(xml: str, *, diagram: str) -> Answer:
     """Returns the diagram of an edited text; `diagram` is its earlier state.
 
-    A half-typed text is a normal case: it has no diagram, but findings that say why.
+    An incomplete text is a normal case: the answer has no diagram, but findings with the reasons.
     """
     from translator import TranslatorError  # noqa: PLC0415
     from translator.diagram import diagram_text  # noqa: PLC0415

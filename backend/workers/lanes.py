@@ -1,7 +1,8 @@
-"""Two pools, so that small work does not wait behind large work of any user.
+"""Two pools of processes, so that small jobs do not wait behind large jobs of any user.
 
-The answer to a save includes a check of its project, which takes milliseconds. Large work runs at a lower
-priority (*nice*), so that requests are answered first; small work that each editor waits for must not.
+The answer to a save includes a check of the project, which takes milliseconds. Large jobs run at a lower
+priority (*nice*), so that requests are answered first. Small jobs run at normal priority, since editors wait
+for them.
 """
 
 from __future__ import annotations
@@ -23,17 +24,17 @@ SMALL_WORKERS: Final = {"local": 1, "team": 2}
 LARGE_WORKERS: Final = {"local": 1, "team": max(2, os.cpu_count() or 1)}
 """Processes for large work, by mode."""
 PER_OWNER: Final = 1
-"""Jobs of one owner at work in each of the two pools."""
+"""Jobs of one owner that may be at work in each of the two pools."""
 NICENESS: Final = 10
-"""Of large work: answers to requests, and the small work they wait for, come first."""
+"""The niceness of processes for large work: requests and small work come first."""
 TOO_LONG_KEPT_S: Final = 60.0
-"""Large work that took too long is not tried again so soon; small work only met a busy machine."""
+"""Seconds for which a large job that took too long is refused. Small ones may be retried immediately."""
 SMALL_WAITING: Final = 16
 LARGE_WAITING: Final = 4
-"""Jobs that may wait, for each process. Small ones take milliseconds: waiting is better than an error."""
+"""Large jobs that may wait for each process. Small ones take milliseconds, so many of them may wait."""
 MEMORY_BYTES: Final = 1 << 30
 SMALL_BYTES: Final = 256 << 10
-"""The largest question of small work: a project of some hundred nodes with its actions has 50 KB."""
+"""The largest arguments of a small job, in bytes; a project of some hundred nodes takes about 50 KB."""
 
 
 class Lanes:
@@ -56,7 +57,7 @@ class Lanes:
         """Hands a job to a pool, like `Pool.ask`.
 
         Raises:
-            BusyError: too much waits already.
+            BusyError: too many jobs wait.
         """
         packed = packed_job(job, arguments)
         lane = self._small if len(packed) <= SMALL_BYTES else self._large

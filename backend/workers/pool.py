@@ -40,12 +40,12 @@ class Limits:
 
     Attributes:
         workers: processes, each started when it is first needed.
-        per_owner: jobs of one owner that are at work at a time.
+        per_owner: jobs of one owner that may be at work at a time.
         waiting: jobs of all owners that may wait.
-        deadline_s: how long one job may be at work.
-        memory_bytes: what one worker may allocate.
+        deadline_s: seconds that one job may take.
+        memory_bytes: bytes that one worker may allocate.
         niceness: the niceness of its processes, as for `nice`.
-        too_long_kept_s: for how long an equal job is refused at once after one that took too long.
+        too_long_kept_s: seconds for which an equal job is refused after one that took too long.
     """
 
     workers: int
@@ -65,7 +65,7 @@ class _Job:
 
 
 class Pool:
-    """Does jobs in worker processes; its methods may be called from every thread."""
+    """Runs jobs in worker processes; its methods are thread-safe."""
 
     def __init__(self, limits: Limits) -> None:
         self._limits = limits
@@ -86,7 +86,7 @@ class Pool:
             return len(self._queue)
 
     def ask(self, owner: str, job: str, **arguments: Any) -> Future[Any]:
-        """Hands a job to a worker; equal jobs are done once, for all callers.
+        """Passes a job to a worker; equal jobs run once, for all callers.
 
         Args:
             owner: the user of the job; owners take turns.
@@ -94,15 +94,15 @@ class Pool:
             arguments: its arguments: text, numbers, bytes, lists and dicts of them.
 
         Returns:
-            its result; or `TookTooLongError`, `WorkFailedError`.
+            a future of the result; it may raise `TookTooLongError` or `WorkFailedError`.
 
         Raises:
-            BusyError: too much waits already.
+            BusyError: too many jobs wait.
         """
         return self.ask_packed(owner, packed_job(job, arguments))
 
     def ask_packed(self, owner: str, packed: bytes) -> Future[Any]:
-        """Hands a job that `packed_job` made to a worker, like `ask`."""
+        """Passes a job that `packed_job` made to a worker, like `ask`."""
         key = hashlib.sha256(packed).digest()
         future: Future[Any] = Future()
         with self._changed:
@@ -110,7 +110,7 @@ class Pool:
                 future.set_result(msgspec.msgpack.decode(kept)["result"])
                 return future
             if time.monotonic() - self._too_long.get(key, float("-inf")) < self._limits.too_long_kept_s:
-                # An equal job just took too long, and would again, for as long.
+                # An equal job just took too long, so this one would, too.
                 future.set_exception(_too_long(self._limits))
                 return future
             if (going := self._going.get(key)) is not None:
@@ -123,7 +123,7 @@ class Pool:
                     hint="Try again in a few seconds.",
                 ) from None
             self._going[key] = future
-            # One more than is needed, so that the next owner's job finds a running process.
+            # One process more than needed is started, so that the next job need not wait for its start.
             if self._idle < 2 and len(self._workers) < self._limits.workers:
                 self._workers.append(_Worker(self, f"worker_{len(self._workers)}"))
             self._changed.notify()
@@ -201,7 +201,7 @@ def _opened(answer: bytearray | Exception) -> tuple[Any, Exception | None]:
 
 
 class _Worker:
-    """A thread that waits for one process, and starts another where that one died."""
+    """A thread that passes jobs to one process, and starts another process if it ends."""
 
     def __init__(self, pool: Pool, name: str) -> None:
         self._pool = pool
@@ -229,7 +229,7 @@ class _Worker:
         self._end()
 
     def _next(self) -> tuple[str, _Job] | None:
-        """The next job; the process begins before it comes, for it needs a second to do so."""
+        """Returns the next job. Starts the process before the job comes, since a start takes a second."""
         with suppress(OSError):  # the job's own attempt reports it
             self._connected(self._pool.limits)
         return self._pool.next()
@@ -274,7 +274,7 @@ class _Worker:
         return ours
 
     def _end(self) -> str:
-        """Ends the process and says how it ended."""
+        """Ends the process; returns how it ended."""
         connection, self._connection = self._connection, None
         process, self._process = self._process, None
         if connection is not None:
@@ -286,7 +286,7 @@ class _Worker:
         return f"was killed by {signal.Signals(-code).name}" if code < 0 else f"ended with exit code {code}"
 
 
-# A worker reads users' files: its environment has what Python needs, and no secret of the server.
+# A worker reads users' files, so its environment has only what Python needs, and no secret of the server.
 _ENVIRONMENT: Final = {
     name: os.environ[name] for name in ("PATH", "LANG", "LC_ALL", "PYTHONPATH") if name in os.environ
 }

@@ -1,4 +1,4 @@
-"""The pool in a web worker that shares it with others; `service.py` does the work."""
+"""The client of the pool that several web workers share; `service.py` is its server."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ _ERRORS: Final[dict[str, type[StudioError]]] = {
 
 
 class RemotePool:
-    """Hands jobs to the shared pool; its methods may be called from every thread.
+    """Passes jobs to the shared pool; its methods are thread-safe.
 
     Args:
-        path: the socket of the pool.
+        path: the path of the pool's socket.
     """
 
     def __init__(self, path: Path) -> None:
@@ -43,13 +43,13 @@ class RemotePool:
 
     @property
     def waiting(self) -> int:
-        """Returns how many jobs of all web workers wait; 0 while the pool does not answer."""
+        """Returns the number of waiting jobs of all web workers; 0 while the pool does not answer."""
         with suppress(BusyError, FutureTimeoutError):
             return int(self._ask({}).result(PATIENCE_S))
         return 0
 
     def ask(self, owner: str, job: str, **arguments: Any) -> Future[Any]:
-        """Hands a job to the pool, as `Pool.ask`; the future raises when too many jobs wait.
+        """Passes a job to the pool, like `Pool.ask`, but if too many jobs wait, the future raises the error.
 
         Raises:
             BusyError: the pool is restarting.
@@ -64,7 +64,7 @@ class RemotePool:
 
 
 class _Line:
-    """One connection, until it ends."""
+    """One connection to the pool; it is not used again after it has ended."""
 
     def __init__(self, path: Path) -> None:
         self._connection = socket.socket(socket.AF_UNIX)
@@ -82,7 +82,7 @@ class _Line:
         threading.Thread(target=self._read, name="pool", daemon=True).start()
 
     def ask(self, message: dict[str, Any]) -> Future[Any]:
-        """Sends a question; the future gets the answer, or an error."""
+        """Sends a job; the future gets the answer, or an error."""
         future: Future[Any] = Future()
         number = next(self._numbers)
         packed = frames.pack(message | {"number": number})

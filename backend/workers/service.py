@@ -1,7 +1,7 @@
-"""One pool for all web workers of a server, `python -m backend.workers.service`: each asks it over a socket.
+"""The pool that all web workers of a server use over a socket: `python -m backend.workers.service`.
 
-Users get a fair share of the whole server, and the number of processes does not grow with the number of web
-workers. It ends when the parent does, and with it all of the pool.
+With one pool, each user gets a fair share of the whole server, and the number of processes does not grow with
+the number of web workers. The service and its processes end with the parent.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def beat(pool: Lanes | Pool, page: memoryview[float]) -> None:
-    """Reports without end that the pool answers; `waiting` takes the locks of every question."""
+    """Reports periodically that the pool answers. `waiting` takes the locks of `ask`: it hangs with them."""
     while True:
         _ = pool.waiting
         page[BEAT] = time.monotonic()
@@ -66,7 +66,7 @@ def beat(pool: Lanes | Pool, page: memoryview[float]) -> None:
 
 
 def listening(path: Path) -> socket.socket:
-    """Returns the socket at this path, in a folder that only we can access."""
+    """Returns a listening socket at this path, in a folder that only this user can access."""
     path.unlink(missing_ok=True)  # the socket of a killed predecessor
     listener = socket.socket(socket.AF_UNIX)
     listener.bind(str(path))
@@ -75,7 +75,7 @@ def listening(path: Path) -> socket.socket:
 
 
 def serve(listener: socket.socket, pool: Lanes | Pool) -> None:
-    """Answers everyone who connects, until the socket closes."""
+    """Serves all connections until the socket closes."""
     with suppress(OSError):
         while True:
             connection, _ = listener.accept()
@@ -83,14 +83,14 @@ def serve(listener: socket.socket, pool: Lanes | Pool) -> None:
 
 
 class _Asker:
-    """One web worker: a thread reads what it asks for, another writes answers as they come."""
+    """The connection of one web worker: one thread reads its jobs, another one writes the answers."""
 
     def __init__(self, connection: socket.socket, pool: Lanes | Pool) -> None:
         self._connection, self._pool = connection, pool
         self._answers: SimpleQueue[bytes | None] = SimpleQueue()
 
     def serve(self) -> None:
-        """Answers one connection until the other side ends."""
+        """Serves one connection until the other side ends it."""
         threading.Thread(target=self._write, daemon=True).start()
         try:
             with suppress(frames.FrameError):
@@ -123,7 +123,7 @@ def _answer(number: int, done: Future[Any]) -> bytes:
 
 
 def _told(error: BaseException) -> dict[str, Any]:
-    """An error as its answer names it; those of ours the other side raises again."""
+    """Returns an error as a message; the other side raises our own errors again."""
     if isinstance(error, StudioError):
         return {"error": error.code, "detail": error.detail, "hint": error.hint}
     log.error("a job failed", exc_info=error)

@@ -1,6 +1,6 @@
-"""A worker, `python -m backend.workers.worker --fd N`: does one job after the other and keeps only caches.
+"""A worker process, `python -m backend.workers.worker --fd N`: runs one job after the other.
 
-It knows neither the database nor any secret, and ends when the web server does.
+It keeps no state but caches, has no access to the database or to secrets, and ends with the web server.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--deadline-s", type=float, required=True)
     parser.add_argument("--niceness", type=int, default=0)
     options = parser.parse_args(arguments)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C is the server's to handle
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the server handles Ctrl+C
     resource.setrlimit(resource.RLIMIT_DATA, (options.memory_bytes, options.memory_bytes))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     os.nice(options.niceness)

@@ -1,4 +1,4 @@
-"""Writes zips deterministically."""
+"""Writes deterministic zips: equal files give equal bytes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 _DATE: Final = (1980, 1, 1, 0, 0, 0)
 LARGE: Final = 1024 * 1024
-"""Bytes; files above are packed quickly rather than small: the largest project takes 3 s, not 12."""
+"""Bytes. Larger files are packed fast instead of small: the largest project takes 3 s instead of 12 s."""
 SAMPLE: Final = 64 * 1024
 FAST: Final = 1
 
@@ -32,5 +32,5 @@ def pack(files: Mapping[str, bytes]) -> bytes:
 
 
 def _shrinks(data: bytes) -> bool:
-    """Whether it is worth its time, as far as the beginning of a file tells; pictures and meshes do not."""
+    """Whether compression is worth its time, judged by the file's beginning; pictures hardly shrink."""
     return len(data) <= LARGE or len(zlib.compress(data[:SAMPLE], FAST)) < SAMPLE * 0.95

@@ -1,4 +1,4 @@
-"""Standard output and error of the actions, line by line, with the node that wrote."""
+"""Standard output and error of the actions, line by line, with the node that wrote each line."""
 
 from __future__ import annotations
 

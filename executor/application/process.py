@@ -184,7 +184,7 @@ class Application:
             return
         from executor.application.ros import Graph  # noqa: PLC0415 - after the environment is set
 
-        self._graph.close()  # first, since only one can have rclpy's default context
+        self._graph.close()  # first, since only one graph can have rclpy's default context
         self._graph = Graph(domain_id, self._on_clock, outside=start.outside)
 
     def _load(self, start: StartApplication) -> bool:
@@ -232,7 +232,7 @@ class Application:
     # --- running ----------------------------------------------------------------------------------
 
     def _now(self) -> float:
-        return self._graph.now()  # not bound to one graph: it may be replaced at the start
+        return self._graph.now()  # a method of this object, since the graph may be replaced at the start
 
     def _on_clock(self, now_s: float) -> None:
         self._pulse.clocks += 1

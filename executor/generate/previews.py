@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 SIZE: Final = (480, 270)
 MOST_BYTES: Final = 30_000
 FOV: Final = 1.05
-SETTLE_STEPS: Final = 480  # people walk, and robots have settled on their wheels
-_DRAWN_AT: Final = 2  # times the size, for smooth edges
+SETTLE_STEPS: Final = 480  # until robots stand on their wheels and people walk
+_DRAWN_AT: Final = 2  # factor of the drawn size, for smooth edges
 _ROBOT_FOV: Final = 0.7
 _ROBOT_DISTANCE: Final = 4.6  # in radii, for the height of the picture
 _QUALITIES: Final = (86, 78, 70, 60, 45, 30)

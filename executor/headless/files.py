@@ -1,4 +1,4 @@
-"""Writing the files of a project where a run finds them."""
+"""Writes the files of a project into the folder of a run."""
 
 from __future__ import annotations
 

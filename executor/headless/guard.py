@@ -135,7 +135,7 @@ class Guard:
         """Interrupts the main thread; ends the process if the interrupt is caught."""
         frame = _user_frame(sys._current_frames().get(self._main))
         if frame is None:
-            return  # it is our own code, which will return
+            return  # our own code runs at the moment, and will return
         moves, text = self._moves, _describe(frame, for_s)
         self._text = text
         signal.pthread_kill(self._main, INTERRUPT_SIGNAL)

@@ -157,7 +157,7 @@ class _Runner:
             return self._measured.end(time.monotonic() - began_s)
         finally:
             self._show_figures(is_over=True)
-            # The readers run until both are closed: unread frames would hide the close.
+            # The readers run until both sockets are closed: behind unread frames the close would not be seen.
             await asyncio.gather(self._stream.close(), self._control.close())
             if self._viewer is not None:
                 await self._viewer.close()
@@ -175,7 +175,7 @@ class _Runner:
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(self._changed.wait(), LOOK_EVERY_S)
             if self._hangs_s is not None and time.monotonic() - self._hangs_s >= HANGS_AFTER_S:
-                return  # the fault is in the report, and says where
+                return  # the report has the fault and its place
             if time.monotonic() - told_s >= 1.0:
                 told_s = time.monotonic()
                 progress(measured.report)

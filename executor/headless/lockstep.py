@@ -109,7 +109,7 @@ class _Run:
         self._durations: list[float] = []
         self.moved: Callable[[], None] = lambda: None
         self._stack: list[Callable[[], object]] = []
-        self._recorder: RunRecorder | None = None  # until the tree is there
+        self._recorder: RunRecorder | None = None  # set when the tree is loaded
 
     def set_up(self) -> None:
         """Makes world and application; `close` frees them also after an error."""

@@ -6,7 +6,8 @@ from typing import Final
 
 __all__ = ["BURST", "COSTS", "RATE_HZ", "Allowance"]
 
-# Driving and dragging by hand take 60 commands a second each, a page that reconnects some dozens at once.
+# Driving and dragging by hand send 60 commands a second each; a page that reconnects sends some dozens at
+# once.
 RATE_HZ: Final = 250.0
 BURST: Final = 500.0
 COSTS: Final = {"list_topics": 10.0, "echo_topic": 4.0, "describe_type": 4.0, "take_over": 4.0}

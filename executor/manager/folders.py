@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["Folders"]
 
 KEPT_FOLDERS: Final = 3
-# Disk space that world and application need to start.
+# Bytes of disk space that world and application need to start.
 SPARE_BYTES: Final = 16 << 20
 
 

@@ -57,7 +57,7 @@ MAX_CLIENTS: Final = 32
 HEARTBEAT_S: Final = 15.0
 REPLACED: Final = 4409
 UNEXPECTED: Final = 1003
-# Of one client at a time: all frames in it are parsed at once.
+# Bytes that are read from a client at a time. All frames in them are parsed before another client's turn.
 READ_BYTES: Final = 4 << 10
 COMMANDS_IN_TURN: Final = 8
 MESSAGES_IN_TURN: Final = 16
@@ -250,7 +250,7 @@ class SessionServer:
             await connection.close(4404, "open /control first and name its client_id")
             return
         if (lost := self._stream_connections.get(client)) is not None:
-            self._close_soon(lost)  # a client that opens a second socket has lost the first
+            self._close_soon(lost)  # a client opens a second socket only after it has lost the first
         self._stream_connections[client] = connection
         outbox = self._streams[client] = StreamOutbox()
         self._report(StreamOpened(client))

@@ -164,7 +164,7 @@ class RamServer:
             message = msgspec.json.decode(frame, type=messages.ClientMessage)
             request = message.id
             if message.command == "gui":
-                return  # meant for a web page of the exercise, which does not exist; it is never answered
+                return  # for the exercise's own web page, which does not exist here; RAM never answers it
             native = to_native(message.command, msgspec.json.decode(message.data))
         except (msgspec.DecodeError, RecursionError, UnicodeError, RamError) as error:
             self._answer(request, "error", {"message": str(error)})

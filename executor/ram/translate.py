@@ -146,7 +146,7 @@ def _application_of(data: Any) -> messages.RunApplication:
     settings = _settings_of(archive)
     tick_hz = settings.get("tick_hz")
     is_rate = isinstance(tick_hz, int | float) and not isinstance(tick_hz, bool) and 0 < tick_hz <= 1000
-    # The program of those zips, `execute_docker.py`, ticks forever.
+    # RAM's program in these zips, `execute_docker.py`, ticks forever, so "repeat" is the default.
     finish: messages.OnFinish = "stop" if settings.get("on_finish") == "stop" else "repeat"
     return messages.RunApplication(
         archive, tick_hz=float(tick_hz) if is_rate and tick_hz is not None else 20.0, on_finish=finish

@@ -101,9 +101,9 @@ class GlRenderer:
     def redraw(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
     ) -> NDArray[np.uint8]:
-        """Returns the same as `draw`. Of a known view it draws only the changes.
+        """Returns the same as `draw`, but draws only the changes of a known view.
 
-        If nothing has, it is the same array as before. Do not write into it.
+        If nothing has changed, it returns the same array as before. Do not write into it.
         """
         if not self._is_software:
             return self.draw(poses, view, width, height)
@@ -355,7 +355,7 @@ class _Stock:
         return len(order)
 
     def release(self) -> None:
-        """Frees it."""
+        """Frees the buffers."""
         for thing in self._made:
             thing.release()
 

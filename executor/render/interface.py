@@ -113,9 +113,9 @@ class Renderer(Protocol):
     def redraw(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
     ) -> NDArray[np.uint8]:
-        """Returns the same as `draw`, for a view that is drawn repeatedly: it may draw only the changes.
+        """Returns the same as `draw`, but may draw only the changes. It is for views that are drawn often.
 
-        If nothing has, it may be the same array as before. Do not write into it.
+        If nothing has changed, it may return the same array as before. Do not write into it.
         """
 
     def depth(

@@ -28,6 +28,6 @@ def pixels(texture: Texture) -> NDArray[np.uint8]:
 
 def mean_color(texture: Texture) -> tuple[float, float, float]:
     """Returns the mean colour of a texture, 0 to 1 in sRGB."""
-    # Light adds up in linear space; squares approximate sRGB.
+    # Light is additive in linear colour space only; squaring approximates the decoding of sRGB.
     red, green, blue = np.sqrt(((pixels(texture) / 255.0) ** 2).mean(axis=(0, 1))).tolist()
     return red, green, blue

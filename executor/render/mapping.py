@@ -47,7 +47,7 @@ def _along_axes(points: Floats, normals: Floats, tile: tuple[float, float]) -> F
     low, high = points.min(axis=0), points.max(axis=0)
     x, y, z = (points - low).T
     width, depth = high[0] - low[0], high[1] - low[1]
-    # From outside, a texture is never mirrored.
+    # Textures are oriented so that none is mirrored when seen from outside.
     u = np.select(
         [axis == 0, axis == 1],
         [np.where(sign > 0, y, depth - y), np.where(sign > 0, width - x, x)],

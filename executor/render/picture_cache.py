@@ -70,7 +70,7 @@ class PictureCache:
         self._cached: dict[Key, CachedPicture] = {}
 
     def find(self, key: Key) -> CachedPicture | None:
-        """Returns the picture of a view of a size."""
+        """Returns the cached picture of a view in a size, or None."""
         found = self._cached.pop(key, None)
         if found is not None:
             self._cached[key] = found

@@ -71,7 +71,7 @@ class Pieces:
         self.lows = np.array([low for low, _ in boxes], np.float32).reshape(-1, 3)
         self.highs = np.array([high for _, high in boxes], np.float32).reshape(-1, 3)
         self._middles = (self.lows + self.highs) / 2
-        # Radius that matters for the level of detail.
+        # The radius by which the level of detail is chosen.
         self.rounds: Floats = (np.sort(self.highs - self.lows, axis=1)[:, 1] / 2).astype(np.float32)
         self.radii: Floats = (np.linalg.norm(self.highs - self.lows, axis=1) / 2).astype(np.float32)
 

@@ -31,7 +31,7 @@ def smoothed(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """Smooths an RGBA picture in place, and returns it."""
     height, width = picture.shape[:2]
     gray = cv2.cvtColor(picture, cv2.COLOR_RGBA2GRAY)
-    # Edges below a pixel, and to its right. None at the border, so that no access leaves the picture.
+    # Edges below a pixel, and to its right. The border has none, so that no index leaves the picture.
     below, beside = np.zeros((height, width), bool), np.zeros((height, width), bool)
     np.greater(cv2.absdiff(gray[:-1], gray[1:]), CONTRAST, out=below[:-1])
     np.greater(cv2.absdiff(gray[:, :-1], gray[:, 1:]), CONTRAST, out=beside[:, :-1])
@@ -88,7 +88,7 @@ class _Pixels:
         lengths = np.diff(starts, append=len(edges))
         starts, lengths = _picked(lengths > 1, starts, lengths)
         first, last = edges.take(starts), edges.take(starts + lengths - 1)
-        # +1: the run steps to this side there, -1: to the other side, 0: it does not, or both.
+        # +1: the run steps to this side at that end; -1: to the other side; 0: it does not step, or to both.
         step = steps.view(np.int8)
         at_start = step.take(first - along) - step.take(first - along + across)
         at_end = step.take(last) - step.take(last + across, mode="clip")
@@ -100,7 +100,7 @@ class _Pixels:
         run = np.repeat(np.arange(len(starts)), lengths)
         place = np.arange(len(run)) - (np.cumsum(lengths) - lengths).take(run)
         length = lengths.take(run)
-        # From the middle of a run to its ends, the share of the neighbour grows to one half.
+        # The weight of the neighbour grows from 0 in the middle of a run to one half at its ends.
         off = length - 2 * place - 1
         side = np.where(off > 0, at_start.take(run), at_end.take(run))
         weight = np.abs(off) * 128 // length

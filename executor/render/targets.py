@@ -16,7 +16,7 @@ MOST_SIZES: Final = 6
 
 
 class Targets:
-    """Framebuffers of the last sizes. With `samples` > 1 the hardware smooths the edges."""
+    """Framebuffers of the most recently used sizes. With `samples` > 1 the hardware smooths the edges."""
 
     def __init__(self, context: Any, samples: int) -> None:
         self._context = context
@@ -42,7 +42,7 @@ class Targets:
     def read(
         self, width: int, height: int, *, of: Size | None = None, at: Size = (0, 0)
     ) -> NDArray[np.uint8]:
-        """Returns the last picture, as rows of RGBA; or a part of one of the size `of`."""
+        """Returns the last picture as rows of RGBA; with `of`, a part of a picture of that size."""
         plain = self._plain[of or (width, height)]
         if self._drawn is not plain:
             self._context.copy_framebuffer(plain, self._drawn)

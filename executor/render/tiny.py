@@ -28,7 +28,7 @@ class TinyRenderer:
 
     def __init__(self) -> None:
         self._bullet = Bullet()
-        self.has_shadows = False  # they double its time, and are hard-edged
+        self.has_shadows = False  # shadows would double the time of this renderer, and have hard edges
         self._bodies: list[list[int]] = []
         self._ceilings: set[int] = set()
         self._ground = 0
@@ -80,7 +80,7 @@ class TinyRenderer:
     ) -> NDArray[np.int32]:
         """Returns for each pixel the row of the object in the scene, `GROUND` or `NOTHING`."""
         seen = np.reshape(self._shoot(poses, view, width, height)[4], (height, width))
-        # One more than the last body, so that -1 (the sky) indexes the last entry.
+        # The table has one entry more than bodies, so that -1 (the sky) indexes the last entry.
         rows = np.full(self._ground + 2, NOTHING, np.int32)
         for row, uids in enumerate(self._bodies):
             rows[uids] = row

@@ -60,7 +60,7 @@ def physical_urdf(text: str, meshes: dict[str, Mesh], apart: Collection[str] = (
             write_obj(mesh, files[mesh_name])
         merge_fixed_links(root, apart)
         for link in root.findall("link"):
-            for visual in link.findall("visual"):  # our renderer draws these
+            for visual in link.findall("visual"):  # visuals are for our renderer, not for Bullet
                 link.remove(visual)
             if link.find("inertial") is None:
                 link.insert(0, etree.fromstring(_FEATHER))

@@ -10,7 +10,7 @@ from executor.robots.config import RobotDocument
 
 _ROOT: Final = Path(__file__).parents[2]
 PAGE: Final = _ROOT / "docs" / "reference" / "schemas" / "robot.schema.json"
-# The editor validates robots with it; kept with its other generated sources, so that it builds alone.
+# The editor validates robots with this schema. It is kept in the front end, which then builds without Python.
 FOR_THE_EDITOR: Final = _ROOT / "frontend" / "src" / "generated" / "robot.schema.json"
 
 

@@ -117,7 +117,7 @@ class _Model:
         above: dict[str, etree._Element] = {}
         for name, joint in self._joints.items():
             parent, child = _text(joint, "parent"), _text(joint, "child")
-            if parent == "world":  # a root without mass is fixed
+            if parent == "world":  # Bullet fixes a root without mass
                 continue
             for link in (parent, child):
                 if link not in self._links:
@@ -194,7 +194,7 @@ class _Model:
         mass = self._numbers(inertial, "mass", 1)[0] if inertial.find("mass") is not None else 1.0
         etree.SubElement(made, "mass", value=f"{max(mass, 1e-4):.9g}")
         inertia = inertial.find("inertia")
-        # Default: 1 kg as a ball of 6 cm.
+        # The default is a ball of 1 kg with a radius of 6 cm.
         values = {"ixx": mass * 1.5e-3, "iyy": mass * 1.5e-3, "izz": mass * 1.5e-3}
         if inertia is not None:
             values |= {str(v.tag): self._numbers(inertia, str(v.tag), 1)[0] for v in inertia if len(v) == 0}

@@ -42,7 +42,7 @@ class _WrongError(ValueError):
 
 
 def _line(element: etree._Element) -> int:
-    return int(str(element.sourceline))  # its stub includes an ellipsis
+    return int(str(element.sourceline))  # the type in lxml's stub includes an ellipsis
 
 
 @dataclass(frozen=True)

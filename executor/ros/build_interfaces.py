@@ -54,7 +54,7 @@ RUNTIME_LIBRARIES: Final = (
     "rcutils",
     "fastcdr",
 )
-# rosidl searches the parts of a package's type support by these names; here they are one library.
+# rosidl looks for the parts of a package's type support under these names. Here one library has all of them.
 SUPPORTS: Final = ("typesupport_fastrtps_c", "typesupport_introspection_c")
 INTROSPECTION: Final = "introspection"  # the folder that generate_interfaces makes beside the packages
 PREFIX: Final = Path(sys.prefix)
@@ -63,10 +63,10 @@ COMPLETE: Final = STAMPS / "complete"
 _PROGRAMS: Final = ("build_interfaces.py", "generate_interfaces.py", "interface_definitions.py")
 _ERROR: Final = re.compile(r"\berror: |^\S*(?:Error|Support)\b.*:")
 _STATIC: Final = re.compile(r"^static .*?(\w+)(?:\[\w*\])? =", re.MULTILINE)
-# Optimised for size: half the time to compile, and converting messages takes the same.
+# Optimizing for size halves the time to compile, and messages are converted equally fast.
 _FLAGS: Final = ("-Os", "-fPIC", "-w")
 
-# Imported now, to find a type support that does not load.
+# Imported now, so that a type support that does not load fails the build.
 _CHECK: Final = """
 import importlib, sys, rclpy
 from rclpy.type_support import check_for_type_support
@@ -137,7 +137,7 @@ class _Build:
         """Builds the packages and those of ours that they use; installs them when all are built."""
         wanted = {name for package in packages for name in (package, *needed_by(package)) if name in PACKAGES}
         (self._work / "lib").mkdir()
-        # Each package waits in threads for its own steps and for the packages that it uses.
+        # Each package blocks several threads that wait for its steps and for the packages that it uses.
         with ThreadPoolExecutor(8 * len(wanted)) as pool:
             for package in (name for name in PACKAGES if name in wanted):
                 self._described[package] = pool.submit(self._describe, package)

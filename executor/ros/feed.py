@@ -33,9 +33,9 @@ class Due:
 
 @dataclass(frozen=True)
 class Feed:
-    """One measurement and the publishers that it goes to; `make` measures.
+    """One measurement and the publishers that send it; `make` measures.
 
-    `is_picture` if it must be rendered; `of_camera` also if it accompanies a picture.
+    `is_picture` is set if it must be rendered, `of_camera` also if it only accompanies a picture.
     """
 
     publishers: list[Any]

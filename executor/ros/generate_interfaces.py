@@ -47,7 +47,7 @@ def structures(folder: Path, share: list[str]) -> None:
 def support(folder: Path, share: list[str]) -> None:
     """Writes the type support: serialization, and the description of types for other participants."""
     GenerateFastRTPSCTypesupport("fastrtps_c").generate(folder.name, _idl(folder), share, folder)
-    # Its sources have the same names as others.
+    # A separate folder, since the introspection sources have the same file names as those of FastRTPS.
     beside = folder.parent / INTROSPECTION / folder.name
     GenerateIntrospectionCTypesupport("introspection_c").generate(folder.name, _idl(folder), share, beside)
     kinds = ["rosidl_typesupport_fastrtps_c", "rosidl_typesupport_introspection_c"]

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Final
 
 FOLDER: Final = Path(__file__).with_name("interfaces")
-# Each package after those whose interfaces it uses; and the packages with wheels that it needs.
+# Packages in the order of their dependencies, each with the packages that it uses.
 PACKAGES: Final[dict[str, tuple[str, ...]]] = {
     "tf2_msgs": ("geometry_msgs", "action_msgs"),
     "geographic_msgs": ("geometry_msgs", "unique_identifier_msgs"),

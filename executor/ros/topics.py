@@ -51,9 +51,9 @@ _QOS: Final = QoSProfile(
 _LATCHED_QOS: Final = QoSProfile(
     depth=50, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL
 )
-# Name that rcl gives a node whose topics were discovered before its name.
+# The name that rcl gives to a node whose topics are discovered before its name.
 _NO_NAME_YET: Final = "_NODE_NAME_UNKNOWN_"
-# Not measured by a listing: a subscription to images would start the renderer.
+# Types whose rates are not measured for a list: a subscription to images would start the renderer.
 _UNMEASURED: Final = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2"})
 
 
@@ -277,7 +277,7 @@ class Topics:
             try:
                 made = self._node_for(topic, kind).create_publisher(kind, topic, 10)
             except (NameValidationException, ValueError, RuntimeError) as error:
-                # Further lines of ROS's text mark the place.
+                # Only the first line of ROS's text: the others mark the place in it with a caret.
                 text = str(error).partition("\n")[0].rstrip(":")
                 raise TopicError("bad_topic", f"{topic!r} is no name of a topic: {text}.") from error
             self._publishers[topic, type_name] = made if self._outlet is None else Piped(made, self._outlet)

@@ -83,11 +83,11 @@ class Child:
         return bool(self.hang) and not self.vitals.is_well
 
     def expect(self, token: str) -> None:
-        """Stores the token of a request of the session's own."""
+        """Stores the token of a request that the session itself sent."""
         self._answers[token] = None
 
     def take_answer(self, message: Answer) -> bool:
-        """Takes an answer to a request of the session's own; returns whether it is one."""
+        """Stores an answer to a request that the session itself sent; returns whether it is one."""
         if message.request is None or message.request not in self._answers:
             return False
         self._answers[message.request] = message
@@ -103,9 +103,9 @@ class Child:
         if isinstance(message, Beat):
             self.vitals.beat(message)
         elif type(message) in _TASKS:
-            self.vitals.task = _TASKS[type(message)]  # a hang may keep the next beat from being sent
+            self.vitals.task = _TASKS[type(message)]  # set here, since a hang may prevent the next beat
         if isinstance(message, Fault) and message.kind == "timeout":
-            pass  # a slow tick may still end well
+            pass  # a tick that is only slow may still end normally
         elif not isinstance(message, _NOT_STORED):
             self._said[type(message)] = message
 

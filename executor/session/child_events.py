@@ -29,7 +29,7 @@ _SAME: dict[type[Struct], type[Struct]] = {
 
 
 def forward(stage: Stage, child: Child, event: ChildSaid) -> None:
-    """Sends a message of a living child to the clients that it is for."""
+    """Sends a message of a living child to its receivers among the clients."""
     message = event.message
     match message:
         case child_messages.Tick():
@@ -38,7 +38,7 @@ def forward(stage: Stage, child: Child, event: ChildSaid) -> None:
         case child_messages.Sim():
             stage.sim_time_s = message.t
             sim = event_of(message, messages.Sim)
-            sim.tick_ms, sim.tick_budget_ms = stage.mirror.tick_load()  # the world does not know these
+            sim.tick_ms, sim.tick_budget_ms = stage.mirror.tick_load()  # the world lacks these
             stage.output.emit(sim)
         case Log():
             log(stage, event)

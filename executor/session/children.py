@@ -84,7 +84,7 @@ class Children:
         self._effect(Tell(child.kind, child.number, message))
 
     def order(self, kind: Kind, message: Request) -> tuple[Child, str]:
-        """Sends a request of the session's own; returns the child and the token of its answer."""
+        """Sends a request of the session, not of a client; returns the child and the token of its answer."""
         child, token = self.ensure(kind), self._token()
         child.expect(token)
         self.ask(child, message, token)
@@ -95,11 +95,11 @@ class Children:
         self._effect(Interrupt(child.kind, child.number))
 
     def drop(self, kind: Kind, *, grace_s: float = 0.0, reason: str = "was ended") -> None:
-        """Ends the child of a kind: at once, or after a time in which it may end by itself."""
+        """Ends the child of a kind: immediately, or after a grace period in which it may end by itself."""
         child = self.living.pop(kind, None)
         if child is None:
             return
-        child.end(reason)  # steps that wait for it fail now
+        child.end(reason)  # steps that wait for this child fail now
         self._lost(child, reason)
         self.leaving.add((kind, child.number))
         if grace_s:

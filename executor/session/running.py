@@ -73,9 +73,8 @@ def pause(stage: Stage, _: Struct) -> Step:
         yield confirmed(world, "pause")
     except StepFailed:
         if stage.state is State.APPLICATION_RUNNING:
-            stage.children.tell_application(
-                child_messages.Resume()
-            )  # time must pass in both processes, or in neither
+            # Time must pass in both processes, or in neither.
+            stage.children.tell_application(child_messages.Resume())
         raise
     stage.enter(State.PAUSED)
 
@@ -90,7 +89,7 @@ def await_tick(stage: Stage, application: Child, until: Callable[[], Any]) -> En
             if failure.code != "timeout":
                 raise
             if not vitals.has_beaten or vitals.stuck_s >= TICK_PATIENCE_S:
-                break  # otherwise the tick is only slow, as on a busy machine
+                break  # while there is progress, the tick is only slow, as on a busy machine
         else:
             return None
     return (yield from end_hanging_tick(stage, application))

@@ -57,7 +57,7 @@ class LastRun:
 
 
 class Stage(Protocol):
-    """One session, without what only its adapters use."""
+    """The part of a session's interface that its steps and other parts use."""
 
     about: About
     mirror: Mirror

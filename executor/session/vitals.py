@@ -97,10 +97,9 @@ class Vitals:
 
     @property
     def hangs(self) -> bool:
-        """Whether it was inactive for so long that users must be notified."""
-        if (
-            self.task == STARTING
-        ):  # no user code runs yet: importing large libraries may hold the interpreter lock
+        """Whether the child has been inactive for so long that users must be notified."""
+        if self.task == STARTING:
+            # No user code runs yet, and importing large libraries may hold the interpreter lock.
             return self.silent_s >= FROZEN_S and self.idle_s >= FAULT_AFTER_S
         if self.silent_s >= FROZEN_S:
             return self.silent_s >= FAULT_AFTER_S  # no thread runs, not only the main one
@@ -110,7 +109,8 @@ class Vitals:
     def is_lost(self) -> bool:
         """Whether it must be ended."""
         if self.task:
-            # A child that computes is loading; one that sleeps waits for something that never comes.
+            # A child that uses the processor is still loading. One that is idle waits for an event that never
+            # comes.
             return self.idle_s >= END_AFTER_S or self.stuck_s >= LOADING_S
         if self.silent_s >= END_AFTER_S:
             return True

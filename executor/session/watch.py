@@ -67,9 +67,8 @@ def traced(stage: Stage, event: ChildTraced) -> None:
     if child is None or child.hang:
         return
     if event.text or not child.vitals.is_well:
-        _tell(
-            stage, child, event
-        )  # also if it is well again: the signal itself may have ended the wait that made it hang
+        # It is reported even if the child has recovered: the signal itself may have ended the wait.
+        _tell(stage, child, event)
     else:
         child.was_inspected = False
 

@@ -15,7 +15,7 @@ __all__ = ["ControlOutbox", "StreamOutbox"]
 
 MAX_MESSAGES: Final = 4000
 MAX_BYTES: Final = 16 << 20
-# Answers are never dropped, so commands of a client that reads none are not handled any more.
+# Answers are never dropped. Beyond this number of unread answers, the client's commands are not handled.
 MAX_REPLIES: Final = 10_000
 PICTURES: Final = ("camera", "view")
 PACE_S: Final = 0.5

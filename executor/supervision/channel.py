@@ -94,7 +94,7 @@ class _Outbox:
                     message = Frame(message.client, message.stream, data)
                 self.frames[message.client, message.stream] = message
                 return
-            # A frame to be kept is never dropped; `waiting` is older, and no later frame needs it.
+            # A frame with `keep` is never dropped. It makes `waiting`, which is older, superfluous.
         data = encode(message)
         self.control.append(data)
         self.control_bytes += len(data)

@@ -31,7 +31,7 @@ def die_with_parent() -> None:
     expected = os.environ.pop(PARENT_VARIABLE, "")
     if expected and os.getppid() != int(expected):
         os._exit(1)
-    # A fork loses the setting.
+    # Forked children do not inherit the setting, so each sets it again.
     os.register_at_fork(after_in_child=lambda: _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL))
 
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 __all__ = ["is_abandoned", "is_young"]
 
-# An owner needs a moment between creating the file and locking it.
+# Seconds. A younger file may be unlocked because its owner has just created it, and not yet locked it.
 YOUNGEST_S: Final = 1.0
 
 

@@ -84,7 +84,7 @@ class LineReader:
             self.feed(b"\n")
 
     def feed(self, chunk: bytes) -> None:
-        """Takes a chunk of bytes."""
+        """Adds a chunk of output, and reports the lines that are complete."""
         *lines, self._rest = (self._rest + chunk).split(b"\n")
         if len(self._rest) > LINE_CHARACTERS:
             lines.append(self._rest)

@@ -41,7 +41,7 @@ def look_at(pid: int) -> Signs | None:
         return None
     try:
         ran_ns, waited_ns, _ = Path(f"/proc/{pid}/schedstat").read_text().split()
-    except (OSError, ValueError):  # this kernel does not count it
+    except (OSError, ValueError):  # this kernel does not have the counter
         return Signs(fields[0], (int(fields[11]) + int(fields[12])) * _TICK_S, 0.0)
     return Signs(fields[0], int(ran_ns) * 1e-9, int(waited_ns) * 1e-9)
 
@@ -74,7 +74,7 @@ class Notes:
         for _ in range(round(TRACE_S / TRACE_STEP_S)):
             await asyncio.sleep(TRACE_STEP_S)
             if size > before and self._size() == size:
-                break  # no more output
+                break  # the output has ended
             size = self._size()
         data = os.pread(self.fd, min(size - before, LARGEST_TRACE_BYTES), before)
         return data.decode("utf-8", "replace")

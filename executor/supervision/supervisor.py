@@ -82,7 +82,7 @@ class Supervisor:
             self._waiting[key] = []
             self._do(self._live(effect))
         elif key in self._waiting:
-            self._waiting[key].append(effect)  # it is being started
+            self._waiting[key].append(effect)  # applied when the start of the child has finished
         elif (child := self._children.get(key)) is not None:
             self._apply_to(child, effect)
         elif isinstance(effect, Inspect):

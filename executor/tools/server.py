@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ToolsServer"]
 
-MAX_MESSAGE_BYTES: Final = 300 << 20  # all Python files of the largest project, once
+MAX_MESSAGE_BYTES: Final = 300 << 20  # bytes; all Python files of the largest project in one message
 MAX_CLIENTS: Final = 16
 HEARTBEAT_S: Final = 15.0
 

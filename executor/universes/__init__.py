@@ -30,7 +30,8 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    # The manager reads documents too, and must not import pydantic, which takes longer than the rest of it.
+    # The manager also reads documents. It must not import pydantic, which takes longer than all its other
+    # imports.
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from executor.universes import loader, model  # noqa: PLC0415

@@ -10,7 +10,8 @@ from executor.universes.model import Universe
 
 _ROOT: Final = Path(__file__).parents[2]
 FOLDER: Final = _ROOT / "docs" / "reference" / "schemas"
-# The editor validates universes with it; kept with its other generated sources, so that it builds alone.
+# The editor validates universes with this schema. It is kept in the front end, which then builds without
+# Python.
 FOR_THE_EDITOR: Final = _ROOT / "frontend" / "src" / "generated" / "universe.schema.json"
 
 

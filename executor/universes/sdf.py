@@ -131,7 +131,7 @@ class _Reader:
                 size = self._numbers(shape, "radius", 1)
             case "plane":
                 size = self._numbers(shape, "size", 2) if shape.find("size") is not None else [LARGE_M] * 2
-                if min(size) >= LARGE_M:  # the ground, which every universe has
+                if min(size) >= LARGE_M:  # a ground plane is left out: every universe has one
                     return None
             case "mesh":
                 return self._mesh(shape)

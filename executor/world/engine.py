@@ -45,7 +45,7 @@ class Bullet:
         value = getattr(pybullet, name)
         if callable(value):
             value = functools.partial(value, physicsClientId=self._id)
-        self.__dict__[name] = value  # looked up once: every step uses these
+        self.__dict__[name] = value  # cached, since every step uses these functions
         return value
 
     def close(self) -> None:

@@ -85,13 +85,13 @@ class Robot(Protocol):
         """Returns position in rad or m and rate of each joint with a motor, the wheels' first."""
 
     def scan(self, lidar: Lidar) -> LidarReading:
-        """Measures now."""
+        """Returns a scan at the current time."""
 
     def imu(self, imu: Imu) -> ImuReading:
-        """Measures now."""
+        """Returns a measurement of the IMU at the current time."""
 
     def battery(self, battery: Battery) -> BatteryReading:
-        """Measures now."""
+        """Returns the current state of the battery."""
 
     def pressed(self) -> frozenset[Zone]:
         """Returns the zones of the bumper that are pressed."""

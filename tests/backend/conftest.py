@@ -1,4 +1,4 @@
-"""What the tests of the web server share."""
+"""Fixtures of all tests of the web server."""
 
 from __future__ import annotations
 

@@ -49,7 +49,7 @@ def start(folder, *arguments, prefix=(), program=PROGRAM, **environment):
 
 
 def await_ready(process, ready_file):
-    """What the server writes when it can be used."""
+    """Returns the address that the server writes when it is ready."""
     deadline = time.monotonic() + TIMEOUT_S
     while not ready_file.exists():
         assert process.poll() is None, process.communicate()

@@ -51,7 +51,7 @@ LINK = re.compile(r"^(http://[^/]+/(?:join|shared)/).*$")
 
 
 def _pattern(template):
-    """What addresses of an operation look like; only the path of a file has slashes."""
+    """Returns a pattern for the addresses of an operation; only the path of a file has slashes."""
     holes = re.sub(r"\{path\}", "(.+)", template)
     return re.compile(re.sub(r"\{\w+\}", "([^/]+)", holes) + "$")
 

@@ -1,4 +1,4 @@
-"""What our own programs in containers give up, tried in processes that gave it up."""
+"""The rights that our programs in containers give up, tried in processes that gave them up."""
 
 from __future__ import annotations
 

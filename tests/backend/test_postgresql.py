@@ -1,4 +1,4 @@
-"""What holds on SQLite holds on a real PostgreSQL with Redis: the same suite, in a process of its own."""
+"""The suite of SQLite on a real PostgreSQL with Redis, in its own process."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How many queries each endpoint makes; `query_budgets.json` is recorded with BT_STUDIO_RECORD=1."""
+"""The number of queries of each endpoint; `query_budgets.json` is recorded with BT_STUDIO_RECORD=1."""
 
 from __future__ import annotations
 

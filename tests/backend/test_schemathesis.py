@@ -63,7 +63,7 @@ def test_operation(path, method, project, one_transaction):
 
 @pytest.mark.usefixtures("team", "one_transaction")
 def test_every_operation_on_a_server_with_accounts(settings_of, monkeypatch):
-    settings_of(expensive_calls_per_minute=10**6)  # besides those of `team`
+    settings_of(expensive_calls_per_minute=10**6)  # in addition to those of `team`
     monkeypatch.setattr(SCHEMA, "app", WSGIHandler())
     teacher = create_account("tea", email="tea@example.org", password="", is_teacher=True)
     browser = Person(teacher).quick().client

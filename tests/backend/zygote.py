@@ -86,7 +86,7 @@ def main():
     from backend.config import asgi, urls  # noqa: F401 - imported once for all
 
     answers = os.dup(1)
-    os.dup2(2, 1)  # what servers print is none of the answers
+    os.dup2(2, 1)  # the output of servers must not mix with the answers
     for line in sys.stdin:
         child = os.fork()
         if child == 0:

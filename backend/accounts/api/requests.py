@@ -24,14 +24,14 @@ def parsed(serializer: type[serializers.Serializer[Any]], data: Any) -> dict[str
     try:
         return dict(_reader(serializer).run_validation(data))
     except ValidationError:
-        # Rare, and so allowed to be slow: a new serializer makes DRF's error text.
+        # Errors are rare, so this may be slow: a new serializer makes DRF's error text.
         bound = serializer(data=data)
         bound.is_valid(raise_exception=True)
         return dict(bound.validated_data)
 
 
 def _reader(serializer: type[serializers.Serializer[Any]]) -> serializers.Serializer[Any]:
-    """This thread's serializer: to make one with its fields takes longer than to read most requests."""
+    """Returns this thread's serializer, since making one takes longer than reading most requests."""
     readers: dict[type[serializers.Serializer[Any]], serializers.Serializer[Any]]
     readers = _threads.__dict__.setdefault("readers", {})
     if serializer not in readers:

@@ -11,7 +11,7 @@ from backend.core.rest.openapi import ProblemSchema
 
 
 class ResourceSchema(ProblemSchema):
-    """Describes `list` operations as they are: they answer with an object that has `items`."""
+    """Describes the answer of `list` operations, which is an object with `items`, not an array."""
 
     def _is_list_view(self, serializer: Any = None) -> bool:
         return False

@@ -51,11 +51,11 @@ class AccountAdapter(DefaultAccountAdapter):  # type: ignore[misc]
             raise self.validation_error("too_many_login_attempts")
 
     def _rollback_login_failed_rl_usage(self) -> None:
-        """Called when the password was right."""
+        """Removes the attempt from the counts; called after a correct password."""
         self._attempt.take_back()
 
     def _delete_login_attempts_cached_email(self, request: HttpRequest, **credentials: Any) -> None:
-        """Called when a new password was set."""
+        """Resets the counts of the account; called after a new password was set."""
         forget(self._bounds(request, credentials))
         super()._delete_login_attempts_cached_email(request, **credentials)
 

@@ -1,10 +1,10 @@
-"""Counts wrong passwords, so that a guesser is slowed down and nobody else is shut out.
+"""Counts wrong passwords, to slow down attackers without locking out the users.
 
-A browser in which someone signed in before is *known* to that account, by a signed cookie, and has a count
-of its own: whatever others guess, its user gets in. Of other browsers, failures are counted by account and
-address together; by account alone, against many machines that guess one password; and by address alone,
-against one machine that tries a password on many accounts. The last is so large that a class behind one
-address, mistyping, does not meet it.
+A browser in which someone signed in before is *known* to that account, by a signed cookie, and has its own
+count: its user can sign in, however often others fail. For other browsers, failures are counted by account
+and address together; by account alone, against many machines that guess one password; and by address alone,
+against one machine that tries a password on many accounts. The last limit is so large that the typing errors
+of a class behind one address do not reach it.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ if TYPE_CHECKING:
 
 KNOWN_DAYS: Final = 180
 KNOWN_ACCOUNTS: Final = 12
-"""Accounts that one browser, in a laboratory for example, is known to at most."""
+"""The largest number of accounts to which one browser is known, such as one in a laboratory."""
 COOKIE: Final = "bt_studio_browser"
 MINUTE_S: Final = 60
 
 
 class Bound(NamedTuple):
-    """A number of failures in a number of seconds."""
+    """A limit of failures in a period of seconds."""
 
     key: str
     most: int
@@ -45,7 +45,7 @@ class Browser:
     """A browser in which someone signed in before.
 
     Attributes:
-        identity: random, made at the first sign-in.
+        identity: a random id, made at the first sign-in.
         accounts: keys of the accounts, the latest last.
     """
 
@@ -89,7 +89,7 @@ class Attempt:
             self.take_back()
 
     def take_back(self) -> None:
-        """Does not count the attempt: it succeeded, or was refused."""
+        """Removes the attempt from the counts: it succeeded, or was refused before the check."""
         for key in self._counted:
             _more(key, -1)
         self._counted = []
@@ -103,7 +103,7 @@ def forget(limits: Iterable[Bound]) -> None:
 def _more(key: str, number: int) -> int:
     try:
         return int(cache.incr(key, number))
-    except ValueError:  # it expired a moment ago
+    except ValueError:  # the count has just expired
         return max(number, 0)
 
 

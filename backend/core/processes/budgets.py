@@ -1,10 +1,10 @@
-"""Processor time of this process by owner: an owner who uses more than their share rests, while others work.
+"""Budgets of processor time in this process: an owner who exceeds their share must wait while others work.
 
-An interpreter runs one thread at a time, so that requests, heads and frames of all users take turns. A queue
-alone is not enough: an owner who always has something in it takes every other turn.
+An interpreter runs one thread at a time, so requests, heads and frames of all users take turns. A fair queue
+alone is not enough: an owner who always has an item in it gets every other turn.
 
-The rule is the *generic cell rate algorithm* (ITU-T I.371, annex A): each owner has a time from which they
-may continue; what they use moves it into the future by used / share, and a burst may be used in advance.
+The rule is the *generic cell rate algorithm* (ITU-T I.371, annex A). Each owner has a time from which they
+may continue. Using processor time moves it into the future by used / share; a burst may be used in advance.
 """
 
 from __future__ import annotations
@@ -16,21 +16,22 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 SHARE: Final = 0.15
-"""Of one processor, for each owner who has used up their burst."""
+"""Fraction of one processor for each owner who has used up their burst."""
 BURST_S: Final = 0.3
-"""Processor time that may be used at once: a page that opens asks for a tenth of it."""
+"""Seconds of processor time that may be used at once; opening a page takes a tenth of it."""
 LONGEST_REST_S: Final = 2.0
 OTHERS_S: Final = 2.0
-"""An owner rests only if another one used something in this time: nobody waits for an idle server."""
+"""Seconds. An owner waits only if another owner was active in this time, so that nobody waits for an idle
+server."""
 MOST_OWNERS: Final = 10_000
 
 
 class Budgets:
-    """The processor time that owners have used, and how long each must rest. The event loop's thread uses it.
+    """The processor time that owners have used, and how long each must wait. Used by the event loop's thread.
 
     Args:
-        share: of a processor, for one owner.
-        burst_s: processor time that may be used in advance.
+        share: fraction of a processor for one owner.
+        burst_s: seconds of processor time that may be used in advance.
         clock: monotonic time in seconds.
     """
 
@@ -47,10 +48,10 @@ class Budgets:
         self._other_s = float("-inf")
 
     def spend(self, owner: str, used_s: float) -> float:
-        """Books processor time, and returns for how many seconds this owner's next piece of work waits.
+        """Books processor time, and returns the seconds that this owner's next piece of work must wait.
 
-        Each piece moves the next one further away, so that many connections of one owner do not continue all
-        at the same moment.
+        Each piece delays the next one further, so that many connections of one owner do not all continue at
+        the same moment.
         """
         now_s = self._clock()
         if owner != self._latest:
@@ -65,7 +66,7 @@ class Budgets:
         return self.rest_s(owner)
 
     def rest_s(self, owner: str) -> float:
-        """For how many seconds this owner's next piece of work waits; 0.0 for most owners."""
+        """Returns the seconds that this owner's next piece of work must wait; 0.0 for most owners."""
         now_s = self._clock()
         other_s = self._other_s if owner == self._latest else self._latest_s
         if now_s - other_s > OTHERS_S:
@@ -77,4 +78,4 @@ class Budgets:
 
 
 budgets: Final = Budgets()
-"""Those of this process."""
+"""The budgets of this process."""

@@ -1,4 +1,4 @@
-"""The queue of items that wait for a worker: owners take turns, and none has more than its share at work."""
+"""A fair queue for workers: owners take turns, and each has a limited number of items at work."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ Item = TypeVar("Item")
 
 
 class QueueFullError(Exception):
-    """Nothing more may wait."""
+    """The queue is full, for everybody or for this owner."""
 
 
 class FairQueue(Generic[Item]):
-    """A queue for each owner, served in turn. The caller sees to it that one thread at a time uses it.
+    """Queues of all owners, served in turn. It is not thread-safe: the caller holds a lock.
 
     Args:
-        room: how many items may wait, of all owners together; of one owner half as many, so that one owner's
-            many requests cannot fill it.
-        per_owner: how many items of one owner may be at work at a time.
+        room: the number of items of all owners that may wait. One owner may have half of them, and so cannot
+            fill the queue alone.
+        per_owner: the number of items of one owner that may be at work at a time.
     """
 
     def __init__(self, *, room: int, per_owner: int) -> None:
@@ -34,7 +34,7 @@ class FairQueue(Generic[Item]):
         """Adds an item to the queue.
 
         Raises:
-            QueueFullError: there is no room, or none for this owner.
+            QueueFullError: the queue is full, or this owner has half of it.
         """
         own = self._waiting.get(owner, ())
         if len(self) >= self._room or len(own) >= max(1, self._room // 2):
@@ -42,7 +42,10 @@ class FairQueue(Generic[Item]):
         self._waiting.setdefault(owner, deque()).append(item)
 
     def take(self) -> tuple[str, Item] | None:
-        """The next item with its owner, now at work; None where every owner that waits has its share."""
+        """Removes the next item and counts it as at work; returns it with its owner.
+
+        Returns None if each owner that waits already has as many items at work as allowed.
+        """
         for owner in self._waiting:
             if self._at_work[owner] < self._per_owner:
                 break
@@ -57,7 +60,7 @@ class FairQueue(Generic[Item]):
         return owner, item
 
     def done(self, owner: str) -> None:
-        """One item of this owner is no longer at work."""
+        """Notes that one item of this owner is no longer at work."""
         self._at_work[owner] -= 1
         if not self._at_work[owner]:
             del self._at_work[owner]

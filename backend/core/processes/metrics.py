@@ -1,7 +1,7 @@
-"""Counters and histograms of this process and its siblings, in sum.
+"""Counters and histograms, summed over this process and its siblings.
 
-Names are `bt_studio_<noun>_<unit>`. Every value of a label exists before it first happens, so that a rate
-over it is right from the start. `backend/config/metrics_page.py` writes them for Prometheus.
+Names are `bt_studio_<noun>_<unit>`. Every value of a label is declared and starts at 0, so that Prometheus
+computes correct rates from the first event on. `backend/config/metrics_page.py` writes the page.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ BUCKETS_S: Final = (0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.
 
 
 class Counter:
-    """A number that only grows, for each value of one label."""
+    """A counter with one label; each value of the label has its own count."""
 
     def __init__(self, name: str, help_text: str, label: str, values: tuple[str, ...]) -> None:
         self.name, self.help_text, self.label = name, help_text, label
@@ -25,10 +25,10 @@ class Counter:
         self._lock = Lock()
 
     def add(self, value: str, amount: int = 1) -> None:
-        """Counts one more; a value that was not declared is an error of ours.
+        """Adds to the count of a value of the label.
 
         Raises:
-            KeyError: there is no such value.
+            KeyError: the value was not declared.
         """
         with self._lock:
             numbers.add(self._places[value], amount)
@@ -48,13 +48,13 @@ class Histogram:
         self._lock = Lock()
 
     def observe(self, seconds: float) -> None:
-        """Adds one."""
+        """Adds a duration."""
         with self._lock:
             numbers.add(self._first + bisect_left(BUCKETS_S, seconds), 1)
             numbers.add(self._sum_s, seconds)
 
     def buckets(self) -> list[tuple[str, float]]:
-        """Returns the bounds with the sums over all workers; each bucket also holds those before it."""
+        """Returns the bounds with the counts of all workers; counts are cumulative, as Prometheus expects."""
         found, count = [], 0.0
         for index, bound in enumerate([*map(str, BUCKETS_S), "+Inf"]):
             count += numbers.total(self._first + index)

@@ -1,8 +1,8 @@
-"""Numbers of this process in a page of memory, which its siblings and its parent may read at every moment.
+"""Numbers of this process in shared memory, which its siblings and its parent can read at any time.
 
-A worker counts straight into its page, a file that all of them map. So what one says of all is never older
-than what another said before, and what a worker counted is there when it was killed; the one that takes its
-place counts on. An aligned number is written as a whole.
+A worker counts directly in its page, a file that all workers map. So a sum from one worker is never older
+than an earlier one from another. The counts of a killed worker are not lost: its replacement continues them.
+An aligned number is written atomically, so readers need no lock.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ if TYPE_CHECKING:
 ROOM: Final = 256
 """Numbers in a page."""
 _BYTES: Final = 8
-# What the parent reads, too, has its place whatever is imported first.
+# The parent reads these numbers, so their places are fixed and do not depend on the order of imports.
 STARTED: Final = 0
-"""1 once the worker answers."""
+"""The place of a flag: 1 once the worker answers."""
 BEAT: Final = 1
-"""When its event loop was awake last."""
+"""The place of the time, in seconds, at which the event loop last ran."""
 FULL: Final = 2
-"""For how long, then, no request thread had been free."""
+"""The place of the seconds for which, at that time, no request thread had been free."""
 STUCK: Final = 3
-"""For how long, then, no request thread had come to the end of a request."""
+"""The place of the seconds for which, at that time, no request thread had finished a request."""
 _FIRST_FREE: Final = 4
 
 
@@ -38,7 +38,7 @@ class Numbers:
         self._used = _FIRST_FREE
 
     def take(self, count: int) -> int:
-        """The first of so many numbers that nothing else uses.
+        """Reserves `count` numbers; returns the place of the first.
 
         Raises:
             MemoryError: the page is full.
@@ -49,12 +49,12 @@ class Numbers:
         return first
 
     def share(self, pages: Sequence[Path], own: int) -> None:
-        """From now on counts in one of these pages; before anything was counted."""
+        """Counts in one of these pages from now on. Must be called before anything is counted."""
         self._all = [read_page(page) for page in pages]
         self._own = self._all[own]
 
     def add(self, place: int, amount: float) -> None:
-        """Adds to a number; the caller sees to it that one thread at a time does."""
+        """Adds to a number. It is not thread-safe: the caller holds a lock."""
         self._own[place] += amount
 
     def put(self, place: int, value: float) -> None:
@@ -62,23 +62,23 @@ class Numbers:
         self._own[place] = value
 
     def total(self, place: int) -> float:
-        """The sum of this number over all siblings."""
+        """Returns the sum of this number over all siblings."""
         return float(sum(page[place] for page in self._all))
 
     @property
     def pages(self) -> Sequence[memoryview[float]]:
-        """The pages of all siblings, this process' own among them."""
+        """Returns the pages of all siblings, including that of this process."""
         return self._all
 
 
 def make_page(path: Path) -> memoryview[float]:
-    """Makes a page that is all noughts."""
+    """Makes a page of zeros."""
     path.write_bytes(bytes(_BYTES * ROOM))
     return read_page(path)
 
 
 def read_page(path: Path) -> memoryview[float]:
-    """Maps a page; what is written into it is in the others' at once."""
+    """Maps a page into memory; all processes that map it see each write immediately."""
     with path.open("r+b") as file:
         return memoryview(mmap.mmap(file.fileno(), _BYTES * ROOM)).cast("d")
 

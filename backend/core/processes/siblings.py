@@ -1,8 +1,8 @@
-"""Whether this process is one of several web workers of one parent, and what they know of each other.
+"""The state that several web workers of one parent share: numbers, and places of which there are few.
 
-The parent (`parent.py`) makes a folder while it serves. In it are a page of numbers for each worker, and
-empty files that stand for a place of which there are only so many: who holds a place holds the file's lock,
-and a worker that is killed holds none any more. A server without a parent has places in its own memory.
+While the parent (`parent.py`) serves, it keeps a folder. The folder has a page of numbers for each worker,
+and an empty file for each place. The holder of a place holds the lock of its file, which the kernel releases
+when a worker is killed. A server without a parent keeps places in its own memory.
 """
 
 from __future__ import annotations
@@ -34,9 +34,9 @@ class Family(NamedTuple):
     """The workers of one parent.
 
     Attributes:
-        folder: what they share while the parent lives.
-        size: how many they are.
-        own: the number of this one, from 0.
+        folder: the shared folder, which exists while the parent serves.
+        size: the number of workers.
+        own: the index of this worker, from 0.
     """
 
     folder: Path
@@ -44,7 +44,7 @@ class Family(NamedTuple):
     own: int
 
     def pages(self) -> list[Path]:
-        """The pages of all workers."""
+        """Returns the paths of the pages of all workers."""
         return [self.folder / PAGE.format(number) for number in range(self.size)]
 
 
@@ -56,12 +56,12 @@ class _Siblings:
         self._taken: Counter[str] = Counter()
 
     def join(self, family: Family) -> None:
-        """From now on this process is one of several."""
+        """Makes this process one of several workers."""
         self.family = family
         numbers.share(family.pages(), family.own)
 
     def take(self, name: str, most: int) -> Place | None:
-        """One of so many places for all workers together; None where all are taken."""
+        """Takes one of `most` places that all workers share; returns None if all are taken."""
         if self.family is not None:
             return _locked(self.family.folder / PLACES, name, most)
         if self._taken[name] >= most:
@@ -71,13 +71,13 @@ class _Siblings:
 
 
 class Place:
-    """A place that is held until it is given back."""
+    """A place that this process holds until it gives it back."""
 
     def __init__(self, name: str, taken: Counter[str] | None, descriptor: int = -1) -> None:
         self._name, self._taken, self._descriptor = name, taken, descriptor
 
     def give_back(self) -> None:
-        """Frees the place for another; once."""
+        """Frees the place; further calls do nothing."""
         if self._taken is None:
             os.close(self._descriptor)
             return
@@ -108,7 +108,7 @@ def answering() -> None:
 
 
 async def beat_for_ever(threads: Threads) -> None:
-    """Reports to parent and siblings that the event loop is awake, and how busy the threads are."""
+    """Reports periodically to parent and siblings that the event loop runs, and how busy the threads are."""
     while True:
         numbers.put(FULL, threads.full_for_s())
         numbers.put(STUCK, threads.stuck_for_s())
@@ -117,13 +117,14 @@ async def beat_for_ever(threads: Threads) -> None:
 
 
 def least_s(place: int, own_s: float) -> float:
-    """For how long it has been so of the worker that is best off: FULL or STUCK.
+    """Returns the shortest time in seconds for which any worker has been full, or stuck.
 
-    What a worker said long ago has lasted since; one that has not started says nothing.
+    The time since a worker's last report is added to what it reported. Workers that have not started are left
+    out.
 
     Args:
-        place: which of them.
-        own_s: what it is here and now.
+        place: FULL or STUCK.
+        own_s: the current value of this worker.
     """
     if siblings.family is None:
         return own_s

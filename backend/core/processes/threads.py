@@ -1,9 +1,8 @@
-"""A few threads that stay; of those that are idle, the one that worked last works next.
+"""A fixed pool of threads. Of the idle threads, the one that worked last gets the next call.
 
-What that thread needs is still at hand: its connection to the database, and at the other end a PostgreSQL
-process that knows the statements. Where threads take turns, as in `ThreadPoolExecutor`, each begins cold.
-Owners, however, take turns, and none has more than a share of the threads: however much one of them asks
-for, the others find a free one.
+Its caches are still warm: its connection to the database, and the PostgreSQL process with the prepared
+statements. In `ThreadPoolExecutor` threads take turns, so that each starts cold. Owners do take turns, and
+each has a limited number of threads, so that the others find a free one.
 """
 
 from __future__ import annotations
@@ -24,10 +23,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     Job = Callable[[], Callable[[], None]]
-    """Works, and returns what tells that it is done."""
+    """A function that does the work, and returns the function that reports its end."""
 
 PATIENCE_S: Final = 5.0
-"""How long the end of the program waits for each thread that still works."""
+"""Seconds that the end of the program waits for each thread that still works."""
 
 
 class _Task(NamedTuple):
@@ -39,12 +38,12 @@ Inbox = SimpleQueue[_Task | None]
 
 
 class Threads:
-    """Works for coroutines.
+    """Threads that call blocking functions for coroutines.
 
     Args:
-        number: how many there are.
-        name: what they are called.
-        per_owner: how many work for one owner at a time; all of them without it.
+        number: the number of threads.
+        name: the prefix of their names.
+        per_owner: the number of threads that may work for one owner at a time; without it, all of them.
     """
 
     def __init__(self, number: int, name: str, *, per_owner: int | None = None) -> None:
@@ -62,12 +61,12 @@ class Threads:
     def run(
         self, loop: asyncio.AbstractEventLoop, work: Callable[[], Any], owner: str | None = None
     ) -> asyncio.Future[Any]:
-        """Begins the work as soon as a thread is free; the future belongs to the loop.
+        """Calls the function as soon as a thread is free; returns a future of the loop.
 
         Args:
-            loop: whose coroutine waits.
-            work: what is done.
-            owner: for whom, who then has a share of the threads; work of nobody counts for itself.
+            loop: the loop of the coroutine that waits.
+            work: the function to call.
+            owner: the owner, whose number of threads is limited. Without an owner, nothing limits the call.
         """
         future = loop.create_future()
 
@@ -82,19 +81,19 @@ class Threads:
         return future
 
     def full_for_s(self) -> float:
-        """For how long no thread has been free."""
+        """Returns the seconds for which no thread has been free."""
         with self._lock:
             return 0.0 if self._full_since_s is None else time.monotonic() - self._full_since_s
 
     def stuck_for_s(self) -> float:
-        """For how long no thread has been free or has come to the end of a piece of work."""
+        """Returns the seconds for which no thread has been free or has finished a call."""
         with self._lock:
             if self._full_since_s is None:
                 return 0.0
             return time.monotonic() - max(self._full_since_s, self._progress_s)
 
     def end(self) -> None:
-        """Waits a while until the calls that have begun are finished."""
+        """Waits for the running calls, each for at most `PATIENCE_S`."""
         with self._lock:
             threads, self._threads = self._threads, {}
             self._waiting = self._empty()
@@ -131,11 +130,11 @@ class Threads:
             following: _Task | None = task
             while following is not None:
                 done, tell = following.owner, following.job()
-                following = self._next(inbox, done)  # first: the notified caller finds it idle
+                following = self._next(inbox, done)  # before the notice, so that its receiver finds it idle
                 tell()
 
     def _next(self, inbox: Inbox, done: str) -> _Task | None:
-        """Returns the next call that may begin; without one, this thread is idle."""
+        """Returns the next call that may begin. If there is none, counts this thread as idle."""
         with self._lock:
             self._progress_s = time.monotonic()
             self._waiting.done(done)
@@ -149,7 +148,7 @@ class Threads:
 def _tell(
     loop: asyncio.AbstractEventLoop, future: asyncio.Future[Any], result: Any, error: BaseException | None
 ) -> None:
-    # A loop that has ended has nobody who waits.
+    # If the loop has ended, nobody waits for the result.
     with suppress(RuntimeError):
         loop.call_soon_threadsafe(_settle, future, result, error)
 

@@ -1,4 +1,4 @@
-"""Each endpoint has one representation: `Accept` changes nothing and never makes a 406."""
+"""Content negotiation: endpoints have one representation, so `Accept` is ignored and never causes a 406."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ if TYPE_CHECKING:
 
 
 class IgnoreClientNegotiation(BaseContentNegotiation):
-    """Takes the first renderer and goes by the body's content type for the parser."""
+    """Selects the first renderer, and the parser by the body's content type."""
 
     def select_parser(self, request: Request, parsers: Iterable[Any]) -> Any:
-        """The parser of this content type; none answers 415."""
+        """Returns the parser of this content type; DRF answers 415 if there is none."""
         return next((p for p in parsers if media_type_matches(p.media_type, request.content_type)), None)
 
     def select_renderer(
         self, request: Request, renderers: Iterable[BaseRenderer], format_suffix: str | None = None
     ) -> tuple[BaseRenderer, str]:
-        """The endpoint's own renderer."""
+        """Returns the endpoint's first renderer."""
         renderer = next(iter(renderers))
         return renderer, str(renderer.media_type)

@@ -1,4 +1,4 @@
-"""OpenAPI: what every operation has in common."""
+"""The parts of the OpenAPI document that all operations share."""
 
 from __future__ import annotations
 
@@ -26,21 +26,21 @@ class ProblemSerializer(serializers.Serializer[Any]):
 def problem_of(
     serializer: type[serializers.Serializer[Any]], description: str, *, status: int = 409
 ) -> dict[tuple[int, str], Any]:
-    """For an operation's `responses`: a problem with members of its own."""
+    """Returns an entry for an operation's `responses`: a problem document with additional members."""
     return {(status, MEDIA_TYPE): OpenApiResponse(serializer, description=description)}
 
 
 class ProblemSchema(AutoSchema):
-    """Adds the problem document to every operation, and takes names from the view's own."""
+    """Adds the problem document to every operation, and names operations after their views."""
 
     def get_request_serializer(self) -> Any:
-        """A DELETE has a body only where the view's own description says so."""
+        """Returns the serializer of the body; for a DELETE only if the view declares one."""
         return None if self.method == "DELETE" else super().get_request_serializer()
 
     def _get_request_body(self, direction: Literal["request", "response"] = "request") -> Any:
         if self.method != "DELETE":
             return super()._get_request_body(direction)  # type: ignore[no-untyped-call]
-        # The base class takes it that no DELETE has one.
+        # The base class assumes that a DELETE never has a body.
         serializer = self.get_request_serializer()
         if serializer is None:
             return None

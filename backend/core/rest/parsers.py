@@ -1,4 +1,4 @@
-"""Reading request bodies."""
+"""Parsers of request bodies."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ class TooLargeError(StudioError):
 
 
 class StrictJSONParser(JSONParser):
-    """JSON in UTF-8; NaN, infinities, NUL and lone surrogates are refused: the database holds none."""
+    """Parses JSON in UTF-8; refuses NaN, infinities, NUL and lone surrogates, which cannot be stored."""
 
     def parse(
         self, stream: Any, media_type: str | None = None, parser_context: Mapping[str, Any] | None = None
     ) -> Any:
-        """Reads the whole body."""
+        """Returns the value of the whole body."""
         try:
             limit = environment().max_request_bytes
             raw = stream.read(limit + 1)
@@ -51,5 +51,5 @@ def _refuse_constant(name: str) -> None:
 
 
 def _refuse_unstorable(value: Any) -> None:
-    """Raises ValueError for text that UTF-8 cannot encode or that PostgreSQL cannot hold in a column."""
+    """Raises ValueError for text that UTF-8 cannot encode or that PostgreSQL cannot store."""
     json.dumps(value, ensure_ascii=False).encode("utf-8")

@@ -36,8 +36,8 @@ def opened(
 ) -> HttpResponseBase:
     """Writes a project once for the request's key, and answers with the project and its problems.
 
-    The answer's part of the database is read in the same transaction: a failure after the commit must not
-    make a stored write look as if it had failed.
+    The data of the answer are read in the same transaction: a failure after the commit must not make a stored
+    write look as if it had failed.
     """
     contents: dict[str, bytes] = {}
 

@@ -1,8 +1,8 @@
-"""Access to projects: the one place that decides it, for every endpoint and socket.
+"""Decides who may access a project, for every endpoint and socket.
 
-A `Project` is only returned through `gate`, and the caller names the purpose. What a user may is the
-highest of: owner; the role that the project was shared with, with them or with a group of theirs;
-viewer, if a read-only link brought them here.
+A `Project` is only returned through `gate`, and the caller names the purpose. A user's role is the highest
+of: owner; the role with which the project is shared with them or with one of their groups; viewer, if they
+opened a read-only link.
 
 | need | role | for example |
 | --- | --- | --- |
@@ -11,7 +11,8 @@ viewer, if a read-only link brought them here.
 | `WRITE` | editor | save, rename, settings, drafts, restore a revision, label |
 | `MANAGE` | owner | archive, delete, restore, share |
 
-No role: 404, as if the project did not exist. A role that is too low: 403 `role_too_low`.
+A user without a role gets 404, as if the project did not exist; one whose role is too low gets 403
+`role_too_low`.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ NOT_FOUND: Final = "There is no such project."
 
 
 class Need(Enum):
-    """The purpose of an access: the least role, and whether it requires an account."""
+    """The purpose of an access. It defines the lowest role, and whether an account is required."""
 
     READ = (Role.VIEWER, False)
     COPY = (Role.VIEWER, True)
@@ -49,7 +50,7 @@ class Need(Enum):
 
     @property
     def role(self) -> Role:
-        """The least role."""
+        """The lowest role that suffices."""
         return self.value[0]
 
     @property
@@ -59,7 +60,7 @@ class Need(Enum):
 
 
 class RoleTooLowError(StudioError):
-    """The user may see the project, but not do this with it."""
+    """The user may see the project, but their role does not suffice for this."""
 
     status = 403
     code = "role_too_low"
@@ -67,11 +68,11 @@ class RoleTooLowError(StudioError):
 
 
 def gate(project: Project | None, *, user: User, need: Need) -> Project:
-    """Returns the project that `with_role` found, or raises.
+    """Returns the project, whose role `with_role` set, if the role suffices.
 
     Raises:
-        NotFoundError: there is none, or none that this user may know of.
-        RoleTooLowError: the user may see it, but not do this.
+        NotFoundError: there is none, or the user may not know of it.
+        RoleTooLowError: the user may see it, but the role does not suffice.
     """
     role = Role(getattr(project, "rank", Role.NONE)) if project is not None else Role.NONE
     if project is None or role == Role.NONE:
@@ -97,7 +98,7 @@ def _article(role: Role) -> str:
 
 
 def find_role(project: Project, user: User) -> None:
-    """Notes the user's role as `with_role` does; their own projects cost no query."""
+    """Sets the user's role on a project as `with_role` does; needs no query for their own projects."""
     if project.owner_id == user.pk:
         project.owner, project.rank = user, Role.OWNER.value  # type: ignore[attr-defined]
         return
@@ -108,7 +109,7 @@ def find_role(project: Project, user: User) -> None:
 
 
 def with_role(rows: QuerySet[Project], user: User) -> QuerySet[Project]:
-    """The same projects, each with the user's role as `rank`, in one query."""
+    """Returns the same projects, each with the user's role as `rank`, in one query."""
     if user.is_guest:
         return rows.annotate(rank=_linked(user))
     direct = Membership.objects.filter(project=OuterRef("pk"), user=user).values("role")
@@ -139,7 +140,7 @@ def _linked(user: User) -> Case | Value:
 
 
 def open_links(ids: Iterable[UUID]) -> QuerySet[ShareLink]:
-    """Those of these links that still open something."""
+    """Returns the links with these ids that are still valid."""
     return ShareLink.objects.filter(
         Q(expires_at=None) | Q(expires_at__gt=timezone.now()),
         id__in=ids,
@@ -150,7 +151,7 @@ def open_links(ids: Iterable[UUID]) -> QuerySet[ShareLink]:
 
 
 def visible(rows: QuerySet[Project], user: User) -> QuerySet[Project]:
-    """Those that are the user's, or shared with them; links do not count, they only open."""
+    """Returns the projects that the user owns or that are shared with them, without those of links."""
     mine = Q(owner=user)
     shared = Q(pk__in=Membership.objects.filter(user=user).values("project")) | Q(
         pk__in=GroupShare.objects.filter(group__member_rows__user=user).values("project")

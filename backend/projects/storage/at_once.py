@@ -1,7 +1,7 @@
-"""The two statements of a save on PostgreSQL: one locks and reads the project, one writes everything.
+"""The fast path of a save on PostgreSQL: one statement locks and reads the project, one writes everything.
 
-Django's ORM does the same in eight (`rows.locked`, `rows.store`, which tests compare these with). It builds
-each of them again whenever it is used, and each costs a round trip.
+Django's ORM needs eight statements for the same (`rows.locked`, `rows.store`; tests compare both). It builds
+the SQL again at each use, and each statement costs a round trip.
 """
 
 from __future__ import annotations
@@ -23,9 +23,12 @@ if TYPE_CHECKING:
     from backend.projects.storage.rows import Writing
 
 BLOBS: Final = "blobs"
-"""The lock that keeps blobs from being collected while a save is about to use them."""
+"""The name of the lock that keeps the garbage collection away from blobs that a save is about to use."""
 FILES: Final = 20
-"""Changes of more files are left to the ORM: each number of files is another statement to plan."""
+"""The largest number of files in one statement; larger changes use the ORM.
+
+Each number of files makes another statement for PostgreSQL to plan.
+"""
 
 _CHANGE: Final = ("project", "number", "author", "message", "label", "created_at")
 _BLOB: Final = ("sha256", "size", "data")
@@ -39,17 +42,17 @@ _NEWER: Final = (
 
 
 def is_here() -> bool:
-    """Whether the statements are for this database."""
+    """Whether the database is PostgreSQL, for which the statements are written."""
     return connection.vendor == "postgresql"
 
 
 def has_room(writing: Writing) -> bool:
-    """Whether a change of so many files is one statement."""
+    """Whether the change has few enough files for one statement."""
     return max(len(writing.drafts), len(writing.revisions)) <= FILES
 
 
 def locked(project_id: UUID) -> Project | None:
-    """A project that is not deleted, with its lock and that of the blobs."""
+    """Returns a project that is not deleted, and takes its lock and that of the blobs."""
     return next(iter(Project.objects.raw(_locked_sql(), [project_id])), None)
 
 
@@ -61,14 +64,14 @@ def _locked_sql() -> str:
 
 
 def write(writing: Writing) -> None:
-    """Stores a change set with its files; then the change has its key."""
+    """Stores a change set with its files, and sets the key of the change."""
     change, project = writing.change, writing.change.project
     files = [(project.pk, *file, change.number, change.created_at) for file in writing.files]
     values = [
         *_values(
             ChangeSet, _CHANGE, [[getattr(change, _field(ChangeSet, name).attname) for name in _CHANGE]]
         ),
-        # In one order, so that two saves of the same blobs never wait for each other.
+        # Blobs are written in one order, so that two saves of the same blobs cannot deadlock.
         *_values(Blob, _BLOB, sorted(writing.blobs)),
         *_values(FileRevision, _REVISION, writing.revisions),
         *_values(CurrentFile, _FILE, files),
@@ -96,7 +99,11 @@ def _field(model: type[Model], name: str) -> Field[Any, Any]:
 
 @lru_cache(maxsize=256)
 def _sql(blobs: int, revisions: int, files: int, drafts: int) -> str:
-    """The statement for so many rows. None of its parts needs to see the rows that another writes."""
+    """Returns the statement for these numbers of rows.
+
+    PostgreSQL runs all parts of a statement on one snapshot, so none may depend on rows that another part
+    writes.
+    """
     parts = {
         "change": f"{_insert(ChangeSet, _CHANGE, 1)} RETURNING id",
         "blobs": f"{_insert(Blob, _BLOB, blobs)} ON CONFLICT DO NOTHING" if blobs else "",
@@ -115,7 +122,7 @@ def _sql(blobs: int, revisions: int, files: int, drafts: int) -> str:
 
 
 def _insert(model: type[Model], names: Sequence[str], rows: int, *, of: str = "") -> str:
-    """Inserts so many rows; those that are `of` another part have its key in a first column."""
+    """Returns the part that inserts `rows` rows; with `of`, their first column is the key from that part."""
     columns = ", ".join([f"{of}_id"] * bool(of) + [str(_field(model, name).column) for name in names])
     row = _places(len(names), f"(SELECT id FROM {of})" if of else "")  # noqa: S608 - as above
     return f"INSERT INTO {_table(model)} ({columns}) VALUES {', '.join([row] * rows)}"  # noqa: S608 - as above

@@ -1,7 +1,7 @@
-"""Bounds of the trees of a project: one that is larger already may become smaller, and must not grow.
+"""Limits of the trees of a project. A project that already exceeds a limit may shrink but must not grow.
 
-A save must not wait until diagrams are read. So nodes are counted only where so many bytes could hold
-too many, and where a mark that each node has is found too often.
+Parsing diagrams at each save would be slow. So nodes are counted only if the size in bytes, and then the
+number of occurrences of a mark that each node contains, allow too many.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from backend.projects.storage.changes import Existing, Plan
 
 NODE_BYTES: Final = len('"n":{"type":"A"}')
-"""What a node takes at least."""
+"""The smallest size of a node in bytes."""
 MARK: Final = b'"type"'
 
 
@@ -30,7 +30,7 @@ class _Tree(NamedTuple):
 
 
 def require_bounded(current: Mapping[str, Existing], result: Plan) -> None:
-    """Raises QuotaExceededError where a change makes trees grow beyond the limits."""
+    """Raises QuotaExceededError if a change makes trees grow beyond the limits."""
     changed = {written.path for written in result.written} | set(result.removed)
     if not any(_is_diagram(path) for path in changed):
         return
@@ -67,14 +67,14 @@ def _require(number: int, before: int, limit: str, what: str) -> None:
 
 
 class _Contents:
-    """The bytes of diagrams, and how many nodes are in them."""
+    """The bytes of diagrams, and the number of their nodes."""
 
     def __init__(self, written: Mapping[str, bytes]) -> None:
         self._written = written
         self._nodes: dict[str, int] = {}
 
     def may_exceed(self, trees: Sequence[_Tree], most: int) -> bool:
-        """Whether they could have more nodes; says so without reading them."""
+        """Whether the trees could have more nodes than `most`, as estimated without parsing them."""
         if sum(tree.size for tree in trees) <= most * NODE_BYTES:
             return False
         return sum(self._data(tree).count(MARK) for tree in trees) > most
@@ -94,7 +94,7 @@ class _Contents:
 
 
 def _nodes(data: bytes) -> int:
-    """Counts the nodes of a diagram; a file that the translator does not read has none."""
+    """Returns the number of nodes of a diagram; 0 for a file that the translator cannot read."""
     try:
         document: Any = json.loads(data)
     except (ValueError, RecursionError):

@@ -1,7 +1,7 @@
-"""Keeps contents and lists of files that were used lately, so that a save does not fetch them again.
+"""Caches recently used contents and lists of files, so that a save does not fetch them again.
 
-A content is named by its hash, so what is kept is never out of date. A list of files is that of one revision
-of a project, made at one time: the project's row tells which one it is.
+The key of a content is its hash, so an entry is never out of date. The key of a list of files is the
+project's revision and its time, which the project's row contains.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
 LARGEST: Final = 256 * 1024
 """Bytes; larger contents are fetched each time."""
 ROOM: Final = 48 * 1024 * 1024
-"""Bytes of all contents that this process keeps."""
+"""Bytes of all contents that this process caches."""
 FILES: Final = 40_000
-"""Files in all lists that this process keeps; more than one project may have."""
+"""Files in all lists that this process caches; more than one project may have."""
 
 
 class _List(NamedTuple):
@@ -43,14 +43,14 @@ kept_lists: Final[LRUCache[UUID, _List]] = LRUCache(FILES, getsizeof=lambda one:
 
 
 def put(sha256: str, data: bytes) -> None:
-    """Keeps a content."""
+    """Adds a content to the cache."""
     if len(data) <= LARGEST:
         with _lock:
             kept_contents[sha256] = data
 
 
 def contents(wanted: Iterable[str]) -> dict[str, bytes]:
-    """The contents of these hashes, in at most one query."""
+    """Returns the contents with these hashes, in at most one query."""
     hashes = set(wanted)
     with _lock:
         found = {sha256: kept_contents[sha256] for sha256 in hashes if sha256 in kept_contents}
@@ -62,14 +62,14 @@ def contents(wanted: Iterable[str]) -> dict[str, bytes]:
 
 
 def put_files(project: Project, files: Mapping[str, Existing]) -> None:
-    """Keeps the files of the revision that a locked project is at, or that a save just made."""
+    """Caches the files of the current revision of a locked project, or of the one that a save just made."""
     if len(files) <= FILES:
         with _lock:
             kept_lists[project.pk] = _List(project.revision, project.updated_at, files)
 
 
 def files(project: Project) -> dict[str, Existing] | None:
-    """The files of this very revision, if they are kept."""
+    """Returns the files of the project's revision, or None if they are not cached."""
     with _lock:
         found = kept_lists.get(project.pk)
     if found is None or (found.revision, found.at) != (project.revision, project.updated_at):

@@ -1,8 +1,8 @@
-"""Computes the effect of a change set on a project's files, without any I/O.
+"""Computes the effect of a change set on a project's files; does no I/O.
 
-A client names for each file the revision that its edit is based on. It is the file's own revision or
-that of the whole project when it was read: revisions only grow, so both tell whether the file has
-changed since. 0 says that the file must not exist yet.
+For each file a client sends the revision on which its edit is based: the file's own revision, or that of the
+whole project when the file was read. Revisions only grow, so both show whether the file has changed since. 0
+means that the file must not exist yet.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Content:
-    """Bytes with their name."""
+    """Bytes with their hash, by which they are stored."""
 
     data: bytes = field(repr=False)
     sha256: str = ""
@@ -28,13 +28,13 @@ class Content:
 
     @classmethod
     def of(cls, data: bytes) -> Content:
-        """Names the bytes."""
+        """Returns the bytes with their hash."""
         return cls(data, hashlib.sha256(data).hexdigest(), len(data))
 
 
 @dataclass(frozen=True, slots=True)
 class FileChange:
-    """One file of a request: new content, a new path, both, or its removal."""
+    """A requested change of one file: new content, a new path, both, or its removal."""
 
     path: str
     base_revision: int
@@ -55,7 +55,7 @@ class Existing:
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """A file as the change leaves it. Without `content` its bytes are those of the blob `sha256`."""
+    """A file after the change. Without `content`, its bytes are those of the blob `sha256`."""
 
     path: str
     sha256: str
@@ -66,7 +66,7 @@ class Written:
 
 @dataclass(frozen=True, slots=True)
 class Conflict:
-    """A file whose base is stale; `theirs` is what exists now, if anything does."""
+    """A file whose base revision is stale; `theirs` is the current file, or None if it is gone."""
 
     change: FileChange
     path: str
@@ -75,7 +75,7 @@ class Conflict:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """The writes of a change set: none when the files already are as wanted."""
+    """The writes of a change set; empty if the files already have the requested state."""
 
     written: tuple[Written, ...] = ()
     removed: tuple[str, ...] = ()
@@ -83,7 +83,7 @@ class Plan:
 
     @property
     def is_empty(self) -> bool:
-        """Whether the files already are as wanted."""
+        """Whether the files already have the requested state."""
         return not self.written and not self.removed
 
 
@@ -130,7 +130,7 @@ def _conflict(
     change: FileChange, existing: Existing | None, by_key: Mapping[str, Existing], leaving: set[str]
 ) -> Conflict | None:
     if existing is None:
-        # Deleting what is gone is done already; everything else needs the file that the client saw.
+        # To delete a file that is gone is no conflict; every other change needs the file that the client saw.
         if change.base_revision > 0 and not change.delete:
             return Conflict(change, change.path, None)
     elif not _is_same(change, existing) and existing.revision > change.base_revision:
@@ -143,7 +143,7 @@ def _conflict(
 
 
 def _is_same(change: FileChange, existing: Existing) -> bool:
-    """A repeated save is no conflict: what is wanted is what is there."""
+    """Whether the file already has the requested state, so that a repeated save is no conflict."""
     return change.content is not None and not change.rename_to and change.content.sha256 == existing.sha256
 
 
@@ -166,7 +166,7 @@ def _refuse_duplicates(wanted: Sequence[FileChange]) -> None:
 
 
 def _refuse_collisions(current: Mapping[str, Existing], result: Plan) -> None:
-    """No two files with one name on some disk, and no file where another has its folder."""
+    """Refuses two paths that some file systems cannot tell apart, and a file with the path of a folder."""
     paths = [path for path in current if path not in set(result.removed)]
     paths += [w.path for w in result.written if w.path not in current or w.path in result.removed]
     owners: dict[str, str] = {}

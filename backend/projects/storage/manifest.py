@@ -1,4 +1,4 @@
-"""`project.json` as the back end sees it: the fields that lists show, and edits that keep the rest."""
+"""Reads and writes `project.json`: the fields that lists show, and edits that preserve the other fields."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MANIFEST: Final = "project.json"
 
 @dataclass(frozen=True, slots=True)
 class Manifest:
-    """The fields of `project.json` that a project's row repeats."""
+    """The fields of `project.json` that are also columns of the project's row."""
 
     name: str
     description: str
@@ -31,7 +31,7 @@ def read(raw: bytes) -> Manifest:
     """Reads a `project.json`.
 
     Raises:
-        InvalidInputError: it is not a JSON object, or one of these fields is no text of fit length.
+        InvalidInputError: it is not a JSON object, or one of these fields is not a text, or is too long.
     """
     try:
         document = json.loads(raw.decode("utf-8-sig"), parse_constant=_refuse)
@@ -55,7 +55,7 @@ def read(raw: bytes) -> Manifest:
 
 
 def write(document: Mapping[str, Any]) -> bytes:
-    """The bytes of a `project.json`; the same document gives the same bytes."""
+    """Returns the bytes of a `project.json`; equal documents give equal bytes."""
     return (json.dumps(document, ensure_ascii=False, indent=2) + "\n").encode()
 
 

@@ -1,8 +1,8 @@
-"""The one place that says which names projects and files may have.
+"""The rules for names of projects and files.
 
-Names are the user's own, in any script. Refused is what some file system, zip tool, browser or ROS
-tool would misread: control and invisible characters, device names, trailing dots and spaces, paths
-that climb, and two names that differ only in case or in Unicode form.
+Users may choose names in any script. Names are refused if some file system, zip tool, browser or ROS tool
+would misread them: control and invisible characters, device names, trailing dots and spaces, paths with `..`,
+and two names that differ only in case or in Unicode form.
 """
 
 from __future__ import annotations
@@ -23,19 +23,19 @@ _DEVICES: Final = frozenset(
 )
 _FORBIDDEN_IN_PATH: Final = re.compile(r'[\\:*?"<>|]')
 _INVISIBLE: Final = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
-_JOINERS: Final = frozenset("\u200c\u200d")  # letters of several scripts need them
+_JOINERS: Final = frozenset("\u200c\u200d")  # invisible, but required in several scripts
 
 
 def key(name: str) -> str:
-    """Equal for names that a person or some disk would take for the same."""
+    """Returns a key that is equal for names that a person or some file system would confuse."""
     return unicodedata.normalize("NFC", unicodedata.normalize("NFKC", name).casefold())
 
 
 def project_name(name: str, *, field: str = "name") -> str:
-    """Returns the name in the form that is stored.
+    """Returns the name of a project in the form that is stored.
 
     Raises:
-        InvalidInputError: it cannot be the name of a project.
+        InvalidInputError: it is not a valid name of a project.
     """
     clean = unicodedata.normalize("NFC", name).strip()
     if not clean:
@@ -57,7 +57,7 @@ def file_path(path: str, *, field: str = "path") -> str:
     """Returns the path in the form that is stored: relative, with `/`, in NFC.
 
     Raises:
-        InvalidInputError: it cannot be the path of a file in a project.
+        InvalidInputError: it is not a valid path of a file in a project.
     """
     clean = unicodedata.normalize("NFC", path)
     if not clean:
@@ -78,10 +78,10 @@ def file_path(path: str, *, field: str = "path") -> str:
 
 
 def writable_path(path: str, *, field: str = "path") -> str:
-    """Returns the path in the form that is stored, of a file that is to be written.
+    """Returns the path of a file to write, in the form that is stored.
 
     Raises:
-        InvalidInputError: it cannot be the path of a file, or lies in a folder of a tool.
+        InvalidInputError: it is not a valid path, or is inside of a folder of a tool.
     """
     clean = file_path(path, field=field)
     if is_of_tool(clean):
@@ -125,13 +125,13 @@ def _unprintable(text: str) -> str:
 
 
 def shown(text: str) -> str:
-    """Text from outside, safe and short enough for a message."""
+    """Returns text of a user in a form that is safe and short enough for a message."""
     visible = "".join(c if unicodedata.category(c) not in _INVISIBLE else "�" for c in text)
     return visible if len(visible) <= 80 else visible[:77] + "…"
 
 
 def free_name(wanted: str, taken: set[str]) -> str:
-    """The wanted name, or the first of `wanted 2`, `wanted 3` … whose key is not taken."""
+    """Returns the wanted name, or the first of `wanted 2`, `wanted 3` … whose key is not taken."""
     number = 1
     candidate = wanted
     while key(candidate) in taken:

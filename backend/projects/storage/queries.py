@@ -1,4 +1,4 @@
-"""All reads of projects, each in a number of queries that does not grow with the project."""
+"""All reads of projects. The number of queries of each does not grow with the project."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from backend.projects.storage.changes import Existing
 
 LARGEST_DRAWN: Final = 256 * 1024
-"""Bytes of a main tree; larger ones make no picture on a card, and would take a list of projects seconds."""
+"""The largest main tree, in bytes, on a project's card. Larger ones would make the list take seconds."""
 
 Sort = Literal["name", "-name", "updated_at", "-updated_at", "created_at", "-created_at"]
 Shelf = Literal["current", "archived", "deleted"]
@@ -44,12 +44,12 @@ class StoredFile:
 
     @property
     def text(self) -> str | None:
-        """The content, when it is text."""
+        """The content as text, or None if it is not text."""
         return as_text(self.data)
 
 
 def as_text(data: bytes) -> str | None:
-    """Bytes as text, or None when they are not: no UTF-8, or with NUL in it."""
+    """Returns the bytes as text, or None if they are not UTF-8 or contain NUL."""
     if b"\0" in data:
         return None
     try:
@@ -59,27 +59,27 @@ def as_text(data: bytes) -> str | None:
 
 
 def etag(project: Project) -> str:
-    """Changes with every revision, and with what else an opened project shows."""
+    """Returns the ETag of a project, which changes with every revision and all other data of the answer."""
     shelf = "archived" if project.archived_at else "current"
     return f'"{project.revision}-{shelf}-{project.role.label}-{__version__}"'
 
 
 def revision_etag(change: ChangeSet) -> str:
-    """Changes with the label of a revision, which is all that can change of it."""
+    """Returns the ETag of a revision, which changes with its label; nothing else of it can change."""
     return f'"{change.number}-{hashlib.sha256(change.label.encode()).hexdigest()[:16]}"'
 
 
 def draft_etag(draft: Draft | None) -> str:
-    """Changes with every save of a draft; one that does not exist has a tag, too."""
+    """Returns the ETag of a draft: it changes with every save. A draft that does not exist has one, too."""
     return f'"{draft.updated_at.isoformat()}"' if draft is not None else '"none"'
 
 
 def project(project_id: UUID, *, user: User, need: Need, lock: bool = False) -> Project:
-    """The project, if this user may do this with it; with `lock`, until the end of the transaction.
+    """Returns the project if this user's role suffices; `lock` locks it until the end of the transaction.
 
     Raises:
-        NotFoundError: there is none, or none that this user may know of.
-        RoleTooLowError: the user may see it, but not do this.
+        NotFoundError: there is none, or the user may not know of it.
+        RoleTooLowError: the user may see it, but the role does not suffice.
     """
     found = rows.project(project_id, lock=lock)
     if found is not None:
@@ -88,7 +88,7 @@ def project(project_id: UUID, *, user: User, need: Need, lock: bool = False) -> 
 
 
 def project_named(name: str, *, user: User) -> Project:
-    """The user's own project of this name."""
+    """Returns the user's own project of this name."""
     found = Project.objects.filter(owner=user, name_key=names.key(name), deleted_at=None).first()
     if found is None:
         raise NotFoundError(f"There is no project named “{names.shown(name)}”.")
@@ -96,18 +96,18 @@ def project_named(name: str, *, user: User) -> Project:
 
 
 def deleted_project(project_id: UUID, *, user: User) -> Project:
-    """The project, deleted or not, for its owner; locked until the end of the transaction."""
+    """Returns the owner's project, deleted or not, and locks it until the end of the transaction."""
     rows = Project.objects.select_related("owner").select_for_update(of=("self",)).filter(id=project_id)
     found = access.with_role(rows, user).first()
     if found is not None and found.deleted_at is not None and found.owner_id != user.pk:
-        found = None  # a user who may no longer see it gets the same answer as everybody else
+        found = None  # to everybody but its owner, a deleted project does not exist
     return access.gate(found, user=user, need=Need.MANAGE)
 
 
 def projects(
     *, user: User, search: str = "", sort: Sort = "-updated_at", shelf: Shelf = "current"
 ) -> QuerySet[Project]:
-    """The user's projects and those shared with them, with each word of the search in name or description."""
+    """Returns the projects that the user owns or shares whose name or description has each searched word."""
     if shelf == "deleted":
         rows = access.with_role(Project.objects.select_related("owner").filter(owner=user), user).exclude(
             deleted_at=None
@@ -124,7 +124,7 @@ def projects(
 
 
 def page(rows: QuerySet[Project], start: int, end: int) -> tuple[list[Project], int]:
-    """Some of them, each with the user's role; and how many there are."""
+    """Returns the projects from `start` to `end`, each with its role, and the number of all projects."""
     found = list(rows[start:end])
     for row in found:
         row.role = Role(row.rank)  # type: ignore[attr-defined]
@@ -133,7 +133,7 @@ def page(rows: QuerySet[Project], start: int, end: int) -> tuple[list[Project], 
 
 
 def root_diagrams(found: Iterable[Project]) -> dict[UUID, dict[str, Any]]:
-    """The main tree of each project, where it can be read."""
+    """Returns the main tree of each project that has a valid one."""
     blobs = rows.root_trees([project.id for project in found], LARGEST_DRAWN)
     data = cache.contents(blobs.values())
     diagrams = {project_id: root_diagram(data.get(sha256, b"")) for project_id, sha256 in blobs.items()}
@@ -141,7 +141,7 @@ def root_diagrams(found: Iterable[Project]) -> dict[UUID, dict[str, Any]]:
 
 
 def root_diagram(data: bytes) -> dict[str, Any] | None:
-    """A tree as JSON, where it can be read, and is such as fits on a card."""
+    """Returns a tree as JSON, or None if it cannot be read or does not fit on a card."""
     if len(data) > LARGEST_DRAWN:
         return None
     try:
@@ -152,14 +152,14 @@ def root_diagram(data: bytes) -> dict[str, Any] | None:
 
 
 def existing_files(project: Project) -> dict[str, Existing]:
-    """The current files without their bytes; those that the write left which `project` comes from."""
+    """Returns the current files without bytes; for a project that a write returned, those that it left."""
     if project.now is not None:
         return dict(project.now)
     return cache.files(project) or rows.existing(project)
 
 
 def current_files(project: Project, paths: Sequence[str] | None = None) -> dict[str, StoredFile]:
-    """The current files (all, or these) with their bytes, in the order of their paths: one query or two."""
+    """Returns the current files (all, or these) with their bytes, ordered by path, in one or two queries."""
     rows = CurrentFile.objects.filter(project=project)
     if paths is not None:
         rows = rows.filter(path__in=paths)
@@ -169,14 +169,14 @@ def current_files(project: Project, paths: Sequence[str] | None = None) -> dict[
 
 
 def contents(project: Project) -> dict[str, bytes]:
-    """The bytes of the current files, as the translator takes them."""
+    """Returns the bytes of the current files by path, as the translator expects them."""
     files = existing_files(project)
     data = cache.contents(file.sha256 for file in files.values())
     return {path: data[files[path].sha256] for path in sorted(files)}
 
 
 def change_set(project: Project, number: int) -> ChangeSet:
-    """One revision of the project."""
+    """Returns one revision of the project."""
     found = ChangeSet.objects.filter(project=project, number=number).first()
     if found is None:
         raise NotFoundError(f"The project has no revision {number}.")
@@ -186,7 +186,7 @@ def change_set(project: Project, number: int) -> ChangeSet:
 def history(
     project: Project, *, path: str = "", before: int | None = None, limit: int = 100
 ) -> list[ChangeSet]:
-    """Change sets, the newest first, with their files; all, or those that touched one path."""
+    """Returns change sets with their files, the newest first: all, or those that changed one path."""
     rows = ChangeSet.objects.filter(project=project).select_related("author").prefetch_related("files")
     if path:
         rows = rows.filter(files__path=path)
@@ -196,7 +196,7 @@ def history(
 
 
 def files_at(project: Project, number: int, paths: Sequence[str] | None = None) -> Mapping[str, StoredFile]:
-    """The files as they were after change set `number`."""
+    """Returns the files as they were after change set `number`."""
     change_set(project, number)
     rows = FileRevision.objects.filter(change__project=project, change__number__lte=number)
     if paths is not None:
@@ -219,7 +219,7 @@ def files_at(project: Project, number: int, paths: Sequence[str] | None = None) 
 def differing(
     older: Mapping[str, StoredFile], newer: Mapping[str, StoredFile]
 ) -> tuple[dict[str, str | None], dict[str, str | None]]:
-    """The files that are not the same in both, as text; None stands for what is no text."""
+    """Returns the files that differ, as text, for each state; None stands for a file that is not text."""
     paths = [
         path
         for path in {*older, *newer}
@@ -233,7 +233,7 @@ def _texts(files: Mapping[str, StoredFile], paths: Iterable[str]) -> dict[str, s
 
 
 def file_at(project: Project, number: int, path: str) -> StoredFile:
-    """One file as it was after change set `number`."""
+    """Returns one file as it was after change set `number`."""
     file = files_at(project, number, [path]).get(path)
     if file is None:
         raise NotFoundError(f"Revision {number} has no file “{names.shown(path)}”.")
@@ -241,12 +241,12 @@ def file_at(project: Project, number: int, path: str) -> StoredFile:
 
 
 def drafts(project: Project, *, user: User) -> list[Draft]:
-    """Returns the drafts of this user: text that was typed and not saved."""
+    """Returns the drafts of this user, which are unsaved texts."""
     return list(Draft.objects.filter(project=project, author=user).order_by("path"))
 
 
 def current_file(project: Project, path: str) -> StoredFile:
-    """One current file with its bytes."""
+    """Returns one current file with its bytes."""
     file = current_files(project, [path]).get(path)
     if file is None:
         raise NotFoundError(f"The project has no file “{names.shown(path)}”.")

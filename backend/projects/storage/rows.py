@@ -1,7 +1,7 @@
-"""The database's side of a save: what it reads, and how a change set becomes rows.
+"""Reads and writes the rows of a save.
 
-All statements are the ORM's. On PostgreSQL two of a save are written out instead (`at_once`), since the ORM
-would need eight and builds each of them again; tests compare what both read and store.
+All statements here use the ORM. On PostgreSQL, a save uses two SQL statements instead (`at_once`), since the
+ORM would need eight and builds the SQL again at each use. Tests compare the results of both.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from uuid import UUID
 
 ROWS: Final = 200
-"""At most so many rows in one statement; databases bound the number of parameters."""
+"""The largest number of rows in one statement, since databases limit the number of parameters."""
 
 
 class Writing(NamedTuple):
@@ -32,17 +32,17 @@ class Writing(NamedTuple):
     blobs: Sequence[tuple[str, int, bytes]]
     """Hash, size and bytes of contents."""
     revisions: Sequence[tuple[str, str | None, str]]
-    """What the change made of each file: path, blob, and what it was renamed from."""
+    """Path, blob and earlier path of each changed file."""
     files: Sequence[tuple[str, str, str]]
-    """The current files: path, its key, blob."""
+    """Path, key of the path, and blob of each current file."""
     drafts: Sequence[str]
-    """Files of which the author's drafts are done with."""
+    """Paths of files whose drafts by the author are now saved, and so deleted."""
 
 
 def project(project_id: UUID, *, lock: bool = False) -> Project | None:
-    """A project that is not deleted.
+    """Returns a project that is not deleted, or None.
 
-    With `lock`, nobody else writes to it until the transaction ends, and no blob is collected.
+    With `lock`, nobody else writes to it until the transaction ends, and no blob is garbage-collected.
     """
     if not lock:
         return Project.objects.filter(pk=project_id, deleted_at=None).first()
@@ -50,33 +50,33 @@ def project(project_id: UUID, *, lock: bool = False) -> Project | None:
 
 
 def locked(project_id: UUID) -> Project | None:
-    """The project with its locks, by the ORM."""
+    """Returns the project and takes its locks, by the ORM."""
     transaction_lock(BLOBS, shared=True)
     return Project.objects.select_for_update().filter(pk=project_id, deleted_at=None).first()
 
 
 def existing(project: Project) -> dict[str, Existing]:
-    """The current files without their bytes."""
+    """Returns the current files by path, without their bytes."""
     found = CurrentFile.objects.filter(project=project)
     rows = found.values_list("path", "revision", "blob_id", "blob__size")
     return {row[0]: Existing(*row) for row in rows}
 
 
 def root_trees(projects: Sequence[UUID], largest: int) -> dict[UUID, str]:
-    """The blob of the main tree of each of these projects, where it has one that is not larger."""
+    """Returns the blob of the main tree of each of these projects, if it has at most `largest` bytes."""
     path = Concat(Value("trees/"), F("project__main_tree"), Value(".json"))
     found = CurrentFile.objects.filter(project__in=projects, path=path, blob__size__lte=largest)
     return dict(found.values_list("project_id", "blob_id"))
 
 
 def taken_by_others(project: Project) -> int:
-    """Bytes of all other projects of the owner."""
+    """Returns the bytes that all other projects of the owner take."""
     others = Project.objects.filter(owner_id=project.owner_id, deleted_at=None).exclude(pk=project.pk)
     return int(others.aggregate(total=Sum("size"))["total"] or 0)
 
 
 def write(writing: Writing) -> None:
-    """Stores a change set with its files; then the change has its key."""
+    """Stores a change set with its files, and sets the key of the change."""
     if at_once.is_here() and at_once.has_room(writing):
         at_once.write(writing)
     else:
@@ -84,11 +84,11 @@ def write(writing: Writing) -> None:
 
 
 def store(writing: Writing) -> None:
-    """The same by the ORM, for SQLite and for changes of many files."""
+    """Does the same by the ORM, for SQLite and for changes of many files."""
     change = writing.change
     forget_drafts(change.project, change.author_id, writing.drafts)
     change.save(force_insert=True)
-    # In one order, so that two saves of the same blobs never wait for each other.
+    # Blobs are written in one order, so that two saves of the same blobs cannot deadlock.
     blobs = [Blob(sha256=sha256, size=size, data=data) for sha256, size, data in sorted(writing.blobs)]
     Blob.objects.bulk_create(blobs, ROWS, ignore_conflicts=True)
     revisions = [
@@ -118,7 +118,7 @@ def _current(change: ChangeSet, path: str, key: str, blob: str) -> CurrentFile:
 
 
 def forget_drafts(project: Project, author_id: int | None, paths: Sequence[str]) -> None:
-    """Removes what this user typed into these files and had not saved."""
+    """Deletes the drafts of this user for these files."""
     for start in range(0, len(paths), ROWS):
         drafts = Draft.objects.filter(
             project=project, author_id=author_id, path__in=paths[start : start + ROWS]

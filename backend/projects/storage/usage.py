@@ -1,4 +1,4 @@
-"""Measures the space that users take."""
+"""Measures the disk space that users take."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def usage_of_all() -> Iterable[Any]:
-    """Every account with `kept` projects that take `used` bytes, the largest first."""
+    """Returns every account with the number (`kept`) and bytes (`used`) of its projects, largest first."""
     current = Q(projects__deleted_at=None)
     rows = User.objects.annotate(
         kept=Count("projects", filter=current), used=Sum("projects__size", filter=current)
@@ -28,7 +28,7 @@ def room_for_archive(user: User) -> int:
     """Returns the largest size in bytes of an archive that this user may import.
 
     Raises:
-        QuotaExceededError: they may not have another project, or no more bytes.
+        QuotaExceededError: the quota of projects or of bytes is used up.
     """
     used = usage(user)
     if used["projects"] >= used["max_projects"]:
@@ -46,7 +46,7 @@ def room_for_archive(user: User) -> int:
 
 
 def usage(user: User) -> dict[str, int]:
-    """The space that one user takes, and may take."""
+    """Returns the space that one user takes, and the quota."""
     limits = environment()
     rows = Project.objects.filter(owner=user, deleted_at=None)
     found = rows.aggregate(kept=Count("id"), used=Sum("size"))

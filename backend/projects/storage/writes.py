@@ -1,4 +1,4 @@
-"""All writes to projects. Each function is one transaction; views only parse, call and answer."""
+"""All writes to projects. Each function is one transaction; views only parse requests and build answers."""
 
 from __future__ import annotations
 
@@ -41,14 +41,14 @@ def create_project(
     """Makes a project of these files.
 
     Args:
-        files: contents by path; `project.json` is added when it is missing.
-        acting_user: who will own it.
-        name: its name; without one, that of `project.json`, with a number where it is taken.
-        message: what the first change set says.
+        files: contents by path; `project.json` is added if it is missing.
+        acting_user: the owner of the new project.
+        name: the name; without one, that of `project.json`, with a number if it is taken.
+        message: the message of the first change set.
 
     Raises:
-        NameTakenError: another project has the name that was asked for.
-        InvalidInputError: a path or `project.json` is not acceptable.
+        NameTakenError: another project has the name `name`.
+        InvalidInputError: a path or `project.json` is invalid.
         QuotaExceededError: it is too large.
     """
     checked = {names.writable_path(path): data for path, data in files.items()}
@@ -87,12 +87,13 @@ def save_files(
     message: str = "",
     if_match: str = "",
 ) -> Project:
-    """Applies a change set, all of it or nothing.
+    """Applies a change set completely or not at all.
 
     Raises:
-        RevisionConflictError: a base is stale; it carries both versions of each such file.
+        RevisionConflictError: a base revision is stale; the error has both versions of each such file.
         PreconditionFailedError: `if_match` is not the ETag of the newest revision.
-        InvalidInputError, QuotaExceededError: the result would not be a project that we keep.
+        InvalidInputError: the resulting project would be invalid.
+        QuotaExceededError: the resulting project would be too large.
     """
     project = _locked(project_id, acting_user)
     require_match(project, if_match)
@@ -118,7 +119,7 @@ def edit_settings(  # noqa: PLR0913 - the fields that a request may change
     settings: Mapping[str, object] | None = None,
     if_match: str = "",
 ) -> Project:
-    """Changes fields of `project.json`, as a change set like every other."""
+    """Changes fields of `project.json` in a change set."""
     project = _locked(project_id, acting_user)
     require_match(project, if_match)
     raw = queries.current_files(project, [MANIFEST])[MANIFEST].data
@@ -134,7 +135,7 @@ def edit_settings(  # noqa: PLR0913 - the fields that a request may change
 def restore_revision(
     project_id: UUID, number: int, *, acting_user: User, paths: Sequence[str] = (), if_match: str = ""
 ) -> Project:
-    """Puts files (all, when none are named) back to what they were; history continues, nothing is undone."""
+    """Restores files (all, if none are named) of an old revision as a new revision."""
     project = _locked(project_id, acting_user)
     require_match(project, if_match)
     then = queries.files_at(project, number)
@@ -158,7 +159,7 @@ def restore_revision(
 
 
 def _keeping_name(change: FileChange, project: Project) -> FileChange:
-    """A restored `project.json` does not rename the project: the old name may be taken by now."""
+    """Keeps the current name in a restored `project.json`: the old name may be taken now."""
     if change.path != MANIFEST or change.content is None:
         return change
     document = dict(read(change.content.data).document) | {"name": project.name}
@@ -169,7 +170,7 @@ def _keeping_name(change: FileChange, project: Project) -> FileChange:
 def label_revision(
     project_id: UUID, number: int, label: str, *, acting_user: User, if_match: str = ""
 ) -> ChangeSet:
-    """Names a revision, or takes its name away; `if_match` is the ETag of the revision."""
+    """Sets or removes the label of a revision; `if_match` is the ETag of the revision."""
     project = _locked(project_id, acting_user)
     change = queries.change_set(project, number)
     matches(if_match, queries.revision_etag(change), "The label of this revision has changed.")
@@ -180,7 +181,7 @@ def label_revision(
 
 @transaction.atomic
 def duplicate_project(project_id: UUID, *, acting_user: User, name: str = "") -> Project:
-    """Makes a new project of the current files; it starts its own history."""
+    """Makes a new project of the current files, without their history."""
     source = queries.project(project_id, user=acting_user, need=Need.COPY)
     kept_files = queries.current_files(source)
     files = {path: file.data for path, file in kept_files.items() if not names.is_of_tool(path)}
@@ -189,19 +190,19 @@ def duplicate_project(project_id: UUID, *, acting_user: User, name: str = "") ->
 
 @transaction.atomic
 def delete_project(project_id: UUID, *, acting_user: User, if_match: str = "") -> None:
-    """Takes a project away; `restore_project` brings it back until garbage is collected."""
+    """Marks a project as deleted; `restore_project` restores it until garbage is collected."""
     project = _locked(project_id, acting_user, Need.MANAGE)
     require_match(project, if_match)
     project.deleted_at = timezone.now()
     project.save(update_fields=["deleted_at"])
     note("project.delete", actor=acting_user, subject=project.name, subject_id=project.id)
-    # Robust: what was done is done, also when those who listen fail.
+    # Robust, since the deletion is committed: an error in a receiver must not make it look failed.
     transaction.on_commit(lambda: project_deleted.send_robust(Project, project_id=project.id), robust=True)
 
 
 @transaction.atomic
 def restore_project(project_id: UUID, *, acting_user: User, if_match: str = "") -> Project:
-    """Brings a deleted project back, under another name where its own was taken since."""
+    """Restores a deleted project, under another name if its own has been taken since."""
     project = queries.deleted_project(project_id, user=acting_user)
     require_match(project, if_match)
     if project.deleted_at is None:
@@ -233,7 +234,7 @@ def _revive(project: Project, name: str, acting_user: User) -> None:
 
 @transaction.atomic
 def set_archived(project_id: UUID, *, acting_user: User, archived: bool, if_match: str = "") -> Project:
-    """Moves a project out of the list of those in use, or back."""
+    """Moves a project to the archive, or back."""
     project = _locked(project_id, acting_user, Need.MANAGE)
     require_match(project, if_match)
     project.archived_at = (project.archived_at or timezone.now()) if archived else None
@@ -243,10 +244,10 @@ def set_archived(project_id: UUID, *, acting_user: User, archived: bool, if_matc
 
 @transaction.atomic
 def collect_garbage(*, now: datetime | None = None) -> int:
-    """Removes what nobody can reach any more, and returns the number of blobs that went."""
+    """Removes data that nobody can reach any more; returns the number of removed blobs."""
     now = now or timezone.now()
     limits = environment()
-    # A save may be about to use a blob that nothing holds yet.
+    # A save may be about to use a blob to which no row refers yet.
     transaction_lock(BLOBS)
     Project.objects.filter(deleted_at__lt=now - timedelta(days=limits.deleted_project_days)).delete()
     forget_old(now)
@@ -256,7 +257,7 @@ def collect_garbage(*, now: datetime | None = None) -> int:
 
 
 def require_match(project: Project, if_match: str) -> None:
-    """Raises PreconditionFailedError when an `If-Match` header does not name the newest revision."""
+    """Raises PreconditionFailedError if the `If-Match` header does not name the newest revision."""
     matches(if_match, queries.etag(project), f"The newest revision is {project.revision}.", project.revision)
 
 
@@ -265,7 +266,7 @@ def _locked(project_id: UUID, user: User, need: Need = Need.WRITE) -> Project:
 
 
 def _checked(change: FileChange) -> FileChange:
-    # What an older version let in can still be taken out.
+    # Files with names that only an older version allowed can still be deleted and renamed.
     rule = names.file_path if change.content is None or change.rename_to else names.writable_path
     return FileChange(
         path=rule(change.path, field="files.path"),
@@ -279,7 +280,7 @@ def _checked(change: FileChange) -> FileChange:
 def _apply(
     project: Project, wanted: Sequence[FileChange], *, acting_user: User, message: str, now: datetime
 ) -> None:
-    """Applies changes to a project that is locked, and holds the lock on blobs."""
+    """Applies changes to a project. The caller holds the locks of the project and of the blobs."""
     current = queries.existing_files(project)
     result = plan(current, wanted)
     if result.conflicts:
@@ -366,7 +367,7 @@ def _size_after(project: Project, current: Mapping[str, Existing], result: Plan)
 
 
 def too_large(path: str) -> QuotaExceededError:
-    """The error of a file beyond `BT_STUDIO_MAX_FILE_BYTES`."""
+    """Returns the error for a file that is larger than `BT_STUDIO_MAX_FILE_BYTES`."""
     return QuotaExceededError(
         f"“{names.shown(path)}” is larger than the {environment().max_file_bytes:,} bytes of a file.",
         field="files",
@@ -374,7 +375,7 @@ def too_large(path: str) -> QuotaExceededError:
 
 
 def conflict_error(project: Project, conflicts: Sequence[Conflict]) -> RevisionConflictError:
-    """The error that carries both versions of each file in conflict."""
+    """Returns the error that contains both versions of each file in conflict."""
     theirs = queries.current_files(project, [c.theirs.path for c in conflicts if c.theirs])
     rows = []
     for conflict in conflicts:
@@ -405,7 +406,7 @@ def conflict_error(project: Project, conflicts: Sequence[Conflict]) -> RevisionC
 def _save_name(
     project: Project, *, force_insert: bool = False, update_fields: Sequence[str] | None = None
 ) -> None:
-    """Saves; the database says whether the name is free, so that two requests cannot both have it."""
+    """Saves a project. The database checks the name, so that two requests cannot both take it."""
     try:
         with transaction.atomic():
             project.save(force_insert=force_insert, update_fields=update_fields)

@@ -1,19 +1,19 @@
-"""The contract between sessions and the launchers that run their executors.
+"""The interface between sessions and the launchers that run their executors.
 
-A launcher starts one executor manager for a session, tells whether it runs, and ends it. It stores nothing:
-all it needs to find an executor again is in the *state* that `start` returns, a JSON object that the caller
-stores and hands back, also after a restart of the web server.
+A launcher starts one executor manager for a session, reports whether it runs, and ends it. It stores nothing:
+all that it needs to find an executor again is in the *state* that `start` returns. This is a JSON object that
+the caller stores and passes to the other methods, also after a restart of the web server.
 
     start(spec)      blocks until the manager listens; returns where, and the state. On failure it
                      raises LaunchError, and leaves nothing running.
     poll(state)      None while the executor runs; else its exit status, or UNKNOWN_EXIT when it is
-                     gone and nobody saw how. Never blocks.
-    stop(state)      ends the executor and all that it started, politely at first. Returns when
-                     nothing is left; stopping what has ended is no error.
-    explain(state)   why an executor ended, where more is known than its status; else "".
+                     gone and its status is not known. Never blocks.
+    stop(state)      ends the executor and all that it started, first by a signal that it can handle.
+                     Returns when nothing is left; it is no error if the executor has ended.
+    explain(state)   why an executor ended, if more is known than its status; else "".
     open_tools(id, token)  where a user's tools listen (`executor.tools`), as the path of a unix socket;
-                     starts them if need be. LaunchError where a launcher has no containers for them.
-    survives_server  whether executors outlive the web server. Where they do, two more are owed:
+                     starts them if needed. Raises LaunchError if the launcher has no containers.
+    survives_server  whether executors outlive the web server. If they do, two more methods are required:
     running()        the ids of all sessions whose executors run, known to the database or not.
     state_of(id)     the state of a session of which only the id is known.
 

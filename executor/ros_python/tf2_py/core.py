@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 CACHE_S = 10.0
-_NOT_NORMALISED = 1e-2  # how far the squared length of a quaternion may be from 1
+_NOT_NORMALISED = 1e-2  # tolerated deviation of a quaternion's squared length from 1
 
 
 class _Climb(NamedTuple):

@@ -75,7 +75,7 @@ def between(before: Motion, after: Motion, share: float) -> Motion:
 
 def _slerp(a: Turn, b: Turn, share: float) -> Turn:
     cosine = sum(p * q for p, q in zip(a, b, strict=True))
-    sign = -1.0 if cosine < 0 else 1.0  # q and -q are the same rotation: the shorter arc is used.
+    sign = -1.0 if cosine < 0 else 1.0  # q and -q are the same rotation; this selects the shorter arc
     cosine = min(1.0, abs(cosine))
     if cosine > _NEARLY_PARALLEL:
         first, second = 1.0 - share, share

@@ -104,7 +104,7 @@ def _triangles(path: Path) -> _Found:
             parts = [_part(mesh, matrix) for mesh, matrix in found if isinstance(mesh, trimesh.Trimesh)]
         else:
             parts = []
-    except Exception as error:  # parsers raise anything on hostile files
+    except Exception as error:  # parsers may raise any error on malformed files
         raise MeshError(f"{path.name} cannot be read: {error}") from error
     if not parts:
         raise MeshError(f"{path.name} has no triangles")

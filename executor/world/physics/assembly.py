@@ -115,6 +115,7 @@ class Assembly:
             if not model.solid:
                 bullet.setCollisionFilterGroupMask(self.uid, link, 0, 0)
         for joint in self._joints.values():
-            # Bullet holds every joint by a motor by default; the remaining force is the joint's own friction.
+            # By default Bullet holds every joint by a motor. This reduces its force to the joint's own
+            # friction.
             friction = bullet.getJointInfo(self.uid, joint)[7]
             bullet.setJointMotorControl2(self.uid, joint, bullet.VELOCITY_CONTROL, force=friction)

@@ -71,14 +71,14 @@ def make_body(bullet: Bullet, model: Model, mesh: Mesh | None = None) -> Body:
         _collision_shape(bullet, model, mesh) if model.solid else -1,
         basePosition=pose[:3],
         baseOrientation=pose[3:],
-        useMaximalCoordinates=model.mass == 0,  # saves a third of a step in worlds with many static bodies
+        useMaximalCoordinates=model.mass == 0,  # shortens steps by a third in worlds with many static bodies
     )
     bullet.changeDynamics(
         uid, -1, lateralFriction=model.friction, rollingFriction=0.001, spinningFriction=0.001,
         restitution=model.restitution, linearDamping=0.0, angularDamping=0.0,
     )  # fmt: skip
     if model.mass == 0:
-        # Static bodies need no update in each step; they stop other bodies all the same.
+        # Sleeping static bodies are not updated in each step, but still stop other bodies.
         bullet.changeDynamics(uid, -1, activationState=bullet.ACTIVATION_STATE_SLEEP)
     return Body(uid, is_dynamic=model.mass > 0)
 

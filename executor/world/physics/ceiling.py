@@ -23,7 +23,7 @@ OVERLAP_M: Final = 0.01
 
 
 def ceiling_of(universe: Universe) -> tuple[Shape, Pose] | None:
-    """Returns the ceiling: a face that looks down, over all walls, or over all models."""
+    """Returns the ceiling, a face that looks down. It covers the models that reach it, otherwise all."""
     ceiling = universe.ceiling
     standing = [model for model in universe.models if model.mass == 0 and len(model.size) == 3]
     under = [model for model in standing if model.to_ceiling] or standing

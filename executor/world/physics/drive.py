@@ -80,7 +80,7 @@ class DifferentialDrive:
             return old
         ways = (left - last[0]) * limit.wheel_radius, (right - last[1]) * limit.wheel_radius
         moved, turned = self._motion(*ways)
-        rates = moved / dt_s, turned / dt_s  # the twist is measured well, only its integral drifts
+        rates = moved / dt_s, turned / dt_s  # the twist is exact; only its integral drifts
         moved, turned = self._motion(*map(self._believed, ways))
         middle = old.yaw + turned / 2
         # The chord of an arc, not its length: exact for constant rates.

@@ -36,7 +36,7 @@ DEFAULT_FRICTION: Final = 0.8
 ANY_LINK: Final = -2  # PyBullet's default
 MOST_QUESTIONS: Final = 2
 TOUCH_M: Final = 0.0  # PyBullet reports near misses too, with a positive distance
-FIRST_ROBOT_GROUP: Final = 8  # bits 0 to 7 are used by Bullet, and by us for models
+FIRST_ROBOT_GROUP: Final = 8  # bits 0 to 7 are taken by Bullet and by the groups of models
 ALL_GROUPS: Final = 0x7FFF
 
 
@@ -158,15 +158,15 @@ class BulletRobot:
         return wheels | self._motors.states() if self._motors else wheels
 
     def scan(self, lidar: Lidar) -> LidarReading:
-        """Measures now."""
+        """Returns a scan at the current time."""
         return self._lidars[lidar.name].scan(self._clock_s, self._pose_of(lidar.link))
 
     def imu(self, imu: Imu) -> ImuReading:
-        """Measures now."""
+        """Returns a measurement of the IMU at the current time."""
         return self._proprioception.imu(imu, self._clock_s)
 
     def battery(self, battery: Battery) -> BatteryReading:
-        """Measures now."""
+        """Returns the current state of the battery."""
         return self._proprioception.battery(battery)
 
     def pressed(self) -> frozenset[Zone]:
@@ -197,7 +197,7 @@ class BulletRobot:
         self._feel(base, center, dt_s)
         x, y = base[:2]
         moved = math.dist((x, y), self._at)
-        if moved > 1e-5:  # jitter of the solver is no travel
+        if moved > 1e-5:  # m; smaller motions are jitter of the solver
             self.distance_m += moved
             self._at = (x, y)
 

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from executor.robots.config import Battery
 
 _HOUR_S: Final = 3600.0
-_EMPTY_VOLTAGE: Final = 0.86  # of the nominal voltage
+_EMPTY_VOLTAGE: Final = 0.86  # fraction of the nominal voltage
 _FULL_VOLTAGE: Final = 1.10
 
 

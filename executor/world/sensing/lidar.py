@@ -35,7 +35,7 @@ class LidarCaster:
         self._own, self._mask = own, mask
         self._seed = seed
         angles = config.angle_min + np.arange(config.rays) * config.angle_increment
-        # Slightly longer than the range, so that rounding hides nothing at its limit.
+        # Rays are slightly longer than the range, so that rounding does not hide hits at the limit.
         self._reach = config.range_max * 1.001
         self._directions = np.stack([np.cos(angles), np.sin(angles), np.zeros_like(angles)]) * self._reach
 

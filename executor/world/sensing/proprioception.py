@@ -71,11 +71,11 @@ class Proprioception:
         return self._bumper.pressed(now_s)
 
     def imu(self, imu: Imu, now_s: float) -> ImuReading:
-        """Measures now."""
+        """Returns a measurement of the IMU at the current time."""
         return self._imus[imu.name].reading(now_s, self._pose_of(imu.link), self._rate)
 
     def battery(self, battery: Battery) -> BatteryReading:
-        """Measures now."""
+        """Returns the current state of the battery."""
         return self._batteries[battery.name].reading()
 
     def save(self) -> object:

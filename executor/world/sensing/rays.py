@@ -53,7 +53,7 @@ class RayCaster:
     def add_body(self, uid: int) -> None:
         """Adds a body of any shape."""
         links = range(-1, self._bullet.getNumJoints(uid))
-        # Bullet reports no shapes of a static body with a single link, although it has one.
+        # For a static body with a single link, Bullet reports no shape although there is one.
         solid = [link for link in links if len(links) == 1 or self._bullet.getCollisionShapeData(uid, link)]
         self._others += [(uid, link) for link in solid]
 

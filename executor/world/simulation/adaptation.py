@@ -109,7 +109,8 @@ class CameraRates:
     def note(self, real_time_factor: float, speed: float) -> None:
         """Takes the real-time factor of the last second. Above real time no picture is dropped."""
         late = max(0.0, 1 - real_time_factor / speed) if 0 < speed <= 1 else 0.0
-        self._adaptation.note(min(late, self._late))  # a single slow second may be the start, or a hiccup
+        # The better of the last two seconds counts, since a single slow one may be an exception.
+        self._adaptation.note(min(late, self._late))
         self._late = late
 
 

@@ -102,7 +102,6 @@ class SimulationLoop:
             robot.stop()
 
     def move_body(self, body: str, pose: Sequence[float]) -> None:
-        """Moves a body."""
         self._world.move_body(body, pose)
         self._sensors.changed()
 

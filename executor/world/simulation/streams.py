@@ -101,7 +101,7 @@ class Streams:
         view = camera_pose or (old.camera_pose if old else DEFAULT_VIEW)
         new = Subscription(client, stream, rate, wide, view)
         if old is not None:
-            # The scene is unchanged: the client need not get it again.
+            # The scene is unchanged, so it is not sent to the client again.
             new.next_s, new.poses, new.size = old.next_s, old.poses, old.size
         self._subscriptions[client, stream] = new
 
@@ -135,7 +135,8 @@ class Streams:
             began_s = self._clock()
             if self._send_one(subscription):
                 period = 1.0 / (subscription.max_hz * self._rate_share(subscription))
-                # In phase with the rate unless far behind: a 30 Hz stream of a 60 Hz world must not jitter.
+                # The due times stay in phase unless far behind, so that a 30 Hz stream of a 60 Hz world does
+                # not jitter.
                 subscription.next_s = max(subscription.next_s + period, now_s - period)
                 if subscription.stream == "view":
                     subscription.size.sent(now_s, period, self._sensors.version)
@@ -204,7 +205,7 @@ class Streams:
 
     def _view(self, subscription: Subscription) -> View:
         level = self._level(subscription.client)
-        # In steps of 16 pixels: the blocks of JPEG, and few sizes of framebuffers.
+        # Sizes are multiples of 16 pixels, the blocks of JPEG, so that few sizes of framebuffers exist.
         share = min(level.width, subscription.size.share)
         width = max(WIDTHS[0], round((subscription.width or VIEW_WIDTH) * share / 16) * 16)
         height = round(width * 9 / 16)

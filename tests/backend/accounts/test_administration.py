@@ -1,4 +1,4 @@
-"""What administrators do on their pages and in the terminal."""
+"""The work of administrators on their pages and in the terminal."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ def test_who_comes_from_the_provider_is_in_and_their_browser_is_known(provider):
 
 
 def test_that_browser_gets_in_by_password_whatever_others_guess(provider):
-    """What the cookie is for: a teacher who came by the provider once, and has a password besides."""
+    """The user of the cookie: a teacher who signed in by the provider once, and also has a password."""
     tina = Person()
     comes(tina, provider)
     tina.form("/accounts/logout/")

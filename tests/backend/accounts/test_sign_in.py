@@ -197,7 +197,7 @@ def test_a_second_factor_is_asked_for(person, django_capture_on_commit_callbacks
         browser.form(page["Location"], password=PASSWORD)
         page = browser.page("/accounts/2fa/totp/activate/")
     secret = page.context["form"].secret
-    # The clock of whoever types may go before ours.
+    # The clock of the user who types may be ahead of ours.
     code = format_hotp_value(hotp_value(secret, int(time.time()) // 30 + step))
     token = browser.client.cookies[settings.CSRF_COOKIE_NAME].value
     sent = {"code": code, "csrfmiddlewaretoken": token}

@@ -20,7 +20,7 @@ ROOT = Path(__file__).parents[3]
 Runs = dict[str, dict[str, Any]]
 
 
-def test_every_behaviour_is_told_in_both_languages_and_has_its_files(api: Any) -> None:
+def test_every_behaviour_is_described_in_both_languages_and_has_its_files(api: Any) -> None:
     items = {item["id"]: item for item in api.get("catalog/behaviours")["items"]}
     assert len(items) >= 14
     for behaviour_id, item in items.items():
@@ -144,7 +144,7 @@ def test_search_color_turns_until_the_post_is_seen(runs: Runs) -> None:
 
 @pytest.mark.simulation
 @pytest.mark.timeout(400)
-def test_a_person_in_sight_is_told(runs: Runs) -> None:
+def test_a_person_in_sight_is_reported(runs: Runs) -> None:
     ended(runs["PersonInSight"], "SUCCESS")
 
 

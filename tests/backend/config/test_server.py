@@ -70,7 +70,7 @@ def test_a_server_serves_and_ends_cleanly(tmp_path, running):
 
 
 def test_an_interrupt_that_python_would_drop_ends_a_server_that_starts():
-    """In the callback of a weak reference an exception is told and forgotten."""
+    """In the callback of a weak reference an exception is printed and dropped."""
     script = """
 import os, signal, weakref
 from backend.config.server import ended_by_interrupt
@@ -177,7 +177,7 @@ def test_a_wrong_setting_is_named(tmp_path):
     assert "Traceback" not in said
 
 
-def test_a_data_folder_that_cannot_be_written_is_told(tmp_path):
+def test_a_data_folder_that_cannot_be_written_is_reported(tmp_path):
     (tmp_path / "file").write_text("")
     status, said = failed(start(tmp_path / "file", "--port", "0"))
     assert status == 1

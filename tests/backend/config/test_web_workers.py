@@ -44,7 +44,7 @@ def until(holds, *, within_s=TIMEOUT_S):
 
 
 def folder_of(worker):
-    """What a worker shares with its siblings."""
+    """Returns the folder that a worker shares with its siblings."""
     line = worker.cmdline()
     return Path(line[line.index("--folder") + 1])
 
@@ -222,7 +222,7 @@ def test_a_burst_of_connections_is_shared_and_the_idle_say_that_they_are_awake(s
     until(lambda: all(page[BEAT] > beat for page, beat in zip(counts, beats, strict=True)))
 
 
-def test_a_save_through_one_worker_is_told_through_the_other(several):
+def test_a_save_through_one_worker_is_announced_through_the_other(several):
     project = several.project("Told")
     saving = several.at(0)
     with several.socket_at(1, f"/ws/projects/{project}/notices") as notices:

@@ -1,4 +1,4 @@
-"""How many web workers serve."""
+"""The number of web workers."""
 
 from __future__ import annotations
 

@@ -105,7 +105,7 @@ async def test_a_connection_of_an_address_over_its_share_is_read_after_its_rest(
         assert loop.time() - began_s >= 0.29
 
 
-async def test_a_proxy_s_connections_are_read_whoever_used_what(budgets, monkeypatch):
+async def test_a_proxy_s_connections_are_read_no_matter_who_used_them(budgets, monkeypatch):
     monkeypatch.setattr(Settings, "proxy_hops", 1)
     budgets.spend("address 127.0.0.1", 100.0)
     assert ConnectionCosts("127.0.0.1").rest_s() == 0.0

@@ -1,4 +1,4 @@
-"""Who may talk to a server on localhost."""
+"""The clients that a server on localhost accepts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How long, and how much, a connection may cost before its request is known."""
+"""The time and the bytes that a connection may cost before its request is known."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ async def answered(reader):
 
 
 async def whole(reader):
-    """What comes until the other side closes."""
+    """Returns the bytes that arrive until the other side closes."""
     return await asyncio.wait_for(reader.read(), 60)
 
 

@@ -1,4 +1,4 @@
-"""What is written into the log, and what is left out."""
+"""Lines of the log, and facts that are left out."""
 
 from __future__ import annotations
 

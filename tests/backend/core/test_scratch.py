@@ -81,7 +81,7 @@ def test_what_has_no_room_beside_the_others_is_refused_before_it_is_sent(setting
         # What needs no file is served.
         assert refused([body(b"{}")], head(content_length="2"))[0] == 201
     assert scratch.scratch().used == 0
-    # What would never fit is told so.
+    # A file that would never fit is refused with another error.
     assert refused(parts(20), streamed(7 * MEBIBYTE), IMPORT) == (413, "request_too_large", 0)
 
 

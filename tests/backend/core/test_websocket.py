@@ -1,4 +1,4 @@
-"""What a socket may cost before, and while, it says nothing: frames sent by hand to the real server."""
+"""Limits of a socket that sends nothing, or nothing yet: frames sent by hand to the real server."""
 
 from __future__ import annotations
 

@@ -175,7 +175,7 @@ def test_a_body_that_comes_too_slowly_is_given_up(monkeypatch):
     assert sent[0]["status"] == 408
 
 
-def test_a_disk_without_room_is_told(settings_of, monkeypatch, tmp_path):
+def test_a_disk_without_room_is_reported(settings_of, monkeypatch, tmp_path):
     def full(*_):
         raise OSError(28, "No space left on device")
 

@@ -17,7 +17,7 @@ HEAD = [(b"host", HOST.encode()), (b"authorization", f"Bearer {guard.keys().toke
 
 
 def ask(*messages, handling=None, **scope):
-    """What an ASGI server would send, given these messages of a client."""
+    """Returns the messages that an ASGI server would send for these messages of a client."""
     sent, waiting = [], list(messages)
 
     async def receive():

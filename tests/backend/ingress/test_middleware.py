@@ -123,7 +123,7 @@ def test_the_front_end_hands_out_nothing_beside_itself(browser, path):
     assert browser.get(path).status_code in {400, 404}
 
 
-def test_browsers_are_told_to_stay_with_tls_where_there_is_some(browser, settings_of):
+def test_browsers_are_asked_to_stay_with_tls_where_there_is_some(browser, settings_of):
     name = "Strict-Transport-Security"
     assert name not in browser.get("/").headers
     settings_of(public_url="https://bt.example.org")

@@ -1,4 +1,4 @@
-"""What is open ends when the right to it ends: sockets, and the robots that run."""
+"""Open sockets and running robots end when the right to them ends."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def closed_after(browser, project, deed):
     return code
 
 
-def test_who_may_not_use_a_socket_is_told_so(person):
+def test_a_user_who_may_not_use_a_socket_gets_the_reason(person):
     owner, friend = person("olga"), person("fred")
     one = shared_project(owner, name="fred", role="viewer")
 
@@ -85,7 +85,7 @@ def test_who_may_not_use_a_socket_is_told_so(person):
     assert asyncio.run(code()) == FORBIDDEN
 
 
-def test_whoever_is_taken_out_of_a_project_hears_no_more_of_it(person):
+def test_a_user_who_is_removed_from_a_project_gets_no_more_of_it(person):
     owner, friend = person("olga"), person("fred")
     one = shared_project(owner, name="fred", role="viewer")
     deed = lambda: owner.delete(f"projects/{one}/shares/people/fred")  # noqa: E731
@@ -102,7 +102,7 @@ def test_a_link_that_is_taken_back_ends_what_it_opened(person):
     assert closed_after(guest, one, deed) == NO_SUCH_PROJECT
 
 
-def test_whoever_leaves_a_group_leaves_what_was_shared_with_it(person):
+def test_a_user_who_leaves_a_group_leaves_what_was_shared_with_it(person):
     teacher, sam = person("tina", is_teacher=True), person("sam")
     group = teacher.post("groups", {"name": "Robotics"}, expect=201)["id"]
     link = teacher.post(f"groups/{group}/invitations", expect=201)["url"]

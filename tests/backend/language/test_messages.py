@@ -1,4 +1,4 @@
-"""What passes between a page and its language server."""
+"""Messages that pass between a page and its language server."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ def test_a_source_with_a_syntax_error_is_refused_with_its_place(api):
     assert problem["diagnostics"][0]["start"]["line"] == 1
 
 
-def test_findings_come_with_the_edits_that_mend_them(api):
+def test_findings_come_with_the_edits_that_fix_them(api):
     source = "import os\nimport py_trees\nprint(py_trees)\n"
     [finding] = api.post("python/lint", {"source": source})["findings"]
     assert finding["code"] == "F401"

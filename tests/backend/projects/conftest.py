@@ -1,4 +1,4 @@
-"""Says at the end what could not be tried here."""
+"""Reports at the end the tests that could not run here."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is saved is said to be saved, whatever fails after the commit."""
+"""A stored save is reported as stored, even if something fails after the commit."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def test_other_writes_and_looks_are_answered_too(api, one, monkeypatch, write):
 
 @pytest.mark.parametrize("write", ["settings", "duplicate", "create"])
 def test_what_cannot_be_answered_is_not_written(api, one, monkeypatch, write):
-    """What the answer reads is read in the transaction: an error means that nothing was stored."""
+    """The answer reads its data in the transaction: an error means that nothing was stored."""
     monkeypatch.setattr(presentation, "opened", fails(DOWN))
     before = api.get("projects")["items"]
     calls = {"settings": ("PATCH", f"projects/{one}", {"base_revision": 1, "name": "New"})}

@@ -192,7 +192,7 @@ def test_no_acknowledged_save_is_lost_when_the_disk_is_full(tmp_path):
             acknowledged, refused = fill(server, project)
             assert (refused.status_code, refused.json()["code"]) == (507, "disk_full")
             assert len(acknowledged) > 1
-            # Reading goes on.
+            # Reading continues.
             assert {n: written(server, project, n) for n in acknowledged} == acknowledged
             server.process.kill()
         disk.grow(96)
@@ -213,14 +213,14 @@ def fill_and_make_room(server, database, disk, *, log_too):
     assert (refused.status_code, code) == (507, "disk_full") or (log_too and code == "database_unavailable")
     assert len(acknowledged) > 1
     log.info("%d saves, then %s", len(acknowledged), code)
-    if not log_too:  # reading goes on
+    if not log_too:  # reading continues
         assert {n: written(server, project, n) for n in acknowledged} == acknowledged
     disk.grow(256)
     database.start()
     newest = answered(requests.get, f"{server.base}/api/v1/projects/{project}", headers=server.headers)[
         "revision"
     ]
-    # What was told to have failed may have been stored: the answer was lost, not the save.
+    # A save that was reported as failed may have been stored: the answer was lost, not the save.
     assert newest in {max(acknowledged), max(acknowledged) + 1}
     patient = partial(reached, requests.get)
     assert {n: written(server, project, n, patient) for n in acknowledged} == acknowledged

@@ -72,7 +72,7 @@ def test_two_revisions_are_compared(api, edited):
     assert len(api.get(f"projects/{edited}/revisions/1/diff")["files"]) == 2
 
 
-def test_a_revision_is_restored_by_going_on(api, edited):
+def test_a_revision_is_restored_as_a_new_one(api, edited):
     restored = api.post(f"projects/{edited}/revisions/2/restore")
     assert restored["revision"] == 5
     assert {f["path"]: f["content"] for f in restored["files"]}["a.txt"] == "one\ntwo\n"
@@ -192,7 +192,7 @@ def test_hostile_archives_are_refused_and_leave_nothing(api, files, code):
 
 
 @pytest.mark.parametrize("data", [b"", b"no zip", b"PK\x03\x04" + bytes(100)])
-def test_what_is_no_zip_is_told(api, data):
+def test_a_file_that_is_no_zip_is_refused(api, data):
     assert upload(api, data, expect=422)["code"] in {"bad_archive", "invalid_input"}
 
 

@@ -27,7 +27,7 @@ def test_a_tree_goes_to_text_and_back(api):
     assert again["xml"] == xml.replace("<Go", "<Stop")
 
 
-def test_what_cannot_be_read_is_told_at_its_line(api):
+def test_text_that_cannot_be_read_is_reported_at_its_line(api):
     half = api.post("trees/diagram", {"diagram": DIAGRAM, "xml": "<root>\n<"})
     assert half["diagram"] is None
     assert half["diagnostics"][0]["line"] == 2

@@ -29,7 +29,7 @@ def spec(**changes):
 
 
 def children():
-    """What this process started, but for the pool's workers, which stay."""
+    """Returns the children of this process, except the workers of the pool, which stay."""
     return [
         child
         for child in psutil.Process().children(recursive=True)

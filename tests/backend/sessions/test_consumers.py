@@ -106,7 +106,7 @@ def test_the_managers_close_reaches_the_browser(relay, session):
         assert (socket.close_code, socket.close_reason) == (4321, "as asked")
 
 
-def test_a_manager_that_dies_is_told_with_its_reason(relay, session):
+def test_a_manager_that_dies_is_reported_with_its_reason(relay, session):
     with opened(relay, session("echo")["control_url"]) as socket:
         socket.recv()
         socket.send("die")
@@ -116,7 +116,7 @@ def test_a_manager_that_dies_is_told_with_its_reason(relay, session):
         assert socket.close_reason
 
 
-def test_a_session_that_failed_is_told(relay, session):
+def test_a_session_that_failed_is_reported(relay, session):
     started = session("failing")
     launched(started["id"])
     with opened(relay, started["control_url"]) as socket, pytest.raises(ConnectionClosed):
@@ -125,7 +125,7 @@ def test_a_session_that_failed_is_told(relay, session):
     assert "exit status 3" in socket.close_reason
 
 
-def test_a_session_that_is_not_there_is_told(relay, db):
+def test_a_session_that_is_not_there_is_reported(relay, db):
     with opened(relay, MISSING) as socket, pytest.raises(ConnectionClosed):
         socket.recv()
     assert socket.close_code == NO_SUCH_SESSION

@@ -77,7 +77,7 @@ def test_a_place_that_the_host_denies_is_waited_for(api, start, fake_manager, se
 
 
 async def warned(session_id):
-    """What a browser that looks at a session is told."""
+    """Returns the notices that a browser with this session gets."""
     told = []
 
     async def send(message):
@@ -102,7 +102,7 @@ async def test_browsers_are_warned_once_until_the_session_is_used():
     assert await warned("s1") == ["It ends in 4 min.", "It ends in 5 min.", "It ends in 4 min again."]
 
 
-def test_the_idle_are_told_and_then_ended(api, start, fake_manager, settings_of):
+def test_the_idle_are_warned_and_then_ended(api, start, fake_manager, settings_of):
     fake_manager("echo")
     settings_of(session_idle_minutes=30)
     started = start("One")

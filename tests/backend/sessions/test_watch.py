@@ -89,7 +89,7 @@ async def test_a_page_that_pings_alone_lets_its_session_become_idle():
 
 
 def row(address, token=TOKEN, monkeypatch=None):
-    """What the watch knows of a session."""
+    """Returns the row of a session whose executor has this address and token."""
     monkeypatch.setattr(writes, "manager_token", lambda _: token)
     return SimpleNamespace(id=uuid4(), address=address)
 
@@ -161,7 +161,7 @@ async def test_what_counts_as_an_answer(kind, is_given_up, launcher_of, quick, m
 @pytest.mark.django_db(transaction=True)
 @pytest.mark.parametrize("how", ["stopped", "hangs"])
 @pytest.mark.usefixtures("quick")
-def test_a_page_is_told_why_and_another_run_starts_another_executor(how, relay, session, api, project):  # noqa: F811
+def test_a_page_gets_the_reason_and_another_run_starts_another_executor(how, relay, session, api, project):  # noqa: F811
     started = session("echo")
     launched(started["id"])
     pid = Session.objects.get().launcher_state["pid"]
@@ -209,7 +209,7 @@ def test_a_session_without_a_page_is_looked_after_by_every_server_and_failed_onc
 
 
 @pytest.mark.django_db(transaction=True)
-def test_whoever_sees_the_end_first_gives_the_reason_for_it(session, api, monkeypatch):  # noqa: F811
+def test_the_first_who_sees_the_end_gives_the_reason_for_it(session, api, monkeypatch):  # noqa: F811
     started = session("echo")
     launched(started["id"])
     launcher = writes.launcher()

@@ -50,10 +50,10 @@ function EchoView({ echo: live }: { readonly echo: Echo }) {
           {last ? t('heardAt', { time: last.t.toFixed(2), bytes: last.bytes }) : t('waiting')}
         </span>
         <span className={classes['spacer']} />
-        <Tooltip label={t(held ? 'goOn' : 'hold')}>
+        <Tooltip label={t(held ? 'resume' : 'hold')}>
           <ActionIcon
             size="sm"
-            aria-label={t(held ? 'goOn' : 'hold')}
+            aria-label={t(held ? 'resume' : 'hold')}
             onClick={() => setHeld(held ? null : live)}
           >
             {held ? <IconPlayerPlay size={14} /> : <IconPlayerPause size={14} />}

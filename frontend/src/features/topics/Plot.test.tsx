@@ -32,7 +32,7 @@ describe('Plot', () => {
   it('holds and continues', async () => {
     show(<Plot isVisible={false} />);
     await user.click(screen.getByRole('button', { name: 'Pause this list' }));
-    await user.click(screen.getByRole('button', { name: 'Go on' }));
+    await user.click(screen.getByRole('button', { name: 'Resume' }));
     expect(screen.getByRole('button', { name: 'Pause this list' })).toBeInTheDocument();
   });
 

@@ -66,8 +66,8 @@ export function Plot({ isVisible }: PlotProps) {
           </button>
         ))}
         <span className={classes['spacer']} />
-        <Tooltip label={t(isHeld ? 'goOn' : 'hold')}>
-          <ActionIcon size="sm" aria-label={t(isHeld ? 'goOn' : 'hold')} onClick={() => setHeld(!isHeld)}>
+        <Tooltip label={t(isHeld ? 'resume' : 'hold')}>
+          <ActionIcon size="sm" aria-label={t(isHeld ? 'resume' : 'hold')} onClick={() => setHeld(!isHeld)}>
             {isHeld ? <IconPlayerPlay size={14} /> : <IconPlayerPause size={14} />}
           </ActionIcon>
         </Tooltip>

@@ -130,7 +130,7 @@ describe('TopicsPanel', () => {
     hear({ x: 22 }, 2);
     const echo = screen.getByRole('region', { name: '/odom' });
     expect(echo).toHaveTextContent('x11');
-    await user.click(screen.getByRole('button', { name: 'Go on' }));
+    await user.click(screen.getByRole('button', { name: 'Resume' }));
     expect(echo).toHaveTextContent('x22');
   });
 

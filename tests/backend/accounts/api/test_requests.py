@@ -12,7 +12,7 @@ FILE = {"path": "a.txt", "base_revision": 0, "content": "x"}
 
 
 def read(body):
-    """What comes of a body, by a new serializer."""
+    """Returns what a new serializer makes of a body."""
     serializer = ChangesSerializer(data=body)
     serializer.is_valid(raise_exception=True)
     return dict(serializer.validated_data)

@@ -211,7 +211,7 @@ def test_guests_cannot_escape_their_count_with_a_header(person, settings_of):
     assert codes[-1] == 429
 
 
-def test_a_proxy_that_the_settings_do_not_know_is_told_once(team, settings_of, monkeypatch, caplog):
+def test_a_proxy_that_the_settings_do_not_know_is_logged_once(team, settings_of, monkeypatch, caplog):
     monkeypatch.setattr(clients.proxies, "is_said", False)
     with caplog.at_level(logging.WARNING, "backend.core.clients"):
         browser = Person()

@@ -1,4 +1,4 @@
-"""Who works next, and who has to wait."""
+"""The order in which owners work, and the limits that make them wait."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What workers of one server know of each other: numbers, places, and who of them is well."""
+"""Data that the workers of one server share: numbers, places, and the health of each."""
 
 from __future__ import annotations
 

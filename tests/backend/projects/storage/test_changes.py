@@ -1,4 +1,4 @@
-"""What a change set does to files, without a database."""
+"""The effect of a change set on files, without a database."""
 
 from __future__ import annotations
 

@@ -59,7 +59,7 @@ class Gate:
         return True
 
     def open_door(self, session="s", timeout_s=60):
-        """What the keeper does for a session; returns the door and the socket that comes through it."""
+        """Does what the keeper does for a session; returns the door and the socket that comes through it."""
         ours, handed = (self._kept.enter_context(one) for one in socket.socketpair())
         return self._kept.enter_context(Door(self.control, handed, session, TOKEN).open(timeout_s)), ours
 
@@ -90,7 +90,7 @@ def show(caller, *, session="s", token=TOKEN):
 
 
 def fetch(caller):
-    """What the gate answers: its words, and whether it handed something out."""
+    """Returns the words that the gate answers, and whether it handed something out."""
     words, descriptors, _, _ = socket.recv_fds(caller, 64, 1)
     for descriptor in descriptors:
         socket.socket(fileno=descriptor).close()

@@ -56,7 +56,7 @@ def test_an_executor_starts_is_reached_and_ends(host_of):
         ("missing", "No such image"),
     ],
 )
-def test_an_executor_that_does_not_come_up_is_told_and_leaves_nothing(host_of, image, says):
+def test_an_executor_that_does_not_come_up_is_reported_and_leaves_nothing(host_of, image, says):
     host = host_of(image)
     with pytest.raises(LaunchError, match=says) as caught:
         host.launcher.start(session_spec(start_timeout_s=0.6 if image == "never" else 60))
@@ -243,7 +243,7 @@ def test_a_storm_of_processes_is_ended_from_outside(host_of):
     host.keeper.end_crowded()
     assert host.launcher.poll(started.state) == 137
     assert "256 processes" in host.launcher.explain(started.state)
-    # Whoever asks when somebody else has cleared up is told the same.
+    # A caller gets the same answer after somebody else has cleared up.
     host.launcher.stop(started.state, timeout_s=1)
     assert host.docker.containers == {}
     assert "256 processes" in host.launcher.explain(started.state)

@@ -43,7 +43,7 @@ def test_a_users_tools_are_started_once_and_found_again(host_of):
     assert host.launcher.running() == [], "tools are no session, and no orphan of one"
 
 
-def test_tools_that_have_ended_are_started_anew(host_of):
+def test_tools_that_have_ended_are_started_again(host_of):
     host = host_of()
     tools_id = str(uuid4())
     first = opened(host, tools_id)
@@ -61,7 +61,7 @@ def test_a_full_host_says_so_and_one_that_is_there_is_still_found(host_of):
     assert opened(host, tools_id)
 
 
-def test_tools_that_do_not_come_up_are_told_and_leave_nothing(host_of):
+def test_tools_that_do_not_come_up_are_reported_and_leave_nothing(host_of):
     host = host_of("failing")
     with pytest.raises(LaunchError, match="status 3"):
         opened(host)

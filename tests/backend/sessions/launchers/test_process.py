@@ -67,7 +67,7 @@ def test_a_later_process_with_the_same_number_is_not_ours(launcher_of):
     ("kind", "says"),
     [("failing", "exit status 3"), ("never", "within 0.7 s"), ("mute", "not report|within")],
 )
-def test_a_manager_that_does_not_come_up_is_told_and_leaves_nothing(launcher_of, kind, says):
+def test_a_manager_that_does_not_come_up_is_reported_and_leaves_nothing(launcher_of, kind, says):
     with pytest.raises(LaunchError, match=says) as caught:
         launcher_of(kind).start(spec(start_timeout_s=0.7 if kind == "never" else 60))
     assert caught.value.hint == "the fake manager starts" or kind == "never"
@@ -87,7 +87,7 @@ def test_a_manager_that_does_not_want_to_end_is_killed_with_its_children(launche
     assert not any(is_alive(member) for member in family)
 
 
-def test_a_program_that_cannot_be_started_is_told(launcher_of, tmp_path):
+def test_a_program_that_cannot_be_started_is_reported(launcher_of, tmp_path):
     launcher = launcher_of("echo", program=str(tmp_path / "missing"))
     with pytest.raises(LaunchError, match="could not be started"):
         launcher.start(spec())

@@ -105,7 +105,7 @@ def test_completion_findings_and_types(studio: Studio) -> None:
     page.keyboard.press("Control+z")
     expect(wrong).to_have_count(0)
     page.mouse.move(*spot(studio, "import Twist", "Twist"))
-    expect(page.locator(".cm-tooltip-hover")).to_contain_text("linear")
+    expect(page.locator(".cm-tooltip-hover")).to_contain_text("geometry_msgs/msg/Twist")
     studio.picture("code-hover-light")
 
 

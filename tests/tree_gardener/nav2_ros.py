@@ -73,6 +73,10 @@ class RosNode:
         transform.transform.rotation.w = 1.0
         self.publish("/tf_static", SimpleNamespace(transforms=[transform]))
 
+    def forget_places(self) -> None:
+        """Empties the buffer of transforms that the nodes share."""
+        vars(self)["nav2_buffer"].clear()
+
 
 def pose(x: float, y: float = 0.0, *, frame: str = "map", sec: int = 0) -> PoseStamped:
     """A stamped pose."""

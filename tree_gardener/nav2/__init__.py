@@ -7,11 +7,8 @@ lists all of Nav2's nodes with their ports. The tests compare the control nodes 
 own C++ in BehaviorTree.CPP 4.10.
 """
 
-import json
-import re
 from collections.abc import Mapping
-from importlib import resources
-from typing import Any, Final
+from typing import Final
 
 from tree_gardener.nav2.append_goal_pose_to_goals import AppendGoalPoseToGoals
 from tree_gardener.nav2.are_error_codes_present import AreErrorCodesPresent
@@ -113,17 +110,3 @@ NODES: Final[Mapping[str, type]] = {
         WouldASmootherRecoveryHelp,
     )
 }
-
-
-def table() -> dict[str, dict[str, Any]]:
-    """Returns Nav2's nodes by type: kind and ports."""
-    text = resources.files("tree_gardener").joinpath("nav2_nodes.json").read_text(encoding="utf-8")
-    return {node["type"]: node for node in json.loads(text)["nodes"]}
-
-
-def source_of(name: str) -> str | None:
-    """Returns the source of a node, to be ``actions/<Name>.py``; None if it is not among `NODES`."""
-    if name not in NODES:
-        return None
-    stem = re.sub("(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
-    return resources.files(__name__).joinpath(f"{stem}.py").read_text(encoding="utf-8")

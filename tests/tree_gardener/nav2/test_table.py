@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from translator import inspect_action
-from tree_gardener.nav2 import NODES, source_of, table
+from tree_gardener.nav2 import NODES
+from tree_gardener.nav2_library import source_of, table
 
 PART_3 = "part 3: actions and services of ROS as blocks"
 LEAVES = """
@@ -45,8 +46,3 @@ def test_a_node_has_the_kind_and_the_ports_of_the_table(name: str) -> None:
     }
     ports = {port.name: (port.direction, port.type, port.default) for port in found.ports}
     assert ports == expected
-
-
-def test_other_names_have_no_source() -> None:
-    assert source_of("FollowPath") is None
-    assert source_of("../catalog") is None

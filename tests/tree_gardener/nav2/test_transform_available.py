@@ -17,7 +17,7 @@ def test_it_succeeds_from_the_first_transform_on() -> None:
     assert trial.tick() == "F"
     ros.place(0.0)
     assert trial.tick() == "S"
-    ros.nav2_buffer.clear()
+    ros.forget_places()
     assert trial.tick() == "S"
     assert Trial(TransformAvailable, PORTS).tick() == "F"
 

@@ -13,6 +13,7 @@ from translator.catalog import NodeModel, builtins, nearest
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.diagram import diagram_path, diagram_text
 from translator.limits import NAME_CHARACTERS, XML_INCLUDES, oversize
+from translator.nav2 import nav2_models, nav2_source
 from translator.project import Project, assemble
 from translator.proposal import propose
 from translator.settings import PROJECT_FILE, Settings
@@ -85,7 +86,7 @@ def from_xml(  # noqa: PLR0913 - each is a choice of its own, and keyword-only
         file: Its path, to which the paths of `<include>` are relative.
         included: The files that it may include, by path.
         actions: Sources of actions by file name, such as `Forward.py`.
-        stubs: Whether actions that are missing get a stub.
+        stubs: Whether actions that are missing get Nav2's source, if they are nodes of Nav2, or a stub.
         places: The prefix of a file's path in places of findings. Without it, findings of checks point into
             the diagrams of the new project, else into the XML.
 
@@ -191,7 +192,7 @@ def main_tree_of(documents: Iterable[Document]) -> tuple[str, str]:
 def _actions(
     trees: list[Tree], documents: list[Document], sources: Mapping[str, bytes], *, stubs: bool
 ) -> dict[str, bytes]:
-    """Returns the action files: those given, those of `<Code>`, and stubs for the others."""
+    """Returns the action files: those given, those of `<Code>`, Nav2's own, and stubs for the others."""
     files = {f"actions/{name}": raw for name, raw in sources.items()}
     for document in documents:
         for name, code in document.code.items():
@@ -206,9 +207,13 @@ def _actions(
     if not any(tree.nodes for tree in trees):  # a palette
         others = (name for name, model in models.items() if model.kind != "subtree")
         seen |= {name: _Use() for name in others if name not in builtins() and can_be_class(name)}
+    nav2 = nav2_models({type_: use.ports for type_, use in seen.items()}, models) if stubs else {}
     for type_, use in seen.items() if stubs else ():
         path = f"actions/{type_}.py"
-        model = models.get(type_)
+        if type_ in nav2 and (source := nav2_source(type_)) is not None:
+            files.setdefault(path, source.encode())
+            continue
+        model = models.get(type_) or nav2.get(type_)
         if model is None and type_ not in kinds and use.children and nearest(type_, _with_children()):
             continue  # more likely a built-in node that is spelled wrong
         kind = model.kind if model is not None else kinds.get(type_, use.kind)

@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
-import tree_gardener.nav2
 from tests.tree_gardener.trees import load, recording
 from translator import inspect_action
 from tree_gardener import Status, Tree
 from tree_gardener.actions import load_actions
+from tree_gardener.nav2_library import source_of, table
 
 LETTERS = {"S": Status.SUCCESS, "F": Status.FAILURE, "R": Status.RUNNING, "K": Status.SKIPPED}
 
 
 def nav2_tree(cls: type, children: list[str], ports: str = "", **more: Any) -> Tree:
     """A tree whose root is a node of Nav2; each child returns the letters of its text, one a tick."""
-    source = (
-        Path(tree_gardener.nav2.__file__).with_name(f"{cls.__module__.rpartition('.')[2]}.py").read_text()
-    )
     # The source is a project's action as it stands.
+    source = source_of(cls.__name__)
+    assert source is not None
     found = inspect_action(source, f"actions/{cls.__name__}.py")
     assert found.diagnostics == ()
-    assert found.kind == cls.NODE_KIND.lower()  # type: ignore[attr-defined]
+    assert found.kind == table()[cls.__name__]["kind"]
     nodes: dict[str, Any] = dict(load_actions({cls.__name__: source}))
     for index, letters in enumerate(children):
         nodes[f"C{index}"] = recording(*(LETTERS[letter] for letter in letters))

@@ -1,25 +1,112 @@
-"""Control nodes and decorators of Nav2, written with the public classes for control nodes.
+"""Nodes of Nav2 that need no action and no service of ROS.
 
-Each module is complete in itself, so that its source can also be a project's ``actions/<Name>.py``, and it
-travels in exported packages with the engine. ``Tree.from_xml(text, nodes=NODES)`` runs trees that use them.
-The tests compare them with Nav2's own C++ in BehaviorTree.CPP 4.10.
+Each module is a node, written with the public classes, so that its source can also be a project's
+``actions/<Name>.py``. Helpers that several share are modules beside it, and travel in exported packages with
+the engine. ``Tree.from_xml(text, nodes=NODES)`` runs trees that use them. `nav2_nodes.json` beside the folder
+lists all of Nav2's nodes with their ports. The tests compare the control nodes and RateController with Nav2's
+own C++ in BehaviorTree.CPP 4.10.
 """
 
 from collections.abc import Mapping
 from typing import Final
 
-from tree_gardener.control_node import ControlNode
+from tree_gardener.nav2.append_goal_pose_to_goals import AppendGoalPoseToGoals
+from tree_gardener.nav2.are_error_codes_present import AreErrorCodesPresent
+from tree_gardener.nav2.are_poses_near import ArePosesNear
+from tree_gardener.nav2.check_stop_status import CheckStopStatus
+from tree_gardener.nav2.concatenate_paths import ConcatenatePaths
+from tree_gardener.nav2.controller_selector import ControllerSelector
+from tree_gardener.nav2.distance_controller import DistanceController
+from tree_gardener.nav2.distance_traveled import DistanceTraveled
+from tree_gardener.nav2.extract_route_nodes_as_goals import ExtractRouteNodesAsGoals
+from tree_gardener.nav2.get_current_pose import GetCurrentPose
+from tree_gardener.nav2.get_next_few_goals import GetNextFewGoals
+from tree_gardener.nav2.get_pose_from_path import GetPoseFromPath
+from tree_gardener.nav2.global_updated_goal import GlobalUpdatedGoal
+from tree_gardener.nav2.goal_checker_selector import GoalCheckerSelector
+from tree_gardener.nav2.goal_reached import GoalReached
+from tree_gardener.nav2.goal_updated import GoalUpdated
+from tree_gardener.nav2.goal_updated_controller import GoalUpdatedController
+from tree_gardener.nav2.goal_updater import GoalUpdater
+from tree_gardener.nav2.initial_pose_received import InitialPoseReceived
+from tree_gardener.nav2.is_battery_charging import IsBatteryCharging
+from tree_gardener.nav2.is_battery_low import IsBatteryLow
+from tree_gardener.nav2.is_goal_nearby import IsGoalNearby
+from tree_gardener.nav2.is_stuck import IsStuck
+from tree_gardener.nav2.is_within_path_tracking_bounds import IsWithinPathTrackingBounds
 from tree_gardener.nav2.nonblocking_sequence import NonblockingSequence
+from tree_gardener.nav2.path_expiring_timer import PathExpiringTimer
+from tree_gardener.nav2.path_handler_selector import PathHandlerSelector
+from tree_gardener.nav2.path_longer_on_approach import PathLongerOnApproach
 from tree_gardener.nav2.persistent_sequence import PersistentSequence
 from tree_gardener.nav2.pipeline_sequence import PipelineSequence
+from tree_gardener.nav2.planner_selector import PlannerSelector
+from tree_gardener.nav2.progress_checker_selector import ProgressCheckerSelector
 from tree_gardener.nav2.rate_controller import RateController
 from tree_gardener.nav2.recovery_node import RecoveryNode
+from tree_gardener.nav2.remove_passed_goals import RemovePassedGoals
 from tree_gardener.nav2.round_robin import RoundRobin
+from tree_gardener.nav2.single_trigger import SingleTrigger
+from tree_gardener.nav2.smoother_selector import SmootherSelector
+from tree_gardener.nav2.speed_controller import SpeedController
+from tree_gardener.nav2.time_expired import TimeExpired
+from tree_gardener.nav2.transform_available import TransformAvailable
+from tree_gardener.nav2.truncate_path import TruncatePath
+from tree_gardener.nav2.truncate_path_local import TruncatePathLocal
+from tree_gardener.nav2.would_a_controller_recovery_help import WouldAControllerRecoveryHelp
+from tree_gardener.nav2.would_a_planner_recovery_help import WouldAPlannerRecoveryHelp
+from tree_gardener.nav2.would_a_route_recovery_help import WouldARouteRecoveryHelp
+from tree_gardener.nav2.would_a_smoother_recovery_help import WouldASmootherRecoveryHelp
 
-NODES: Final[Mapping[str, type[ControlNode]]] = {
+NODES: Final[Mapping[str, type]] = {
     cls.__name__: cls
     for cls in (
-        *(NonblockingSequence, PersistentSequence, PipelineSequence, RateController),
-        *(RecoveryNode, RoundRobin),
+        AppendGoalPoseToGoals,
+        AreErrorCodesPresent,
+        ArePosesNear,
+        CheckStopStatus,
+        ConcatenatePaths,
+        ControllerSelector,
+        DistanceController,
+        DistanceTraveled,
+        ExtractRouteNodesAsGoals,
+        GetCurrentPose,
+        GetNextFewGoals,
+        GetPoseFromPath,
+        GlobalUpdatedGoal,
+        GoalCheckerSelector,
+        GoalReached,
+        GoalUpdated,
+        GoalUpdatedController,
+        GoalUpdater,
+        InitialPoseReceived,
+        IsBatteryCharging,
+        IsBatteryLow,
+        IsGoalNearby,
+        IsStuck,
+        IsWithinPathTrackingBounds,
+        NonblockingSequence,
+        PathExpiringTimer,
+        PathHandlerSelector,
+        PathLongerOnApproach,
+        PersistentSequence,
+        PipelineSequence,
+        PlannerSelector,
+        ProgressCheckerSelector,
+        RateController,
+        RecoveryNode,
+        RemovePassedGoals,
+        RoundRobin,
+        SingleTrigger,
+        SmootherSelector,
+        SpeedController,
+        TimeExpired,
+        TransformAvailable,
+        TruncatePath,
+        TruncatePathLocal,
+        WouldAControllerRecoveryHelp,
+        WouldAPlannerRecoveryHelp,
+        WouldARouteRecoveryHelp,
+        WouldASmootherRecoveryHelp,
     )
 }

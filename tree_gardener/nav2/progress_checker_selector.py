@@ -1,0 +1,19 @@
+"""ProgressCheckerSelector of Nav2."""
+
+from tree_gardener.nav2.selector import Selector
+from tree_gardener.ports import Port
+
+
+class ProgressCheckerSelector(Selector):
+    """Writes the name of the progress checker that was last received by topic, or the default until then.
+
+    It fails without both. Rule: Nav2's plugins/action/progress_checker_selector_node.cpp.
+    """
+
+    NODE_KIND = "SyncAction"
+    WHAT = "progress_checker"
+    INPUT_PORTS = {
+        "topic_name": Port(str, default="progress_checker_selector", description="Topic of the names."),
+        "default_progress_checker": Port(str, description="The name until one is received."),
+    }
+    OUTPUT_PORTS = {"selected_progress_checker": Port(str, description="The name.")}

@@ -8,12 +8,12 @@ After a result, also one that a pre-condition decided: ``_onSuccess`` or ``_onFa
 ``_onHalted`` runs whenever the node is halted.
 """
 
-from collections.abc import Mapping
-from typing import Final
+from collections.abc import Callable, Mapping
+from typing import Any, Final
 
 from tree_gardener.errors import PortError, ScriptError, TickError
 from tree_gardener.node import Node
-from tree_gardener.script import Environment, Script, compile_script
+from tree_gardener.script import Environment, Script, bind_run, bind_test, compile_script
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
 
 PRE_CONDITIONS: Final = ("_failureIf", "_successIf", "_skipIf", "_while")
@@ -21,43 +21,63 @@ POST_CONDITIONS: Final = ("_onSuccess", "_onFailure", "_post", "_onHalted")
 CONDITIONS: Final = frozenset(PRE_CONDITIONS + POST_CONDITIONS)
 
 
+class Condition:
+    """One condition, bound to its node.
+
+    Attributes:
+        text: the script.
+        call: runs it; a pre-condition gives true or false.
+    """
+
+    __slots__ = ("call", "text")
+
+    def __init__(self, text: str, call: Callable[[], Any]) -> None:
+        self.text = text
+        self.call = call
+
+
 class Guard:
     """The compiled conditions of one node."""
 
-    __slots__ = ("deciding", "environment", "on_failure", "on_halted", "on_success", "post", "while_true")
+    __slots__ = ("deciding", "on_failure", "on_halted", "on_success", "post", "while_true")
 
     def __init__(self, scripts: Mapping[str, Script], environment: Environment) -> None:
-        self.environment = environment
+        bound = {
+            name: Condition(
+                script.text, (bind_test if name in PRE_CONDITIONS else bind_run)(script.text, environment)
+            )
+            for name, script in scripts.items()
+        }
         self.deciding = [
-            (script, result)
+            (condition, result)
             for attribute, result in (("_failureIf", FAILURE), ("_successIf", SUCCESS), ("_skipIf", SKIPPED))
-            if (script := scripts.get(attribute)) is not None
+            if (condition := bound.get(attribute)) is not None
         ]
-        self.while_true = scripts.get("_while")
-        self.on_success = scripts.get("_onSuccess")
-        self.on_failure = scripts.get("_onFailure")
-        self.post = scripts.get("_post")
-        self.on_halted = scripts.get("_onHalted")
+        self.while_true = bound.get("_while")
+        self.on_success = bound.get("_onSuccess")
+        self.on_failure = bound.get("_onFailure")
+        self.post = bound.get("_post")
+        self.on_halted = bound.get("_onHalted")
 
     def before(self, node: Node) -> Status | None:
         """Tests the pre-conditions; returns the result that they decide, or None to tick the node."""
         status = node.status
         if status is IDLE:
-            for script, result in self.deciding:
-                if self.test(node, script):
+            for condition, result in self.deciding:
+                if self.run(node, condition):
                     return result
-            if self.while_true is not None and not self.test(node, self.while_true):
+            if self.while_true is not None and not self.run(node, self.while_true):
                 return SKIPPED
-        elif status is RUNNING and self.while_true is not None and not self.test(node, self.while_true):
+        elif status is RUNNING and self.while_true is not None and not self.run(node, self.while_true):
             node.stop()
             return SKIPPED
         return None
 
     def after(self, node: Node, status: Status) -> None:
         """Runs the post-conditions of a result."""
-        script = self.on_success if status is SUCCESS else self.on_failure
-        if script is not None:
-            self.run(node, script)
+        condition = self.on_success if status is SUCCESS else self.on_failure
+        if condition is not None:
+            self.run(node, condition)
         if self.post is not None:
             self.run(node, self.post)
 
@@ -66,19 +86,12 @@ class Guard:
         if self.on_halted is not None:
             self.run(node, self.on_halted)
 
-    def test(self, node: Node, script: Script) -> bool:
-        """Runs a script as a condition."""
+    def run(self, node: Node, condition: Condition) -> Any:
+        """Runs a condition and returns its value."""
         try:
-            return script.test(self.environment)
+            return condition.call()
         except (ScriptError, PortError) as error:
-            raise TickError(node, f"in the script '{script.text}': {error}") from None
-
-    def run(self, node: Node, script: Script) -> None:
-        """Runs a script for its effects."""
-        try:
-            script.run(self.environment)
-        except (ScriptError, PortError) as error:
-            raise TickError(node, f"in the script '{script.text}': {error}") from None
+            raise TickError(node, f"in the script '{condition.text}': {error}") from None
 
 
 def compile_conditions(attributes: Mapping[str, str]) -> dict[str, Script]:

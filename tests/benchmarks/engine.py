@@ -5,8 +5,10 @@ Times are of the processor, so that other programs disturb less; compare the rat
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import gc
+import html
 import sys
 import time
 import tracemalloc
@@ -17,9 +19,10 @@ import py_trees
 from py_trees.common import Status as PyTreesStatus
 
 from tree_gardener import Tree
+from tree_gardener.script import compiled
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from tree_gardener.node import Node
 
@@ -161,6 +164,56 @@ def rows(sizes: tuple[int, ...] = SIZES, *, rounds: int = 7) -> list[Row]:
     return found
 
 
+CONDITIONS = (
+    "battery &gt; 20.0",
+    "count &lt;= 7 &amp;&amp; ready",
+    "name == 'dock'",
+    "0 &lt; battery &lt; 90",
+)
+SETTINGS = "battery := 55.5; count := 3; ready := true; name := 'dock'"
+
+
+@dataclasses.dataclass(frozen=True)
+class ScriptRow:
+    """A sequence of ScriptConditions, in microseconds a tick."""
+
+    what: str
+    ours: float
+    evaluated: float
+    cpp: float
+
+    def __str__(self) -> str:
+        return (
+            f"{self.what:24} {self.ours:10.2f} {self.evaluated:10.2f} {self.cpp:10.2f} | "
+            f"{self.evaluated / self.ours:6.1f}x {self.cpp / self.ours:6.2f}x"
+        )
+
+
+def script_rows(size: int = 1_000, *, rounds: int = 7) -> list[ScriptRow]:
+    """Sequences of ScriptConditions: compiled, left to the evaluator, and in BehaviorTree.CPP."""
+    found = []
+    for what, texts in (*((text, (text,)) for text in CONDITIONS), ("all of them", CONDITIONS)):
+        leaves = "".join(f'<ScriptCondition code="{texts[index % len(texts)]}"/>' for index in range(size))
+        xml = f'<Sequence><RunOnce><Script code="{SETTINGS}"/></RunOnce>{leaves}</Sequence>'
+        ours = Tree.from_xml(document(xml), NODES)
+        with interpreted():
+            evaluated = Tree.from_xml(document(xml), NODES)
+        trees = (ours, evaluated, reference(xml))
+        plain = html.unescape(what)
+        found.append(ScriptRow(plain, *race(*(tree.tick_exactly_once for tree in trees), rounds=rounds)))
+    return found
+
+
+@contextlib.contextmanager
+def interpreted() -> Iterator[None]:
+    """Leaves the scripts of trees that are loaded meanwhile to the evaluator."""
+    compiled.COMPILES = False
+    try:
+        yield
+    finally:
+        compiled.COMPILES = True
+
+
 def load_times(sizes: tuple[int, ...] = SIZES) -> list[tuple[int, float, float, float]]:
     """Size, and milliseconds to load: ours, BT.CPP, py_trees built by hand."""
     found = []
@@ -210,6 +263,11 @@ def main() -> None:
     )
     for row in rows():
         print(row, flush=True)
+    print(
+        f"\n{'1,000 ScriptConditions':24} {'ours':>10} {'evaluator':>10} {'BT.CPP':>10} | evaluator  BT.CPP"
+    )
+    for script_row in script_rows():
+        print(script_row, flush=True)
     print("\nmilliseconds to load; py_trees is built by hand, without a document")
     for size, ours, other, by_hand in load_times():
         print(f"{size:6} nodes: ours {ours:8.2f}, BT.CPP {other:8.2f}, py_trees {by_hand:8.2f}")

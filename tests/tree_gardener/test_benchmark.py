@@ -22,3 +22,9 @@ def test_rows_can_be_printed() -> None:
     for row in engine.rows((10,), rounds=1):
         assert row.what in str(row)
         assert row.ours > 0
+
+
+def test_rows_of_scripts_can_be_printed() -> None:
+    for row in engine.script_rows(4, rounds=1):
+        assert row.what in str(row)
+        assert row.ours > 0

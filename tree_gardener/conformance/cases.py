@@ -15,7 +15,7 @@ from tree_gardener.conformance.deviations import WatchedBlackboard
 from tree_gardener.conformance.leaves import Trace, leaves
 from tree_gardener.errors import LoadError, PortError, ScriptError, TickError
 from tree_gardener.nav2 import NODES
-from tree_gardener.script import Environment, compile_script
+from tree_gardener.script import Environment, bind_run, bind_test, compile_script
 from tree_gardener.status import Status
 from tree_gardener.tree import Tree
 from tree_gardener.values import BY_NAME, ValueType
@@ -166,7 +166,7 @@ class _Run:
             kind = operation["op"]
             if kind == "script":
                 environment = Environment(self.tree.blackboard, self.enums)
-                compile_script(operation["code"]).run(environment)
+                bind_run(operation["code"], environment)()
             elif kind == "set":
                 _set(self.tree.blackboard, operation["key"], operation["type"], operation["value"])
             elif kind == "unset":
@@ -299,9 +299,10 @@ def _evaluate(row: dict[str, Any]) -> Any:
     except ScriptError:
         return "LOAD"
     environment = _environment()
+    run = bind_run(script.text, environment)
     before = {key: _plain(entry) for key, entry in environment.board.entries.items()}
     try:
-        script.run(environment)
+        run()
     except (ScriptError, PortError):
         return "EXC:"
     after = {key: _plain(entry) for key, entry in environment.board.entries.items()}
@@ -312,10 +313,10 @@ def _evaluate(row: dict[str, Any]) -> Any:
 
 def _condition(text: str) -> str:
     try:
-        script = compile_script(text)
+        test = bind_test(text, _environment())
     except ScriptError:
         return "LOAD"
     try:
-        return "SUCCESS" if script.test(_environment()) else "FAILURE"
+        return "SUCCESS" if test() else "FAILURE"
     except (ScriptError, PortError):
         return "EXC"

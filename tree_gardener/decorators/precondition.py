@@ -1,6 +1,7 @@
 from tree_gardener.errors import PortError, ScriptError, TickError
 from tree_gardener.node import Decorator
-from tree_gardener.script import Environment, compile_script
+from tree_gardener.script import bind_test
+from tree_gardener.script_port import ScriptPort
 from tree_gardener.status import FAILURE, RUNNING, SKIPPED, SUCCESS, Status
 
 
@@ -11,14 +12,14 @@ class Precondition(Decorator):
     child does not change that.
     """
 
-    __slots__ = ("environment", "open")
+    __slots__ = ("open", "script")
     MARKS_RUNNING = ()
     NEEDS = CODE = "if"
 
     def prepare(self) -> None:
         super().prepare()
         self.open = False
-        self.environment = Environment(self.board, self.tree.enums, self.uid)
+        self.script = ScriptPort(self, "if", bind_test)
 
     def execute(self) -> Status:
         otherwise = self.get("else")
@@ -37,11 +38,11 @@ class Precondition(Decorator):
         return self.finish(status)
 
     def test(self) -> bool:
-        text = self.get("if")
+        test = self.script.fixed or self.script.current()
         try:
-            return compile_script(text).test(self.environment)
+            return bool(test())
         except (ScriptError, PortError) as error:
-            raise TickError(self, f"in the script '{text}': {error}") from None
+            raise self.script.fault(error) from None
 
     def refuse(self, otherwise: Status) -> Status:
         """Returns the result for a script that is false."""

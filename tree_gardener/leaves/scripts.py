@@ -1,6 +1,9 @@
-from tree_gardener.errors import PortError, ScriptError, TickError
+from collections.abc import Callable
+
+from tree_gardener.errors import PortError, ScriptError
 from tree_gardener.node import Kind, SyncLeaf
-from tree_gardener.script import Environment, compile_script
+from tree_gardener.script import Environment, bind_run, bind_test
+from tree_gardener.script_port import ScriptPort
 from tree_gardener.status import FAILURE, SUCCESS, Status
 
 
@@ -11,20 +14,19 @@ class Script(SyncLeaf):
     a constant that the SubTree is given. An empty script does nothing.
     """
 
-    __slots__ = ("environment",)
+    __slots__ = ("script",)
     NEEDS = CODE = "code"
 
     def prepare(self) -> None:
-        self.environment = Environment(self.board, self.tree.enums, self.uid)
+        self.script = ScriptPort(self, "code", _bind_any)
 
     def run(self) -> Status:
-        text = self.get("code")
-        if not text:
-            return SUCCESS
+        script = self.script
+        run = script.fixed or script.current()
         try:
-            compile_script(text).run(self.environment)
+            run()
         except (ScriptError, PortError) as error:
-            raise TickError(self, f"in the script '{text}': {error}") from None
+            raise script.fault(error) from None
         return SUCCESS
 
 
@@ -34,16 +36,30 @@ class ScriptCondition(SyncLeaf):
     The value must be 0 or 1 if it is an integer, and not negative if it is a double; a string is an error.
     """
 
-    __slots__ = ("environment",)
+    __slots__ = ("script",)
     KIND = Kind.CONDITION
     NEEDS = CODE = "code"
 
     def prepare(self) -> None:
-        self.environment = Environment(self.board, self.tree.enums, self.uid)
+        self.script = ScriptPort(self, "code", bind_test)
 
-    def run(self) -> Status:
-        text = self.get("code")
+    def execute(self) -> Status:
+        script = self.script
+        test = script.fixed or script.current()
         try:
-            return SUCCESS if compile_script(text).test(self.environment) else FAILURE
+            status = SUCCESS if test() else FAILURE
         except (ScriptError, PortError) as error:
-            raise TickError(self, f"in the script '{text}': {error}") from None
+            raise script.fault(error) from None
+        self.status = status
+        if self.journal is not None:
+            self.journal.results.append(self.marks[0] if status is SUCCESS else self.marks[1])
+        return status
+
+
+def _bind_any(text: str, environment: Environment) -> Callable[[], object]:
+    """Binds a script that may be empty."""
+    return bind_run(text, environment) if text else _nothing
+
+
+def _nothing() -> None:
+    """Runs an empty script."""

@@ -1,9 +1,11 @@
-"""The script language of BehaviorTree.CPP: lexer, parser and evaluator, all with positions.
+"""The script language of BehaviorTree.CPP: lexer, parser, evaluator and compiler, all with positions.
 
-`parse` returns the syntax tree, for checks while a user types; `compile_script` returns a script that runs.
+`parse` returns the syntax tree, for checks while a user types; `compile_script` returns a script that the
+evaluator runs on any blackboard; `bind_run` and `bind_test` return compiled functions for one scope.
 """
 
 from tree_gardener.errors import ScriptError
+from tree_gardener.script.compiled import bind_run, bind_test, generated_source
 from tree_gardener.script.evaluator import Environment, Script, compile_script
 from tree_gardener.script.parser import parse
 from tree_gardener.script.syntax import Program, names_read, names_written
@@ -13,7 +15,10 @@ __all__ = [
     "Program",
     "Script",
     "ScriptError",
+    "bind_run",
+    "bind_test",
     "compile_script",
+    "generated_source",
     "names_read",
     "names_written",
     "parse",

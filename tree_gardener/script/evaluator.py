@@ -75,14 +75,7 @@ class Script:
         Raises:
             ScriptError: it cannot be evaluated, or its value is not true or false.
         """
-        value = self.run(environment)
-        if value is EMPTY:
-            raise ScriptError((0, len(self.text)), "the condition has no value yet")
-        try:
-            return to_bool(value)
-        except ConversionError as error:
-            hint = "compare it: x == 1, x > 0" if as_number(value) is not None else "compare it: x == 'text'"
-            raise ScriptError((0, len(self.text)), str(error), hint) from None
+        return truth(self.program, self.run(environment))
 
 
 @functools.lru_cache(maxsize=4096)
@@ -93,6 +86,22 @@ def compile_script(text: str) -> Script:
         ScriptError: it does not parse.
     """
     return Script(parse(text))
+
+
+def truth(program: Program, value: Any) -> bool:
+    """Returns the value of a script as true or false.
+
+    Raises:
+        ScriptError: it is neither.
+    """
+    span = (0, len(program.text))
+    if value is EMPTY:
+        raise ScriptError(span, "the condition has no value yet")
+    try:
+        return to_bool(value)
+    except ConversionError as error:
+        hint = "compare it: x == 1, x > 0" if as_number(value) is not None else "compare it: x == 'text'"
+        raise ScriptError(span, str(error), hint) from None
 
 
 def _sequence(statements: list[Evaluator]) -> Evaluator:
@@ -106,6 +115,11 @@ def _sequence(statements: list[Evaluator]) -> Evaluator:
         return last(environment)
 
     return run
+
+
+def evaluate(expression: Expression, environment: Environment) -> Any:
+    """Evaluates one expression."""
+    return _compile(expression)(environment)
 
 
 def _compile(expression: Expression) -> Evaluator:
@@ -124,25 +138,32 @@ def _name(expression: Name) -> Evaluator:
         constant = environment.enums.get(name)
         if constant is not None:
             return float(constant)
-        entry = environment.board.find(name)
-        if entry is None:
-            raise ScriptError(expression.span, f"there is no entry '{name}'", "create it with := first")
-        return entry.value
+        return entry_of(environment, expression).value
 
     return run
+
+
+def entry_of(environment: Environment, expression: Name) -> Entry:
+    """Returns the entry that a name stands for, along all remappings."""
+    entry = environment.board.find(expression.name)
+    if entry is None:
+        raise ScriptError(
+            expression.span, f"there is no entry '{expression.name}'", "create it with := first"
+        )
+    return entry
 
 
 def _unary(expression: Unary) -> Evaluator:
     operand = _compile(expression.operand)
-    function = _PREFIX[expression.operator]
+    return lambda environment: prefixed(expression, operand(environment))
 
-    def run(environment: Environment) -> float:
-        try:
-            return function(_number(operand(environment), expression))
-        except ConversionError as error:
-            raise ScriptError(expression.span, str(error)) from None
 
-    return run
+def prefixed(expression: Unary, value: Any) -> float:
+    """Applies a prefix to a value."""
+    try:
+        return _PREFIX[expression.operator](_number(value, expression))
+    except ConversionError as error:
+        raise ScriptError(expression.span, str(error)) from None
 
 
 def _number(value: Any, expression: Expression) -> float:
@@ -201,14 +222,17 @@ _BITS: Final[dict[str, Callable[[int, int], int]]] = {
 
 def _binary(expression: Binary) -> Evaluator:
     left, right = _compile(expression.left), _compile(expression.right)
-    combine = _COMBINE.get(expression.operator) or functools.partial(_arithmetic, expression.operator)
-    span = expression.span
 
     def run(environment: Environment) -> Any:
         first = left(environment)
-        return combine(span, first, right(environment))
+        return combine(expression, first, right(environment))
 
     return run
+
+
+def combine(expression: Binary, left: Any, right: Any) -> Any:
+    """Applies an operator to the values of its sides."""
+    return _COMBINE[expression.operator](expression.span, left, right)
 
 
 def _arithmetic(symbol: str, span: Span, left: Any, right: Any) -> Any:
@@ -257,6 +281,7 @@ def _logic(symbol: str, span: Span, left: Any, right: Any) -> float:
 
 _COMBINE: Final[dict[str, Callable[[Span, Any, Any], Any]]] = {
     "..": _join,
+    **{symbol: functools.partial(_arithmetic, symbol) for symbol in "+-*/"},
     **{symbol: functools.partial(_bits, symbol) for symbol in "&|^"},
     **{symbol: functools.partial(_logic, symbol) for symbol in ("&&", "||")},
 }
@@ -281,20 +306,23 @@ _COMPARE: Final[dict[str, Callable[[Any, Any], bool]]] = {
 
 def _comparison(expression: Comparison) -> Evaluator:
     first = _compile(expression.first)
-    rest = [(_COMPARE[symbol], _compile(right)) for symbol, right in expression.rest]
-    span = expression.span
+    rest = [(symbol, _compile(right)) for symbol, right in expression.rest]
 
     def run(environment: Environment) -> float:
         left = first(environment)
-        for compare, evaluate in rest:
+        for symbol, evaluate in rest:
             right = evaluate(environment)
-            a, b = _comparable(left, right, environment, span)
-            if not compare(a, b):
+            if not compared(environment, expression, symbol, left, right):
                 return 0.0
             left = right
         return 1.0
 
     return run
+
+
+def compared(environment: Environment, expression: Comparison, symbol: str, left: Any, right: Any) -> bool:
+    """Compares one pair of a chain."""
+    return _COMPARE[symbol](*_comparable(left, right, environment, expression.span))
 
 
 def _comparable(left: Any, right: Any, environment: Environment, span: Span) -> tuple[Any, Any]:
@@ -326,50 +354,75 @@ def _conditional(expression: Conditional) -> Evaluator:
     then, otherwise = _compile(expression.then), _compile(expression.otherwise)
 
     def run(environment: Environment) -> Any:
-        value = condition(environment)
-        number = as_number(value)
-        if number is None:
-            if not isinstance(value, str):
-                raise ScriptError(expression.condition.span, f"a number is needed, not {_kind(value)}")
-            try:
-                number = parse_double(value)
-            except ConversionError as error:
-                raise ScriptError(expression.condition.span, str(error)) from None
-        chosen = _real(number, expression.condition.span)
+        chosen = decision(expression, condition(environment))
         return then(environment) if chosen else otherwise(environment)
 
     return run
 
 
+def decision(expression: Conditional, value: Any) -> float:
+    """Returns the number that decides between the branches; 0 is for the second."""
+    span = expression.condition.span
+    number = as_number(value)
+    if number is None:
+        if not isinstance(value, str):
+            raise ScriptError(span, f"a number is needed, not {_kind(value)}")
+        try:
+            number = parse_double(value)
+        except ConversionError as error:
+            raise ScriptError(span, str(error)) from None
+    return _real(number, span)
+
+
 def _assignment(expression: Assignment) -> Evaluator:
     value = _compile(expression.value)
-    target, symbol, span = expression.target, expression.operator, expression.span
-    if not isinstance(target, Name):
+    if not isinstance(expression.target, Name):
 
         def fail(_environment: Environment) -> Any:
-            raise ScriptError(target.span, "only a blackboard entry can be assigned to", "compare with ==")
+            raise no_target(expression)
 
         return fail
-    name = target.name
 
     def run(environment: Environment) -> Any:
-        entry = environment.board.find(name)
-        if entry is None:
-            if symbol != ":=":
-                raise ScriptError(target.span, f"there is no entry '{name}'", "create it with :=")
-            entry = environment.board.create(name, None)
-        right = value(environment)
-        if right is EMPTY:
-            hint = "'..' gives no value for two numbers" if isinstance(expression.value, Binary) else ""
-            raise ScriptError(expression.value.span, f"there is no value to assign to '{name}'", hint)
-        if symbol in (":=", "="):
-            result = _assigned(entry, right, environment, span)
-        else:
-            result = _compound(entry, symbol[0], right, span)
-        entry.write(result, environment.writer)
-        return result
+        entry = target_of(environment, expression)
+        return assign(environment, expression, entry, value(environment))
 
     return run
+
+
+def no_target(expression: Assignment) -> ScriptError:
+    """Returns the error of an assignment to something that is no entry."""
+    return ScriptError(
+        expression.target.span, "only a blackboard entry can be assigned to", "compare with =="
+    )
+
+
+def target_of(environment: Environment, expression: Assignment) -> Entry:
+    """Returns the entry that is assigned to, which exists before the right side is evaluated."""
+    target = expression.target
+    assert isinstance(target, Name)
+    entry = environment.board.find(target.name)
+    if entry is None:
+        if expression.operator != ":=":
+            raise ScriptError(target.span, f"there is no entry '{target.name}'", "create it with :=")
+        entry = environment.board.create(target.name, None)
+    return entry
+
+
+def assign(environment: Environment, expression: Assignment, entry: Entry, right: Any) -> Any:
+    """Assigns a value to an entry, and returns what it got."""
+    span, symbol = expression.span, expression.operator
+    if right is EMPTY:
+        assert isinstance(expression.target, Name)
+        hint = "'..' gives no value for two numbers" if isinstance(expression.value, Binary) else ""
+        message = f"there is no value to assign to '{expression.target.name}'"
+        raise ScriptError(expression.value.span, message, hint)
+    if symbol in (":=", "="):
+        result = _assigned(entry, right, environment, span)
+    else:
+        result = _compound(entry, symbol[0], right, span)
+    entry.write(result, environment.writer)
+    return result
 
 
 def _assigned(entry: Entry, value: Any, environment: Environment, span: Span) -> Any:

@@ -81,11 +81,12 @@ class Program:
 def walk(expression: Expression) -> Iterator[Expression]:
     """Yields the expression and all its parts, in the order of the text."""
     yield expression
-    for part in _parts(expression):
+    for part in parts(expression):
         yield from walk(part)
 
 
-def _parts(expression: Expression) -> tuple[Expression, ...]:
+def parts(expression: Expression) -> tuple[Expression, ...]:
+    """Returns the expressions that an expression consists of."""
     if isinstance(expression, Unary):
         return (expression.operand,)
     if isinstance(expression, Binary):

@@ -11,6 +11,7 @@ import pytest
 from tree_gardener import LoadError, Tree
 from tree_gardener.conformance import DEVIATIONS, run_case, run_file
 from tree_gardener.conformance.leaves import Trace, leaves
+from tree_gardener.script import compiled
 
 CASES = Path(__file__).parents[2] / "conformance"
 FILES = {
@@ -82,6 +83,12 @@ def test_every_case_passes(name: str, number: int) -> None:
     outcomes = list(run_file(CASES / name))
     assert [outcome for outcome in outcomes if not outcome.passed] == []
     assert len(outcomes) == number
+
+
+@pytest.mark.parametrize("name", ["focused.jsonl", "random.jsonl", "script_table.json", "throws.jsonl"])
+def test_cases_pass_where_the_evaluator_runs_all_scripts(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(compiled, "COMPILES", False)
+    assert [outcome for outcome in run_file(CASES / name) if not outcome.passed] == []
 
 
 def test_what_differs_on_purpose_differs_for_the_reason_that_is_named() -> None:

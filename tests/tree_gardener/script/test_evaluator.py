@@ -1,10 +1,10 @@
-"""The script language: positions of errors, values, and properties."""
+"""The script language: positions of errors, values, and properties, evaluated and compiled."""
 
 from __future__ import annotations
 
 import contextlib
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from hypothesis import given, settings
@@ -12,12 +12,28 @@ from hypothesis import strategies as st
 
 from tree_gardener.blackboard import EMPTY, Blackboard
 from tree_gardener.errors import ScriptError
-from tree_gardener.script import Environment, compile_script
+from tree_gardener.script import Environment, bind_run, compile_script
 from tree_gardener.values import ANY, BOOL, INT, STRING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+WAYS: dict[str, Callable[[str, Environment], Any]] = {
+    "evaluated": lambda text, environment: compile_script(text).run(environment),
+    "compiled": lambda text, environment: bind_run(text, environment)(),
+}
+_way = {"now": "evaluated"}
+
+
+@pytest.fixture(params=WAYS, autouse=True, scope="module")
+def way(request: pytest.FixtureRequest) -> None:
+    """Runs each test in both ways."""
+    _way["now"] = request.param
 
 
 def run(text: str, board: Blackboard | None = None) -> Any:
-    return compile_script(text).run(Environment(board if board is not None else Blackboard(), {"RED": 5}))
+    return WAYS[_way["now"]](text, Environment(board if board is not None else Blackboard(), {"RED": 5}))
 
 
 @pytest.mark.parametrize(

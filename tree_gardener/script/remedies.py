@@ -1,0 +1,76 @@
+"""The ways that compiled scripts take where their fast path does not apply.
+
+Compiled code tests the exact types of its values first. Anything rare, and every error, comes here, to the
+functions of the evaluator, so that both ways of running a script have one set of rules and texts. Each
+function takes the environment and the part of the syntax tree that it stands for.
+"""
+
+from typing import Any, Final
+
+from tree_gardener.blackboard import Entry
+from tree_gardener.script import evaluator
+from tree_gardener.script.evaluator import Environment
+from tree_gardener.script.syntax import Assignment, Binary, Comparison, Conditional, Name, Program, Unary
+
+
+def read(environment: Environment, name: Name) -> Entry:
+    """Returns the entry that a name stands for, along all remappings."""
+    return evaluator.entry_of(environment, name)
+
+
+def unary(_environment: Environment, expression: Unary, value: Any) -> float:
+    """Applies a prefix."""
+    return evaluator.prefixed(expression, value)
+
+
+def negation(_environment: Environment, expression: Unary, value: Any) -> bool:
+    """Applies ``!``."""
+    return evaluator.prefixed(expression, value) != 0.0
+
+
+def binary(_environment: Environment, expression: Binary, left: Any, right: Any) -> Any:
+    """Applies an operator with two sides."""
+    return evaluator.combine(expression, left, right)
+
+
+def logic(_environment: Environment, expression: Binary, left: Any, right: Any) -> bool:
+    """Applies ``&&`` or ``||``."""
+    return bool(evaluator.combine(expression, left, right))
+
+
+def comparison(environment: Environment, expression: Comparison, symbol: str, left: Any, right: Any) -> bool:
+    """Compares one pair of a chain."""
+    return evaluator.compared(environment, expression, symbol, left, right)
+
+
+def choice(_environment: Environment, expression: Conditional, value: Any) -> float:
+    """Returns the number that decides between the branches."""
+    return evaluator.decision(expression, value)
+
+
+def target(environment: Environment, expression: Assignment) -> Entry:
+    """Returns the entry that is assigned to; ``:=`` creates it."""
+    return evaluator.target_of(environment, expression)
+
+
+def assign(environment: Environment, expression: Assignment, entry: Entry, value: Any) -> Any:
+    """Assigns to an entry and returns what it got."""
+    return evaluator.assign(environment, expression, entry, value)
+
+
+def refuse(_environment: Environment, expression: Assignment) -> Any:
+    """Raises the error of an assignment to something that is no entry."""
+    raise evaluator.no_target(expression)
+
+
+def truth(_environment: Environment, program: Program, value: Any) -> bool:
+    """Returns the value of a condition as true or false."""
+    return evaluator.truth(program, value)
+
+
+NAMES: Final = frozenset(
+    (
+        *("assign", "binary", "choice", "comparison", "logic", "negation"),
+        *("read", "refuse", "target", "truth", "unary"),
+    )
+)

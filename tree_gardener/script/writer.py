@@ -1,0 +1,184 @@
+"""The ground of generated scripts: variables, parameters and statements."""
+
+import ast
+import contextlib
+import dataclasses
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, Final
+
+from tree_gardener import values
+from tree_gardener.script import remedies
+from tree_gardener.script.evaluator import EXACT, TOLERANCE, Environment
+
+ATTRIBUTES: Final = frozenset(("board", "journal", "sequence", "type", "value"))
+
+REAL, TRUTH, TEXT, ANY = "real", "truth", "text", "any"
+"""What is known of a value: exactly a float; a Python bool for 1.0 or 0.0; exactly a str; nothing."""
+
+FIXED: Final[Mapping[str, Any]] = {
+    "TYPE": type,
+    "FLOAT": float,
+    "INT": int,
+    "BOOL": bool,
+    "STR": str,
+    "WATCHED": values.ANY,
+    "NONE": None,
+    "TRUE": True,
+    "FALSE": False,
+    "ZERO": 0.0,
+    "ONE": 1.0,
+    "STEP": 1,
+    "LOW": -EXACT,
+    "HIGH": EXACT,
+    "BELOW": -TOLERANCE,
+    "ABOVE": TOLERANCE,
+    **{name.upper(): function for name, function in vars(remedies).items() if name in remedies.NAMES},
+}
+BOUND: Final[Mapping[str, Callable[[Environment], Any]]] = {
+    "ENVIRONMENT": lambda environment: environment,
+    "WRITER": lambda environment: environment.writer,
+    "LOCAL": lambda environment: environment.board.entries.get,
+    "GLOBAL": lambda environment: environment.board.root.entries.get,
+}
+
+
+@dataclasses.dataclass(frozen=True)
+class Value:
+    """A value that the code has computed, in a variable or a parameter."""
+
+    name: str
+    kind: str
+    is_constant: bool = False
+
+
+class Writer:
+    """Collects the statements of one function.
+
+    Attributes:
+        parameters: name and value of each, in the order of the function's defaults; a value in `BOUND` is
+            made for the environment.
+    """
+
+    def __init__(self) -> None:
+        self.parameters: dict[str, Any] = {}
+        self.body: list[ast.stmt] = []
+        self.variables = 0
+
+    # -- names and statements -------------------------------------------------------------------------
+
+    def fixed(self, name: str) -> ast.Name:
+        """Reads a parameter that all scripts have alike."""
+        self.parameters.setdefault(name, FIXED.get(name))
+        return load(name)
+
+    def constant(self, value: Any) -> str:
+        """Makes a parameter of a value."""
+        name = f"c{len(self.parameters)}"
+        self.parameters[name] = value
+        return name
+
+    def call(self, remedy: Callable[..., Any], *arguments: Any) -> ast.Call:
+        """Calls a remedy; an argument is the name of a variable, or a part of the script."""
+        names = [part if isinstance(part, str) else self.constant(part) for part in arguments]
+        values = [self.fixed("ENVIRONMENT"), *map(load, names)]
+        return call(self.fixed(remedy.__name__.upper()), *values)
+
+    def set(self, value: ast.expr, name: str = "") -> str:
+        """Assigns to a variable, a new one unless `name` is given."""
+        if not name:
+            name = f"t{self.variables}"
+            self.variables += 1
+        self.body.append(ast.Assign([ast.Name(name, ast.Store())], value))
+        return name
+
+    @contextlib.contextmanager
+    def block(self) -> Iterator[list[ast.stmt]]:
+        """Collects statements apart."""
+        outer, self.body = self.body, []
+        try:
+            yield self.body
+        finally:
+            self.body = outer
+
+    def either(self, test: ast.expr, then: ast.expr, otherwise: ast.expr) -> str:
+        """Sets a new variable in one of two ways."""
+        return self.set(ast.IfExp(test, then, otherwise))
+
+    # -- what is known of values ----------------------------------------------------------------------
+
+    def has_type(self, name: str, kind: str) -> ast.expr:
+        """Tests the exact type of a variable."""
+        return compare(call(self.fixed("TYPE"), load(name)), ast.Is, self.fixed(kind))
+
+    def is_number(self, name: str) -> ast.expr:
+        """Tests for a float, or an integer that a double holds exactly."""
+        kind = self.set(call(self.fixed("TYPE"), load(name)))
+        is_real, is_integer = (compare(load(kind), ast.Is, self.fixed(each)) for each in ("FLOAT", "INT"))
+        return either(is_real, both(is_integer, self.is_small(name)))
+
+    def is_small(self, name: str) -> ast.expr:
+        """Tests a number for being smaller than those that a double rounds."""
+        return ast.Compare(self.fixed("LOW"), [ast.Lt(), ast.Lt()], [load(name), self.fixed("HIGH")])
+
+    def known(self, value: Any) -> Value:
+        """Makes a constant of the script."""
+        kind = REAL if type(value) is float else TEXT if type(value) is str else ANY
+        return Value(self.constant(value), kind, is_constant=True)
+
+    def raw(self, value: Value) -> str:
+        """Returns the variable that holds the value as the evaluator has it."""
+        if value.kind is not TRUTH:
+            return value.name
+        return self.either(load(value.name), self.fixed("ONE"), self.fixed("ZERO"))
+
+    def numeric(self, value: Value) -> Value:
+        """Makes a float of a value where that is known to be possible."""
+        if value.kind is TRUTH:
+            return Value(self.raw(value), REAL)
+        if value.is_constant and type(number := self.parameters[value.name]) is int and abs(number) < EXACT:
+            return Value(self.constant(float(number)), REAL, is_constant=True)
+        return value
+
+    def numbers(self, *values: Value) -> ast.expr | None:
+        """Tests that all values are numbers; None if that is known."""
+        tests = [self.is_number(value.name) for value in values if value.kind is not REAL]
+        return both(*tests) if tests else None
+
+    def fill(self, entry: str, value: str) -> None:
+        """Does what `Entry.write` does, without the call."""
+
+        def attribute(owner: ast.expr, name: str, context: ast.expr_context) -> ast.Attribute:
+            return ast.Attribute(owner, name, context)
+
+        self.body.append(ast.Assign([attribute(load(entry), "value", ast.Store())], load(value)))
+        count = attribute(load(entry), "sequence", ast.Store())
+        self.body.append(ast.AugAssign(count, ast.Add(), self.fixed("STEP")))
+        board = attribute(load(entry), "board", ast.Load())
+        journal = self.set(attribute(board, "journal", ast.Load()))
+        report = ast.Expr(call(load(journal), load(entry), self.fixed("WRITER")))
+        self.body.append(ast.If(compare(load(journal), ast.IsNot, self.fixed("NONE")), [report], []))
+
+
+def load(name: str) -> ast.Name:
+    """Reads a variable."""
+    return ast.Name(name, ast.Load())
+
+
+def call(function: ast.expr, *arguments: ast.expr) -> ast.Call:
+    """Calls a function."""
+    return ast.Call(function, list(arguments), [])
+
+
+def compare(left: ast.expr, operator: type[ast.cmpop], right: ast.expr) -> ast.Compare:
+    """Compares two values."""
+    return ast.Compare(left, [operator()], [right])
+
+
+def both(*tests: ast.expr) -> ast.expr:
+    """Tests that all hold."""
+    return tests[0] if len(tests) == 1 else ast.BoolOp(ast.And(), list(tests))
+
+
+def either(*tests: ast.expr) -> ast.expr:
+    """Tests that one holds, or takes the first that is there."""
+    return ast.BoolOp(ast.Or(), list(tests))

@@ -1,4 +1,4 @@
-"""What the code of scripts is made of: own kinds of nodes, own names, and nothing of the script's text."""
+"""The parts of a script's code: own kinds of nodes, own names, and nothing of the script's text."""
 
 from __future__ import annotations
 

@@ -101,11 +101,12 @@ def test_nav2_trees_are_kept_and_get_stubs_of_the_right_kind():
     assert [item for item in check(project) if item.is_error] == []
     kinds = {name: action.kind for name, action in project.actions.items()}
     leaves = {name for name, kind in kinds.items() if kind == "action"}
-    assert leaves == {"ComputePathToPose", "FollowPath", "GoalUpdated", "Wait"}
+    assert leaves == {"ComputePathToPose", "FollowPath", "Wait"}
     assert {name: kind for name, kind in kinds.items() if name not in leaves} == {
         "RecoveryNode": "control",
         "PipelineSequence": "control",
         "RateController": "decorator",
+        "GoalUpdated": "condition",
     }
     without = from_xml(NAV2, file="nav2.xml", stubs=False)
     assert {item.place.node for item in check(without) if item.code == "BT0112"} == {"n1", "n2", "n3"}

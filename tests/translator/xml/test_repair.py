@@ -142,9 +142,7 @@ def test_a_built_in_name_that_is_spelled_wrong_is_suggested_and_gets_no_stub(nam
     assert f"Did you mean {near}?" in finding.hint
 
 
-@pytest.mark.parametrize(
-    "name", ["RateController", "PipelineSequence", "GoalUpdater", "RecoveryNode", "RoundRobin"]
-)
+@pytest.mark.parametrize("name", ["KeepTrying", "RateController", "GoalUpdater"])
 def test_another_name_gets_a_stub_or_is_said_to_be_written(name):
     project = from_xml(OWN.format(name=name))
     assert project.actions[name].kind == "decorator"

@@ -74,11 +74,10 @@ class Projects(ResourceViewSet):
     def list(self, request: Request) -> Response:
         """Lists the user's projects."""
         asked = parsed(s.ProjectListQuerySerializer, request.query_params.dict())
-        rows = queries.projects(
-            user=user_of(request), search=asked["search"], sort=asked["sort"], shelf=asked["shelf"]
-        )
+        user = user_of(request)
+        rows = queries.projects(user=user, search=asked["search"], sort=asked["sort"], shelf=asked["shelf"])
         end = asked["offset"] + asked["limit"]
-        page, total = queries.page(rows, asked["offset"], end)
+        page, total = queries.page(rows, asked["offset"], end, user=user)
         diagrams = queries.root_diagrams(page)
         items = [presentation.summary(project, diagrams.get(project.id)) for project in page]
         return Response({"items": items, "total": total, "next_offset": end if end < total else None})

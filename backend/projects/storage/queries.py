@@ -109,9 +109,7 @@ def projects(
 ) -> QuerySet[Project]:
     """Returns the projects that the user owns or shares whose name or description has each searched word."""
     if shelf == "deleted":
-        rows = access.with_role(Project.objects.select_related("owner").filter(owner=user), user).exclude(
-            deleted_at=None
-        )
+        rows = Project.objects.filter(owner=user).exclude(deleted_at=None)
     else:
         rows = access.visible(Project.objects.all(), user)
         rows = rows.filter(deleted_at=None, archived_at__isnull=shelf == "current")
@@ -123,13 +121,15 @@ def projects(
     return rows.order_by(order.desc() if backwards else order.asc(), "id")
 
 
-def page(rows: QuerySet[Project], start: int, end: int) -> tuple[list[Project], int]:
-    """Returns the projects from `start` to `end`, each with its role, and the number of all projects."""
+def page(rows: QuerySet[Project], start: int, end: int, *, user: User) -> tuple[list[Project], int]:
+    """Returns the projects from `start` to `end`, each with the user's role, and how many there are."""
     found = list(rows[start:end])
+    access.find_roles(found, user)
     for row in found:
         row.role = Role(row.rank)  # type: ignore[attr-defined]
     is_last = len(found) < end - start and (found or start == 0)
-    return found, start + len(found) if is_last else rows.count()
+    total = start + len(found) if is_last else rows.count()
+    return [row for row in found if row.role != Role.NONE], total
 
 
 def root_diagrams(found: Iterable[Project]) -> dict[UUID, dict[str, Any]]:

@@ -10,6 +10,7 @@ from backend.projects.api import notices
 def test_a_save_is_announced_when_it_is_committed(
     api, project, monkeypatch, django_capture_on_commit_callbacks
 ):
+    notices.watch_revisions()
     told = []
     monkeypatch.setattr(notices, "tell", lambda group, notice: told.append((group, notice["revision"])))
     with django_capture_on_commit_callbacks(execute=True):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 from dataclasses import replace
 
 import pytest
@@ -47,9 +48,15 @@ def test_large_work_gives_way_and_small_work_does_not(small, large):
 
 def test_small_work_does_not_wait_for_large_work_of_the_same_user(small, large):
     lanes = Lanes(small, large)
-    held = [pack(lanes, SMALL_BYTES * number) for number in (200, 201, 202)]
-    until(lambda: large.waiting)
-    assert pack(lanes, 1000).result(PATIENCE_S)["zip"]
-    assert not held[-1].done()
-    assert lanes.waiting == large.waiting
+    pack(lanes, SMALL_BYTES).result(PATIENCE_S)
+    (process,) = pids(large)
+    os.kill(process, signal.SIGSTOP)
+    try:
+        held = [pack(lanes, SMALL_BYTES * number) for number in (2, 3, 4)]
+        until(lambda: large.waiting == 2)
+        assert pack(lanes, 1000).result(PATIENCE_S)["zip"]
+        assert not any(future.done() for future in held)
+        assert lanes.waiting == 2
+    finally:
+        os.kill(process, signal.SIGCONT)
     assert all(future.result(PATIENCE_S)["zip"] for future in held)

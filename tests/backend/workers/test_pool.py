@@ -109,9 +109,13 @@ def test_work_that_took_too_long_is_refused_at_once_for_a_while(make_pool):
 def test_a_worker_that_dies_fails_its_own_work_alone(make_pool):
     pool = make_pool(workers=2)
     wait([pack(pool, 1, "a"), pack(pool, 2, "b")])
-    lost = pids(pool)[0]
-    os.kill(lost, signal.SIGSTOP)
+    until(lambda: len(pids(pool)) == 2)
+    lost, other = pids(pool)
+    for pid in (lost, other):
+        os.kill(pid, signal.SIGSTOP)  # each of the two has one job
     futures = [pack(pool, 10 + n, f"owner {n}") for n in range(6)]
+    until(lambda: pool.waiting == 4)
+    os.kill(other, signal.SIGCONT)
     until(lambda: sum(f.done() for f in futures) == 5)
     os.kill(lost, signal.SIGKILL)
     errors = [error for f in futures if (error := f.exception(PATIENCE_S)) is not None]

@@ -52,8 +52,9 @@ def test_small_work_does_not_wait_for_large_work_of_the_same_user(small, large):
     (process,) = pids(large)
     os.kill(process, signal.SIGSTOP)
     try:
-        held = [pack(lanes, SMALL_BYTES * number) for number in (2, 3, 4)]
-        until(lambda: large.waiting == 2)
+        held = [pack(lanes, SMALL_BYTES * 2)]
+        until(lambda: not large.waiting)
+        held += [pack(lanes, SMALL_BYTES * number) for number in (3, 4)]
         assert pack(lanes, 1000).result(PATIENCE_S)["zip"]
         assert not any(future.done() for future in held)
         assert lanes.waiting == 2

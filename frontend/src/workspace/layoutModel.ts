@@ -74,6 +74,13 @@ const panel = (id: PanelId): IJsonTabNode => ({
   ...windowed(id),
 });
 
+/** A panel that is open already, once more: with an id of its own, and to be closed by the user. */
+export const furtherPanel = (component: PanelId, id: string): IJsonTabNode => ({
+  ...panel(component),
+  id,
+  enableClose: true,
+});
+
 const tabset = (id: string, weight: number, panels: PanelId[], selected = 0): IJsonTabSetNode => ({
   type: 'tabset',
   id,

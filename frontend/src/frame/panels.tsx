@@ -25,6 +25,7 @@ import { Waiting } from './Waiting';
 
 const Viewer3d = lazyPart(async () => (await import('@/features/viewer/Viewer3d')).Viewer3d);
 const XmlPanel = lazyPart(async () => (await import('@/features/xml/XmlPanel')).XmlPanel);
+const SearchPanel = lazyPart(async () => (await import('@/features/search/SearchPanel')).SearchPanel);
 const RevisionsPanel = lazyPart(
   async () => (await import('@/features/revisions/RevisionsPanel')).RevisionsPanel,
 );
@@ -35,6 +36,11 @@ const CodeTab = lazyPart(async () => (await import('@/features/code/CodeTab')).C
 
 const panels: Record<PanelId, (node: TabNode) => ReactNode> = {
   explorer: () => <Explorer />,
+  search: () => (
+    <Suspense fallback={<Waiting reason="loadingEditor" />}>
+      <SearchPanel />
+    </Suspense>
+  ),
   outline: () => <Outline />,
   palette: () => <Palette />,
   library: () => <Library />,

@@ -221,12 +221,17 @@ export interface Tree {
   nodes: TreeNode[];
 }
 
-/** The changes of one tick. */
+/**
+ * The changes of one tick, or of a halt after it: then `n` is that of the tick.
+ *
+ * `past` replaces that of the message before: nodes that are idle again, with their last status in the tick.
+ */
 export interface Tick {
   n: number;
   changed: [number, NodeStatus][];
   flashed: [number, NodeStatus][];
   duration_ms: number;
+  past: [number, NodeStatus][];
 }
 
 /** One changed entry; large values are sent as a preview (text), with `preview` set. */
@@ -268,11 +273,14 @@ export interface Fault {
   traceback: string;
 }
 
-/** The run ended. */
+/** The run ended; if the root returned its status, the node is the lowest one that decided it. */
 export interface Finished {
   status: NodeStatus;
   reason: FinishReason;
   message: string;
+  node_id: string;
+  tree_id: string;
+  node_path: string;
 }
 
 /** The load of the simulation, about once a second. */
@@ -382,6 +390,8 @@ export interface Snapshot {
   universe: string;
   launch_nodes: LaunchNode[];
   mismatches: TopicMismatch[];
+  past: [number, NodeStatus][];
+  finished: Finished | null;
 }
 
 /** The envelope of an event. */

@@ -10,6 +10,7 @@ import {
 /** The panels; their names are texts of `frame:panel`. */
 export type PanelId =
   | 'explorer'
+  | 'search'
   | 'outline'
   | 'palette'
   | 'library'
@@ -31,6 +32,7 @@ const NEW_PANELS: readonly (readonly [PanelId, PanelId])[] = [
   ['topics', 'console'],
   ['library', 'palette'],
   ['history', 'explorer'],
+  ['search', 'explorer'],
 ];
 
 /** Panels that can have their own window, grouped by kind: they show the run. */
@@ -135,6 +137,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
               'topics',
               'blackboard',
               'explorer',
+              'search',
               'outline',
               'history',
             ],
@@ -153,7 +156,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
           type: 'row',
           weight: 17,
           children: [
-            tabset('files', 42, ['explorer', 'outline', 'history']),
+            tabset('files', 42, ['explorer', 'outline', 'search', 'history']),
             tabset('nodes', 58, ['palette', 'library']),
           ],
         },

@@ -29,11 +29,14 @@ EXPECTED_NOTES = re.compile(
 class Studio:
     """One page of the IDE."""
 
-    def __init__(self, page: Page, server: Server) -> None:
+    def __init__(self, page: Page, server: Server, *, keeps_3d: bool = True) -> None:
         self.page = page
         self.server = server
         self.complaints: list[str] = []
         page.context.set_default_timeout(WAIT_MSEC)
+        if keeps_3d:
+            # The processor draws WebGL here, slower than 3D that a user would keep.
+            page.context.add_init_script("localStorage.setItem('bts.keep3d', 'yes')")
         page.on("console", self._note)
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
 

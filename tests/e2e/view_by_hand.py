@@ -172,6 +172,8 @@ def the_robot_is_driven_by_hand(studio: Studio) -> None:
     box = area(studio)
     corner: FloatRect = {"x": box["x"], "y": box["y"] + box["height"] - 60, "width": 60, "height": 60}
     follow = tool(studio, "Follow the robot")
+    if follow.get_attribute("aria-pressed") == "true":
+        follow.click()
     tool(studio, "Drive by hand").click()
     before = page.screenshot(clip=corner)
     drive(studio)

@@ -19,7 +19,7 @@ import { renderTab } from './panels';
 import { PanelBadge } from './PanelBadge';
 import { Popouts, titleOf } from './popouts';
 import { cameraOf } from '@/workspace/cameraViews';
-import { documentOf, followFront, keepOpen, useTabs } from '@/workspace/tabs';
+import { documentOf, followFront, followWindows, keepOpen, useTabs } from '@/workspace/tabs';
 
 const KEEP_AFTER_MS = 300;
 
@@ -114,10 +114,12 @@ export function Dock({ model, width }: DockProps) {
   useTranslation('frame');
   const keepSoon = useLater();
 
+  useEffect(() => followWindows(model), [model]);
   const popouts = useMemo(() => new Popouts(model), [model]);
 
   const onModelChange = (changed: Model, _action: Action) => {
     followFront(changed);
+    followWindows(changed);
     const { projectId } = useProjectStore.getState();
     keepSoon(() => {
       keepLayout(width, changed);

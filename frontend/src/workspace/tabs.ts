@@ -1,4 +1,4 @@
-import { Actions, DockLocation, TabNode, TabSetNode, type IJsonTabNode, type Model } from 'flexlayout-react';
+import { Actions, DockLocation, Model, TabNode, TabSetNode, type IJsonTabNode } from 'flexlayout-react';
 import { create } from 'zustand';
 import { useProjectStore } from '@/store/project';
 import type { DocumentTab } from './documents';
@@ -21,6 +21,8 @@ interface TabsData {
   front: DocumentTab | null;
   /** The number of renamed tabs: the docking library does not notify a tab's content of a rename. */
   renames: number;
+  /** The panels that are in windows of their own. */
+  inWindows: readonly string[];
 }
 
 export const useTabs = create<TabsData>(() => ({
@@ -29,7 +31,10 @@ export const useTabs = create<TabsData>(() => ({
   target: null,
   front: null,
   renames: 0,
+  inWindows: [],
 }));
+
+const MAIN_LAYOUT = Model.MAIN_LAYOUT_ID;
 
 let requests = 0;
 
@@ -126,6 +131,16 @@ export function showPanel(panel: PanelId): void {
 export function togglePanel(panel: PanelId): void {
   const { model, width } = useTabs.getState();
   if (model && width) toggleBeside(model, width, panel);
+}
+
+/** Notes which panels are in windows of their own. */
+export function followWindows(model: Model): void {
+  const found: string[] = [];
+  model.visitNodes((node) => {
+    const isOut = node instanceof TabNode && node.getLayoutId() !== MAIN_LAYOUT;
+    if (isOut) found.push(node.getId());
+  });
+  if (found.join() !== useTabs.getState().inWindows.join()) useTabs.setState({ inWindows: found });
 }
 
 export function openDocuments(model: Model): DocumentTab[] {

@@ -6,6 +6,7 @@ const STORAGE_KEYS = [
   "'bts.followRunning'",
   "'bts.formatOnSave'",
   "'bts.hints'",
+  "'bts.keep3d'",
   "'bts.language'",
   "'bts.run.'",
   "'bts.session.'",

@@ -1,5 +1,6 @@
 import { ColorInput, NumberInput, TextInput } from '@mantine/core';
 import { useState, type ReactNode } from 'react';
+import { readable } from '@/model/document/readable';
 import { rounded } from '@/model/universe/geometry';
 import { isReadOnly } from './editing';
 import classes from './editor3d.module.css';
@@ -8,6 +9,8 @@ interface NumberFieldProps {
   readonly label: string;
   readonly value: number;
   readonly unit?: string;
+  /** Degrees, or degrees a second: shown with three digits. */
+  readonly isAngle?: boolean;
   readonly min?: number;
   readonly max?: number;
   readonly step?: number;
@@ -20,13 +23,14 @@ export function NumberField({
   label,
   value,
   unit,
+  isAngle = false,
   min,
   max,
   step = 0.1,
   testId,
   onCommit,
 }: NumberFieldProps) {
-  const shown = Math.round(value * 1e4) / 1e4;
+  const shown = readable(value, isAngle ? '°' : '');
   const [draft, setDraft] = useState<{ of: number; text: string | number }>({ of: shown, text: shown });
   const text = draft.of === shown ? draft.text : shown;
   const commit = (wish: string | number) => {

@@ -104,6 +104,7 @@ function Motion({ editor, robot, joint }: JointFieldsProps) {
               value={(limits?.[at] ?? 0) * factor}
               min={at === 0 ? -1e4 : (limits?.[0] ?? 0) * factor}
               max={at === 0 ? (limits?.[1] ?? 0) * factor : 1e4}
+              isAngle={factor > 1}
               step={factor > 1 ? 5 : 0.01}
               onCommit={(value) => {
                 const [lower, upper] = limits ?? [0, 0];

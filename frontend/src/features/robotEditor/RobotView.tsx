@@ -8,6 +8,7 @@ import { onEditorKey, type KeyActs } from '@/features/editor3d/keys';
 import { isReadOnly, TURN_STEP } from '@/features/editor3d/editing';
 import { useThrottledInvalidate } from '@/features/viewer/useThrottledInvalidate';
 import { isSoftwareWebGl } from '@/features/viewer/webgl';
+import { readable } from '@/model/document/readable';
 import type { Addable } from '@/model/robot/parts';
 import { partOf, type Robot } from '@/model/robot/types';
 import { duplicateSelected, nudge, placePart, removeSelected, turnSelected } from './commands';
@@ -38,7 +39,6 @@ export function RobotView({ editor, robot }: RobotViewProps) {
   const selection = useStore(editor.store, (state) => state.selection);
   const part = partOf(robot, selection[0] ?? '');
   const [x, y, z] = part?.pose ?? [0, 0, 0];
-  const shown = (value: number) => Math.round(value * 1e4) / 1e4;
   return (
     <EditorCanvas
       label={t('view')}
@@ -54,7 +54,7 @@ export function RobotView({ editor, robot }: RobotViewProps) {
       <VisuallyHidden role="status">
         {selection.length > 1 ? t('manySelected', { count: selection.length }) : null}
         {selection.length === 1 && part
-          ? t('selectedAt', { name: part.name, x: shown(x), y: shown(y), z: shown(z) })
+          ? t('selectedAt', { name: part.name, x: readable(x), y: readable(y), z: readable(z) })
           : null}
       </VisuallyHidden>
     </EditorCanvas>

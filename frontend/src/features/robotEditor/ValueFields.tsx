@@ -37,6 +37,7 @@ export function ValueFields({ kind, values, without = [], onChange }: ValueField
         value={(typeof value === 'number' ? value : 0) * factor}
         min={field.low * factor}
         max={field.high * factor}
+        isAngle={factor > 1}
         step={field.kind === 'count' ? 10 : factor > 1 ? 5 : 0.1}
         onCommit={(wish) => onChange(field.name, field.kind === 'count' ? Math.round(wish) : wish / factor)}
       />

@@ -5,6 +5,7 @@ import classes from '@/features/editor3d/editor3d.module.css';
 import { EditorCanvas } from '@/features/editor3d/scene/EditorCanvas';
 import { onEditorKey } from '@/features/editor3d/keys';
 import { isReadOnly } from '@/features/editor3d/editing';
+import { readable } from '@/model/document/readable';
 import { positionOf } from '@/model/universe/geometry';
 import { thingOf, type Universe } from '@/model/universe/types';
 import { placeThing, type Placeable } from './commands';
@@ -50,7 +51,9 @@ function Announcement({ editor, universe }: UniverseViewProps) {
   return (
     <VisuallyHidden role="status">
       {selection.length > 1 ? t('manySelected', { count: selection.length }) : null}
-      {selection.length === 1 && thing ? t('selectedAt', { name: thing.id, x, y }) : null}
+      {selection.length === 1 && thing
+        ? t('selectedAt', { name: thing.id, x: readable(x), y: readable(y) })
+        : null}
     </VisuallyHidden>
   );
 }

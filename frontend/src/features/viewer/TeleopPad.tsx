@@ -1,9 +1,17 @@
-import { CloseButton, Slider } from '@mantine/core';
-import { IconArrowBackUp, IconArrowDown, IconArrowForwardUp, IconArrowUp } from '@tabler/icons-react';
-import { useEffect } from 'react';
+import { ActionIcon, Button, CloseButton, Slider } from '@mantine/core';
+import {
+  IconArrowBackUp,
+  IconArrowDown,
+  IconArrowForwardUp,
+  IconArrowUp,
+  IconChevronDown,
+  IconDeviceGamepad2,
+} from '@tabler/icons-react';
+import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useSessionStore } from '@/store/session/store';
 import { canDrive, drive, halt, setDriving, useTeleop, type Direction } from '@/store/run/teleop';
+import { useCramped } from './useCramped';
 import classes from './viewer.module.css';
 
 const KEYS: Record<string, Direction> = {
@@ -47,6 +55,9 @@ export function TeleopPad() {
 
 function Pad() {
   const { t } = useTranslation('viewer');
+  const root = useRef<HTMLDivElement>(null);
+  const cramped = useCramped(root);
+  const [isOpen, setOpen] = useState(false);
   const { linear, angular, direction } = useTeleop();
   const isPaused = useSessionStore(({ executor }) => executor === 'paused');
   useHeldKeys();
@@ -57,8 +68,25 @@ function Pad() {
       ? true
       : undefined;
   };
+  if (cramped && !isOpen) {
+    return (
+      <div ref={root} className={classes['padFolded']} data-testid="teleop">
+        <Button
+          size="compact-sm"
+          variant="default"
+          aria-expanded={false}
+          leftSection={<IconDeviceGamepad2 size={15} aria-hidden="true" />}
+          title={t(isPaused ? 'drivePaused' : 'driveHelp')}
+          onClick={() => setOpen(true)}
+        >
+          {t('driveKeys')}
+        </Button>
+        <CloseButton size="sm" aria-label={t('driveEnd')} onClick={() => setDriving(false)} />
+      </div>
+    );
+  }
   return (
-    <div className={classes['pad']} role="group" aria-label={t('drive')} data-testid="teleop">
+    <div ref={root} className={classes['pad']} role="group" aria-label={t('drive')} data-testid="teleop">
       <div className={classes['padKeys']}>
         {BUTTONS.map(({ code, icon: Icon, key }) => (
           <button
@@ -108,7 +136,19 @@ function Pad() {
           />
         </label>
       </div>
-      <CloseButton size="sm" aria-label={t('driveEnd')} onClick={() => setDriving(false)} />
+      <div className={classes['padEnd']}>
+        <CloseButton size="sm" aria-label={t('driveEnd')} onClick={() => setDriving(false)} />
+        {cramped ? (
+          <ActionIcon
+            variant="subtle"
+            color="gray"
+            aria-label={t('driveFold')}
+            onClick={() => setOpen(false)}
+          >
+            <IconChevronDown size={16} />
+          </ActionIcon>
+        ) : null}
+      </div>
       <span className={classes['padHelp']}>{t(isPaused ? 'drivePaused' : 'driveHelp')}</span>
     </div>
   );

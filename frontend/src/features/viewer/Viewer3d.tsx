@@ -1,5 +1,5 @@
 import { Button, Text, useComputedColorScheme } from '@mantine/core';
-import { IconPlayerPlayFilled } from '@tabler/icons-react';
+import { IconCurrentLocation, IconPlayerPlayFilled } from '@tabler/icons-react';
 import { Canvas } from '@react-three/fiber';
 import { useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
@@ -7,6 +7,7 @@ import { perform } from '@/commands/registry';
 import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 import { CameraInset } from './pictures/CameraInset';
+import { keep3d } from './keep3d';
 import { Notes } from './Notes';
 import { Stage } from './scene/Stage';
 import { TeleopPad } from './TeleopPad';
@@ -15,6 +16,7 @@ import { useScene } from './useScene';
 import { useStream } from './useStream';
 import { useUsesCamera } from './pictures/useUsesCamera';
 import { useVisible } from '@/ui/useVisible';
+import { VideoInstead } from './VideoInstead';
 import { ViewerToolbar } from './ViewerToolbar';
 import { keepViewOptions, loadViewOptions, type ViewOptions } from './viewOptions';
 import classes from './viewer.module.css';
@@ -34,8 +36,9 @@ export function Viewer3d() {
   const usesCamera = useUsesCamera();
   const camera = options.camera ?? usesCamera;
   const isSimple = isSoftwareWebGl();
-  useStream('poses', isVisible && hasWebGl(), { max_hz: POSES_HZ });
-  useStream('scan', isVisible && hasWebGl() && options.rays, { max_hz: SCAN_HZ });
+  const [slowHz, setSlowHz] = useState<number | null>(null);
+  useStream('poses', isVisible && hasWebGl() && slowHz === null, { max_hz: POSES_HZ });
+  useStream('scan', isVisible && hasWebGl() && slowHz === null && options.rays, { max_hz: SCAN_HZ });
 
   const change = (part: Partial<ViewOptions>) => {
     const next = { ...options, ...part };
@@ -43,6 +46,13 @@ export function Viewer3d() {
     keepViewOptions(next);
   };
 
+  if (slowHz !== null) {
+    const goBack = () => {
+      keep3d();
+      setSlowHz(null);
+    };
+    return <VideoInstead hz={slowHz} onBack={goBack} />;
+  }
   return (
     <div
       ref={panel}
@@ -63,15 +73,39 @@ export function Viewer3d() {
             aria-label={t('label3d')}
             role="img"
           >
-            <Stage scene={scene} options={options} isDark={isDark} />
+            <Stage
+              scene={scene}
+              options={options}
+              isDark={isDark}
+              isVisible={isVisible}
+              onMoved={() => options.follow && change({ follow: false })}
+              onSlow={setSlowHz}
+            />
           </Canvas>
           <ViewerToolbar options={{ ...options, camera }} onChange={change} />
           <Notes />
+          {options.follow ? null : <FollowButton onClick={() => change({ follow: true })} />}
           <TeleopPad />
           {camera ? <CameraInset isVisible={isVisible} /> : null}
         </>
       ) : null}
     </div>
+  );
+}
+
+/** Appears once the user has moved the camera away from the robot. */
+function FollowButton({ onClick }: { readonly onClick: () => void }) {
+  const { t } = useTranslation('viewer');
+  return (
+    <Button
+      className={classes['follow']}
+      size="compact-sm"
+      variant="default"
+      leftSection={<IconCurrentLocation size={15} aria-hidden="true" />}
+      onClick={onClick}
+    >
+      {t('followShort')}
+    </Button>
   );
 }
 

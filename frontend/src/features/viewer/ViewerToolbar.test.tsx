@@ -7,7 +7,7 @@ import { setMeasuring, useMeasuring } from './measuring';
 import { loadViewOptions } from './viewOptions';
 import { ViewerToolbar } from './ViewerToolbar';
 
-const OPTIONS = { ...loadViewOptions(), camera: false };
+const OPTIONS = { ...loadViewOptions(), camera: false, follow: false };
 
 function toolbar(more: Partial<typeof OPTIONS> = {}) {
   const onChange = vi.fn();
@@ -63,9 +63,9 @@ describe('the toolbar of the 3D view', () => {
   it('looks from above and from the side', async () => {
     const { onChange } = toolbar();
     await user.click(button('Top view'));
-    expect(onChange).toHaveBeenLastCalledWith({ viewpoint: { kind: 'top' } });
+    expect(onChange).toHaveBeenLastCalledWith({ viewpoint: { kind: 'top' }, follow: false });
     await user.click(button('Default view'));
-    expect(onChange).toHaveBeenLastCalledWith({ viewpoint: { kind: 'default' } });
+    expect(onChange).toHaveBeenLastCalledWith({ viewpoint: { kind: 'default' }, follow: true });
     expect(button('Top view')).not.toHaveAttribute('aria-pressed');
   });
 
@@ -97,9 +97,9 @@ describe('the commands of the 3D view', () => {
     run('follow');
     expect(onChange).toHaveBeenLastCalledWith({ follow: true });
     run('top');
-    expect(onChange).toHaveBeenLastCalledWith({ viewpoint: { kind: 'top' } });
+    expect(onChange).toHaveBeenLastCalledWith({ viewpoint: { kind: 'top' }, follow: false });
     run('reset');
-    expect(onChange).toHaveBeenLastCalledWith({ viewpoint: { kind: 'default' } });
+    expect(onChange).toHaveBeenLastCalledWith({ viewpoint: { kind: 'default' }, follow: true });
     run('measure');
     expect(useMeasuring.getState().isOn).toBe(true);
     run('measure');

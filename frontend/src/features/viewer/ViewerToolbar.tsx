@@ -58,12 +58,12 @@ export function ViewerToolbar({ options, onChange }: ViewerToolbarProps) {
       <Tool
         label={t('top')}
         icon={IconFocusCentered}
-        onClick={() => onChange({ viewpoint: { kind: 'top' } })}
+        onClick={() => onChange({ viewpoint: { kind: 'top' }, follow: false })}
       />
       <Tool
         label={t('reset')}
         icon={IconView360Arrow}
-        onClick={() => onChange({ viewpoint: { kind: 'default' } })}
+        onClick={() => onChange({ viewpoint: { kind: 'default' }, follow: true })}
       />
       <Tool
         label={t('measure')}
@@ -100,8 +100,8 @@ function useViewerCommands(
     });
     return registerCommands([
       row('follow', 'follow', IconCurrentLocation, () => toggle('follow')),
-      row('top', 'top', IconFocusCentered, () => act({ viewpoint: { kind: 'top' } })),
-      row('reset', 'reset', IconView360Arrow, () => act({ viewpoint: { kind: 'default' } })),
+      row('top', 'top', IconFocusCentered, () => act({ viewpoint: { kind: 'top' }, follow: false })),
+      row('reset', 'reset', IconView360Arrow, () => act({ viewpoint: { kind: 'default' }, follow: true })),
       row('measure', 'measure', IconRulerMeasure, () => setMeasuring(!useMeasuring.getState().isOn)),
       ...SHOWN.map((key) => row(`show.${key}`, `toggle.${key}`, IconEye, () => toggle(key))),
     ]);

@@ -6,6 +6,7 @@ export interface ViewOptions {
   frames: boolean;
   /** The field of view of the robots' cameras, as pyramids. */
   frustum: boolean;
+  /** Whether the camera follows the robot: until the user moves it. */
   follow: boolean;
   /** Whether the robot's camera is shown in a corner; null: if the program uses pictures. */
   camera: boolean | null;
@@ -13,7 +14,7 @@ export interface ViewOptions {
   viewpoint: { kind: 'default' | 'top' };
 }
 
-type Kept = Pick<ViewOptions, 'rays' | 'trail' | 'grid' | 'frames' | 'frustum' | 'follow' | 'camera'>;
+type Kept = Pick<ViewOptions, 'rays' | 'trail' | 'grid' | 'frames' | 'frustum' | 'camera'>;
 
 const KEY = 'bts.viewer';
 const DEFAULTS: Kept = {
@@ -22,7 +23,6 @@ const DEFAULTS: Kept = {
   grid: true,
   frames: false,
   frustum: true,
-  follow: false,
   camera: null,
 };
 
@@ -33,9 +33,9 @@ export function loadViewOptions(): ViewOptions {
   } catch {
     // The stored options are unreadable: the defaults apply.
   }
-  return { ...DEFAULTS, ...kept, viewpoint: { kind: 'default' } };
+  return { ...DEFAULTS, ...kept, follow: true, viewpoint: { kind: 'default' } };
 }
 
-export function keepViewOptions({ viewpoint: _, ...kept }: ViewOptions): void {
+export function keepViewOptions({ viewpoint: _, follow: __, ...kept }: ViewOptions): void {
   localStorage.setItem(KEY, JSON.stringify(kept satisfies Kept));
 }

@@ -7,7 +7,9 @@ import {
   type PointerEvent,
   type SyntheticEvent,
 } from 'react';
+import { Button, Text } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
+import { useTabs } from '@/workspace/tabs';
 import { panned, poseOf, START, turned, zoomed, type Orbit } from './orbit';
 import { PicturePanel } from './PicturePanel';
 import { TeleopPad } from '../TeleopPad';
@@ -22,8 +24,31 @@ const WIDTHS = [640, 960, 1280] as const;
 const SEND_EVERY_MS = 60;
 const KEY_PX = 24;
 
-/** The world as pictures that the server draws, for browsers that cannot draw it. */
+/**
+ * The world as pictures that the server draws, for browsers that cannot draw it. One picture of the world is
+ * enough: with 3D in a window of its own, Video runs only where the user wants it.
+ */
 export function VideoPanel() {
+  const { t } = useTranslation('viewer');
+  const [isWanted, setWanted] = useState(false);
+  const isSpare = useTabs(({ inWindows }) => inWindows.includes('viewer3d') && !inWindows.includes('video'));
+  if (!isSpare || isWanted) return <Video />;
+  return (
+    <div className={classes['panel']} data-testid="viewer-video-spare">
+      <div className={classes['empty']}>
+        <Text size="sm" c="dimmed">
+          {t('videoElsewhere')}
+        </Text>
+        <Button size="xs" mt="sm" variant="light" onClick={() => setWanted(true)}>
+          {t('videoHere')}
+        </Button>
+      </div>
+    </div>
+  );
+}
+
+/** The picture itself: turned by dragging, the wheel and keys. */
+export function Video() {
   const { t } = useTranslation('viewer');
   const panel = useRef<HTMLDivElement>(null);
   const canvas = useRef<HTMLCanvasElement>(null);

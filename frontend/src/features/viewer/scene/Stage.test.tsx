@@ -50,7 +50,10 @@ function robotAt(x: number, t: number): Poses {
 }
 
 function stage(more: Partial<ViewOptions> = {}) {
-  const element = (options: ViewOptions) => <Stage scene={SCENE} options={options} isDark={false} />;
+  const onMoved = vi.fn();
+  const element = (options: ViewOptions) => (
+    <Stage scene={SCENE} options={options} isDark={false} isVisible onMoved={onMoved} onSlow={vi.fn()} />
+  );
   let options = { ...loadViewOptions(), ...more };
   const shown = showScene(element(options));
   const change = (part: Partial<ViewOptions>) => shown.rerender(element((options = { ...options, ...part })));
@@ -88,20 +91,30 @@ describe('the stage of a world', () => {
     expect(robot().position.x).toBeCloseTo(0.1, 3);
   });
 
-  it('follows the robot where that is wanted', () => {
-    const { camera, change, draw } = stage();
-    const jump = (x: number, t: number) => {
-      act(() => frames.publish(robotAt(x, t)));
+  it('follows the robot softly where that is wanted', () => {
+    let now = performance.now();
+    const clock = vi.spyOn(performance, 'now').mockImplementation(() => now);
+    onTestFinished(() => clock.mockRestore());
+    const { draw, camera, change } = stage();
+    const start = camera.position.x;
+    const pass = () => {
+      now += 100;
       draw();
     };
-    jump(2, 1);
-    const start = camera.position.x;
-    change({ follow: true });
-    jump(5, 2);
-    expect(camera.position.x).toBeCloseTo(start + 3, 2);
+    const robotGoes = (x: number) => {
+      act(() => frames.publish(robotAt(x, x)));
+      pass();
+      pass();
+    };
+    robotGoes(0.5);
+    const first = camera.position.x - start;
+    expect(first).toBeGreaterThan(0);
+    expect(first).toBeLessThan(0.5);
+    for (let count = 0; count < 60; count += 1) pass();
+    expect(camera.position.x - start).toBeCloseTo(0.5, 1);
     change({ follow: false });
-    jump(2, 3);
-    expect(camera.position.x).toBeCloseTo(start + 3, 2);
+    robotGoes(0.9);
+    expect(camera.position.x - start).toBeCloseTo(0.5, 1);
   });
 
   it('shows rays, trail, frames, what cameras see and the grid as is chosen', () => {

@@ -1,6 +1,5 @@
 import { useFrame } from '@react-three/fiber';
-import { useEffect, useMemo, useRef } from 'react';
-import * as THREE from 'three';
+import { useCallback, useEffect, useMemo, useRef } from 'react';
 import type { Scene } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
 import { forEachPose, type Pose } from '@/store/session/poses';
@@ -10,23 +9,39 @@ import { LidarView } from './LidarView';
 import { MeasureLine } from './MeasureLine';
 import { Surroundings, useSight, type Orbit } from './Surroundings';
 import { TextureCache } from './TextureCache';
+import { surroundingsOf } from './framing';
 import { TrailView } from './TrailView';
+import { useFollow } from './useFollow';
 import type { ViewOptions } from '../viewOptions';
+import { useSlowness } from '../useSlowness';
 import { useTools } from '../useTools';
 import { useThrottledInvalidate } from '../useThrottledInvalidate';
 import { isSoftwareWebGl } from '../webgl';
 import { World } from './World';
 
+/** The largest diagonal of a world that the first view shows as a whole, in m. */
+const LARGEST_M = 24;
+
 interface StageProps {
   readonly scene: Scene;
   readonly options: ViewOptions;
   readonly isDark: boolean;
+  readonly isVisible: boolean;
+  /** Called when the user turns or moves the camera. */
+  readonly onMoved: () => void;
+  /** Called with the rate of pictures, 1/s, once it is too low for too long. */
+  readonly onSlow: (hz: number) => void;
 }
 
 /** The content of the view: the world, its light, and optional helpers. */
-export function Stage({ scene, options, isDark }: StageProps) {
+export function Stage({ scene, options, isDark, isVisible, onMoved, onSlow }: StageProps) {
   const isSimple = isSoftwareWebGl();
-  const requestFrame = useThrottledInvalidate();
+  const invalidate = useThrottledInvalidate();
+  const slowness = useSlowness(isVisible, onSlow);
+  const requestFrame = useCallback(() => {
+    slowness.request();
+    invalidate();
+  }, [slowness, invalidate]);
   const textures = useMemo(
     () => new TextureCache(scene.textures ?? {}, requestFrame, isSimple ? 1 : 8),
     [scene, isSimple, requestFrame],
@@ -66,27 +81,30 @@ export function Stage({ scene, options, isDark }: StageProps) {
     };
   }, [world, lidar, requestFrame]);
 
-  const lastRobot = useRef(new THREE.Vector3());
-  useFrame(({ camera }) => {
+  useFrame(() => {
+    slowness.draw();
     const isMoving = world.advance(performance.now());
     if (options.trail) trailView.update();
-    if (world.robot) {
-      if (options.follow && controls.current) {
-        const step = world.robot.position.clone().sub(lastRobot.current);
-        camera.position.add(step);
-        controls.current.target.add(step);
-      }
-      lastRobot.current.copy(world.robot.position);
-    }
     if (isMoving) requestFrame();
   });
 
-  useSight(controls, options.viewpoint, () => ({
-    bounds: world.bounds,
-    kind: options.viewpoint.kind,
+  // Another world is a new view; the same one after a reset is not.
+  const view = useMemo(
+    () => ({ kind: options.viewpoint.kind, of: scene.name }),
+    // The request counts as an object, also to the place of the previous one.
+     
+    [options.viewpoint, scene.name],
+  );
+  useSight(controls, view, () => ({
+    bounds:
+      view.kind === 'default' && world.robot
+        ? surroundingsOf(world.bounds, world.robot.position, LARGEST_M)
+        : world.bounds,
+    kind: view.kind,
     least: 4,
-    most: 24,
+    most: LARGEST_M,
   }));
+  useFollow(world, controls, { isOn: options.follow, view, onMoved, requestFrame });
   useTools(world, controls);
 
   return (

@@ -91,12 +91,15 @@ describe('look', () => {
     const camera = cameraAbove();
     const { controls, look: to } = orbit(camera);
     to({});
-    expect(round(controls.target)).toEqual([1, 0, 0.2]);
-    expect(round(camera.position)).toEqual(
-      [1 - 0.62 * diagonal, -0.42 * diagonal, 0.2 + 0.58 * diagonal].map(
-        (part) => Math.round(part * 1e3) / 1e3,
-      ),
-    );
+    expect(round(controls.target)).toEqual([1, 0, 1]);
+    const side = new THREE.Vector3(-0.62, -0.42, 0.58).normalize();
+    expect(round(camera.position.clone().sub(controls.target).normalize())).toEqual(round(side));
+    camera.lookAt(controls.target);
+    camera.updateMatrixWorld(true);
+    for (const corner of [ROOM.min, ROOM.max]) {
+      const shown = corner.clone().project(camera);
+      expect(Math.max(Math.abs(shown.x), Math.abs(shown.y))).toBeLessThan(1);
+    }
     expect(controls.update).toHaveBeenCalled();
     expect(controls.enableDamping).toBe(true);
   });

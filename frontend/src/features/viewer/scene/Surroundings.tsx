@@ -3,6 +3,7 @@ import { useThree } from '@react-three/fiber';
 import { useEffect, type ComponentRef, type ReactNode, type RefObject } from 'react';
 import * as THREE from 'three';
 import type { Scene } from '@/generated/messages';
+import { framingDistance } from './framing';
 import { Ground } from './Ground';
 import { Lights } from './Lights';
 import type { Pictures } from './TextureCache';
@@ -109,14 +110,18 @@ export function look(
 ): void {
   const center = bounds.isEmpty() ? new THREE.Vector3() : bounds.getCenter(new THREE.Vector3());
   const size = Math.min(Math.max(bounds.getSize(new THREE.Vector3()).length(), least), most);
-  if (kind !== 'selection') center.z = Math.min(0.2, center.z);
+  if (kind === 'top') center.z = Math.min(0.2, center.z);
   const before = camera.position.clone().sub(controls?.target ?? new THREE.Vector3());
+  const side = new THREE.Vector3(-0.62, -0.42, 0.58);
+  if (kind === 'default' && !bounds.isEmpty() && camera instanceof THREE.PerspectiveCamera) {
+    side.setLength(Math.max(framingDistance(camera, bounds, side), side.length() * least));
+  } else side.multiplyScalar(size);
   const offset =
     kind === 'top'
       ? new THREE.Vector3(-0.001, 0, size * 1.05)
       : kind === 'selection'
         ? before.setLength(size * 1.6)
-        : new THREE.Vector3(-0.62 * size, -0.42 * size, 0.58 * size);
+        : side;
   if (controls) rest(controls);
   camera.position.copy(center).add(offset);
   controls?.target.copy(center);

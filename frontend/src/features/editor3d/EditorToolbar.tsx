@@ -1,7 +1,5 @@
 import { ActionIcon, Button, Divider, SegmentedControl, Select, Tooltip } from '@mantine/core';
 import {
-  IconArrowBackUp,
-  IconArrowForwardUp,
   IconArrowsMove,
   IconCode,
   IconFocusCentered,
@@ -18,7 +16,7 @@ import { useStore } from 'zustand';
 import { useCommandTable } from '@/commands/registry';
 import { useRunStore } from '@/store/run/store';
 import classes from './editor3d.module.css';
-import { travel, type Editor, type Mode } from './editing';
+import type { Editor, Mode } from './editing';
 
 const MODE_ICONS: Readonly<Record<Mode, readonly [typeof IconArrowsMove, string]>> = {
   move: [IconArrowsMove, 'M'],
@@ -34,7 +32,6 @@ interface EditorToolbarProps {
   /** The label of the text. */
   readonly textLabel: string;
   readonly textTestId: string;
-  readonly undoTestId: string;
   readonly onRun: () => void;
   /** Tools that only this editor has. */
   readonly children?: ReactNode;
@@ -42,11 +39,11 @@ interface EditorToolbarProps {
 
 const gridLabel = (step: number): string => (step < 0.05 ? `${step * 1000} mm` : `${step} m`);
 
-/** Tools, grid, views, undo, the text, and the button that runs a robot in this document. */
+/** Tools, grid, views, the text, and the button that runs a robot in this document. */
 export function EditorToolbar(props: EditorToolbarProps) {
-  const { editor, label, modes, grids, textLabel, textTestId, undoTestId, onRun, children } = props;
+  const { editor, label, modes, grids, textLabel, textTestId, onRun, children } = props;
   const { t } = useTranslation('editor3d');
-  const { mode, tool, grid, undoStack, isTextShown } = useStore(editor.store);
+  const { mode, tool, grid, isTextShown } = useStore(editor.store);
   const isBlocked = useRunStore((state) => state.runBlocker !== null);
   const canRun = useCommandTable(({ commands }) => commands['run.run'] !== undefined) && !isBlocked;
   const { setState } = editor.store;
@@ -96,22 +93,6 @@ export function EditorToolbar(props: EditorToolbarProps) {
       <Tool label={`${t('focus')} (F)`} onClick={() => setState({ viewpoint: { kind: 'selection' } })}>
         <IconFocusCentered size={18} />
       </Tool>
-      <Divider orientation="vertical" my={4} />
-      <Tool
-        label={t('undo')}
-        isDisabled={undoStack.past.length === 0}
-        testId={undoTestId}
-        onClick={() => travel(editor, 'undo')}
-      >
-        <IconArrowBackUp size={18} />
-      </Tool>
-      <Tool
-        label={t('redo')}
-        isDisabled={undoStack.future.length === 0}
-        onClick={() => travel(editor, 'redo')}
-      >
-        <IconArrowForwardUp size={18} />
-      </Tool>
       <span className={classes['space']} />
       <Tool
         label={textLabel}
@@ -137,13 +118,12 @@ export function EditorToolbar(props: EditorToolbarProps) {
 interface ToolProps {
   readonly label: string;
   readonly isPressed?: boolean;
-  readonly isDisabled?: boolean;
   readonly testId?: string;
   readonly onClick: () => void;
   readonly children: ReactNode;
 }
 
-export function Tool({ label, isPressed, isDisabled = false, testId, onClick, children }: ToolProps) {
+export function Tool({ label, isPressed, testId, onClick, children }: ToolProps) {
   return (
     <Tooltip label={label}>
       <ActionIcon
@@ -151,7 +131,6 @@ export function Tool({ label, isPressed, isDisabled = false, testId, onClick, ch
         variant={isPressed ? 'light' : 'subtle'}
         color={isPressed ? 'indigo' : 'gray'}
         aria-label={label}
-        disabled={isDisabled}
         {...(isPressed === undefined ? {} : { 'aria-pressed': isPressed })}
         {...(testId ? { 'data-testid': testId } : {})}
         onClick={onClick}

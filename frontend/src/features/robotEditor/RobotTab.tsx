@@ -64,7 +64,6 @@ function RobotToolbar({ editor }: { readonly editor: RobotEditor }) {
       grids={GRIDS}
       textLabel={t('text')}
       textTestId="robot-text"
-      undoTestId="robot-undo"
       onRun={runHere}
     />
   );

@@ -25,7 +25,6 @@ export function UniverseToolbar({ editor }: { readonly editor: UniverseEditor })
       grids={GRIDS}
       textLabel={t('text')}
       textTestId="universe-text"
-      undoTestId="universe-undo"
       onRun={runHere}
     >
       <Tool

@@ -28,6 +28,13 @@ const view = (center: readonly [number, number], forward: readonly [number, numb
 });
 
 describe('placeThing', () => {
+  it('leaves the tool that draws walls', () => {
+    const editor = openUniverse();
+    editor.store.setState({ tool: 'wall' });
+    placeThing(editor, { kind: 'crate' }, [1, 1]);
+    expect(editor.store.getState().tool).toBe('select');
+  });
+
   const looks: Readonly<Record<Exclude<Kind, 'person'>, object>> = {
     wall: { shape: 'box', size: [2, 0.15, 1], color: '#e9e4da', pose: [4, 5, 0.5, 0, 0, 0] },
     box: { shape: 'box', size: [0.6, 0.6, 0.6], color: '#3f6fb5', pose: [4, 5, 0.3, 0, 0, 0] },

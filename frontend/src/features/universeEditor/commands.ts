@@ -77,6 +77,8 @@ function itemOf(universe: Universe, what: Placeable, [x, y]: Point): { section: 
 export function placeThing(editor: UniverseEditor, what: Placeable, at?: Point): void {
   const { grid } = editor.store.getState();
   const [x, y] = at ?? free(editor);
+  // The next click selects: placing a thing leaves the tool that draws walls.
+  editor.store.setState({ tool: 'select' });
   edit(editor, 'add', (universe) => {
     const { section, item } = itemOf(universe, what, [snapped(x, grid), snapped(y, grid)]);
     return add(universe, section, [item]);

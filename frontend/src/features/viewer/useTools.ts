@@ -13,6 +13,7 @@ import type { World } from './scene/World';
 type Controls = { readonly current: ComponentRef<typeof OrbitControls> | null };
 
 const CLICK_PX = 4;
+const RIGHT_BUTTON = 2;
 const TURN_RAD = Math.PI / 12;
 
 /** The pointer's tools except turning the view: it drags bodies while time is paused, and measures. */
@@ -65,6 +66,8 @@ export function useTools(world: World, controls: Controls): void {
     };
     const onMove = (event: PointerEvent) => {
       if (!dragged) return showCursor(event);
+      // The right button, pressed while the left one drags, cancels the drag.
+      if (event.buttons & RIGHT_BUTTON) return end(false);
       const at = pointedAtHeight(event, canvas, camera, from.height);
       if (at) dragged.moveBy(at.x - from.x, at.y - from.y);
       invalidate();

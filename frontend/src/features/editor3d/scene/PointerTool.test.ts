@@ -79,6 +79,34 @@ describe('dragging', () => {
     expect(canvas.style.cursor).toBe('');
   });
 
+  it('takes the thing under the pointer, also under an arm of the gizmo', () => {
+    const { editor, dragHandler, down, up } = begin();
+    isTaken.mockReturnValue(true);
+    editor.store.setState({ selection: ['plate'] });
+    down(2, 0);
+    expect(dragHandler.take).not.toHaveBeenCalled();
+    editor.store.setState({ selection: [] });
+    down(2, 0);
+    up(2, 0);
+    expect(dragHandler.click).toHaveBeenCalledOnce();
+    dragHandler.take.mockReturnValue(null);
+    down(2, 0);
+    up(2, 0);
+    expect(dragHandler.click).toHaveBeenCalledOnce();
+  });
+
+  it('is cancelled by the right button', () => {
+    const { editor, tool, plate, dragHandler, down, move, up } = begin();
+    editor.view = { center: () => [0, 0], forward: () => [1, 0], cancel: () => tool.cancel() };
+    down(2, 0);
+    move(3, 0);
+    move(3, 0.2, { buttons: 3 });
+    expect(plate.position.toArray()).toEqual([2, 0, 1]);
+    up(3, 0.2);
+    expect(dragHandler.drop).not.toHaveBeenCalled();
+    expect(dragHandler.click).not.toHaveBeenCalled();
+  });
+
   it('puts the thing under the pointer on the grid, wherever it stood', () => {
     const { dragHandler, plate, down, move } = begin();
     dragHandler.take.mockReturnValue({ keys: ['plate'], anchor: [2.03, 0.04], nodes: [plate] });
@@ -133,7 +161,8 @@ describe('dragging', () => {
     ['a selection that grows', (): object => ({ shiftKey: true })],
     ['a project that may only be seen', (): object => (lookOnly(), {})],
   ])('does not begin with %s', (_, prepare) => {
-    const { dragHandler, down } = begin();
+    const { editor, dragHandler, down } = begin();
+    editor.store.setState({ selection: ['plate'] });
     down(2, 0, prepare());
     expect(dragHandler.take).not.toHaveBeenCalled();
   });

@@ -6,6 +6,8 @@ import { isReadOnly, type Editor } from '../editing';
 import type { ThingScene } from './ThingScene';
 
 const CLICK_PX = 4;
+/** The left and the right button of the mouse. */
+const BOTH = 3;
 
 /** Things that can be dragged over the floor. */
 interface Load {
@@ -87,11 +89,21 @@ export class PointerTool {
   }
 
   private readonly onDown = (event: PointerEvent): void => {
-    if (event.button !== 0 || this.parts.isTaken()) return;
+    if (event.button !== 0) return;
+    const isDrawing = this.parts.drawing?.isOn() ?? false;
+    if (this.parts.isTaken() && (isDrawing || !this.isOnAnother(event))) return;
     this.pressed = { x: event.clientX, y: event.clientY, isFree: true };
-    if (this.parts.drawing?.isOn() || isReadOnly()) return;
+    if (isDrawing || isReadOnly()) return;
     if (!isAdding(event)) this.take(event);
   };
+
+  /** Whether the pointer is on a thing that is not selected and can be dragged: it wins over the gizmo. */
+  private isOnAnother(event: PointerEvent): boolean {
+    const { scene, camera, canvas, dragHandler, editor } = this.parts;
+    const hit = thingAt(event, canvas, camera, scene);
+    if (!hit || hit.waypoint !== null || editor.store.getState().selection.includes(hit.key)) return false;
+    return !isReadOnly() && !isAdding(event) && dragHandler.take(hit) !== null;
+  }
 
   private take(event: PointerEvent): void {
     const { scene, camera, canvas, hold, dragHandler } = this.parts;
@@ -110,6 +122,11 @@ export class PointerTool {
   private readonly onMove = (event: PointerEvent): void => {
     const { scene, camera, canvas, drawing, redraw, editor } = this.parts;
     const { grid } = editor.store.getState();
+    // The right button, pressed while the left one drags, cancels the gesture.
+    if ((event.buttons & BOTH) === BOTH && editor.view?.cancel()) {
+      canvas.style.cursor = '';
+      return;
+    }
     if (drawing?.isOn()) {
       const point = this.floorPoint(event);
       if (point) drawing.move(point);

@@ -59,7 +59,7 @@ def test_the_view_follows_until_it_is_moved_and_leaves_room(studio: Studio) -> N
     expect(studio.at("viewer-video")).to_have_count(0)
     studio.page.get_by_role("button", name="Show Video here too").click()
     expect(studio.at("view-figures")).to_be_visible()
-    window.close()
+    window.evaluate("window.close()")
     expect(studio.page.get_by_role("tab", name="3D", exact=True)).to_be_visible()
     studio.end_session()
 

@@ -1,5 +1,6 @@
 import {
   IconAdjustments,
+  IconBook2,
   IconCode,
   IconDeviceFloppy,
   IconDownload,
@@ -35,6 +36,7 @@ import { fileCommands } from '@/features/explorer/fileCommands';
 import { focusInspector } from '@/workspace/focus';
 import { WINDOWED, type PanelId } from '@/workspace/layoutModel';
 import { popOut } from './popouts';
+import { showLesson } from '@/workspace/lessons';
 import { openTab, showPanel, togglePanel } from '@/workspace/tabs';
 
 /** Moves the keyboard focus to the tree that was edited last. */
@@ -190,6 +192,13 @@ const rows: UserCommand[] = [
     shortcut: '$mod+Shift+KeyX',
     inTextFields: true,
     run: () => togglePanel('xml'),
+  },
+  {
+    id: 'view.lesson',
+    group: 'view',
+    labelKey: 'frame:command.lesson',
+    icon: IconBook2,
+    run: showLesson,
   },
   {
     id: 'view.shortcuts',

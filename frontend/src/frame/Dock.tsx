@@ -18,7 +18,8 @@ import { forgetLayouts, keepLayout, type FrameWidth } from '@/workspace/layoutMo
 import { keepLesson } from '@/workspace/lessons';
 import { renderTab } from './panels';
 import { PanelBadge } from './PanelBadge';
-import { Popouts } from './popouts';
+import { Popouts, titleOf } from './popouts';
+import { cameraOf } from '@/workspace/cameraViews';
 import { documentOf, followFront, keepOpen, useTabs } from '@/workspace/tabs';
 
 const KEEP_AFTER_MS = 300;
@@ -39,6 +40,10 @@ function renderTabButton(node: TabNode, values: ITabRenderValues): void {
       <IconFileText size={15} aria-hidden="true" />
     );
   }
+  const camera = cameraOf(node);
+  const title = `${titleOf(node)} · ${camera}`;
+  // The library takes the tab's accessible name from here too, but its type does not say so.
+  if (camera !== null) Object.assign(values, { content: title, name: title });
   if (!tab) values.buttons.push(<PanelBadge key="badge" panel={node.getId()} />);
 }
 

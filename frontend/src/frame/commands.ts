@@ -1,6 +1,7 @@
 import {
   IconAdjustments,
   IconBook2,
+  IconCamera,
   IconCode,
   IconDeviceFloppy,
   IconDownload,
@@ -34,6 +35,7 @@ import { openNewUniverse } from '@/store/dialogs/newUniverse';
 import { resetLayout } from './Dock';
 import { fileCommands } from '@/features/explorer/fileCommands';
 import { focusInspector } from '@/workspace/focus';
+import { openAnotherCamera } from '@/workspace/cameraViews';
 import { WINDOWED, type PanelId } from '@/workspace/layoutModel';
 import { popOut } from './popouts';
 import { showLesson } from '@/workspace/lessons';
@@ -208,6 +210,13 @@ const rows: UserCommand[] = [
     shortcut: '$mod+Slash',
     inTextFields: true,
     run: openShortcuts,
+  },
+  {
+    id: 'view.anotherCamera',
+    group: 'view',
+    labelKey: 'frame:command.anotherCamera',
+    icon: IconCamera,
+    run: openAnotherCamera,
   },
   {
     id: 'view.resetLayout',

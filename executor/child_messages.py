@@ -116,6 +116,7 @@ class Subscribe(_Message, tag="subscribe"):
     max_hz: float = 30.0
     width: int | None = None
     camera_pose: messages.CameraPose | None = None
+    sensor: str = ""
 
 
 class Unsubscribe(_Message, tag="unsubscribe"):
@@ -123,6 +124,7 @@ class Unsubscribe(_Message, tag="unsubscribe"):
 
     client: str
     stream: messages.StreamName
+    sensor: str = ""
 
 
 class Pace(_Message, tag="pace"):
@@ -312,8 +314,9 @@ class TypeDescription(_Asked, tag="type_description"):
 class Frame(_Message, tag="frame"):
     """A frame of the stream socket for one client (None: for all).
 
-    `data` is the encoded frame; the manager does not change it. A newer frame may replace an unsent one,
-    unless `keep` is set, as for a scene, to which later frames refer.
+    `data` is the encoded frame; the manager does not change it. A newer frame of the same `stream` may replace
+    an unsent one, unless `keep` is set, as for a scene, to which later frames refer. `stream` is the name of
+    the stream, or `camera/NAME` for a camera that was requested by name.
     """
 
     client: str | None

@@ -128,7 +128,10 @@ class Scan(Struct, tag="scan", tag_field="type"):
 
 
 class Camera(Struct, tag="camera", tag_field="type"):
-    """One JPEG image of a robot's camera, or of the server's view of the world."""
+    """One JPEG image of a robot's camera.
+
+    `sensor` is the name of the sensor; for robots other than the first it is `robot/sensor`.
+    """
 
     t: float
     sensor: str

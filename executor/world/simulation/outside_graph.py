@@ -36,7 +36,7 @@ class _NoStreams:
     def subscribe(self, client: str | None, stream: str, **wishes: Any) -> None:
         """Does nothing: there are no streams."""
 
-    def unsubscribe(self, client: str | None, stream: str) -> None:
+    def unsubscribe(self, client: str | None, stream: str, *, sensor: str) -> None:
         """Does nothing: there are no streams."""
 
     def pace(self, client: str | None, lost: float) -> None:

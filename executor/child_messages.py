@@ -314,7 +314,7 @@ class TypeDescription(_Asked, tag="type_description"):
 class Frame(_Message, tag="frame"):
     """A frame of the stream socket for one client (None: for all).
 
-    `data` is the encoded frame; the manager does not change it. A newer frame of the same `stream` may replace
+    `data` is the encoded frame; the manager does not change it. A newer frame of the same `stream` replaces
     an unsent one, unless `keep` is set, as for a scene, to which later frames refer. `stream` is the name of
     the stream, or `camera/NAME` for a camera that was requested by name.
     """

@@ -1,8 +1,10 @@
 import { useRef } from 'react';
 import { useTranslation } from 'react-i18next';
+import { useScene } from '../useScene';
+import { camerasOf } from './cameras';
 import { PicturePanel } from './PicturePanel';
-import { useStream } from './useStream';
-import classes from './viewer.module.css';
+import { useStream } from '../useStream';
+import classes from '../viewer.module.css';
 
 const INSET_HZ = 10;
 const INSET_WIDTH = 320;
@@ -15,10 +17,17 @@ interface CameraInsetProps {
 export function CameraInset({ isVisible }: CameraInsetProps) {
   const { t } = useTranslation('viewer');
   const canvas = useRef<HTMLCanvasElement>(null);
+  const sensor = camerasOf(useScene())[0] ?? null;
   useStream('camera', isVisible, { max_hz: INSET_HZ, width: INSET_WIDTH });
   return (
     <div className={classes['inset']} data-testid="camera-inset">
-      <PicturePanel stream="camera" canvas={canvas} label={t('cameraLabel')} emptyText={t('cameraWaiting')} />
+      <PicturePanel
+        stream="camera"
+        sensor={sensor}
+        canvas={canvas}
+        label={t('cameraLabel')}
+        emptyText={t('cameraWaiting')}
+      />
     </div>
   );
 }

@@ -4,7 +4,7 @@ import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { frames } from '@/store/session/frames';
 import { useSessionStore } from '@/store/session/store';
 import type { State } from '@/generated/messages';
-import { show } from '../../../harness/testing';
+import { show } from '../../../../harness/testing';
 import { PicturePanel } from './PicturePanel';
 
 const none = HTMLCanvasElement.prototype.getContext;

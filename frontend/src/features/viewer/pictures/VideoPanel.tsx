@@ -10,11 +10,11 @@ import {
 import { useTranslation } from 'react-i18next';
 import { panned, poseOf, START, turned, zoomed, type Orbit } from './orbit';
 import { PicturePanel } from './PicturePanel';
-import { TeleopPad } from './TeleopPad';
-import { useStream } from './useStream';
+import { TeleopPad } from '../TeleopPad';
+import { useStream } from '../useStream';
 import { useVisible } from '@/ui/useVisible';
-import classes from './viewer.module.css';
-import { hasWebGl } from './webgl';
+import classes from '../viewer.module.css';
+import { hasWebGl } from '../webgl';
 
 const VIDEO_HZ = 30;
 /** The widths of pictures that may be requested, in px: few, since the server renders each one separately. */

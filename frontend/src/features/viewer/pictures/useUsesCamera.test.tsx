@@ -1,7 +1,7 @@
 import { act, screen } from '@testing-library/react';
 import { describe, expect, it } from 'vitest';
 import { useProjectStore } from '@/store/project';
-import { openProject, show } from '../../../harness/testing';
+import { openProject, show } from '../../../../harness/testing';
 import { useUsesCamera } from './useUsesCamera';
 
 const Probe = () => <p>{useUsesCamera() ? 'pictures' : 'none'}</p>;

@@ -2,11 +2,13 @@ import { Text } from '@mantine/core';
 import { useEffect, useState, type ReactNode, type RefObject } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useSessionStore } from '@/store/session/store';
-import { drawPictures, type Shown } from './pictures';
-import classes from './viewer.module.css';
+import { drawPictures, type Shown } from './drawPictures';
+import classes from '../viewer.module.css';
 
 interface PicturePanelProps {
   readonly stream: 'camera' | 'view';
+  /** The camera whose pictures are drawn; null: of any. */
+  readonly sensor?: string | null;
   readonly canvas: RefObject<HTMLCanvasElement | null>;
   readonly label: string;
   readonly emptyText: string;
@@ -14,7 +16,14 @@ interface PicturePanelProps {
 }
 
 /** Pictures from the server, with their size and rate. */
-export function PicturePanel({ stream, canvas, label, emptyText, children }: PicturePanelProps) {
+export function PicturePanel({
+  stream,
+  sensor = null,
+  canvas,
+  label,
+  emptyText,
+  children,
+}: PicturePanelProps) {
   const { t } = useTranslation('viewer');
   const [shown, setShown] = useState<Shown | null>(null);
   const hasWorld = useSessionStore(
@@ -22,8 +31,12 @@ export function PicturePanel({ stream, canvas, label, emptyText, children }: Pic
   );
   useEffect(() => {
     if (!canvas.current) return;
-    return drawPictures(stream, canvas.current, setShown);
-  }, [stream, canvas]);
+    const stop = drawPictures(stream, canvas.current, setShown, sensor);
+    return () => {
+      stop();
+      setShown(null);
+    };
+  }, [stream, sensor, canvas]);
   const isEmpty = !hasWorld || !shown;
   return (
     <>

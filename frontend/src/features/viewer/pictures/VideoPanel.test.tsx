@@ -1,7 +1,7 @@
 import { act, fireEvent, screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { streams, type StreamOptions } from '@/store/session/streams';
-import { show } from '../../../harness/testing';
+import { show } from '../../../../harness/testing';
 import { panned, poseOf, START, turned, zoomed, type Orbit } from './orbit';
 import { VideoPanel } from './VideoPanel';
 

@@ -1,7 +1,7 @@
 import { screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { streams } from '@/store/session/streams';
-import { show } from '../../../harness/testing';
+import { show } from '../../../../harness/testing';
 import { CameraInset } from './CameraInset';
 
 const announced = vi.fn();

@@ -2,7 +2,7 @@ import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import type { Camera } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
 import { useSessionStore } from '@/store/session/store';
-import { drawPictures, type Shown } from './pictures';
+import { drawPictures, type Shown } from './drawPictures';
 
 const frame = (t: number, width = 320, height = 240): Camera => ({
   type: 'camera',

@@ -14,11 +14,12 @@ export interface Shown {
 const ageOf = (t: number): number =>
   Math.max(0, Math.max(frames.newest(), useSessionStore.getState().simTime) - t);
 
-/** Draws the pictures of a stream on a canvas. While one is being decoded, only the newest waits. */
+/** Draws the pictures of a stream, or of one camera, on a canvas. While one is decoded, only the newest waits. */
 export function drawPictures(
   stream: 'camera' | 'view',
   canvas: HTMLCanvasElement,
   onShown: (shown: Shown) => void,
+  sensor: string | null = null,
 ): () => void {
   const context = canvas.getContext('2d');
   let waiting: Camera | View | null = null;
@@ -27,6 +28,7 @@ export function drawPictures(
   let count = 0;
   let since = performance.now();
   let age = 0;
+  delete canvas.dataset['frames'];
 
   const drawNext = async () => {
     const frame = waiting;
@@ -70,6 +72,7 @@ export function drawPictures(
   };
 
   const stop = frames.listen(stream, (frame) => {
+    if (sensor !== null && frame.type === 'camera' && frame.sensor !== sensor) return;
     waiting = frame;
     if (!isDecoding) void drawNext();
   });

@@ -41,7 +41,7 @@ def test_every_camera_of_a_robot_is_seen(studio: Studio) -> None:
     page.reload()
     expect(page.locator("[data-camera=camera], [data-camera=camera_2]")).to_have_count(2)
     first = page.get_by_role("tab", name="Camera · camera", exact=True)
-    first.get_by_role("button", name="Close").click()
+    first.locator(".flexlayout__tab_button_trailing").click()
     expect(view).to_have_count(1)
     expect(view).to_have_attribute("data-camera", "camera_2")
     studio.end_session()

@@ -1,6 +1,6 @@
 import { ActionIcon, Tooltip } from '@mantine/core';
-import { IconArrowBackUp, IconBraces, IconPencil, IconTrash } from '@tabler/icons-react';
-import { useId, useState } from 'react';
+import { IconArrowBackUp, IconBraces, IconCursorText, IconPencil, IconTrash } from '@tabler/icons-react';
+import { useEffect, useId, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { readPortText, type PortSpec } from '@/model/ports';
 import { KeyInput } from './KeyInput';
@@ -15,29 +15,58 @@ interface PortFieldProps {
   readonly keys: readonly string[];
   readonly error: string | null;
   readonly onChange: (value: string | null) => void;
+  /** The port was just added: its value takes the caret. */
+  readonly isNew?: boolean;
+  /** Called when the focus leaves the field. */
+  readonly onLeave?: () => void;
   /** Present for a port that is set without being declared. */
   readonly onRemove?: (() => void) | undefined;
   /** Present for a port that all blocks of the type share. */
   readonly onRename?: ((name: string) => void) | undefined;
+  /** Renames the key that the port names, wherever it is the same entry. */
+  readonly onRenameKey: (key: string) => void;
   /** The names of the other ports. */
   readonly taken: readonly string[];
 }
 
 /** One port: a value or a blackboard key, with the widget for its type. */
 export function PortField(props: PortFieldProps) {
-  const { port, value, keys, error, onChange, onRemove, onRename, taken } = props;
-  const { t } = useTranslation('inspector');
+  const { port, value, keys, error, onChange, onRemove, onRename, onRenameKey } = props;
+  const { taken, isNew = false, onLeave } = props;
+  const { t } = useTranslation(['inspector', 'keys']);
   const label = useId();
+  const field = useRef<HTMLDivElement>(null);
+  const onLeft = useRef(onLeave);
+  useEffect(() => {
+    onLeft.current = onLeave;
+  });
+  useEffect(() => {
+    const host = field.current;
+    if (!isNew || !host) return;
+    const input = host.querySelector('input');
+    input?.focus();
+    input?.select();
+    host.scrollIntoView({ block: 'nearest' });
+    const left = ({ relatedTarget }: FocusEvent) => {
+      if (!(relatedTarget instanceof Node && host.contains(relatedTarget))) onLeft.current?.();
+    };
+    host.addEventListener('focusout', left);
+    return () => {
+      host.removeEventListener('focusout', left);
+    };
+  }, [isNew]);
   const [isRenaming, setIsRenaming] = useState(false);
   const isExtra = onRemove !== undefined;
-  const kind = value === null ? 'empty' : readPortText(value).kind;
+  const read = readPortText(value ?? '');
+  const { kind } = read;
+  const key = read.kind === 'key' ? `${read.global ? '@' : ''}${read.key}` : port.name;
   const isKey =
     kind === 'key' ||
     kind === 'same-name' ||
     kind === 'broken' ||
     (port.direction === 'output' && kind !== 'literal');
   return (
-    <div className={classes['portField']}>
+    <div ref={field} className={classes['portField']}>
       <div className={classes['portHead']}>
         {isRenaming ? (
           <PortNameInput
@@ -70,6 +99,13 @@ export function PortField(props: PortFieldProps) {
               }}
             >
               <IconBraces size={14} aria-hidden="true" />
+            </ActionIcon>
+          </Tooltip>
+        )}
+        {(kind === 'key' || kind === 'same-name') && (
+          <Tooltip label={t('keys:here')}>
+            <ActionIcon size={24} aria-label={t('keys:here')} onClick={() => onRenameKey(key)}>
+              <IconCursorText size={14} aria-hidden="true" />
             </ActionIcon>
           </Tooltip>
         )}
@@ -113,7 +149,7 @@ export function PortField(props: PortFieldProps) {
           labelledBy={label}
           value={value ?? ''}
           keys={keys}
-          error={error}
+          error={isNew ? null : error}
           onChange={onChange}
         />
       ) : (
@@ -122,7 +158,7 @@ export function PortField(props: PortFieldProps) {
           port={port}
           labelledBy={label}
           value={value}
-          error={error}
+          error={isNew ? null : error}
           onChange={onChange}
         />
       )}

@@ -16,6 +16,7 @@ import { t, translates } from '@/i18n';
 import { useProjectStore } from '@/store/project';
 import { forgetLayouts, keepLayout, type FrameWidth } from '@/workspace/layoutModel';
 import { renderTab } from './panels';
+import { cancelSplitters } from './cancelSplitters';
 import { PanelBadge } from './PanelBadge';
 import { Popouts } from './popouts';
 import { documentOf, followFront, keepOpen, useTabs } from '@/workspace/tabs';
@@ -110,6 +111,7 @@ export function Dock({ model, width }: DockProps) {
   const keepSoon = useLater();
 
   const popouts = useMemo(() => new Popouts(model), [model]);
+  useEffect(() => cancelSplitters(document, model), [model]);
 
   const onModelChange = (changed: Model, _action: Action) => {
     followFront(changed);

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { emptyDiagram, type Diagram } from '@/model/diagram';
-import { inOwnWords } from './problems';
+import { inOwnWords, problemsOf, whileEditing } from './problems';
 import { useProjectStore } from '.';
 
 describe('a finding of the server', () => {
@@ -28,5 +28,21 @@ describe('a finding of the server', () => {
     const alone = { source: 'server', message: item.message, hint: item.hint };
     expect(inOwnWords({ ...item, code: 'BT0601' }, diagram, vocabulary)).toMatchObject(alone);
     expect(inOwnWords(item, undefined, vocabulary)).toMatchObject(alone);
+  });
+});
+
+describe('an empty tree', () => {
+  const empty = { code: 'BT0101', severity: 'error', message: 'Nothing.', tree: 'Main' } as const;
+  const { vocabulary } = useProjectStore.getState();
+  const diagram = emptyDiagram('Main');
+
+  it('is no error while it is edited, and other findings stay what they are', () => {
+    const other = { ...empty, code: 'BT0102' };
+    expect(whileEditing([empty, other]).map(({ severity }) => severity)).toEqual(['note', 'error']);
+    expect(problemsOf(diagram, vocabulary, []).map(({ severity }) => severity)).toEqual(['note']);
+  });
+
+  it('is the error that a run says it is', () => {
+    expect(inOwnWords(empty, diagram, vocabulary)).toMatchObject({ kind: 'empty-tree', severity: 'error' });
   });
 });

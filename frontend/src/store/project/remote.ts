@@ -1,6 +1,7 @@
 import type { ProjectDetail } from '@/api/types';
 import { emptyUndo } from '@/model/undo';
 import { currentText, openFiles } from './files';
+import { whileEditing } from './problems';
 import { readSettings } from './settings';
 import type { ProjectData } from './state';
 import { knowing } from './transitions';
@@ -71,7 +72,7 @@ export function mergeRemote(data: ProjectData, detail: ProjectDetail): Merged {
     histories,
     revision: Math.max(data.revision, detail.revision),
     actions: detail.actions,
-    diagnostics: detail.diagnostics,
+    diagnostics: whileEditing(detail.diagnostics),
     ...(kept.includes('project.json')
       ? {}
       : { settings, mainTree: main, name: detail.name, description: detail.description }),

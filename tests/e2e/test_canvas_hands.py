@@ -260,6 +260,29 @@ def test_a_menu_over_several_blocks(shared_studio: Studio) -> None:
     takes_back(studio, whole)
 
 
+def test_lines_of_the_outline_are_dragged(shared_studio: Studio) -> None:
+    """A line goes before another; Escape leaves it where it was."""
+    studio = shared_studio
+    studio.new_from("laser_bump_and_go")
+    rest(block(studio, "Turn"))
+    whole = children(studio)
+    studio.page.get_by_role("tab", name="Outline", exact=True).click()
+    lines = studio.at("outline").get_by_role("treeitem")
+    forward = lines.filter(has_text="Forward")
+    x, y, _, height = place(lines.filter(has_text="ReactiveFallback"))
+    for ending in ("Escape", "drop"):
+        begin_drag(studio, forward, x + 40, y + height * 0.1)
+        expect(studio.at("outline").locator("[data-mark=before]")).to_have_count(1)
+        if ending == "Escape":
+            studio.page.keyboard.press("Escape")
+            expect(studio.at("outline").locator("[data-mark]")).to_have_count(0)
+        studio.page.mouse.up()
+        if ending == "Escape":
+            assert children(studio) == whole
+    wait_until(lambda: children(studio)[1] == "Forward", "the block goes before its sibling")
+    takes_back(studio, whole)
+
+
 def zoom(studio: Studio) -> int:
     button = studio.at("canvas").get_by_role("button", name="Zoom to 100 %")
     return int((button.text_content() or "0").rstrip("%"))

@@ -100,7 +100,7 @@ def no_connection_is_made(studio: Studio) -> None:
 
 
 def the_frame_selects_nothing(studio: Studio) -> None:
-    """What was selected before stays selected."""
+    """The selection stays as it was before."""
     keys, mouse = studio.page.keyboard, studio.page.mouse
     block(studio, "Forward").click()
     start, end = place(block(studio, "Inverter")), place(block(studio, "Turn"))

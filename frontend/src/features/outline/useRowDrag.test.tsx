@@ -1,10 +1,11 @@
-import { act, fireEvent, screen } from '@testing-library/react';
+import { act, fireEvent, renderHook, screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { childrenOf } from '@/model/diagram';
 import { useProjectStore } from '@/store/project';
 import { now, openDiagram } from '../../../harness/canvas';
 import { show } from '../../../harness/testing';
 import { Outline } from './Outline';
+import { useRowDrag } from './useRowDrag';
 
 const row = (id: string) => document.getElementById(`outline-${id}`)!;
 const lines = ['r', 'a', 'b', 'f', 'x'];
@@ -95,4 +96,13 @@ describe('a line of the outline', () => {
     fireEvent.click(row('a'));
     expect(now.selection()).toEqual(['a']);
   });
+});
+
+it('marks nothing without a press, and takes no line of a tree that is closed', () => {
+  const { result } = renderHook(() => useRowDrag({ current: document.body }, undefined, [], 28));
+  const press = { button: 0, pointerType: 'mouse', currentTarget: document.body, pointerId: 1 };
+  act(() => result.current.onPress(press as unknown as Parameters<typeof result.current.onPress>[0], 'a'));
+  fireEvent.pointerMove(document.body, { clientX: 90, clientY: 90, pointerId: 1 });
+  expect(result.current.slot).toBeNull();
+  expect(result.current.wasDragged.current).toBe(false);
 });

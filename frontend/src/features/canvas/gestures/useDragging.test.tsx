@@ -157,7 +157,7 @@ describe('Escape', () => {
     expect(used().held).toBeNull();
     expect(translated()).toEqual([]);
     expect(now.editor().slot).toBeNull();
-    // A touch goes on until the finger is lifted.
+    // A touch continues until the finger is lifted.
     drag('a', 60, 0, centreOf('b'));
     expect(translated()).toEqual([]);
     drop('a', 60, 0, centreOf('b'));

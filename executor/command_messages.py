@@ -15,6 +15,7 @@ Speed = Annotated[float, Meta(ge=0, le=10)]
 StreamRate = Annotated[float, Meta(gt=0, le=120)]
 StreamWidth = Annotated[int, Meta(ge=64, le=1920)]
 DomainId = Annotated[int, Meta(ge=0, le=232)]
+CameraName = Annotated[str, Meta(max_length=128)]
 FileName = Annotated[str, Meta(min_length=1, max_length=255)]
 Velocity = Annotated[float, Meta(ge=-1000, le=1000)]
 
@@ -24,7 +25,10 @@ class Empty(Struct, forbid_unknown_fields=True):
 
 
 class UniverseDocument(Struct, forbid_unknown_fields=True):
-    """A universe of the project: its YAML text and the assets that it names; errors name `file`."""
+    """A universe of the project: its YAML text, and the assets that it names.
+
+    `file` is its name in errors.
+    """
 
     document: str
     assets_zip_base64: str = ""
@@ -34,8 +38,8 @@ class UniverseDocument(Struct, forbid_unknown_fields=True):
 class LaunchUniverse(Struct, forbid_unknown_fields=True):
     """Starts world and robots, paused. `universe` is a built-in id or a document.
 
-    `none` starts no world: the application runs against an outside ROS graph of this machine, in the domain
-    `domain_id`; null is the `ROS_DOMAIN_ID` with which the server was started.
+    `none` starts no world: the application joins an outside ROS graph of this machine, in the domain
+    `domain_id`. If that is null, it is the `ROS_DOMAIN_ID` of the server's environment.
     """
 
     universe: str | UniverseDocument
@@ -55,26 +59,32 @@ class RunApplication(Struct, forbid_unknown_fields=True):
 
 
 class Run(Struct, forbid_unknown_fields=True):
-    """Climbs all missing rungs of the ladder up to `application_running`."""
+    """Climbs all rungs of the ladder up to `application_running`."""
 
     universe: LaunchUniverse
     application: RunApplication
 
 
 class SetTickRate(Struct, forbid_unknown_fields=True):
-    """Ticks a second of simulated time, from the next tick on."""
+    """Sets the number of ticks for each second of simulated time, from the next tick on."""
 
     tick_hz: TickRate
 
 
 class SetSpeed(Struct, forbid_unknown_fields=True):
-    """Simulated seconds a second of real time, 0.1 to 10; 0 runs as fast as the machine can."""
+    """Sets the simulated seconds for each second of real time, 0.1 to 10.
+
+    With 0 it runs as fast as the machine can.
+    """
 
     speed: Speed
 
 
 class SetBlackboard(Struct, forbid_unknown_fields=True):
-    """Writes an entry; `scope` is the path of a subtree, "" the root. Only while paused."""
+    """Writes an entry of the blackboard; `scope` is the path of a SubTree, "" for the root.
+
+    Only while paused.
+    """
 
     scope: str
     key: str
@@ -89,36 +99,44 @@ class Teleop(Struct, forbid_unknown_fields=True):
 
 
 class MoveBody(Struct, forbid_unknown_fields=True):
-    """Puts a body somewhere: pose [x, y, z, roll, pitch, yaw] in m and rad. Only while paused."""
+    """Moves a body to a pose [x, y, z, roll, pitch, yaw] in m and rad. Only while paused."""
 
     id: str
     pose: tuple[float, float, float, float, float, float]
 
 
 class CameraPose(Struct, forbid_unknown_fields=True):
-    """Camera of the server's own view: eye and target in m, world frame."""
+    """Camera of the server's view of the world: eye and target in m, world frame."""
 
     eye: tuple[float, float, float]
     target: tuple[float, float, float]
 
 
 class Subscribe(Struct, forbid_unknown_fields=True):
-    """Subscribes to a stream on this client's stream socket, or changes a subscription."""
+    """Subscribes to a stream on this client's stream socket, or changes a subscription.
+
+    Each camera is a subscription of its own: `sensor` names it as its `camera` frames do, by the sensor's
+    name, and `robot/sensor` for every robot but the first. "" is the first camera of the world.
+    """
 
     stream: StreamName
     max_hz: StreamRate = 30.0
     width: StreamWidth | None = None
     camera_pose: CameraPose | None = None
+    sensor: CameraName = ""
 
 
 class Unsubscribe(Struct, forbid_unknown_fields=True):
-    """Ends a stream."""
+    """Ends a stream; of `camera` that of the same `sensor`."""
 
     stream: StreamName
+    sensor: CameraName = ""
 
 
 class EchoTopic(Struct, forbid_unknown_fields=True):
-    """Sends the latest message of a topic as `topic_message`, at most `max_hz`; 0 ends it.
+    """Sends the latest message of a topic as `topic_message`, at most `max_hz` times a second.
+
+    0 ends the echo.
 
     If several clients echo a topic, all receive it at the highest of their rates.
     """
@@ -130,7 +148,7 @@ class EchoTopic(Struct, forbid_unknown_fields=True):
 class PublishTopic(Struct, forbid_unknown_fields=True):
     """Publishes one message; `message` holds the fields of `type` (`std_msgs/msg/String`) as JSON.
 
-    Missing fields keep their defaults. `"inf"`, `"-inf"` and `"nan"` stand for the numbers that JSON lacks.
+    Missing fields get their defaults. `"inf"`, `"-inf"` and `"nan"` stand for the numbers that JSON lacks.
     """
 
     topic: str
@@ -145,7 +163,7 @@ class DescribeType(Struct, forbid_unknown_fields=True):
 
 
 class RestartNode(Struct, forbid_unknown_fields=True):
-    """Restarts a node of the project's launch files; `id` as in `launch_nodes`."""
+    """Restarts a launch node of the project; `id` is its id in the event `launch_nodes`."""
 
     id: str
 

@@ -1,7 +1,7 @@
 """State of the running tree and world, for the snapshot of a client that joins late.
 
-`Mirror.apply` takes every event that is sent to clients; `Mirror.snapshot` is the state of a client that
-received all of them.
+`Mirror.apply` receives every event that is sent to clients; `Mirror.snapshot` is the state that a client has
+after all these events.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from executor.messages import (
     Blackboard,
     BlackboardEntry,
     Fault,
+    Finished,
     LaunchNode,
     LaunchNodes,
     Log,
@@ -45,6 +46,8 @@ class Mirror:
         self.state = State.IDLE
         self.tree: Tree | None = None
         self.statuses: dict[int, NodeStatus] = {}
+        self.past: list[tuple[int, NodeStatus]] = []
+        self.finished: Finished | None = None
         self.blackboard: dict[tuple[str, str], BlackboardEntry] = {}
         self.logs: deque[Log] = deque(maxlen=LOG_LINES)
         self.launch_nodes: list[LaunchNode] = []
@@ -58,9 +61,11 @@ class Mirror:
         self.universe = ""
 
     def begin_run(self, tick_hz: float) -> None:
-        """Removes the state of the run before."""
+        """Removes the state of the previous run."""
         self.tree = None
         self.statuses.clear()
+        self.past = []
+        self.finished = None
         self.blackboard.clear()
         self.faults.clear()
         self.tick = 0
@@ -68,7 +73,7 @@ class Mirror:
         self.tick_hz = tick_hz
 
     def apply(self, event: Struct) -> None:
-        """Takes one event that is sent to all clients."""
+        """Updates the state by one event that is sent to all clients."""
         match event:
             case StateChanged():
                 self.state = State(event.state)
@@ -79,6 +84,9 @@ class Mirror:
                 self.tick = event.n
                 self.tick_ms += (event.duration_ms - self.tick_ms) * (SMOOTHING if self.tick > 1 else 1.0)
                 self.statuses.update(event.changed)
+                self.past = event.past
+            case Finished():
+                self.finished = event
             case Blackboard():
                 self._apply_entries(event.entries)
             case Log():
@@ -101,7 +109,7 @@ class Mirror:
         return self.tick_ms, 1000.0 / self.tick_hz if self.tick_hz else 0.0
 
     def snapshot(self) -> Snapshot:
-        """Returns everything that a client needs before it can follow the deltas."""
+        """Returns the complete state, which a client needs before the following events."""
         return Snapshot(
             state=self.state.value,
             tree=self.tree,
@@ -114,6 +122,8 @@ class Mirror:
             universe=self.universe,
             launch_nodes=self.launch_nodes,
             mismatches=list(self.mismatches),
+            past=self.past,
+            finished=self.finished,
         )
 
     def _apply_entries(self, entries: list[BlackboardEntry]) -> None:

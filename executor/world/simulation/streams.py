@@ -1,7 +1,7 @@
-"""Streams of clients, each at its requested rate.
+"""Sends streams to clients, each at its requested rate.
 
-The scene comes first, then only poses that changed. Nothing is sent twice: a paused world sends only data
-that is new to a new or changed subscription.
+The scene is sent first, then only poses that changed. Nothing is sent twice: of a paused world, only data
+that a new or changed subscription has not received yet are sent.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from executor.child_messages import Frame
 from executor.messages import Camera, CameraPose, Poses, Scan, StreamName, View
 from executor.render.interface import look_at
 from executor.stream.pose_codec import pack
+from executor.world.sensing.cameras import find_camera
 from executor.world.simulation.adaptation import LEVELS, Adaptation, Level, ViewSize
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
 MAX_HZ: Final[dict[str, float]] = {"poses": 60.0, "scan": 30.0, "camera": 30.0, "view": 30.0}
 PICTURES: Final = ("camera", "view")
 REST_SHARE: Final = 0.25
-"""Pause after a picture before the next one, as a share of the time that it took."""
+"""Pause between two pictures, as a share of the time that the first one took."""
 MOVED_M: Final = 1e-4
 VIEW_WIDTH: Final = 960
 WIDTHS: Final = (64, 1920)
@@ -47,10 +48,11 @@ _encode = msgspec.msgpack.Encoder().encode
 
 @dataclass
 class Subscription:
-    """One stream of one client, and its last frame."""
+    """One stream of one client, and its last frame. `sensor` names a camera, "" the first one."""
 
     client: str | None
     stream: StreamName
+    sensor: str
     max_hz: float
     width: int | None
     camera_pose: CameraPose
@@ -61,7 +63,7 @@ class Subscription:
 
 
 class Streams:
-    """All subscriptions of a world. `send` takes frames."""
+    """All subscriptions of a world. `send` is called with each frame."""
 
     def __init__(
         self, world: World, sensors: Sensors, send: Send, *, clock: Callable[[], float] = time.monotonic
@@ -73,19 +75,19 @@ class Streams:
         self._rests_until_s = -math.inf
         self.camera_share = 1.0
         """Share of their rates at which cameras draw."""
-        self._subscriptions: dict[tuple[str | None, str], Subscription] = {}
+        self._subscriptions: dict[tuple[str | None, str, str], Subscription] = {}
         self._adaptations: dict[str | None, Adaptation[Level]] = {}
         self._encoded: tuple[NDArray[np.uint8] | None, int, bytes] = (None, 0, b"")
 
     @property
     def has_camera(self) -> bool:
         """Whether a client subscribes to a camera."""
-        return any(stream == "camera" for _, stream in self._subscriptions)
+        return any(stream == "camera" for _, stream, _ in self._subscriptions)
 
     def __len__(self) -> int:
         return len(self._subscriptions)
 
-    def subscribe(
+    def subscribe(  # noqa: PLR0913 - the wishes of one message
         self,
         client: str | None,
         stream: StreamName,
@@ -93,26 +95,30 @@ class Streams:
         max_hz: float = 30.0,
         width: int | None = None,
         camera_pose: CameraPose | None = None,
+        sensor: str = "",
     ) -> None:
-        """Starts a stream, or changes it."""
+        """Starts a stream of a client, or changes it. Each camera is a separate stream."""
         rate = min(max(max_hz, 0.1), MAX_HZ[stream])
         wide = None if width is None else min(max(width, WIDTHS[0]), WIDTHS[1])
-        old = self._subscriptions.get((client, stream))
+        old = self._subscriptions.get((client, stream, sensor))
         view = camera_pose or (old.camera_pose if old else DEFAULT_VIEW)
-        new = Subscription(client, stream, rate, wide, view)
+        new = Subscription(client, stream, sensor, rate, wide, view)
         if old is not None:
             # The scene is unchanged, so it is not sent to the client again.
             new.next_s, new.poses, new.size = old.next_s, old.poses, old.size
-        self._subscriptions[client, stream] = new
+        self._subscriptions[client, stream, sensor] = new
 
-    def unsubscribe(self, client: str | None, stream: str) -> None:
-        """Ends a stream, if there is one."""
-        self._subscriptions.pop((client, stream), None)
+    def unsubscribe(self, client: str | None, stream: str, *, sensor: str = "") -> None:
+        """Ends a stream of a client, if it exists."""
+        self._subscriptions.pop((client, stream, sensor), None)
         if not any(one.client == client for one in self._subscriptions.values()):
             self._adaptations.pop(client, None)
 
     def pace(self, client: str | None, lost: float) -> None:
-        """Takes the share of its pictures that a client was too slow for, about twice a second."""
+        """Adapts a client's pictures to the share of them for which it was too slow.
+
+        Called about twice a second.
+        """
         if any(one.client == client for one in self._subscriptions.values()):
             self._adaptations.setdefault(client, Adaptation(LEVELS)).note(lost)
 
@@ -126,7 +132,7 @@ class Streams:
         return max(0.0, min((s.next_s - now_s for s in self._subscriptions.values()), default=1.0))
 
     def send_due(self, now_s: float) -> None:
-        """Sends the frames that are due. After a slow picture the world gets time to step."""
+        """Sends the frames that are due. After a slow picture, the world gets time for its steps first."""
         may_draw, drawing_s = now_s >= self._rests_until_s, 0.0
         for subscription in list(self._subscriptions.values()):
             is_picture = subscription.stream in PICTURES
@@ -159,26 +165,28 @@ class Streams:
         return True
 
     def _sample(self, subscription: Subscription) -> object:
-        """Identifies the measurement of a frame; a sensor makes no more of them than its rate."""
+        """Returns a value that identifies the measurement of a frame.
+
+        It changes at most at the rate of the sensor.
+        """
         if subscription.stream == "view":
             return self._sensors.version
-        rates = [
-            sensor.rate_hz * share
-            for robot in self._world.robots[:1]
-            for sensors, share in (
-                (robot.config.lidars, 1.0)
-                if subscription.stream == "scan"
-                else (robot.config.cameras, self.camera_share),
-            )
-            for sensor in sensors[:1]
-        ]
-        return int(self._world.time_s * rates[0] + 1e-6) if rates else None
+        rate_hz = self._rate_hz(subscription)
+        return None if rate_hz is None else int(self._world.time_s * rate_hz + 1e-6)
+
+    def _rate_hz(self, subscription: Subscription) -> float | None:
+        """Returns the rate of a subscription's sensor, or None if the world has no such sensor."""
+        if subscription.stream == "camera":
+            found = find_camera(self._world, subscription.sensor)
+            return None if found is None else found[2].rate_hz * self.camera_share
+        lidars = [lidar for robot in self._world.robots[:1] for lidar in robot.config.lidars]
+        return lidars[0].rate_hz if lidars else None
 
     def _frame(self, subscription: Subscription) -> Struct | None:
         if subscription.stream == "view":
             return self._view(subscription)
-        robot = self._world.robots[0]
         if subscription.stream == "scan":
+            robot = self._world.robots[0]
             lidar = robot.config.lidars[0]
             reading = self._sensors.scan(robot, lidar)
             return Scan(
@@ -190,14 +198,20 @@ class Streams:
                 range_max=lidar.range_max,
                 ranges=reading.ranges.astype("<f4").tobytes(),
             )
-        camera = robot.config.cameras[0]
+        return self._camera(subscription)
+
+    def _camera(self, subscription: Subscription) -> Camera | None:
+        found = find_camera(self._world, subscription.sensor)
+        if found is None:
+            return None
+        name, robot, camera = found
         level = self._level(subscription.client)
         wide = max(WIDTHS[0], round((subscription.width or camera.width) * level.width))
         picture = self._sensors.picture(robot, camera, wide)
         height, width = picture.shape[:2]
         return Camera(
             t=self._world.time_s,
-            sensor=camera.name,
+            sensor=name,
             width=width,
             height=height,
             jpeg=_jpeg(picture, level.quality),
@@ -215,7 +229,7 @@ class Streams:
         return View(t=self._world.time_s, width=width, height=height, jpeg=jpeg)
 
     def _jpeg_once(self, picture: NDArray[np.uint8], quality: int) -> bytes:
-        """Encodes a picture, unless it is the last one again."""
+        """Encodes a picture as JPEG; for the same picture as before it returns the same bytes."""
         known, of_quality, jpeg = self._encoded
         if picture is not known or quality != of_quality:
             jpeg = _jpeg(picture, quality)
@@ -256,7 +270,11 @@ class Streams:
     def _emit(
         self, subscription: Subscription, frame: Struct, *, stream: str = "", keep: bool = False
     ) -> None:
-        self._send(Frame(subscription.client, stream or subscription.stream, _encode(frame), keep))
+        lane: str = subscription.stream
+        if subscription.sensor:
+            # A picture of one camera must not replace a waiting one of another.
+            lane = f"{lane}/{subscription.sensor}"
+        self._send(Frame(subscription.client, stream or lane, _encode(frame), keep))
 
 
 def _jpeg(picture: NDArray[np.uint8], quality: int) -> bytes:

@@ -17,6 +17,7 @@ import { RunProgress } from '@/features/run/RunProgress';
 import { registerRunCommands } from '@/features/run/commands';
 import { registerRateCommands } from '@/features/run/rates';
 import { useRunReactions } from '@/features/run/useRunReactions';
+import { registerSearchCommands } from '@/features/search/commands';
 import { registerTopicCommands } from '@/features/topics/commands';
 import { ConnectDialog } from '@/features/topics/ConnectDialog';
 import { PublishDialog } from '@/features/topics/PublishDialog';
@@ -33,6 +34,7 @@ import { CommandPalette } from '@/workspace/CommandPalette';
 import { Dock } from './Dock';
 import classes from './frame.module.css';
 import { loadLayout } from '@/workspace/layoutModel';
+import { openLesson } from '@/workspace/lessons';
 import { RestoredNotice } from './RestoredNotice';
 import { StatusBar } from './StatusBar';
 import {
@@ -95,6 +97,7 @@ function Workbench({ projectId }: StudioProps) {
       registerCanvasCommands(),
       registerRunCommands(),
       registerRateCommands(),
+      registerSearchCommands(),
       registerTopicCommands(),
       registerFrameCommands(),
     ];
@@ -125,6 +128,7 @@ function Workbench({ projectId }: StudioProps) {
     const fresh = loadLayout(width, hasWebGl());
     useTabs.setState({ model: fresh, width });
     reopen(projectId, useProjectStore.getState().mainTree);
+    openLesson(projectId);
     followFront(fresh);
   }, [model, modelWidth, width, projectId]);
 

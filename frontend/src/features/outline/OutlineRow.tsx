@@ -6,7 +6,7 @@ import { setCollapsed } from '@/model/edits';
 import type { OutlineLine, OutlineSlot } from '@/model/outline';
 import type { NodeSpec } from '@/model/vocabulary';
 import { change } from '@/store/project/edits/blocks';
-import { liveKey, useLiveStore } from '@/store/project/live';
+import { liveKey, pastOf, useLiveStore } from '@/store/project/live';
 import { useProjectStore } from '@/store/project';
 import { FamilyTile } from '@/ui/FamilyTile';
 import classes from './Outline.module.css';
@@ -29,6 +29,7 @@ export function OutlineRow(props: OutlineRowProps) {
   const { tree, row, node, spec, isSelected, top, mark, onPress, wasDragged } = props;
   const { t } = useTranslation('outline');
   const status = useLiveStore((state) => state.statuses.get(liveKey(tree, row.id)) ?? 'IDLE');
+  const past = useLiveStore((state) => pastOf(state, liveKey(tree, row.id)));
   const name = displayName(node);
   return (
     // eslint-disable-next-line jsx-a11y/click-events-have-key-events
@@ -40,7 +41,8 @@ export function OutlineRow(props: OutlineRowProps) {
       aria-selected={isSelected}
       {...(row.hasChildren ? { 'aria-expanded': !row.isFolded } : {})}
       className={classes['row']}
-      data-status={status}
+      data-status={past ?? status}
+      data-past={past === undefined ? undefined : ''}
       data-disabled={node.disabled || undefined}
       data-mark={mark ?? undefined}
       style={{ transform: `translateY(${top}px)`, paddingLeft: 6 + row.depth * 14 }}

@@ -37,7 +37,6 @@ def test_escape_cancels_every_drag(shared_studio: Studio) -> None:
     a_copy_has_a_ghost(studio, whole)
     no_connection_is_made(studio)
     the_frame_selects_nothing(studio)
-    nothing_comes_from_the_palette(studio)
     panes_keep_their_sizes(studio)
     assert children(studio) == whole
     expect(studio.at("undo")).to_be_disabled()
@@ -118,17 +117,6 @@ def the_frame_selects_nothing(studio: Studio) -> None:
     turn = block(studio, "Turn")
     turn.click()
     assert selected(studio) == ["Turn"], "the next press counts"
-
-
-def nothing_comes_from_the_palette(studio: Studio) -> None:
-    item = studio.at("palette-Sleep")
-    item.scroll_into_view_if_needed()
-    begin_drag(studio, item, *middle(block(studio, "ReactiveFallback")))
-    expect(studio.at("canvas").locator("[data-target]")).to_have_count(1)
-    studio.page.keyboard.press("Escape")
-    expect(studio.at("canvas").locator("[data-target]")).to_have_count(0)
-    studio.page.mouse.up()
-    expect(block(studio, "Sleep")).to_have_count(0)
 
 
 def panes_keep_their_sizes(studio: Studio) -> None:

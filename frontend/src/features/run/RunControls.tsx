@@ -4,6 +4,7 @@ import { useTranslation } from 'react-i18next';
 import { perform } from '@/commands/registry';
 import { shortcutLabel } from '@/commands/shortcuts';
 import { CommandButton } from '@/ui/CommandButton';
+import { usePressed } from '@/ui/usePressed';
 import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 import { ExecutorState } from './ExecutorState';
@@ -25,13 +26,14 @@ export function RunControls() {
   const runBlocker = useRunBlocker();
   const isBlocked = runBlocker !== null;
   const hasChanged = useHasChanged();
-  const help = hasApplication ? (hasChanged ? 'changedHelp' : 'runAgainHelp') : 'runHelp';
-  const runLabel = t(hasApplication ? 'runAgain' : 'command.run');
+  const { isPressed, handlers } = usePressed();
 
   return (
     <Group gap={4} wrap="nowrap">
       <Tooltip
-        label={runBlocker ? t(`runBlocker.${runBlocker}`) : `${t(help)} (${shortcutLabel('F5')})`}
+        label={runBlocker ? t(`runBlocker.${runBlocker}`) : `${t('runHelp')} (${shortcutLabel('F5')})`}
+        // The pressed button's tooltip would lie on the message of the run.
+        disabled={isPressed && !isBlocked}
         multiline
         maw={340}
         events={{ hover: true, focus: isBlocked, touch: isBlocked }}
@@ -49,10 +51,16 @@ export function RunControls() {
           aria-disabled={isBlocked}
           data-testid="run"
           onClick={() => perform('run.run')}
+          {...handlers}
         >
-          {runLabel}
+          {t('command.run')}
         </Button>
       </Tooltip>
+      <CommandButton
+        command="run.restart"
+        testId="restart"
+        isDisabled={!(hasApplication || executor === 'visualization_ready') || isBlocked || stage !== null}
+      />
       {isPaused ? (
         <CommandButton command="run.resume" testId="resume" isDisabled={isBlocked} />
       ) : (

@@ -13,6 +13,7 @@ import {
 } from '@tabler/icons-react';
 import { registerCommands, type UserCommand } from '@/commands/registry';
 import {
+  canRestart,
   hasApplication,
   hasSession,
   isViewer,
@@ -115,7 +116,7 @@ const rows: UserCommand[] = [
     icon: IconRotateClockwise,
     shortcut: '$mod+Shift+F5',
     inTextFields: true,
-    enabled: () => hasApplication() && useRunStore.getState().stage === null,
+    enabled: () => canRestart() && useRunStore.getState().stage === null,
     run: () => void restartProject(),
   },
   {

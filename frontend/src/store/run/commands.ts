@@ -21,6 +21,9 @@ async function reported(doing: Promise<unknown>): Promise<void> {
 export const isRunning = () => useSessionStore.getState().executor === 'application_running';
 export const isPaused = () => useSessionStore.getState().executor === 'paused';
 export const hasApplication = () => isRunning() || isPaused();
+/** Whether the program can be started in the world as it is. */
+export const canRestart = () =>
+  hasApplication() || useSessionStore.getState().executor === 'visualization_ready';
 const isWorldUp = () => !['idle', 'connected'].includes(useSessionStore.getState().executor);
 export const isViewer = () => useSessionStore.getState().introspection?.role === 'viewer';
 export const hasSession = () => useSessionStore.getState().connection !== 'off';

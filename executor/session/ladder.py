@@ -106,6 +106,10 @@ TABLE: Final[dict[str, Row]] = {
     "set_tick_rate": _act(HAS_APPLICATION, "Changes the tick rate from the next tick on."),
     "set_speed": _act(WORLD_UP, "Changes how fast simulated time passes."),
     "reset_world": _act(WORLD_UP, "Restores the initial state of the world."),
+    "run_world": _act(
+        frozenset({State.VISUALIZATION_READY}),
+        "Lets the world run without an application, until it is stopped or an application starts.",
+    ),
     "set_blackboard": _act(frozenset({State.PAUSED}), "Writes an entry of the blackboard.", is_step=True),
     "teleop": _act(WORLD_UP, "Drives the robot by hand."),
     "move_body": _act(WORLD_STANDS, "Sets the pose of a body."),
@@ -113,7 +117,9 @@ TABLE: Final[dict[str, Row]] = {
     "unsubscribe": _act(ANY, "Ends a stream.", for_viewers=True),
     "list_topics": _act(WORLD_UP, "Answers with a `topics` event.", for_viewers=True),
     "echo_topic": _act(WORLD_UP, "Sends the messages of a topic.", for_viewers=True),
-    "publish_topic": _act(WORLD_UP, "Publishes one message."),
+    "publish_topic": _act(
+        WORLD_UP, "Publishes one message; refused (`world_paused`) while time stands still."
+    ),
     "describe_type": _act(WORLD_UP, "Answers with a `type_description` event.", for_viewers=True),
     "restart_node": _act(HAS_APPLICATION, "Restarts a node of the launch files."),
     "take_over": _act(ANY, "Becomes the driver; the last driver becomes a viewer.", for_viewers=True),

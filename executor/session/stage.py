@@ -52,6 +52,8 @@ class LastRun:
     domain_id: int = 0
     is_outside: bool = False
     seed: int = 0
+    is_world_alone: bool = False
+    """The world runs without an application."""
     deaf_until_s: float = 0.0
     """An application that receives no time is not restarted a second time before this time."""
 

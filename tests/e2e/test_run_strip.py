@@ -34,6 +34,7 @@ def test_messages_have_a_place_of_their_own(shared_studio: Studio) -> None:
     a_fault_moves_and_covers_nothing(studio)
     the_first_edit_answers_it(studio)
     the_program_is_restarted_where_the_robot_stands(studio)
+    a_message_moves_the_robot_only_while_the_world_runs(studio)
     studio.end_session()
 
 
@@ -80,3 +81,36 @@ def the_program_is_restarted_where_the_robot_stands(studio: Studio) -> None:
     studio.at("restart").click()
     studio.expect_state("application_running")
     wait_until(lambda: studio.stat("t") > stopped, "the world continued")
+
+
+def a_message_moves_the_robot_only_while_the_world_runs(studio: Studio) -> None:
+    """Enter in a field sends nothing; a paused world is named, and may run without a program."""
+    keys = studio.page.keyboard
+    studio.at("stop").click()
+    studio.expect_state("visualization_ready")
+    studio.page.get_by_role("tab", name="Topics", exact=True).click()
+    studio.at("topics").get_by_role("button", name="Publish…").click()
+    form = studio.at("publish")
+    form.get_by_label("Topic").fill("/cmd_vel")
+    form.get_by_label("Type").fill("geometry_msgs/msg/Twist")
+    expect(form).to_contain_text("angular: geometry_msgs/Vector3")
+    form.get_by_label("Message").fill('{"linear": {"x": 0.4}}')
+    publish, told = form.get_by_role("button", name="Publish once"), form.get_by_text("was published")
+    publish.click()
+    expect(form.get_by_test_id("paused-world")).to_contain_text("The world is paused.")
+    expect(told).to_have_count(0)
+    form.get_by_role("button", name="Let the world run").click()
+    expect(form.get_by_test_id("paused-world")).to_have_count(0)
+    before = studio.stat("distance")
+    form.get_by_label("Topic").click()
+    keys.press("Enter")
+    expect(told).to_have_count(0)
+    keys.press("Control+Enter")
+    expect(told).to_be_visible()
+    wait_until(lambda: studio.stat("distance") > before, "the robot heard it")
+    form.get_by_role("button", name="Close").click()
+    strip = studio.at("world-runs")
+    expect(strip).to_contain_text("The world runs without a program.")
+    studio.picture("world-runs")
+    strip.get_by_role("button", name="Pause the world").click()
+    expect(strip).to_have_count(0)

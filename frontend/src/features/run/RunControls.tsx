@@ -6,6 +6,7 @@ import { shortcutLabel } from '@/commands/shortcuts';
 import { CommandButton } from '@/ui/CommandButton';
 import { usePressed } from '@/ui/usePressed';
 import { useRunStore } from '@/store/run/store';
+import { doesWorldRunAlone } from '@/store/session/clock';
 import { useSessionStore } from '@/store/session/store';
 import { ExecutorState } from './ExecutorState';
 import { RunMenu } from './RunMenu';
@@ -23,6 +24,7 @@ export function RunControls() {
   const isRunning = executor === 'application_running';
   const isPaused = executor === 'paused';
   const hasApplication = isRunning || isPaused;
+  const worldRuns = useSessionStore(doesWorldRunAlone);
   const runBlocker = useRunBlocker();
   const isBlocked = runBlocker !== null;
   const hasChanged = useHasChanged();
@@ -68,7 +70,7 @@ export function RunControls() {
       )}
       <CommandButton command="run.step" testId="step" isDisabled={!hasApplication || isBlocked} />
       <RunMenu isDisabled={isBlocked} />
-      <CommandButton command="run.stop" testId="stop" isDisabled={!hasApplication || isBlocked} />
+      <CommandButton command="run.stop" testId="stop" isDisabled={!(hasApplication || worldRuns) || isBlocked} />
       <CommandButton command="run.end" testId="end-session" isDisabled={connection === 'off' || isBlocked} />
       <Divider orientation="vertical" mx={4} my={8} className={classes['rates']} />
       <div className={classes['rates']}>

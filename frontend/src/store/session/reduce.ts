@@ -60,6 +60,8 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     isHanging: false,
     ...(data.state === 'application_running' || data.state === 'paused' ? {} : { progress: state.progress }),
     ...(data.state === 'idle' || data.state === 'connected' ? { sim: null } : {}),
+    // Every rung below a running application pauses the world; the next report of the world is up to 1 s away.
+    ...(data.state === 'visualization_ready' && state.sim ? { sim: { ...state.sim, paused: true } } : {}),
   }),
   progress: (state, data) => ({
     progress: data,

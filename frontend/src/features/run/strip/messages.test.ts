@@ -15,6 +15,7 @@ const calm = {
   launchNodes: [],
   viewer: null,
   canRestart: false,
+  worldRuns: false,
 } as const;
 
 const fault = (more: Partial<Fault>): Fault => ({
@@ -135,8 +136,9 @@ describe('messagesFor', () => {
       faults: [fault({ message: 'boom' }), fault({ message: 'bang' }), fault({ message: 'boom' })],
       viewer: { wasTakenOver: false },
       canRestart: true,
+      worldRuns: true,
     });
-    expect(all.map(({ kind }) => kind)).toEqual(['connection', 'fault', 'fault', 'viewer', 'restart']);
+    expect(all.map(({ kind }) => kind)).toEqual(['connection', 'fault', 'fault', 'viewer', 'restart', 'world']);
     expect(new Set(PRIORITY).size).toBe(PRIORITY.length);
     expect(new Set(all.map(({ id }) => id)).size).toBe(all.length);
   });

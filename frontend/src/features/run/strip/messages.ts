@@ -15,8 +15,8 @@ export const PRIORITY: readonly MessageKind[] = [
   'failure',
   'fault',
   'finished',
-  'node',
   'viewer',
+  'node',
   'restart',
   'world',
 ];
@@ -57,6 +57,8 @@ export interface Situation {
   /** This page only views the session. */
   viewer: { wasTakenOver: boolean } | null;
   canRestart: boolean;
+  /** The world runs without a program. */
+  worldRuns: boolean;
 }
 
 /** The most faults that are listed. */
@@ -64,7 +66,7 @@ const MAX_FAULTS = 5;
 
 /** All messages of a run, the most important first. */
 export function messagesFor(situation: Situation): StripMessage[] {
-  const { connection, connectionMessage, silentS, failure, viewer, canRestart } = situation;
+  const { connection, connectionMessage, silentS, failure, viewer, canRestart, worldRuns } = situation;
   const isLost = connection === 'reconnecting' || connection === 'lost';
   const messages = [
     isLost ? connectionBanner(connection, connectionMessage) : null,
@@ -74,6 +76,7 @@ export function messagesFor(situation: Situation): StripMessage[] {
     endBanner(situation),
     viewer ? viewerNotice(viewer.wasTakenOver) : null,
     canRestart ? restartOffer() : null,
+    worldRuns ? worldNotice() : null,
   ].filter((message) => message !== null);
   return messages.sort((a, b) => PRIORITY.indexOf(a.kind) - PRIORITY.indexOf(b.kind));
 }
@@ -110,6 +113,18 @@ function viewerNotice(wasTakenOver: boolean): StripMessage {
     command: 'run.takeOver',
     commandKey: wasTakenOver ? 'takeBack' : 'takeOver',
     canDismiss: true,
+  };
+}
+
+function worldNotice(): StripMessage {
+  return {
+    ...PLAIN,
+    id: 'world',
+    kind: 'world',
+    tone: 'quiet',
+    titleKey: 'worldRuns',
+    command: 'run.stop',
+    commandKey: 'pauseWorld',
   };
 }
 

@@ -1,6 +1,7 @@
 import { useShallow } from 'zustand/react/shallow';
 import { useProjectStore } from '@/store/project';
 import { useRunStore } from '@/store/run/store';
+import { doesWorldRunAlone } from '@/store/session/clock';
 import { useSessionStore } from '@/store/session/store';
 import { useHasChanged } from '../useHasChanged';
 import { viewerKey } from './dismiss';
@@ -23,7 +24,9 @@ export function useMessages(): StripMessage[] {
   const isViewer = useIsUnreadViewer();
   const wasTakenOver = useSessionStore((state) => state.wasTakenOver);
   const canRestart = useCanRestart();
-  return messagesFor({ ...session, failure, viewer: isViewer ? { wasTakenOver } : null, canRestart });
+  const worldRuns = useSessionStore(doesWorldRunAlone);
+  const viewer = isViewer ? { wasTakenOver } : null;
+  return messagesFor({ ...session, failure, viewer, canRestart, worldRuns });
 }
 
 function useIsUnreadViewer(): boolean {

@@ -15,9 +15,11 @@ import './dock.css';
 import { t, translates } from '@/i18n';
 import { useProjectStore } from '@/store/project';
 import { forgetLayouts, keepLayout, type FrameWidth } from '@/workspace/layoutModel';
+import { keepLesson } from '@/workspace/lessons';
 import { renderTab } from './panels';
 import { PanelBadge } from './PanelBadge';
-import { Popouts } from './popouts';
+import { Popouts, titleOf } from './popouts';
+import { cameraOf } from '@/workspace/cameraViews';
 import { documentOf, followFront, keepOpen, useTabs } from '@/workspace/tabs';
 
 const KEEP_AFTER_MS = 300;
@@ -38,6 +40,10 @@ function renderTabButton(node: TabNode, values: ITabRenderValues): void {
       <IconFileText size={15} aria-hidden="true" />
     );
   }
+  const camera = cameraOf(node);
+  const title = `${titleOf(node)} · ${camera}`;
+  // The library takes the tab's accessible name from here too, but its type does not say so.
+  if (camera !== null) Object.assign(values, { content: title, name: title });
   if (!tab) values.buttons.push(<PanelBadge key="badge" panel={node.getId()} />);
 }
 
@@ -116,7 +122,9 @@ export function Dock({ model, width }: DockProps) {
     const { projectId } = useProjectStore.getState();
     keepSoon(() => {
       keepLayout(width, changed);
-      if (projectId) keepOpen(projectId, changed);
+      if (!projectId) return;
+      keepOpen(projectId, changed);
+      keepLesson(projectId, changed);
     });
   };
 

@@ -14,6 +14,7 @@ import { RunStrip } from '@/features/run/strip/RunStrip';
 import { registerRunCommands } from '@/features/run/commands';
 import { registerRateCommands } from '@/features/run/rates';
 import { useRunReactions } from '@/features/run/useRunReactions';
+import { registerSearchCommands } from '@/features/search/commands';
 import { registerTopicCommands } from '@/features/topics/commands';
 import { ConnectDialog } from '@/features/topics/ConnectDialog';
 import { PublishDialog } from '@/features/topics/PublishDialog';
@@ -30,6 +31,7 @@ import { CommandPalette } from '@/workspace/CommandPalette';
 import { Dock } from './Dock';
 import classes from './frame.module.css';
 import { loadLayout } from '@/workspace/layoutModel';
+import { openLesson } from '@/workspace/lessons';
 import { RestoredNotice } from './RestoredNotice';
 import { StatusBar } from './StatusBar';
 import {
@@ -92,6 +94,7 @@ function Workbench({ projectId }: StudioProps) {
       registerCanvasCommands(),
       registerRunCommands(),
       registerRateCommands(),
+      registerSearchCommands(),
       registerTopicCommands(),
       registerFrameCommands(),
     ];
@@ -122,6 +125,7 @@ function Workbench({ projectId }: StudioProps) {
     const fresh = loadLayout(width, hasWebGl());
     useTabs.setState({ model: fresh, width });
     reopen(projectId, useProjectStore.getState().mainTree);
+    openLesson(projectId);
     followFront(fresh);
   }, [model, modelWidth, width, projectId]);
 

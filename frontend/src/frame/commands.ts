@@ -1,5 +1,7 @@
 import {
   IconAdjustments,
+  IconBook2,
+  IconCamera,
   IconCode,
   IconDeviceFloppy,
   IconDownload,
@@ -33,8 +35,10 @@ import { openNewUniverse } from '@/store/dialogs/newUniverse';
 import { resetLayout } from './Dock';
 import { fileCommands } from '@/features/explorer/fileCommands';
 import { focusInspector } from '@/workspace/focus';
+import { openAnotherCamera } from '@/workspace/cameraViews';
 import { WINDOWED, type PanelId } from '@/workspace/layoutModel';
 import { popOut } from './popouts';
+import { showLesson } from '@/workspace/lessons';
 import { openTab, showPanel, togglePanel } from '@/workspace/tabs';
 
 /** Moves the keyboard focus to the tree that was edited last. */
@@ -192,6 +196,13 @@ const rows: UserCommand[] = [
     run: () => togglePanel('xml'),
   },
   {
+    id: 'view.lesson',
+    group: 'view',
+    labelKey: 'frame:command.lesson',
+    icon: IconBook2,
+    run: showLesson,
+  },
+  {
     id: 'view.shortcuts',
     group: 'view',
     labelKey: 'frame:command.shortcuts',
@@ -199,6 +210,13 @@ const rows: UserCommand[] = [
     shortcut: '$mod+Slash',
     inTextFields: true,
     run: openShortcuts,
+  },
+  {
+    id: 'view.anotherCamera',
+    group: 'view',
+    labelKey: 'frame:command.anotherCamera',
+    icon: IconCamera,
+    run: openAnotherCamera,
   },
   {
     id: 'view.resetLayout',

@@ -100,17 +100,24 @@ export interface CameraPose {
   target: [number, number, number];
 }
 
-/** Subscribes to a stream on this client's stream socket, or changes a subscription. */
+/**
+ * Subscribes to a stream on this client's stream socket, or changes a subscription.
+ *
+ * Each camera is a subscription of its own: `sensor` names it as its `camera` frames do, by the sensor's
+ * name, and `robot/sensor` for every robot but the first. "" is the first camera of the world.
+ */
 export interface Subscribe {
   stream: StreamName;
   max_hz?: number;
   width?: number | null;
   camera_pose?: CameraPose | null;
+  sensor?: string;
 }
 
-/** Ends a stream. */
+/** Ends a stream; of `camera` that of the same `sensor`. */
 export interface Unsubscribe {
   stream: StreamName;
+  sensor?: string;
 }
 
 /**
@@ -507,7 +514,11 @@ export interface Scan {
   ranges: Uint8Array;
 }
 
-/** One image of a robot's camera, or of the server's view of the world (`view`). */
+/**
+ * One image of a robot's camera.
+ *
+ * `sensor` is the sensor's name, and `robot/sensor` for every robot but the first.
+ */
 export interface Camera {
   type: "camera";
   t: number;

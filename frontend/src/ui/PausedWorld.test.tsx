@@ -4,7 +4,7 @@ import { registerCommands } from '@/commands/registry';
 import { openSession, show, user } from '../../harness/testing';
 import { PausedWorld } from './PausedWorld';
 
-it('offers to let the world run while its time stands still', async () => {
+it('offers to let the world run while its time is paused', async () => {
   const run = vi.fn();
   onTestFinished(registerCommands([{ id: 'run.world', group: 'run', labelKey: 'run:command.world', run }]));
   const executor = await openSession({ state: 'application_running' });

@@ -10,7 +10,7 @@ interface PausedWorldProps {
   readonly text: string;
 }
 
-/** Tells that the world's time stands still, and offers to let it pass; nothing while it passes. */
+/** Tells that the world's time is paused, and offers to let it pass; nothing while it passes. */
 export function PausedWorld({ text }: PausedWorldProps) {
   const { t } = useTranslation('run');
   const isPaused = useSessionStore(isWorldPaused);

@@ -70,7 +70,11 @@ export function RunControls() {
       )}
       <CommandButton command="run.step" testId="step" isDisabled={!hasApplication || isBlocked} />
       <RunMenu isDisabled={isBlocked} />
-      <CommandButton command="run.stop" testId="stop" isDisabled={!(hasApplication || worldRuns) || isBlocked} />
+      <CommandButton
+        command="run.stop"
+        testId="stop"
+        isDisabled={!(hasApplication || worldRuns) || isBlocked}
+      />
       <CommandButton command="run.end" testId="end-session" isDisabled={connection === 'off' || isBlocked} />
       <Divider orientation="vertical" mx={4} my={8} className={classes['rates']} />
       <div className={classes['rates']}>

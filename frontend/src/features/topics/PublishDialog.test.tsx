@@ -79,7 +79,7 @@ describe('PublishDialog', () => {
   it('shows why the session refuses a message', async () => {
     executor.refuse('publish_topic', 'No field y.', 'Did you mean x?');
     await fill();
-    write('{}');
+    write('{"y": 1}');
     await publish();
     expect(await screen.findByText('No field y. Did you mean x?')).toBeInTheDocument();
   });
@@ -103,7 +103,7 @@ describe('PublishDialog', () => {
     expect(screen.getByTestId('paused-world')).toHaveTextContent('The world is paused.');
     executor.refuse('publish_topic', 'The world is paused.', '', 'world_paused');
     await fill();
-    write('{}');
+    write('{"y": 1}');
     await publish();
     expect(screen.queryByText(/was published/)).toBeNull();
   });

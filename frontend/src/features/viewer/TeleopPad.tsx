@@ -113,11 +113,7 @@ function Pad() {
       </div>
       <CloseButton size="sm" aria-label={t('driveEnd')} onClick={() => setDriving(false)} />
       <span className={classes['padHelp']}>
-        {standsStill ? (
-          <PausedWorld text={t(isPaused ? 'drivePaused' : 'driveStill')} />
-        ) : (
-          t('driveHelp')
-        )}
+        {standsStill ? <PausedWorld text={t(isPaused ? 'drivePaused' : 'driveStill')} /> : t('driveHelp')}
       </span>
     </div>
   );

@@ -2,7 +2,7 @@ import type { SessionData } from './types';
 
 type Clock = Pick<SessionData, 'executor' | 'sim'>;
 
-/** Whether there is a world whose time stands still. */
+/** Whether there is a world whose time is paused. */
 export function isWorldPaused({ executor, sim }: Clock): boolean {
   if (executor === 'paused') return true;
   return (executor === 'universe_ready' || executor === 'visualization_ready') && (sim?.paused ?? true);

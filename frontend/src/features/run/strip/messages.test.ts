@@ -138,7 +138,14 @@ describe('messagesFor', () => {
       canRestart: true,
       worldRuns: true,
     });
-    expect(all.map(({ kind }) => kind)).toEqual(['connection', 'fault', 'fault', 'viewer', 'restart', 'world']);
+    expect(all.map(({ kind }) => kind)).toEqual([
+      'connection',
+      'fault',
+      'fault',
+      'viewer',
+      'restart',
+      'world',
+    ]);
     expect(new Set(PRIORITY).size).toBe(PRIORITY.length);
     expect(new Set(all.map(({ id }) => id)).size).toBe(all.length);
   });

@@ -1,10 +1,11 @@
-import { act, screen } from '@testing-library/react';
+import { act, renderHook, screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { registerCommands } from '@/commands/registry';
 import { useProjectStore } from '@/store/project';
 import { useRunStore } from '@/store/run/store';
 import { openProject, openSession, show, user, type FakeExecutor } from '../../../../harness/testing';
 import { RunStrip } from './RunStrip';
+import { useMessages } from './useMessages';
 
 let executor: FakeExecutor;
 let count = 0;
@@ -108,5 +109,15 @@ describe('the notice of a viewer', () => {
     executor.introduce({ role: 'viewer' });
     await user.click(screen.getByRole('button', { name: 'Dismiss' }));
     expect(notice()).toBeNull();
+  });
+});
+
+describe('useMessages', () => {
+  it('lists what the stores hold, the most important first', () => {
+    const { result } = renderHook(useMessages);
+    expect(result.current).toEqual([]);
+    edit();
+    executor.emit('state-changed', { state: 'paused', reason: 'The world was lost.' });
+    expect(result.current.map(({ kind }) => kind)).toEqual(['finished', 'restart']);
   });
 });

@@ -14,6 +14,8 @@ import { RunStrip } from '@/features/run/strip/RunStrip';
 import { registerRunCommands } from '@/features/run/commands';
 import { registerRateCommands } from '@/features/run/rates';
 import { useRunReactions } from '@/features/run/useRunReactions';
+import { registerKeyCommands } from '@/features/keys/commands';
+import { RenameKeyDialog } from '@/features/keys/RenameKeyDialog';
 import { registerSearchCommands } from '@/features/search/commands';
 import { registerTopicCommands } from '@/features/topics/commands';
 import { ConnectDialog } from '@/features/topics/ConnectDialog';
@@ -94,6 +96,7 @@ function Workbench({ projectId }: StudioProps) {
       registerCanvasCommands(),
       registerRunCommands(),
       registerRateCommands(),
+      registerKeyCommands(),
       registerSearchCommands(),
       registerTopicCommands(),
       registerFrameCommands(),
@@ -148,6 +151,7 @@ function Workbench({ projectId }: StudioProps) {
       <Shortcuts />
       <PublishDialog />
       <ConnectDialog />
+      <RenameKeyDialog />
       <RestoredNotice />
     </div>
   );

@@ -121,9 +121,7 @@ TABLE: Final[dict[str, Row]] = {
     "unsubscribe": _act(ANY, "Ends a stream.", for_viewers=True),
     "list_topics": _act(WORLD_UP, "Answers with a `topics` event.", for_viewers=True),
     "echo_topic": _act(WORLD_UP, "Sends the messages of a topic.", for_viewers=True),
-    "publish_topic": _act(
-        WORLD_UP, "Publishes one message; refused (`world_paused`) while time is paused."
-    ),
+    "publish_topic": _act(WORLD_UP, "Publishes one message; refused (`world_paused`) while time is paused."),
     "describe_type": _act(WORLD_UP, "Answers with a `type_description` event.", for_viewers=True),
     "restart_node": _act(HAS_APPLICATION, "Restarts a node of the launch files."),
     "take_over": _act(ANY, "Becomes the driver; the last driver becomes a viewer.", for_viewers=True),

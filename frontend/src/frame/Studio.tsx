@@ -17,6 +17,8 @@ import { RunProgress } from '@/features/run/RunProgress';
 import { registerRunCommands } from '@/features/run/commands';
 import { registerRateCommands } from '@/features/run/rates';
 import { useRunReactions } from '@/features/run/useRunReactions';
+import { registerKeyCommands } from '@/features/keys/commands';
+import { RenameKeyDialog } from '@/features/keys/RenameKeyDialog';
 import { registerSearchCommands } from '@/features/search/commands';
 import { registerTopicCommands } from '@/features/topics/commands';
 import { ConnectDialog } from '@/features/topics/ConnectDialog';
@@ -97,6 +99,7 @@ function Workbench({ projectId }: StudioProps) {
       registerCanvasCommands(),
       registerRunCommands(),
       registerRateCommands(),
+      registerKeyCommands(),
       registerSearchCommands(),
       registerTopicCommands(),
       registerFrameCommands(),
@@ -154,6 +157,7 @@ function Workbench({ projectId }: StudioProps) {
       <Shortcuts />
       <PublishDialog />
       <ConnectDialog />
+      <RenameKeyDialog />
       <RestoredNotice />
     </div>
   );

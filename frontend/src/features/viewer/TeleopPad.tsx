@@ -9,7 +9,9 @@ import {
 } from '@tabler/icons-react';
 import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { isWorldPaused } from '@/store/session/clock';
 import { useSessionStore } from '@/store/session/store';
+import { PausedWorld } from '@/ui/PausedWorld';
 import { canDrive, drive, halt, setDriving, useTeleop, type Direction } from '@/store/run/teleop';
 import { useCramped } from './useCramped';
 import classes from './viewer.module.css';
@@ -60,6 +62,7 @@ function Pad() {
   const [isOpen, setOpen] = useState(false);
   const { linear, angular, direction } = useTeleop();
   const isPaused = useSessionStore(({ executor }) => executor === 'paused');
+  const standsStill = useSessionStore(isWorldPaused);
   useHeldKeys();
   const isHeld = (code: string) => {
     const key = KEYS[code];
@@ -136,6 +139,7 @@ function Pad() {
           />
         </label>
       </div>
+<<<<<<< HEAD
       <div className={classes['padEnd']}>
         <CloseButton size="sm" aria-label={t('driveEnd')} onClick={() => setDriving(false)} />
         {cramped ? (
@@ -150,6 +154,12 @@ function Pad() {
         ) : null}
       </div>
       <span className={classes['padHelp']}>{t(isPaused ? 'drivePaused' : 'driveHelp')}</span>
+=======
+      <CloseButton size="sm" aria-label={t('driveEnd')} onClick={() => setDriving(false)} />
+      <span className={classes['padHelp']}>
+        {standsStill ? <PausedWorld text={t(isPaused ? 'drivePaused' : 'driveStill')} /> : t('driveHelp')}
+      </span>
+>>>>>>> main
     </div>
   );
 }

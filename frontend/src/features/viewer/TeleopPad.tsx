@@ -139,7 +139,6 @@ function Pad() {
           />
         </label>
       </div>
-<<<<<<< HEAD
       <div className={classes['padEnd']}>
         <CloseButton size="sm" aria-label={t('driveEnd')} onClick={() => setDriving(false)} />
         {cramped ? (
@@ -153,13 +152,9 @@ function Pad() {
           </ActionIcon>
         ) : null}
       </div>
-      <span className={classes['padHelp']}>{t(isPaused ? 'drivePaused' : 'driveHelp')}</span>
-=======
-      <CloseButton size="sm" aria-label={t('driveEnd')} onClick={() => setDriving(false)} />
       <span className={classes['padHelp']}>
         {standsStill ? <PausedWorld text={t(isPaused ? 'drivePaused' : 'driveStill')} /> : t('driveHelp')}
       </span>
->>>>>>> main
     </div>
   );
 }

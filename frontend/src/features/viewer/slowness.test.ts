@@ -29,7 +29,7 @@ describe('the verdict on a slow view', () => {
     expect(watch(20, 150)).toEqual([]);
   });
 
-  it('does not come for a world that stands still', () => {
+  it('does not come for a paused world', () => {
     const slowness = new Slowness();
     for (let now = 0; now < 20_000; now += 1000) {
       slowness.request(now);
@@ -42,7 +42,7 @@ describe('the verdict on a slow view', () => {
     expect(watch(6, 5000)).toEqual([]);
   });
 
-  it('begins anew in a window that was hidden', () => {
+  it('starts again in a window that was hidden', () => {
     const slowness = new Slowness();
     expect(watch(2.5, 400, slowness)).toEqual([]);
     slowness.forget();

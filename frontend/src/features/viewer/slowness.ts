@@ -7,7 +7,7 @@ const STILL_MS = 600;
 
 /**
  * Judges whether a view draws too slowly. It counts pictures only while they are requested all the time: a
- * world that stands still needs none. Times are in ms.
+ * paused world needs none. Times are in ms.
  */
 export class Slowness {
   private since: number | null = null;
@@ -35,7 +35,7 @@ export class Slowness {
     return hz < LEAST_HZ ? hz : null;
   }
 
-  /** Begins anew: after a pause, or in a window that was hidden. */
+  /** Starts again: after a pause, or in a window that was hidden. */
   forget(): void {
     this.since = null;
     this.pictures = 0;

@@ -15,6 +15,7 @@ import './dock.css';
 import { t, translates } from '@/i18n';
 import { useProjectStore } from '@/store/project';
 import { forgetLayouts, keepLayout, type FrameWidth } from '@/workspace/layoutModel';
+import { keepLesson } from '@/workspace/lessons';
 import { renderTab } from './panels';
 import { PanelBadge } from './PanelBadge';
 import { Popouts, titleOf } from './popouts';
@@ -126,7 +127,9 @@ export function Dock({ model, width }: DockProps) {
     const { projectId } = useProjectStore.getState();
     keepSoon(() => {
       keepLayout(width, changed);
-      if (projectId) keepOpen(projectId, changed);
+      if (!projectId) return;
+      keepOpen(projectId, changed);
+      keepLesson(projectId, changed);
     });
   };
 

@@ -17,6 +17,8 @@ import { RunProgress } from '@/features/run/RunProgress';
 import { registerRunCommands } from '@/features/run/commands';
 import { registerRateCommands } from '@/features/run/rates';
 import { useRunReactions } from '@/features/run/useRunReactions';
+import { registerKeyCommands } from '@/features/keys/commands';
+import { RenameKeyDialog } from '@/features/keys/RenameKeyDialog';
 import { registerSearchCommands } from '@/features/search/commands';
 import { registerTopicCommands } from '@/features/topics/commands';
 import { ConnectDialog } from '@/features/topics/ConnectDialog';
@@ -34,6 +36,7 @@ import { CommandPalette } from '@/workspace/CommandPalette';
 import { Dock } from './Dock';
 import classes from './frame.module.css';
 import { loadLayout } from '@/workspace/layoutModel';
+import { openLesson } from '@/workspace/lessons';
 import { RestoredNotice } from './RestoredNotice';
 import { StatusBar } from './StatusBar';
 import {
@@ -96,6 +99,7 @@ function Workbench({ projectId }: StudioProps) {
       registerCanvasCommands(),
       registerRunCommands(),
       registerRateCommands(),
+      registerKeyCommands(),
       registerSearchCommands(),
       registerTopicCommands(),
       registerFrameCommands(),
@@ -127,6 +131,7 @@ function Workbench({ projectId }: StudioProps) {
     const fresh = loadLayout(width, hasWebGl());
     useTabs.setState({ model: fresh, width });
     reopen(projectId, useProjectStore.getState().mainTree);
+    openLesson(projectId);
     followFront(fresh);
   }, [model, modelWidth, width, projectId]);
 
@@ -152,6 +157,7 @@ function Workbench({ projectId }: StudioProps) {
       <Shortcuts />
       <PublishDialog />
       <ConnectDialog />
+      <RenameKeyDialog />
       <RestoredNotice />
     </div>
   );

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def summary(project: Project, root_diagram: dict[str, Any] | None) -> dict[str, Any]:
-    """Returns a project in the form of a list."""
+    """Returns a project in the form for lists."""
     return {
         "id": str(project.id),
         "name": project.name,
@@ -56,7 +56,7 @@ def file_info(existing: Existing) -> dict[str, Any]:
 
 
 class Opened(NamedTuple):
-    """An opened project, before it is checked."""
+    """The data of an opened project, before it is checked."""
 
     rows: dict[str, Any]
     contents: dict[str, bytes]

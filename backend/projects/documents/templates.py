@@ -81,8 +81,8 @@ def _empty_project() -> dict[str, bytes]:
         "format": "bt-studio/diagram",
         "version": 1,
         "id": "MainTree",
-        "root": "n1",
-        "nodes": {"n1": {"type": "Sequence", "children": []}},
+        "root": None,
+        "nodes": {},
         "drafts": [],
         "layout": "vertical",
     }

@@ -17,6 +17,7 @@ import { useProjectStore } from '@/store/project';
 import { forgetLayouts, keepLayout, type FrameWidth } from '@/workspace/layoutModel';
 import { keepLesson } from '@/workspace/lessons';
 import { renderTab } from './panels';
+import { cancelSplitters } from './cancelSplitters';
 import { PanelBadge } from './PanelBadge';
 import { Popouts, titleOf } from './popouts';
 import { cameraOf } from '@/workspace/cameraViews';
@@ -121,6 +122,7 @@ export function Dock({ model, width }: DockProps) {
   const keepSoon = useLater();
 
   const popouts = useMemo(() => new Popouts(model), [model]);
+  useEffect(() => cancelSplitters(document, model), [model]);
 
   const onModelChange = (changed: Model, _action: Action) => {
     followFront(changed);

@@ -32,11 +32,7 @@ def format_source(source: str, filename: str, run: Run) -> dict[str, Any]:
     """Returns the source as `ruff format` writes it; one that does not parse, unchanged with its errors.
 
     Raises:
-<<<<<<< HEAD
         PythonRefusedError: it is too long, or takes too long.
-=======
-        PythonRefusedError: the source cannot be parsed, is too long, or takes too long.
->>>>>>> main
     """
     status, output = _run(run, ["format", "--line-length", str(LINE_LENGTH)], source, filename)
     if status == 0:

@@ -1,7 +1,7 @@
 import { act, screen } from '@testing-library/react';
 import { describe, expect, it } from 'vitest';
 import { useRunStore } from '@/store/run/store';
-import { openSession, show } from '../../../harness/testing';
+import { openSession, show } from '../../../../harness/testing';
 import { fractionOf, RunProgress } from './RunProgress';
 
 const stage = (next: ReturnType<typeof useRunStore.getState>['stage']) => {

@@ -1,5 +1,5 @@
 import { act, screen } from '@testing-library/react';
-import { beforeEach, describe, expect, it } from 'vitest';
+import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import type { Fault } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
 import { useRunStore } from '@/store/run/store';
@@ -11,8 +11,9 @@ import {
   user,
   watchNavigation,
   type FakeExecutor,
-} from '../../../harness/testing';
-import { Banner } from './Banner';
+} from '../../../../harness/testing';
+import { registerRunCommands } from '../commands';
+import { RunStrip } from './RunStrip';
 
 const fault = (more: Partial<Fault>): Fault => ({
   kind: 'exception',
@@ -30,21 +31,41 @@ const fault = (more: Partial<Fault>): Fault => ({
 let executor: FakeExecutor;
 
 beforeEach(async () => {
+  onTestFinished(registerRunCommands());
   openProject({ trees: { Main: { d: { type: 'Go' } } }, texts: { 'actions/Go.py': '' } });
   executor = await openSession();
-  show(<Banner />);
+  show(<RunStrip />);
 });
 
-describe('Banner', () => {
-  it('says nothing while all is well', () => {
+describe('RunStrip', () => {
+  it('tells the state of the executor while all is well, at the same height', () => {
     expect(screen.queryByTestId('banner')).toBeNull();
+    expect(screen.getByTestId('run-strip')).not.toBeEmptyDOMElement();
+  });
+
+  it('shows the most important of several messages, and all of them on demand', async () => {
+    executor.emit('fault', fault({ message: 'first' }));
+    executor.emit('fault', fault({ message: 'second' }));
+    act(() => {
+      useSessionStore.setState({ connection: 'reconnecting' });
+    });
+    expect(screen.getByTestId('banner')).toHaveTextContent('The connection was lost');
+    const more = screen.getByRole('button', { name: 'All 3 messages' });
+    expect(more).toHaveTextContent('+2');
+    await user.click(more);
+    const rows = screen.getAllByTestId('strip-message');
+    expect(rows.map((row) => /first|second|connection/.exec(row.textContent)?.[0])).toEqual([
+      'connection',
+      'second',
+      'first',
+    ]);
   });
 
   it('names the line that failed, opens it, and is dismissed', async () => {
     const { openFile } = watchNavigation();
     executor.emit('fault', fault({ file: 'actions/Go.py', line: 12 }));
     const banner = screen.getByRole('alert');
-    expect(banner).toHaveTextContent('actions/Go.py, line 12:division by zeroCheck the divisor.');
+    expect(banner).toHaveTextContent('actions/Go.py, line 12: division by zero Check the divisor.');
     await user.click(screen.getByRole('button', { name: 'Open Go.py:12' }));
     expect(openFile).toHaveBeenCalledWith('actions/Go.py', 12);
     await user.click(screen.getByRole('button', { name: 'Dismiss' }));
@@ -74,7 +95,7 @@ describe('Banner', () => {
       });
     });
     expect(screen.getByRole('alert')).toHaveTextContent(
-      'The session could not be started.No room.Try later.',
+      'The session could not be started. No room. Try later.',
     );
     await user.click(screen.getByRole('button', { name: 'Dismiss' }));
     expect(useRunStore.getState().failure).toBeNull();
@@ -82,7 +103,7 @@ describe('Banner', () => {
 
   it('says why the run ended', () => {
     executor.emit('state-changed', { state: 'visualization_ready', reason: 'The world was killed.' });
-    expect(screen.getByRole('alert')).toHaveTextContent('The run ended:The world was killed.');
+    expect(screen.getByRole('alert')).toHaveTextContent('The run ended: The world was killed.');
   });
 
   it('speaks of silence without an alert for each second', () => {
@@ -99,11 +120,11 @@ describe('Banner', () => {
       useSessionStore.setState({ connection: 'reconnecting' });
     });
     expect(screen.getByRole('alert')).toHaveTextContent('The connection was lost; trying again.');
-    expect(screen.queryByRole('button')).toBeNull();
+    expect(screen.queryByRole('button', { name: 'Dismiss' })).toBeNull();
     act(() => {
       useSessionStore.setState({ connection: 'lost', connectionMessage: 'It was ended.' });
     });
-    expect(screen.getByRole('alert')).toHaveTextContent('The session has ended.It was ended.');
+    expect(screen.getByRole('alert')).toHaveTextContent('The session has ended. It was ended.');
     expect(screen.getByRole('button', { name: 'Run' })).toBeEnabled();
     await user.click(screen.getByRole('button', { name: 'Dismiss' }));
     expect(useSessionStore.getState().connection).toBe('off');

@@ -4,7 +4,7 @@ import type { Rung } from '@/generated/messages';
 import { cancelRun } from '@/store/run/run';
 import { useRunStore, type LaunchStage } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
-import classes from './run.module.css';
+import classes from './strip.module.css';
 
 const STAGES: LaunchStage[] = ['saving', 'checking', 'starting', 'launching'];
 const RUNGS: Rung[] = ['connect', 'launch_universe', 'prepare_visualization', 'run_application'];

@@ -1,6 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import type { Fault } from '@/generated/messages';
-import { bannerFor } from './banner';
+import { messagesFor, PRIORITY, type Situation } from './messages';
+
+const bannerFor = (situation: Situation) => messagesFor(situation)[0] ?? null;
 
 const calm = {
   connection: 'open',
@@ -10,6 +12,10 @@ const calm = {
   faults: [],
   failure: null,
   finished: null,
+  launchNodes: [],
+  viewer: null,
+  canRestart: false,
+  worldRuns: false,
 } as const;
 
 const fault = (more: Partial<Fault>): Fault => ({
@@ -119,5 +125,33 @@ describe('bannerFor', () => {
     const failure = { stage: 'launching' as const, code: 'BTR003', message, hint: '', diagnostics: [] };
     expect(bannerFor({ ...calm, failure })?.link).toEqual({ file: 'robots/mine/robot.yaml', line: 10 });
     expect(bannerFor({ ...calm, failure: { ...failure, message: 'at 10:25: no' } })?.link).toBeNull();
+  });
+});
+
+describe('messagesFor', () => {
+  it('lists all messages by their importance', () => {
+    const all = messagesFor({
+      ...calm,
+      connection: 'reconnecting',
+      faults: [fault({ message: 'boom' }), fault({ message: 'bang' }), fault({ message: 'boom' })],
+      viewer: { wasTakenOver: false },
+      canRestart: true,
+      worldRuns: true,
+    });
+    expect(all.map(({ kind }) => kind)).toEqual([
+      'connection',
+      'fault',
+      'fault',
+      'viewer',
+      'restart',
+      'world',
+    ]);
+    expect(new Set(PRIORITY).size).toBe(PRIORITY.length);
+    expect(new Set(all.map(({ id }) => id)).size).toBe(all.length);
+  });
+
+  it('does not repeat the end of a run that a fault explains', () => {
+    const faults = [fault({})];
+    expect(messagesFor({ ...calm, faults, executorReason: 'It ended.' })).toHaveLength(1);
   });
 });

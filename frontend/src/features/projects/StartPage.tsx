@@ -8,6 +8,7 @@ import { UserMenu } from '@/features/accounts/UserMenu';
 import { ThemeToggle } from '@/ui/ThemeToggle';
 import { Logo } from '@/ui/Logo';
 import { lazyPart } from '@/ui/parts';
+import { ExampleShelf } from './examples/ExampleShelf';
 import { LanguageMenu } from './LanguageMenu';
 import { ProjectList } from './ProjectList';
 import classes from './projects.module.css';
@@ -101,6 +102,7 @@ export function StartPage() {
           </Group>
           <TemplateCards onCreate={(template) => actions.create.mutate(template)} pending={pending} />
         </section>
+        <ExampleShelf onCreate={(template) => actions.create.mutate(template)} pending={pending} />
         <ProjectList actions={actions} searchField={searchField} />
         {isImporting ? (
           <Group gap="sm" role="status">

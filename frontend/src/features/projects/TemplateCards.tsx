@@ -2,6 +2,7 @@ import { Loader, Text, UnstyledButton } from '@mantine/core';
 import { IconPlus } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import type { TemplateInfo } from '@/api/types';
+import { isExample } from './examples/shelf';
 import classes from './projects.module.css';
 import { templateText, useSortedTemplates } from './templates';
 import { TreePicture } from './TreePicture';
@@ -12,11 +13,13 @@ interface TemplateCardsProps {
   readonly pending: string | null;
 }
 
+/** The templates that are no examples: the empty project, and those of the server. */
 export function TemplateCards({ onCreate, pending }: TemplateCardsProps) {
   const { t } = useTranslation('projects');
+  const templates = useSortedTemplates().filter(({ id }) => !isExample(id));
   return (
     <div className={classes['templates']}>
-      {useSortedTemplates().map((template) => (
+      {templates.map((template) => (
         <UnstyledButton
           key={template.id}
           className={classes['template']}

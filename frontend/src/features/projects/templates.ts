@@ -4,9 +4,10 @@ import { useMemo } from 'react';
 import { api } from '@/api/client';
 import type { TemplateInfo } from '@/api/types';
 import { translates } from '@/i18n';
+import { SHELF } from './examples/shelf';
 
 /** The order of known templates; others follow. */
-const ORDER = ['laser_bump_and_go', 'visual_follow_person', 'empty'];
+const ORDER: readonly string[] = [...SHELF.map(([id]) => id), 'empty'];
 
 const EMPTY: TemplateInfo = { id: 'empty', name: '', description: '' };
 

@@ -8,13 +8,16 @@ import {
   type TabNode,
 } from 'flexlayout-react';
 import { IconChevronsDown, IconFileCode, IconFileText, IconGitFork, IconHistory } from '@tabler/icons-react';
-import { useCallback, useEffect, useMemo, useRef } from 'react';
+import { useCallback, useEffect, useMemo, useRef, type RefObject } from 'react';
 import { useTranslation } from 'react-i18next';
 import 'flexlayout-react/style/light.css';
 import './dock.css';
+import classes from './frame.module.css';
 import { t, translates } from '@/i18n';
 import { useProjectStore } from '@/store/project';
 import { forgetLayouts, keepLayout, type FrameWidth } from '@/workspace/layoutModel';
+import { markCutTabs } from './cutTabs';
+import { panelIcon } from './panelIcons';
 import { renderTab } from './panels';
 import { PanelBadge } from './PanelBadge';
 import { Popouts } from './popouts';
@@ -38,7 +41,10 @@ function renderTabButton(node: TabNode, values: ITabRenderValues): void {
       <IconFileText size={15} aria-hidden="true" />
     );
   }
-  if (!tab) values.buttons.push(<PanelBadge key="badge" panel={node.getId()} />);
+  if (tab) return;
+  const Icon = panelIcon(node.getId());
+  if (Icon) values.leading = <Icon size={16} data-panel-icon aria-hidden="true" />;
+  values.buttons.push(<PanelBadge key="badge" panel={node.getId()} />);
 }
 
 /** The button for tabs that do not fit; it shows their number. */
@@ -104,15 +110,36 @@ function useLater(): (act: () => void) => void {
   };
 }
 
+/** Shows icons on tabs whose names do not fit, after each change of the layout, its size or the language. */
+function useCutTabs(language: string): { root: RefObject<HTMLDivElement | null>; measure: () => void } {
+  const root = useRef<HTMLDivElement>(null);
+  // After the docking library has drawn the change.
+  const measure = useCallback(() => {
+    requestAnimationFrame(() => {
+      if (root.current) markCutTabs(root.current);
+    });
+  }, []);
+  useEffect(() => {
+    if (!root.current) return undefined;
+    const observer = new ResizeObserver(measure);
+    observer.observe(root.current);
+    return () => observer.disconnect();
+  }, [measure]);
+  useEffect(measure, [measure, language]);
+  return { root, measure };
+}
+
 /** The panels, which the user can arrange. */
 export function Dock({ model, width }: DockProps) {
-  useTranslation('frame');
+  const { i18n } = useTranslation('frame');
+  const { root, measure } = useCutTabs(i18n.language);
   const keepSoon = useLater();
 
   const popouts = useMemo(() => new Popouts(model), [model]);
 
   const onModelChange = (changed: Model, _action: Action) => {
     followFront(changed);
+    measure();
     const { projectId } = useProjectStore.getState();
     keepSoon(() => {
       keepLayout(width, changed);
@@ -121,20 +148,22 @@ export function Dock({ model, width }: DockProps) {
   };
 
   return (
-    <Layout
-      model={model}
-      factory={renderTab}
-      icons={ICONS}
-      onRenderTab={renderTabButton}
-      onModelChange={onModelChange}
-      onAction={popouts.onAction}
-      onPopoutOpen={popouts.onOpen}
-      onPopoutClose={popouts.onClose}
-      popoutURL="/popout.html"
-      i18nTranslator={translated}
-      invalidateTabContentOnParentRender={false}
-      realtimeResize
-    />
+    <div ref={root} className={classes['dockRoot']}>
+      <Layout
+        model={model}
+        factory={renderTab}
+        icons={ICONS}
+        onRenderTab={renderTabButton}
+        onModelChange={onModelChange}
+        onAction={popouts.onAction}
+        onPopoutOpen={popouts.onOpen}
+        onPopoutClose={popouts.onClose}
+        popoutURL="/popout.html"
+        i18nTranslator={translated}
+        invalidateTabContentOnParentRender={false}
+        realtimeResize
+      />
+    </div>
   );
 }
 

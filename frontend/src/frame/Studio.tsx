@@ -1,3 +1,4 @@
+import '@/i18n/editorTexts';
 import { Button, Center, Stack, Text, Title } from '@mantine/core';
 import { useMediaQuery } from '@mantine/hooks';
 import { useEffect } from 'react';

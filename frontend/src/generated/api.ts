@@ -1362,6 +1362,8 @@ export interface components {
             root_diagram: {
                 [key: string]: unknown;
             } | null;
+            /** @description Types of the tree that are conditions. */
+            conditions: string[];
             settings: {
                 [key: string]: unknown;
             };
@@ -1403,6 +1405,8 @@ export interface components {
             root_diagram: {
                 [key: string]: unknown;
             } | null;
+            /** @description Types of the tree that are conditions. */
+            conditions: string[];
         };
         /** @description The tree that was read from a text. */
         ReadTreeDone: {
@@ -1522,6 +1526,8 @@ export interface components {
             root_diagram: {
                 [key: string]: unknown;
             } | null;
+            /** @description Types of the tree that are conditions. */
+            conditions: string[];
         };
         /** @description Templates, the empty project first. */
         TemplateList: {

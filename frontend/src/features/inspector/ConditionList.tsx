@@ -35,7 +35,7 @@ export function ConditionList({ diagram, id, node }: Target) {
       action={
         <Menu position="bottom-end">
           <Menu.Target>
-            <ActionIcon size={22} aria-label={t('addCondition')} title={t('addCondition')}>
+            <ActionIcon size={24} aria-label={t('addCondition')} title={t('addCondition')}>
               <IconPlus size={15} aria-hidden="true" />
             </ActionIcon>
           </Menu.Target>
@@ -74,7 +74,7 @@ export function ConditionList({ diagram, id, node }: Target) {
             />
           </div>
           <ActionIcon
-            size={22}
+            size={24}
             aria-label={t('removeCondition', { name: t(`condition.${name}`) })}
             onClick={() => {
               change('condition', [setCondition(id, name, null)]);

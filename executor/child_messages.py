@@ -110,6 +110,7 @@ class Subscribe(_Message, tag="subscribe"):
     max_hz: float = 30.0
     width: int | None = None
     camera_pose: messages.CameraPose | None = None
+    sensor: str = ""
 
 
 class Unsubscribe(_Message, tag="unsubscribe"):
@@ -117,6 +118,7 @@ class Unsubscribe(_Message, tag="unsubscribe"):
 
     client: str
     stream: messages.StreamName
+    sensor: str = ""
 
 
 class Pace(_Message, tag="pace"):
@@ -299,6 +301,8 @@ class TypeDescription(_Asked, tag="type_description"):
 
 class Frame(_Message, tag="frame"):
     """A frame of the stream socket for one client (None: for all).
+
+    `stream` names what it replaces while unsent: the stream, or `camera/NAME` of a camera asked for by name.
 
     `data` is the encoded frame and passes through the manager as it is. Frames may be dropped in favour of
     newer ones, unless `keep` is set: later frames refer to a scene.

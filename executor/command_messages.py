@@ -15,6 +15,7 @@ Speed = Annotated[float, Meta(ge=0, le=10)]
 StreamRate = Annotated[float, Meta(gt=0, le=120)]
 StreamWidth = Annotated[int, Meta(ge=64, le=1920)]
 DomainId = Annotated[int, Meta(ge=0, le=232)]
+CameraName = Annotated[str, Meta(max_length=128)]
 FileName = Annotated[str, Meta(min_length=1, max_length=255)]
 Velocity = Annotated[float, Meta(ge=-1000, le=1000)]
 
@@ -103,18 +104,24 @@ class CameraPose(Struct, forbid_unknown_fields=True):
 
 
 class Subscribe(Struct, forbid_unknown_fields=True):
-    """Subscribes to a stream on this client's stream socket, or changes a subscription."""
+    """Subscribes to a stream on this client's stream socket, or changes a subscription.
+
+    Each camera is a subscription of its own: `sensor` names it as its `camera` frames do, by the sensor's
+    name, and `robot/sensor` for every robot but the first. "" is the first camera of the world.
+    """
 
     stream: StreamName
     max_hz: StreamRate = 30.0
     width: StreamWidth | None = None
     camera_pose: CameraPose | None = None
+    sensor: CameraName = ""
 
 
 class Unsubscribe(Struct, forbid_unknown_fields=True):
-    """Ends a stream."""
+    """Ends a stream; of `camera` that of the same `sensor`."""
 
     stream: StreamName
+    sensor: CameraName = ""
 
 
 class EchoTopic(Struct, forbid_unknown_fields=True):

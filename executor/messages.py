@@ -176,12 +176,16 @@ class Tree(Struct):
 
 
 class Tick(Struct):
-    """The changes of one tick."""
+    """The changes of one tick, or of a halt after it: then `n` is that of the tick.
+
+    `past` replaces that of the message before: nodes that are idle again, with their last status in the tick.
+    """
 
     n: int
     changed: list[tuple[int, NodeStatus]]
     flashed: list[tuple[int, NodeStatus]]
     duration_ms: float
+    past: list[tuple[int, NodeStatus]] = []
 
 
 class BlackboardEntry(Struct):
@@ -229,11 +233,14 @@ class Fault(Struct):
 
 
 class Finished(Struct):
-    """The run ended."""
+    """The run ended; if the root returned its status, the node is the lowest one that decided it."""
 
     status: NodeStatus
     reason: FinishReason
     message: str = ""
+    node_id: str = ""
+    tree_id: str = ""
+    node_path: str = ""
 
 
 class Sim(Struct):
@@ -350,6 +357,8 @@ class Snapshot(Struct):
     universe: str
     launch_nodes: list[LaunchNode] = []
     mismatches: list[TopicMismatch] = []
+    past: list[tuple[int, NodeStatus]] = []
+    finished: Finished | None = None
 
 
 EVENTS: Final[dict[str, type[Struct]]] = {

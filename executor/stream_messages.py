@@ -123,7 +123,10 @@ class Scan(Struct, tag="scan", tag_field="type"):
 
 
 class Camera(Struct, tag="camera", tag_field="type"):
-    """One image of a robot's camera, or of the server's view of the world (`view`)."""
+    """One image of a robot's camera.
+
+    `sensor` is the sensor's name, and `robot/sensor` for every robot but the first.
+    """
 
     t: float
     sensor: str

@@ -8,13 +8,14 @@ import traceback
 from typing import TYPE_CHECKING, Any, Final
 
 from executor import child_messages
+from executor.application.last_tick import LastTick
 from executor.application.preview import preview
 from executor.messages import BlackboardEntry, TreeNode
 from tree_gardener import BlackboardChange, LoadError, Status, TickError
 from tree_gardener.stubs import stubs_sentence, unwritten
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable, Sequence
 
     from executor.application.locate import Place
     from executor.messages import FaultKind, FinishReason, NodeStatus
@@ -88,9 +89,12 @@ class Reporter:
         self._ticks_due_s = 0.0
         self._faults_s: dict[tuple[str, str], float] = {}
         self._stubs = ""
+        self._last = LastTick()
+        self._nodes: Sequence[Node] = ()
 
     def tree(self, tree: Tree) -> None:
         """Reports the nodes of a new tree."""
+        self._nodes = tree.nodes
         self._send(child_messages.Tree(describe_tree(tree)))
 
     def stubs(self, tree: Tree) -> None:
@@ -104,24 +108,26 @@ class Reporter:
         self._send(child_messages.Log("warning", message, node.node_id, node.path))
 
     def ended(self, status: Status) -> None:
-        """Reports that the root succeeded, failed or was skipped."""
+        """Reports that the root succeeded, failed or was skipped, and the node that decided it."""
         text = f"The tree ended with {status.name}. {self._stubs}".strip()
-        self.finished(status, "root_finished", text)
+        self.finished(status, "root_finished", text, self._last.decider(self._nodes, status))
 
     def ticked(self, changes: TickChanges) -> None:
-        """Reports a tick."""
+        """Reports a tick, or the halt after it."""
         now_s = self._clock()
         for entry in changes.blackboard:
             self._entries[entry.scope, entry.key] = entry
-        if changes.changed or changes.flashed or now_s >= self._ticks_due_s:
+        has_past_changed = self._last.take(changes)
+        if changes.changed or changes.flashed or has_past_changed or now_s >= self._ticks_due_s:
             self._ticks_due_s = now_s + IDLE_TICK_INTERVAL_S
             self._send(
                 child_messages.Tick(
                     n=changes.tick,
                     t=self._now_s(),
-                    changed=[(uid, _NAMES[status]) for uid, status in changes.changed],
-                    flashed=[(uid, _NAMES[status]) for uid, status in changes.flashed],
+                    changed=_named(changes.changed),
+                    flashed=_named(changes.flashed),
                     duration_ms=changes.duration_s * 1000.0,
+                    past=_named(self._last.past.items()),
                 )
             )
         self.flush()
@@ -193,11 +199,17 @@ class Reporter:
         hint = "update() must return soon: let it return RUNNING while work continues."
         self._fault("timeout", message, hint=hint, **_place(place))
 
-    def finished(self, status: Status | None, reason: FinishReason, message: str) -> None:
-        """Reports that the run ended by itself."""
+    def finished(
+        self, status: Status | None, reason: FinishReason, message: str, decider: Node | None = None
+    ) -> None:
+        """Reports that the run ended by itself; `decider` is the node from which the root has its status."""
         self.flush(now=True)
         name = _NAMES[status] if status is not None else "FAILURE"
-        self._send(child_messages.Finished(name, reason, message))
+        finished = child_messages.Finished(name, reason, message)
+        if decider is not None:
+            finished.node_path = decider.path
+            finished.node_id, finished.tree_id = decider.node_id, decider.tree_id
+        self._send(finished)
 
     def _fault(self, kind: FaultKind, message: str, **fields: Any) -> None:
         self._send(child_messages.Fault(kind, message, **fields))
@@ -206,6 +218,10 @@ class Reporter:
 def _entry(change: BlackboardChange) -> BlackboardEntry:
     value, is_preview = (None, False) if change.removed else preview(change.value)
     return BlackboardEntry(change.scope, change.key, change.type, value, is_preview, change.removed)
+
+
+def _named(statuses: Iterable[tuple[int, Status]]) -> list[tuple[int, NodeStatus]]:
+    return [(uid, _NAMES[status]) for uid, status in statuses]
 
 
 def _place(place: Place) -> dict[str, Any]:

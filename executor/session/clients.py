@@ -13,11 +13,12 @@ if TYPE_CHECKING:
 
     from msgspec import Struct
 
-__all__ = ["MOST_ECHOED_BY_VIEWER", "Clients"]
+__all__ = ["MOST_ECHOED_BY_VIEWER", "MOST_STREAMS", "Clients"]
 
 REMEMBERED: Final = 32
 # Half of the world's limit for all clients, so that viewers cannot use up the driver's share.
 MOST_ECHOED_BY_VIEWER: Final = 12
+MOST_STREAMS: Final = 24
 
 
 @dataclass
@@ -25,7 +26,7 @@ class _Client:
     is_here: bool = True
     left_s: float = 0.0
     has_stream: bool = False
-    streams: dict[StreamName, Subscribe] = field(default_factory=dict)
+    streams: dict[tuple[StreamName, str], Subscribe] = field(default_factory=dict)
     echoed: dict[str, float] = field(default_factory=dict)
 
 
@@ -116,11 +117,16 @@ class Clients:
 
     def subscribe(self, client: str, data: Subscribe) -> None:
         """Stores a subscription."""
-        self._clients[client].streams[data.stream] = data
+        self._clients[client].streams[data.stream, data.sensor] = data
 
-    def unsubscribe(self, client: str, stream: StreamName) -> None:
+    def subscribes_to_too_many(self, client: str, data: Subscribe) -> bool:
+        """Whether a client has reached its limit of subscriptions, without this one."""
+        streams = self._clients[client].streams
+        return len(streams) >= MOST_STREAMS and (data.stream, data.sensor) not in streams
+
+    def unsubscribe(self, client: str, stream: StreamName, sensor: str) -> None:
         """Removes a subscription."""
-        self._clients[client].streams.pop(stream, None)
+        self._clients[client].streams.pop((stream, sensor), None)
 
     def streams_of(self, client: str) -> list[Subscribe]:
         """Returns the subscriptions that can be served to a client."""

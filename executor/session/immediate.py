@@ -8,7 +8,7 @@ from msgspec import Struct
 
 from executor import child_messages, messages
 from executor.session import streaming
-from executor.session.clients import MOST_ECHOED_BY_VIEWER
+from executor.session.clients import MOST_ECHOED_BY_VIEWER, MOST_STREAMS
 from executor.session.ladder import State
 from executor.session.questions import ANSWER_S
 from executor.session.steps import RESET_TIMEOUT_S
@@ -74,14 +74,18 @@ def _reset_world(stage: Stage, event: CommandCame, _: Struct) -> None:
 
 
 def _subscribe(stage: Stage, event: CommandCame, data: messages.Subscribe) -> None:
+    if stage.clients.subscribes_to_too_many(event.client, data):
+        text = f"A client may subscribe to {MOST_STREAMS} streams at once."
+        stage.output.refuse(event, "too_many", text, "Close the view of another camera first.")
+        return
     stage.clients.subscribe(event.client, data)
     if stage.clients.has_stream(event.client) and stage.state.reaches(State.VISUALIZATION_READY):
         streaming.subscribe(stage, event.client, data)
 
 
 def _unsubscribe(stage: Stage, event: CommandCame, data: messages.Unsubscribe) -> None:
-    stage.clients.unsubscribe(event.client, data.stream)
-    stage.children.tell_world(child_messages.Unsubscribe(event.client, data.stream))
+    stage.clients.unsubscribe(event.client, data.stream, data.sensor)
+    stage.children.tell_world(child_messages.Unsubscribe(event.client, data.stream, data.sensor))
 
 
 def _teleop(stage: Stage, _: CommandCame, data: messages.Teleop) -> None:

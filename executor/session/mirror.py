@@ -13,6 +13,7 @@ from executor.messages import (
     Blackboard,
     BlackboardEntry,
     Fault,
+    Finished,
     LaunchNode,
     LaunchNodes,
     Log,
@@ -45,6 +46,8 @@ class Mirror:
         self.state = State.IDLE
         self.tree: Tree | None = None
         self.statuses: dict[int, NodeStatus] = {}
+        self.past: list[tuple[int, NodeStatus]] = []
+        self.finished: Finished | None = None
         self.blackboard: dict[tuple[str, str], BlackboardEntry] = {}
         self.logs: deque[Log] = deque(maxlen=LOG_LINES)
         self.launch_nodes: list[LaunchNode] = []
@@ -61,6 +64,8 @@ class Mirror:
         """Removes the state of the run before."""
         self.tree = None
         self.statuses.clear()
+        self.past = []
+        self.finished = None
         self.blackboard.clear()
         self.faults.clear()
         self.tick = 0
@@ -79,6 +84,9 @@ class Mirror:
                 self.tick = event.n
                 self.tick_ms += (event.duration_ms - self.tick_ms) * (SMOOTHING if self.tick > 1 else 1.0)
                 self.statuses.update(event.changed)
+                self.past = event.past
+            case Finished():
+                self.finished = event
             case Blackboard():
                 self._apply_entries(event.entries)
             case Log():
@@ -114,6 +122,8 @@ class Mirror:
             universe=self.universe,
             launch_nodes=self.launch_nodes,
             mismatches=list(self.mismatches),
+            past=self.past,
+            finished=self.finished,
         )
 
     def _apply_entries(self, entries: list[BlackboardEntry]) -> None:

@@ -29,7 +29,7 @@ def take(stage: Stage, event: StreamOpened | StreamClosed | StreamPaced) -> None
 def subscribe(stage: Stage, client: str, data: messages.Subscribe) -> None:
     """Asks the world for one stream."""
     stage.children.tell_world(
-        child_messages.Subscribe(client, data.stream, data.max_hz, data.width, data.camera_pose)
+        child_messages.Subscribe(client, data.stream, data.max_hz, data.width, data.camera_pose, data.sensor)
     )
 
 
@@ -42,7 +42,7 @@ def open_all(stage: Stage) -> None:
 def close_all(stage: Stage) -> None:
     """Asks the world to end all streams."""
     for client, data in stage.clients.wanted_streams():
-        stage.children.tell_world(child_messages.Unsubscribe(client, data.stream))
+        stage.children.tell_world(child_messages.Unsubscribe(client, data.stream, data.sensor))
 
 
 def resume_echoes(stage: Stage) -> None:
@@ -60,5 +60,5 @@ def _open(stage: Stage, client: str) -> None:
 
 def _close(stage: Stage, client: str) -> None:
     for data in stage.clients.streams_of(client):
-        stage.children.tell_world(child_messages.Unsubscribe(client, data.stream))
+        stage.children.tell_world(child_messages.Unsubscribe(client, data.stream, data.sensor))
     stage.clients.set_stream(client, is_open=False)

@@ -96,7 +96,7 @@ class StreamOutbox:
             self._frames.pop("poses", None)
         waiting = self._frames.get(stream)
         self._frames[stream] = data if waiting is None else supersede(waiting, data)
-        if stream in PICTURES:
+        if stream.partition("/")[0] in PICTURES:
             self._pictures += 1
             self._lost += waiting is not None
         self._filled.set()

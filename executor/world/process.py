@@ -166,9 +166,10 @@ class WorldProcess:
                     max_hz=message.max_hz,
                     width=message.width,
                     camera_pose=message.camera_pose,
+                    sensor=message.sensor,
                 )
             case child_messages.Unsubscribe():
-                loop.streams.unsubscribe(message.client, message.stream)
+                loop.streams.unsubscribe(message.client, message.stream, sensor=message.sensor)
             case child_messages.Pace():
                 loop.streams.pace(message.client, message.lost)
 

@@ -29,6 +29,13 @@ def one_read() -> None:
     at_once.locked = rows.locked
 
 
+def room() -> None:
+    """Sums the sizes of the owner's other projects by the ORM."""
+    from backend.projects.storage import at_once
+
+    at_once.taken_by_others = lambda project: None
+
+
 def threads() -> None:
     """Python's thread pool, whose threads take turns."""
     from backend.ingress import handler
@@ -146,6 +153,7 @@ PIECES: dict[str, Callable[[], None]] = {
     for piece in (
         one_write,
         one_read,
+        room,
         own_projects,
         contents,
         lists,

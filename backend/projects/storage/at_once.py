@@ -39,6 +39,7 @@ _NEWER: Final = (
     "ON CONFLICT (project_id, path_key) DO UPDATE SET path = EXCLUDED.path, revision = EXCLUDED.revision, "
     "updated_at = EXCLUDED.updated_at, blob_id = EXCLUDED.blob_id"
 )
+_OTHERS: Final = "bytes_of_others"
 
 
 def is_here() -> bool:
@@ -52,15 +53,30 @@ def has_room(writing: Writing) -> bool:
 
 
 def locked(project_id: UUID) -> Project | None:
-    """Returns a project that is not deleted, and takes its lock and that of the blobs."""
+    """Returns a project that is not deleted, and takes its lock and that of the blobs.
+
+    The statement also reads what `taken_by_others` returns.
+    """
     return next(iter(Project.objects.raw(_locked_sql(), [project_id])), None)
+
+
+def taken_by_others(project: Project) -> int | None:
+    """Returns the bytes of the owner's other projects if `locked` read this project, else None."""
+    return vars(project).get(_OTHERS)
 
 
 @lru_cache(maxsize=1)
 def _locked_sql() -> str:
+    table = _table(Project)
     lock = f"pg_advisory_xact_lock_shared({lock_number(BLOBS)})"
-    where = "WHERE id = %s AND deleted_at IS NULL FOR UPDATE"
-    return f"SELECT *, {lock} FROM {_table(Project)} {where}"  # noqa: S608 - names of ours alone
+    others = (
+        f"SELECT COALESCE(SUM(size), 0)::bigint FROM {table} AS other "  # noqa: S608 - names of ours alone
+        "WHERE other.owner_id = own.owner_id AND other.deleted_at IS NULL AND other.id <> own.id"
+    )
+    return (
+        f"SELECT own.*, {lock}, ({others}) AS {_OTHERS} FROM {table} AS own "  # noqa: S608 - as above
+        "WHERE own.id = %s AND own.deleted_at IS NULL FOR UPDATE OF own"
+    )
 
 
 def write(writing: Writing) -> None:

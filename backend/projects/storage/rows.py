@@ -77,6 +77,12 @@ def action_blobs(projects: Sequence[UUID], paths: Sequence[str]) -> dict[tuple[U
 
 def taken_by_others(project: Project) -> int:
     """Returns the bytes that all other projects of the owner take."""
+    known = at_once.taken_by_others(project)
+    return summed_others(project) if known is None else known
+
+
+def summed_others(project: Project) -> int:
+    """Returns the same by the ORM."""
     others = Project.objects.filter(owner_id=project.owner_id, deleted_at=None).exclude(pk=project.pk)
     return int(others.aggregate(total=Sum("size"))["total"] or 0)
 

@@ -35,7 +35,7 @@ class _NoStreams:
     def subscribe(self, client: str | None, stream: str, **wishes: Any) -> None:
         """Sends nothing."""
 
-    def unsubscribe(self, client: str | None, stream: str) -> None:
+    def unsubscribe(self, client: str | None, stream: str, *, sensor: str) -> None:
         """Ends nothing."""
 
     def pace(self, client: str | None, lost: float) -> None:

@@ -19,6 +19,7 @@ from executor.child_messages import Frame
 from executor.messages import Camera, CameraPose, Poses, Scan, StreamName, View
 from executor.render.interface import look_at
 from executor.stream.pose_codec import pack
+from executor.world.sensing.cameras import find_camera
 from executor.world.simulation.adaptation import LEVELS, Adaptation, Level, ViewSize
 
 if TYPE_CHECKING:
@@ -47,10 +48,11 @@ _encode = msgspec.msgpack.Encoder().encode
 
 @dataclass
 class Subscription:
-    """One stream of one client, and its last frame."""
+    """One stream of one client, and its last frame. `sensor` names a camera, "" the first one."""
 
     client: str | None
     stream: StreamName
+    sensor: str
     max_hz: float
     width: int | None
     camera_pose: CameraPose
@@ -73,19 +75,19 @@ class Streams:
         self._rests_until_s = -math.inf
         self.camera_share = 1.0
         """Share of their rates at which cameras draw."""
-        self._subscriptions: dict[tuple[str | None, str], Subscription] = {}
+        self._subscriptions: dict[tuple[str | None, str, str], Subscription] = {}
         self._adaptations: dict[str | None, Adaptation[Level]] = {}
         self._encoded: tuple[NDArray[np.uint8] | None, int, bytes] = (None, 0, b"")
 
     @property
     def has_camera(self) -> bool:
         """Whether a client subscribes to a camera."""
-        return any(stream == "camera" for _, stream in self._subscriptions)
+        return any(stream == "camera" for _, stream, _ in self._subscriptions)
 
     def __len__(self) -> int:
         return len(self._subscriptions)
 
-    def subscribe(
+    def subscribe(  # noqa: PLR0913 - the wishes of one message
         self,
         client: str | None,
         stream: StreamName,
@@ -93,21 +95,22 @@ class Streams:
         max_hz: float = 30.0,
         width: int | None = None,
         camera_pose: CameraPose | None = None,
+        sensor: str = "",
     ) -> None:
-        """Starts a stream, or changes it."""
+        """Starts a stream, or changes it. Each camera is a stream of its own."""
         rate = min(max(max_hz, 0.1), MAX_HZ[stream])
         wide = None if width is None else min(max(width, WIDTHS[0]), WIDTHS[1])
-        old = self._subscriptions.get((client, stream))
+        old = self._subscriptions.get((client, stream, sensor))
         view = camera_pose or (old.camera_pose if old else DEFAULT_VIEW)
-        new = Subscription(client, stream, rate, wide, view)
+        new = Subscription(client, stream, sensor, rate, wide, view)
         if old is not None:
             # The scene is unchanged, so it is not sent to the client again.
             new.next_s, new.poses, new.size = old.next_s, old.poses, old.size
-        self._subscriptions[client, stream] = new
+        self._subscriptions[client, stream, sensor] = new
 
-    def unsubscribe(self, client: str | None, stream: str) -> None:
+    def unsubscribe(self, client: str | None, stream: str, *, sensor: str = "") -> None:
         """Ends a stream, if there is one."""
-        self._subscriptions.pop((client, stream), None)
+        self._subscriptions.pop((client, stream, sensor), None)
         if not any(one.client == client for one in self._subscriptions.values()):
             self._adaptations.pop(client, None)
 
@@ -162,23 +165,22 @@ class Streams:
         """Identifies the measurement of a frame; a sensor makes no more of them than its rate."""
         if subscription.stream == "view":
             return self._sensors.version
-        rates = [
-            sensor.rate_hz * share
-            for robot in self._world.robots[:1]
-            for sensors, share in (
-                (robot.config.lidars, 1.0)
-                if subscription.stream == "scan"
-                else (robot.config.cameras, self.camera_share),
-            )
-            for sensor in sensors[:1]
-        ]
-        return int(self._world.time_s * rates[0] + 1e-6) if rates else None
+        rate_hz = self._rate_hz(subscription)
+        return None if rate_hz is None else int(self._world.time_s * rate_hz + 1e-6)
+
+    def _rate_hz(self, subscription: Subscription) -> float | None:
+        """Returns the rate of a subscription's sensor, or None if the world has no such sensor."""
+        if subscription.stream == "camera":
+            found = find_camera(self._world, subscription.sensor)
+            return None if found is None else found[2].rate_hz * self.camera_share
+        lidars = [lidar for robot in self._world.robots[:1] for lidar in robot.config.lidars]
+        return lidars[0].rate_hz if lidars else None
 
     def _frame(self, subscription: Subscription) -> Struct | None:
         if subscription.stream == "view":
             return self._view(subscription)
-        robot = self._world.robots[0]
         if subscription.stream == "scan":
+            robot = self._world.robots[0]
             lidar = robot.config.lidars[0]
             reading = self._sensors.scan(robot, lidar)
             return Scan(
@@ -190,14 +192,20 @@ class Streams:
                 range_max=lidar.range_max,
                 ranges=reading.ranges.astype("<f4").tobytes(),
             )
-        camera = robot.config.cameras[0]
+        return self._camera(subscription)
+
+    def _camera(self, subscription: Subscription) -> Camera | None:
+        found = find_camera(self._world, subscription.sensor)
+        if found is None:
+            return None
+        name, robot, camera = found
         level = self._level(subscription.client)
         wide = max(WIDTHS[0], round((subscription.width or camera.width) * level.width))
         picture = self._sensors.picture(robot, camera, wide)
         height, width = picture.shape[:2]
         return Camera(
             t=self._world.time_s,
-            sensor=camera.name,
+            sensor=name,
             width=width,
             height=height,
             jpeg=_jpeg(picture, level.quality),
@@ -256,7 +264,11 @@ class Streams:
     def _emit(
         self, subscription: Subscription, frame: Struct, *, stream: str = "", keep: bool = False
     ) -> None:
-        self._send(Frame(subscription.client, stream or subscription.stream, _encode(frame), keep))
+        lane: str = subscription.stream
+        if subscription.sensor:
+            # A picture of one camera must not replace a waiting one of another.
+            lane = f"{lane}/{subscription.sensor}"
+        self._send(Frame(subscription.client, stream or lane, _encode(frame), keep))
 
 
 def _jpeg(picture: NDArray[np.uint8], quality: int) -> bytes:

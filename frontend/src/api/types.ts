@@ -19,6 +19,8 @@ export type ActionPort = Needs<Server['Port'], 'name' | 'direction' | 'type'>;
 export type ActionModel = Needs<Omit<Server['Action'], 'ports' | 'diagnostics'>, 'name' | 'kind' | 'open'> & {
   ports: ActionPort[];
   diagnostics?: Diagnostic[];
+  /** Set by the page: the Python cannot be read now, and this is its last declaration. */
+  outdated?: boolean;
 };
 
 /** Answers that tell of a project what the translator found in it. */

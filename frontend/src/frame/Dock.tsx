@@ -20,7 +20,8 @@ import { markCutTabs } from './cutTabs';
 import { panelIcon } from './panelIcons';
 import { renderTab } from './panels';
 import { PanelBadge } from './PanelBadge';
-import { Popouts } from './popouts';
+import { Popouts, titleOf } from './popouts';
+import { cameraOf } from '@/workspace/cameraViews';
 import { documentOf, followFront, keepOpen, useTabs } from '@/workspace/tabs';
 
 const KEEP_AFTER_MS = 300;
@@ -41,8 +42,12 @@ function renderTabButton(node: TabNode, values: ITabRenderValues): void {
       <IconFileText size={15} aria-hidden="true" />
     );
   }
+  const camera = cameraOf(node);
+  const title = `${titleOf(node)} · ${camera}`;
+  // The library takes the tab's accessible name from here too, but its type does not say so.
+  if (camera !== null) Object.assign(values, { content: title, name: title });
   if (tab) return;
-  const Icon = panelIcon(node.getId());
+  const Icon = panelIcon(node.getComponent() ?? '');
   if (Icon) values.leading = <Icon size={16} data-panel-icon aria-hidden="true" />;
   values.buttons.push(<PanelBadge key="badge" panel={node.getId()} />);
 }

@@ -17,6 +17,7 @@ const ROWS = [
   'project.takeAway',
   null,
   'run.resetWorld',
+  'view.search',
   'view.history',
   'view.xml',
   'view.shortcuts',

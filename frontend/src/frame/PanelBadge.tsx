@@ -1,4 +1,5 @@
-import { useProjectStore } from '@/store/project';
+import { countProblems } from '@/store/problems/list';
+import { useProblems } from '@/store/problems/useProblems';
 import classes from './frame.module.css';
 
 interface PanelBadgeProps {
@@ -7,13 +8,18 @@ interface PanelBadgeProps {
 
 /** The number of problems, on the tab of their panel. */
 export function PanelBadge({ panel }: PanelBadgeProps) {
-  const diagnostics = useProjectStore((state) => state.diagnostics);
-  const errors = diagnostics.filter((item) => item.severity === 'error').length;
-  const warnings = diagnostics.filter((item) => item.severity === 'warning').length;
-  if (panel !== 'problems' || errors + warnings === 0) return null;
+  return panel === 'problems' ? <ProblemsBadge /> : null;
+}
+
+function ProblemsBadge() {
+  const { errors, warnings } = countProblems(useProblems());
+  if (errors + warnings === 0) return null;
   return (
-    <span className={classes['badge']} data-severity={errors > 0 ? 'error' : 'warning'}>
-      {errors > 0 ? errors : warnings}
-    </span>
+    <span
+      className={classes['badge']}
+      data-severity={errors > 0 ? 'error' : 'warning'}
+      // Not as text: the name of the tab is that of its panel. The status bar says the number.
+      data-count={errors > 0 ? errors : warnings}
+    />
   );
 }

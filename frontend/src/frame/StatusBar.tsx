@@ -9,6 +9,8 @@ import {
 import { useTranslation } from 'react-i18next';
 import { Hint } from '@/features/onboarding/Hint';
 import { openUniverseChooser } from '@/store/dialogs/universeChooser';
+import { countProblems } from '@/store/problems/list';
+import { useProblems } from '@/store/problems/useProblems';
 import { useProjectStore } from '@/store/project';
 import { useUniverseChoice } from '@/store/run/universeChoice';
 import { useMotion } from '@/store/session/motion';
@@ -75,9 +77,7 @@ function UniverseButton() {
 
 function ProblemCount() {
   const { t } = useTranslation('frame');
-  const diagnostics = useProjectStore((state) => state.diagnostics);
-  const errors = diagnostics.filter((item) => item.severity === 'error').length;
-  const warnings = diagnostics.filter((item) => item.severity === 'warning').length;
+  const { errors, warnings } = countProblems(useProblems());
   const Icon = errors + warnings > 0 ? IconAlertTriangle : IconCircleCheck;
   return (
     <button type="button" className={classes['statusButton']} onClick={() => showPanel('problems')}>

@@ -18,6 +18,7 @@ import { RunProgress } from '@/features/run/RunProgress';
 import { registerRunCommands } from '@/features/run/commands';
 import { registerRateCommands } from '@/features/run/rates';
 import { useRunReactions } from '@/features/run/useRunReactions';
+import { registerSearchCommands } from '@/features/search/commands';
 import { registerTopicCommands } from '@/features/topics/commands';
 import { ConnectDialog } from '@/features/topics/ConnectDialog';
 import { PublishDialog } from '@/features/topics/PublishDialog';
@@ -96,6 +97,7 @@ function Workbench({ projectId }: StudioProps) {
       registerCanvasCommands(),
       registerRunCommands(),
       registerRateCommands(),
+      registerSearchCommands(),
       registerTopicCommands(),
       registerFrameCommands(),
     ];

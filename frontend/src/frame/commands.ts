@@ -1,5 +1,6 @@
 import {
   IconAdjustments,
+  IconCamera,
   IconCode,
   IconDeviceFloppy,
   IconDownload,
@@ -33,6 +34,7 @@ import { openNewUniverse } from '@/store/dialogs/newUniverse';
 import { resetLayout } from './Dock';
 import { fileCommands } from '@/features/explorer/fileCommands';
 import { focusInspector } from '@/workspace/focus';
+import { openAnotherCamera } from '@/workspace/cameraViews';
 import { WINDOWED, type PanelId } from '@/workspace/layoutModel';
 import { popOut } from './popouts';
 import { openTab, showPanel, togglePanel } from '@/workspace/tabs';
@@ -199,6 +201,13 @@ const rows: UserCommand[] = [
     shortcut: '$mod+Slash',
     inTextFields: true,
     run: openShortcuts,
+  },
+  {
+    id: 'view.anotherCamera',
+    group: 'view',
+    labelKey: 'frame:command.anotherCamera',
+    icon: IconCamera,
+    run: openAnotherCamera,
   },
   {
     id: 'view.resetLayout',

@@ -11,6 +11,7 @@ import {
   IconFolder,
   IconHistory,
   IconListTree,
+  IconSearch,
   IconTerminal2,
   IconTimeline,
   IconVideo,
@@ -22,6 +23,7 @@ import type { PanelId } from '@/workspace/layoutModel';
 export const PANEL_ICONS: Readonly<Record<PanelId, Icon>> = {
   explorer: IconFolder,
   outline: IconListTree,
+  search: IconSearch,
   palette: IconApps,
   library: IconBook2,
   inspector: IconAdjustments,

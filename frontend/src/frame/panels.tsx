@@ -10,13 +10,14 @@ import { Palette } from '@/features/palette/Palette';
 import { ProblemsPanel } from '@/features/problems/ProblemsPanel';
 import { TimelinePanel } from '@/features/timeline/TimelinePanel';
 import { TopicsPanel } from '@/features/topics/TopicsPanel';
-import { CameraPanel } from '@/features/viewer/CameraPanel';
-import { VideoPanel } from '@/features/viewer/VideoPanel';
+import { CameraPanel } from '@/features/viewer/pictures/CameraPanel';
+import { VideoPanel } from '@/features/viewer/pictures/VideoPanel';
 import { ROBOT_FILE } from '@/store/dialogs/newRobot';
 import { UNIVERSE_FILE } from '@/store/dialogs/newUniverse';
 import { lazyPart } from '@/ui/parts';
 import { ErrorBoundary } from './ErrorBoundary';
 import { Explorer } from '@/features/explorer/Explorer';
+import { cameraOf, chooseCamera, openCameraBelow } from '@/workspace/cameraViews';
 import type { PanelId } from '@/workspace/layoutModel';
 import { InItsWindow } from './popouts';
 import { documentOf, useTabs } from '@/workspace/tabs';
@@ -24,6 +25,7 @@ import { Waiting } from './Waiting';
 
 const Viewer3d = lazyPart(async () => (await import('@/features/viewer/Viewer3d')).Viewer3d);
 const XmlPanel = lazyPart(async () => (await import('@/features/xml/XmlPanel')).XmlPanel);
+const SearchPanel = lazyPart(async () => (await import('@/features/search/SearchPanel')).SearchPanel);
 const RevisionsPanel = lazyPart(
   async () => (await import('@/features/revisions/RevisionsPanel')).RevisionsPanel,
 );
@@ -32,8 +34,13 @@ const UniverseTab = lazyPart(async () => (await import('@/features/universeEdito
 const RobotTab = lazyPart(async () => (await import('@/features/robotEditor/RobotTab')).RobotTab);
 const CodeTab = lazyPart(async () => (await import('@/features/code/CodeTab')).CodeTab);
 
-const panels: Record<PanelId, () => ReactNode> = {
+const panels: Record<PanelId, (node: TabNode) => ReactNode> = {
   explorer: () => <Explorer />,
+  search: () => (
+    <Suspense fallback={<Waiting reason="loadingEditor" />}>
+      <SearchPanel />
+    </Suspense>
+  ),
   outline: () => <Outline />,
   palette: () => <Palette />,
   library: () => <Library />,
@@ -45,7 +52,13 @@ const panels: Record<PanelId, () => ReactNode> = {
     </Suspense>
   ),
   video: () => <VideoPanel />,
-  camera: () => <CameraPanel />,
+  camera: (node) => (
+    <CameraPanel
+      chosen={cameraOf(node)}
+      onChoose={(camera) => chooseCamera(node, camera)}
+      onAnother={(camera) => openCameraBelow(node, camera)}
+    />
+  ),
   console: () => <ConsolePanel />,
   problems: () => <ProblemsPanel />,
   timeline: () => <TimelinePanel />,
@@ -82,7 +95,7 @@ function FileTab({ path }: { readonly path: string }) {
 
 /** The content of a tab; an exception in one panel does not affect the others. */
 export function renderTab(node: TabNode): ReactNode {
-  const content = documentOf(node) ? <Document node={node} /> : panels[node.getComponent() as PanelId]();
+  const content = documentOf(node) ? <Document node={node} /> : panels[node.getComponent() as PanelId](node);
   return (
     <InItsWindow node={node}>
       <ErrorBoundary>{content}</ErrorBoundary>

@@ -24,7 +24,8 @@ function tabsIn(model: Model, layoutId: string): TabNode[] {
   return found;
 }
 
-const titleOf = (tab: TabNode): string => t(`frame:${tab.getName()}`);
+/** The title of a panel's tab. */
+export const titleOf = (tab: TabNode): string => t(`frame:${tab.getName()}`);
 
 /** Opens a panel in its own window. */
 export function popOut(panel: PanelId): void {
@@ -49,7 +50,7 @@ function rememberHome(model: Model, id: string): void {
 function placeFor(model: Model, tab: TabNode): Home | null {
   const { home } = configOf(tab);
   if (home && model.getNodeById(home.tabset) instanceof TabSetNode) return home;
-  const beside = companionsOf(tab.getId() as PanelId)
+  const beside = companionsOf(tab.getComponent() as PanelId)
     .map((id) => model.getNodeById(id))
     .find((node) => node instanceof TabNode && node.getLayoutId() === Model.MAIN_LAYOUT_ID);
   const tabset = beside?.getParent() ?? model.getFirstTabSet();

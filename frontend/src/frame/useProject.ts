@@ -1,5 +1,6 @@
 import { useEffect, useState } from 'react';
 import { api } from '@/api/client';
+import { watchPython } from '@/store/problems/lint';
 import { useProjectStore } from '@/store/project';
 import { startAutosave, stopAutosave } from '@/store/saving/autosave';
 import { restoreDraft } from '@/store/saving/conflicts';
@@ -16,10 +17,12 @@ export function useProject(projectId: string): Opening {
   useEffect(() => {
     const loading = new AbortController();
     let unfollow: (() => void) | null = null;
+    let unwatch: (() => void) | null = null;
     api.getProject(projectId, loading.signal).then(
       (detail) => {
         useProjectStore.getState().load(detail);
         startAutosave();
+        unwatch = watchPython();
         restoreDraft(detail);
         setOpening({ kind: 'open' });
         unfollow = followRevisions(projectId, notifyRemoteSave, showServerNotice);
@@ -32,6 +35,7 @@ export function useProject(projectId: string): Opening {
     return () => {
       loading.abort();
       unfollow?.();
+      unwatch?.();
       stopAutosave();
       leave();
     };

@@ -100,17 +100,24 @@ export interface CameraPose {
   target: [number, number, number];
 }
 
-/** Subscribes to a stream on this client's stream socket, or changes a subscription. */
+/**
+ * Subscribes to a stream on this client's stream socket, or changes a subscription.
+ *
+ * Each camera is a subscription of its own: `sensor` names it as its `camera` frames do, by the sensor's
+ * name, and `robot/sensor` for every robot but the first. "" is the first camera of the world.
+ */
 export interface Subscribe {
   stream: StreamName;
   max_hz?: number;
   width?: number | null;
   camera_pose?: CameraPose | null;
+  sensor?: string;
 }
 
-/** Ends a stream. */
+/** Ends a stream; of `camera` that of the same `sensor`. */
 export interface Unsubscribe {
   stream: StreamName;
+  sensor?: string;
 }
 
 /**
@@ -214,12 +221,17 @@ export interface Tree {
   nodes: TreeNode[];
 }
 
-/** The changes of one tick. */
+/**
+ * The changes of one tick, or of a halt after it: then `n` is that of the tick.
+ *
+ * `past` replaces that of the message before: nodes that are idle again, with their last status in the tick.
+ */
 export interface Tick {
   n: number;
   changed: [number, NodeStatus][];
   flashed: [number, NodeStatus][];
   duration_ms: number;
+  past: [number, NodeStatus][];
 }
 
 /** One changed entry; large values are sent as a preview (text), with `preview` set. */
@@ -261,11 +273,14 @@ export interface Fault {
   traceback: string;
 }
 
-/** The run ended. */
+/** The run ended; if the root returned its status, the node is the lowest one that decided it. */
 export interface Finished {
   status: NodeStatus;
   reason: FinishReason;
   message: string;
+  node_id: string;
+  tree_id: string;
+  node_path: string;
 }
 
 /** The load of the simulation, about once a second. */
@@ -375,6 +390,8 @@ export interface Snapshot {
   universe: string;
   launch_nodes: LaunchNode[];
   mismatches: TopicMismatch[];
+  past: [number, NodeStatus][];
+  finished: Finished | null;
 }
 
 /** The envelope of an event. */
@@ -497,7 +514,11 @@ export interface Scan {
   ranges: Uint8Array;
 }
 
-/** One image of a robot's camera, or of the server's view of the world (`view`). */
+/**
+ * One image of a robot's camera.
+ *
+ * `sensor` is the sensor's name, and `robot/sensor` for every robot but the first.
+ */
 export interface Camera {
   type: "camera";
   t: number;

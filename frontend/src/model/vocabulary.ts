@@ -16,6 +16,8 @@ export interface NodeSpec {
   /** Any port name is accepted. */
   readonly open: boolean;
   readonly source: 'builtin' | 'action' | 'subtree';
+  /** An action whose Python cannot be read now: this is its last declaration. */
+  readonly outdated?: boolean;
 }
 
 /** The fields of an action's description (REST `ActionModel`) that the model reads. */
@@ -26,6 +28,7 @@ export interface ActionDescription {
   /** How many children it may have; without it, as the kind says. A largest number of null allows any. */
   readonly children?: { readonly min: number; readonly max: number | null } | undefined;
   readonly open: boolean;
+  readonly outdated?: boolean | undefined;
   readonly ports: readonly {
     readonly name: string;
     readonly direction: PortDirection;
@@ -111,6 +114,7 @@ function actionSpec(action: ActionDescription): NodeSpec {
     summary: action.doc ?? '',
     open: action.open,
     source: 'action',
+    ...(action.outdated ? { outdated: true } : {}),
   };
 }
 

@@ -10,6 +10,7 @@ import {
 /** The panels; their names are texts of `frame:panel`. */
 export type PanelId =
   | 'explorer'
+  | 'search'
   | 'outline'
   | 'palette'
   | 'library'
@@ -31,6 +32,7 @@ const NEW_PANELS: readonly (readonly [PanelId, PanelId])[] = [
   ['topics', 'console'],
   ['library', 'palette'],
   ['history', 'explorer'],
+  ['search', 'explorer'],
 ];
 
 /** Panels that can have their own window, grouped by kind: they show the run. */
@@ -72,6 +74,13 @@ const panel = (id: PanelId): IJsonTabNode => ({
   component: id,
   enableClose: false,
   ...windowed(id),
+});
+
+/** A panel that is open already, once more: with an id of its own, and to be closed by the user. */
+export const furtherPanel = (component: PanelId, id: string): IJsonTabNode => ({
+  ...panel(component),
+  id,
+  enableClose: true,
 });
 
 const tabset = (id: string, weight: number, panels: PanelId[], selected = 0): IJsonTabSetNode => ({
@@ -128,6 +137,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
               'topics',
               'blackboard',
               'explorer',
+              'search',
               'outline',
               'history',
             ],
@@ -146,7 +156,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
           type: 'row',
           weight: 17,
           children: [
-            tabset('files', 42, ['explorer', 'outline', 'history']),
+            tabset('files', 42, ['explorer', 'outline', 'search', 'history']),
             tabset('nodes', 58, ['palette', 'library']),
           ],
         },

@@ -28,6 +28,7 @@ const PANELS = [
   'outline',
   'palette',
   'problems',
+  'search',
   'timeline',
   'topics',
   'video',

@@ -69,6 +69,35 @@ def test_what_cannot_be_loaded_is_reported_with_its_hint() -> None:
 
 def test_the_end_names_the_result() -> None:
     desk = Desk()
+    desk.reporter.tree(load("<Succeeding/>"))
     desk.reporter.ended(Status.SUCCESS)
     [finished] = desk.of(child_messages.Finished)
     assert (finished.status, finished.reason) == ("SUCCESS", "root_finished")
+
+
+def test_the_last_tick_stays_over_the_halt_and_the_end_names_the_node_that_failed() -> None:
+    desk = Desk()
+    tree = load("<Sequence><Succeeding/><Failing name='b'/></Sequence>")
+    desk.reporter.tree(tree)
+    tree.observe(desk.reporter.ticked)
+    status = tree.tick_exactly_once()
+    tree.halt()
+    desk.reporter.ended(status)
+    [tick, *_] = ticks = desk.of(child_messages.Tick)
+    assert dict(tick.past) == {1: "FAILURE", 2: "SUCCESS", 3: "FAILURE"}
+    assert (ticks[-1].n, ticks[-1].past) == (1, tick.past)
+    [finished] = desk.of(child_messages.Finished)
+    assert finished.node_path.endswith("b")
+
+
+def test_a_tick_without_changes_that_clears_the_last_one_is_reported() -> None:
+    desk = Desk()
+    tree = load("<Sequence><Running/><Failing/></Sequence>")
+    tree.observe(desk.reporter.ticked)
+    for _ in range(2):
+        tree.tick_exactly_once()
+    tree.halt()
+    assert desk.of(child_messages.Tick)[-1].past
+    for _ in range(2):
+        tree.tick_exactly_once()
+    assert desk.of(child_messages.Tick)[-1].past == []

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import msgspec
 
-from executor.child_messages import EchoTopic, Pace, Subscribe
-from executor.session.clients import Clients
+from executor.child_messages import EchoTopic, Pace, Subscribe, Unsubscribe
+from executor.session.clients import MOST_STREAMS, Clients
 from executor.session.events import (
     ClientJoined,
     ClientLeft,
@@ -128,6 +128,30 @@ def test_streams_flow_between_prepare_and_terminate_visualization():
     assert subscribe.message == Subscribe("d", "camera", 10.0, 320, None)
     play.command("terminate_visualization")
     assert play.told("world")[-1] == "unsubscribe"
+
+
+def test_each_camera_is_a_subscription_of_its_own():
+    play = Play()
+    play.happens(StreamOpened("d"))
+    play.climb(State.VISUALIZATION_READY)
+    for sensor in ("", "rear", "rear"):
+        play.command("subscribe", stream="camera", sensor=sensor)
+    assert [data.sensor for data in play.session.clients.streams_of("d")] == ["", "rear"]
+    play.command("unsubscribe", stream="camera")
+    assert [data.sensor for data in play.session.clients.streams_of("d")] == ["rear"]
+    play.happens(StreamClosed("d"))
+    ended = [
+        e.message.sensor for e in play.effects if isinstance(e, Tell) and isinstance(e.message, Unsubscribe)
+    ]
+    assert ended == ["", "rear"]
+
+
+def test_a_client_cannot_subscribe_without_end():
+    play = Play()
+    for number in range(MOST_STREAMS):
+        play.command("subscribe", stream="camera", sensor=str(number))
+    assert play.reply(play.command("subscribe", stream="camera", sensor="0")) == "ack"
+    assert play.reply(play.command("subscribe", stream="poses")) == "too_many"
 
 
 def test_the_world_is_notified_of_slow_clients():

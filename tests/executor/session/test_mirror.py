@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from executor.messages import Blackboard, BlackboardEntry, Fault, StateChanged, Tick, Tree, TreeNode
+from executor.messages import Blackboard, BlackboardEntry, Fault, Finished, StateChanged, Tick, Tree, TreeNode
 from executor.session.ladder import State
 from executor.session.mirror import FAULTS, Mirror
 
@@ -38,3 +38,14 @@ def test_a_new_run_begins_empty_and_faults_are_bounded() -> None:
     assert len(mirror.snapshot().faults) == FAULTS
     mirror.begin_run(10.0)
     assert mirror.snapshot().faults == []
+
+
+def test_the_last_tick_and_the_end_stay_until_the_next_run() -> None:
+    mirror = Mirror()
+    mirror.begin_run(10.0)
+    mirror.apply(Tree([NODE]))
+    mirror.apply(Tick(n=1, changed=[], flashed=[(1, "FAILURE")], duration_ms=1.0, past=[(1, "FAILURE")]))
+    mirror.apply(end := Finished("FAILURE", "root_finished", node_path="A::1"))
+    assert (mirror.snapshot().past, mirror.snapshot().finished) == ([(1, "FAILURE")], end)
+    mirror.begin_run(10.0)
+    assert (mirror.snapshot().past, mirror.snapshot().finished) == ([], None)

@@ -59,6 +59,13 @@ async def test_a_client_that_stalls_gets_the_present_when_it_reads_again():
         await client.close()
 
 
+async def test_pictures_of_one_camera_replace_none_of_another():
+    outbox = StreamOutbox()
+    for lane in ("camera", "camera/rear", "camera/rear"):
+        outbox.put(lane, lane.encode() + b"%d" % len(outbox._frames))
+    assert [await outbox.take(), await outbox.take()] == [b"camera0", b"camera/rear2"]
+
+
 async def test_the_share_of_lost_pictures_is_reported_twice_a_second():
     outbox = StreamOutbox()
     outbox.put("poses", pose_of(0, 1))

@@ -1,7 +1,7 @@
 import { memo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { displayName, parentOf } from '@/model/diagram';
-import { liveKey, useLiveStore } from '@/store/project/live';
+import { liveKey, pastOf, useLiveStore } from '@/store/project/live';
 import type { ShownProblem } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
 import { useProblemText } from '@/ui/useProblemText';
@@ -19,6 +19,7 @@ export const Announcer = memo(function Announcer({ treeId, problems }: Announcer
   const diagram = useProjectStore((state) => state.diagrams[treeId]);
   const id = useProjectStore((state) => (state.activeTree === treeId ? state.selection[0] : undefined));
   const status = useLiveStore((state) => state.statuses.get(liveKey(treeId, id ?? '')) ?? 'IDLE');
+  const past = useLiveStore((state) => pastOf(state, liveKey(treeId, id ?? '')));
   const fault = useLiveStore((state) => state.faults.get(liveKey(treeId, id ?? '')));
   const textOf = useProblemText();
   const problem = problems.get(id ?? '');
@@ -35,6 +36,7 @@ export const Announcer = memo(function Announcer({ treeId, problems }: Announcer
       ? t('announce.child', { ...ordinal(diagram, parent, id), parent: displayName(above) })
       : t('announce.root'),
     ...(status === 'IDLE' ? [] : [t(`status.${status}`)]),
+    ...(past === undefined ? [] : [t('announce.past', { status: t(`status.${past}`) })]),
     ...(fault === undefined ? [] : [t('announce.fault', { message: fault })]),
     ...(problem ? [t('announce.problem', { message: textOf(problem).message })] : []),
     ...(node.disabled ? [t('announce.disabled')] : []),

@@ -1,6 +1,6 @@
 import { BaseEdge, type EdgeProps } from '@xyflow/react';
 import { memo } from 'react';
-import { liveKey, useLiveStore } from '@/store/project/live';
+import { liveKey, pastOf, useLiveStore } from '@/store/project/live';
 import { elbow } from '@/ui/shapes';
 import { useDraggedBlocks } from './gestures/draggedBlocks';
 import type { TreeEdge as TreeEdgeType } from './flow';
@@ -10,10 +10,16 @@ function TreeEdgeView(props: EdgeProps<TreeEdgeType>) {
   const { target, data, sourceX, sourceY, targetX, targetY, selected } = props;
   const key = liveKey(data?.tree ?? '', data?.node ?? target);
   const status = useLiveStore((state) => state.statuses.get(key) ?? 'IDLE');
+  const past = useLiveStore((state) => pastOf(state, key));
   const dx = useDraggedBlocks((state) => (state.tops.has(target) ? state.dx : 0));
   const dy = useDraggedBlocks((state) => (state.tops.has(target) ? state.dy : 0));
   return (
-    <g className={classes['edge']} data-status={status} data-selected={selected || undefined}>
+    <g
+      className={classes['edge']}
+      data-status={status}
+      data-past={past}
+      data-selected={selected || undefined}
+    >
       <BaseEdge
         path={elbow(sourceX, sourceY, targetX + dx, targetY + dy, data?.isHorizontal ?? false)}
         interactionWidth={18}

@@ -5,6 +5,7 @@ import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import { setLanguage } from '@/i18n';
 import { useProjectStore } from '@/store/project';
 import { initialSession } from '@/store/session/reduce';
+import { clearTextFindings, setTextFindings } from '@/store/problems/texts';
 import { useSessionStore } from '@/store/session/store';
 import { useLanguageStore } from '@/store/language';
 import { aimAt, useTabs } from '@/workspace/tabs';
@@ -33,6 +34,7 @@ beforeEach(() => {
     useTabs.setState(useTabs.getInitialState(), true);
     useSessionStore.setState(initialSession, true);
     useLanguageStore.setState(useLanguageStore.getInitialState(), true);
+    clearTextFindings();
     localStorage.clear();
   });
 });
@@ -138,8 +140,9 @@ describe('marks', () => {
     expect(marks()).toEqual(['t two']);
   });
 
-  it('leave out what is said better elsewhere', () => {
+  it('leave out what a newer check of the text reports', () => {
     show(<CodeTab path={PATH} />);
+    act(() => setTextFindings('errors', PATH, { text: TEXT, errors: [] }));
     act(() =>
       store().setChecked({
         actions: [],

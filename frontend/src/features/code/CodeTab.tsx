@@ -6,18 +6,20 @@ import { Center, Text } from '@mantine/core';
 import { useEffect, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useLanguageStore } from '@/store/language';
+import { lintSoon } from '@/store/problems/lint';
+import { isSuperseded } from '@/store/problems/syntax';
+import { useTextFindings } from '@/store/problems/texts';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
 import { useTabs } from '@/workspace/tabs';
 import frame from './editorFrame.module.css';
 import { marksFor } from './diagnostics';
 import { extensionsFor } from './extensions';
-import { isToldBetter, lintMarks, servedMark } from './findings';
+import { lintMarks, servedMark } from './findings';
 import { applyKeptFontSize } from './fontSize';
 import { changesBetween } from './language/ruff';
 import { LanguageStatus } from './LanguageStatus';
-import { textMarks, useTextErrors, type TextErrors } from './textErrors';
-import { useFindings, type Linted } from './useFindings';
+import { textMarks, useTextErrors } from './textErrors';
 
 interface CodeTabProps {
   readonly path: string;
@@ -81,9 +83,11 @@ export function CodeTab({ path }: CodeTabProps) {
   }, [path, label, isMissing]);
 
   useExternalText(view, text);
-  const linted = useFindings(path, text);
-  const errors = useTextErrors(path, text);
-  useMarks(view, path, text, { linted, errors, label });
+  useTextErrors(path, text);
+  useEffect(() => {
+    lintSoon(path);
+  }, [path]);
+  useMarks(view, path, text, label);
   useLineTarget(view, path, text);
 
   if (isMissing) {
@@ -122,36 +126,28 @@ function follow(editor: EditorView, text: string): void {
   });
 }
 
-interface Found {
-  readonly linted: Linted | null;
-  readonly errors: TextErrors | null;
-  /** A new label creates a new editor. */
-  readonly label: string;
-}
-
-function useMarks(view: ViewRef, path: string, text: string | null, { linted, errors, label }: Found): void {
+/** Marks the findings of a file; a new label creates a new editor, which has no marks yet. */
+function useMarks(view: ViewRef, path: string, text: string | null, label: string): void {
   const served = useLanguageStore((state) => state.findings[path]);
-  const isServed = useLanguageStore((state) => state.state.kind === 'ready');
+  const linted = useTextFindings((state) => state.linted[path]);
+  const errors = useTextFindings((state) => state.errors[path]);
   const diagnostics = useProjectStore((state) => state.diagnostics);
   const faults = useSessionStore((state) => state.faults);
   useEffect(() => {
     const editor = view.current;
     if (!editor) return;
     const { doc } = editor.state;
+    const found = { served, linted, errors };
+    const saved = diagnostics.filter((item) => !isSuperseded(item, found));
     const marks = [
-      ...marksFor(
-        doc,
-        path,
-        diagnostics.filter((item) => !isToldBetter(item, isServed)),
-        faults,
-      ),
+      ...marksFor(doc, path, saved, faults),
       ...(served ?? []).map((finding) => servedMark(doc, finding)),
-      ...lintMarks(doc, linted, isServed),
+      ...lintMarks(doc, found),
       ...textMarks(doc, errors),
     ];
     editor.dispatch(setDiagnostics(editor.state, marks));
     // When marks and text arrive together, the new text moves the marks: they must be set again for it.
-  }, [view, path, diagnostics, faults, text, served, isServed, linted, errors, label]);
+  }, [view, path, diagnostics, faults, text, served, linted, errors, label]);
 }
 
 function useLineTarget(view: ViewRef, path: string, text: string | null): void {

@@ -2,7 +2,8 @@ import { Text } from '@codemirror/state';
 import { EditorView } from '@codemirror/view';
 import { describe, expect, it } from 'vitest';
 import type { PythonFinding } from '@/api/python';
-import { isToldBetter, lintMarks, servedMark } from './findings';
+import type { CodeFinding } from '@/store/language';
+import { isOf, lintMarks, servedMark } from './findings';
 
 const doc = Text.of(['import os', 'x = 1']);
 
@@ -36,14 +37,10 @@ describe('servedMark', () => {
   });
 });
 
-it.each([
-  ['X0001', false, false],
-  ['BT0001', false, true],
-  ['BT0601', false, false],
-  ['BT0601', true, true],
-  ['BT0602', true, false],
-])('leaves the finding %s (language server %s) to another: %s', (code, isServed, isBetter) => {
-  expect(isToldBetter({ code, severity: 'error', message: '' }, isServed)).toBe(isBetter);
+it('knows findings of this text, whichever ends its lines have', () => {
+  expect(isOf(doc, { text: 'import os\r\nx = 1' })).toBe(true);
+  expect(isOf(doc, { text: 'import os' })).toBe(false);
+  expect(isOf(doc, undefined)).toBe(false);
 });
 
 describe('lintMarks', () => {
@@ -56,8 +53,18 @@ describe('lintMarks', () => {
     fix: null,
     ...more,
   });
-  const marks = (found: readonly PythonFinding[], isServed = false, text = doc) =>
-    lintMarks(text, { doc, findings: found }, isServed);
+  const syntax: CodeFinding = {
+    from: { line: 0, character: 0 },
+    to: { line: 0, character: 1 },
+    severity: 'error',
+    message: '',
+    source: 'ty invalid-syntax',
+  };
+  const marks = (findings: readonly PythonFinding[], isServed = false, text = doc) =>
+    lintMarks(text, {
+      linted: { text: doc.toString(), findings },
+      served: isServed ? [syntax] : [],
+    });
 
   it('are at their places, under the name of ruff', () => {
     expect(marks([finding()])).toEqual([
@@ -67,11 +74,11 @@ describe('lintMarks', () => {
   });
 
   it('are none without an answer, or about an older text', () => {
-    expect(lintMarks(doc, null, false)).toEqual([]);
+    expect(lintMarks(doc, {})).toEqual([]);
     expect(marks([finding()], false, Text.of(['import os']))).toEqual([]);
   });
 
-  it('leave errors to the language server where there is one', () => {
+  it('leave syntax errors to the language server where it has found them', () => {
     const found = [finding({ severity: 'error' }), finding()];
     expect(marks(found).map(({ severity }) => severity)).toEqual(['error', 'warning']);
     expect(marks(found, true).map(({ severity }) => severity)).toEqual(['warning']);

@@ -1,9 +1,8 @@
 import type { Diagnostic as Mark } from '@codemirror/lint';
-import type { Text } from '@codemirror/state';
-import type { Diagnostic } from '@/api/types';
+import { Text } from '@codemirror/state';
 import type { CodeFinding } from '@/store/language';
 import { applyFix, offsetOf } from './language/ruff';
-import type { Linted } from './useFindings';
+import { lintFindings, type FileFindings } from '@/store/problems/syntax';
 
 function offset(doc: Text, { line, character }: CodeFinding['from']): number {
   if (line >= doc.lines) return doc.length;
@@ -23,38 +22,34 @@ export function servedMark(doc: Text, finding: CodeFinding): Mark {
   };
 }
 
-/**
- * Whether another checker reports the finding: the editor checks JSON while the user types, the language
- * server Python.
- */
-export const isToldBetter = (item: Diagnostic, isServed: boolean): boolean =>
-  item.code === 'BT0001' || (isServed && item.code === 'BT0601');
+/** Whether findings refer to the text that the editor shows; it counts each line end as one character. */
+export function isOf(doc: Text, found: { readonly text: string } | undefined): boolean {
+  return found !== undefined && Text.of(found.text.split(/\r\n?|\n/)).eq(doc);
+}
 
 /** Findings of ruff, each with a button that fixes it; none while they refer to an older text. */
-export function lintMarks(doc: Text, linted: Linted | null, isServed: boolean): Mark[] {
-  if (!linted?.doc.eq(doc)) return [];
-  return linted.findings
-    .filter((finding) => !(isServed && finding.severity === 'error'))
-    .map((finding) => {
-      const from = offsetOf(doc, finding.start);
-      return {
-        from,
-        to: Math.max(from, offsetOf(doc, finding.end)),
-        severity: finding.severity,
-        message: finding.message,
-        source: `ruff ${finding.code}`,
-        ...(finding.fix
-          ? {
-              actions: [
-                {
-                  name: finding.fix.message,
-                  apply: (view) => {
-                    applyFix(view, doc, finding);
-                  },
+export function lintMarks(doc: Text, found: FileFindings): Mark[] {
+  if (!isOf(doc, found.linted)) return [];
+  return lintFindings(found).map((finding) => {
+    const from = offsetOf(doc, finding.start);
+    return {
+      from,
+      to: Math.max(from, offsetOf(doc, finding.end)),
+      severity: finding.severity,
+      message: finding.message,
+      source: `ruff ${finding.code}`,
+      ...(finding.fix
+        ? {
+            actions: [
+              {
+                name: finding.fix.message,
+                apply: (view) => {
+                  applyFix(view, doc, finding);
                 },
-              ],
-            }
-          : {}),
-      } satisfies Mark;
-    });
+              },
+            ],
+          }
+        : {}),
+    } satisfies Mark;
+  });
 }

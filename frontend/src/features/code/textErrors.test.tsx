@@ -1,6 +1,7 @@
 import { Text } from '@codemirror/state';
 import { act, screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
+import { useTextFindings } from '@/store/problems/texts';
 import { show } from '../../../harness/testing';
 import { textErrors, textMarks, useTextErrors } from './textErrors';
 
@@ -22,6 +23,7 @@ describe('textErrors', () => {
     const [error] = textErrors(path, text);
     expect(error?.offset ?? null).toBe(offset);
     expect(error?.message ?? '').toContain(words);
+    if (error) expect(error.line).toBe(text.slice(0, error.offset).split('\n').length);
   });
 });
 
@@ -29,7 +31,10 @@ describe('textMarks', () => {
   it('reach to the end of the word, or of the line', () => {
     const text = Text.of(['{"a": oh}', '!!! and more']);
     const at = (offset: number) => {
-      const [mark] = textMarks(text, { doc: text, errors: [{ offset, message: 'bad' }] });
+      const [mark] = textMarks(text, {
+        text: text.toString(),
+        errors: [{ offset, line: 1, message: 'bad' }],
+      });
       return mark && [text.sliceString(mark.from, mark.to), mark.severity, mark.message];
     };
     expect(at(6)).toEqual(['oh', 'error', 'bad']);
@@ -40,9 +45,9 @@ describe('textMarks', () => {
   it('are there while they are about the text that is there', () => {
     const text = Text.of(['{']);
     const errors = textErrors('a.json', '{');
-    expect(textMarks(text, { doc: text, errors })).toHaveLength(1);
-    expect(textMarks(Text.of(['{}']), { doc: text, errors })).toEqual([]);
-    expect(textMarks(text, null)).toEqual([]);
+    expect(textMarks(text, { text: '{', errors })).toHaveLength(1);
+    expect(textMarks(Text.of(['{}']), { text: '{', errors })).toEqual([]);
+    expect(textMarks(text, undefined)).toEqual([]);
   });
 });
 
@@ -55,8 +60,9 @@ describe('useTextErrors', () => {
   });
 
   function Errors({ path, text }: { readonly path: string; readonly text: string | null }) {
-    const found = useTextErrors(path, text);
-    return <p>{found ? `${found.doc.lines} lines, ${found.errors.length} errors` : 'not read'}</p>;
+    useTextErrors(path, text);
+    const found = useTextFindings((state) => state.errors[path]);
+    return <p>{found ? `${found.text.length} characters, ${found.errors.length} errors` : 'not read'}</p>;
   }
   const pass = (ms: number) => act(() => vi.advanceTimersByTime(ms));
 
@@ -67,10 +73,10 @@ describe('useTextErrors', () => {
     pass(299);
     expect(screen.getByText('not read')).toBeInTheDocument();
     pass(1);
-    expect(screen.getByText('3 lines, 0 errors')).toBeInTheDocument();
+    expect(screen.getByText('4 characters, 0 errors')).toBeInTheDocument();
     rerender(<Errors path="a.json" text="[" />);
     pass(300);
-    expect(screen.getByText('1 lines, 1 errors')).toBeInTheDocument();
+    expect(screen.getByText('1 characters, 1 errors')).toBeInTheDocument();
   });
 
   it.each([
@@ -80,5 +86,13 @@ describe('useTextErrors', () => {
     show(<Errors path={path} text={text} />);
     pass(1000);
     expect(screen.getByText('not read')).toBeInTheDocument();
+  });
+
+  it('forgets a file whose editor closes', () => {
+    const { unmount } = show(<Errors path="a.json" text="{" />);
+    pass(300);
+    expect(useTextFindings.getState().errors['a.json']?.errors).toHaveLength(1);
+    unmount();
+    expect(useTextFindings.getState().errors).toEqual({});
   });
 });

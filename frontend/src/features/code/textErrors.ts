@@ -1,29 +1,21 @@
 import { jsonLanguage } from '@codemirror/lang-json';
 import { Text } from '@codemirror/state';
 import type { Diagnostic as Mark } from '@codemirror/lint';
-import { useEffect, useState } from 'react';
+import { useEffect } from 'react';
 import { t } from '@/i18n';
 import { parseXml, XmlError } from '@/model/document/xml';
 import { valueOfYaml } from '@/model/document/yaml';
+import { setTextFindings, type TextError, type TextErrors } from '@/store/problems/texts';
+import { isOf } from './findings';
 import { isXml } from './modes';
 
 const READ_AFTER_MS = 300;
 /** Longer texts are not parsed at each key, since that would delay typing. */
 const LONGEST = 500_000;
 
-/** The place where a text breaks the format of its file type. */
-interface TextError {
-  readonly offset: number;
-  readonly message: string;
-}
+type Place = Omit<TextError, 'line'>;
 
-/** The error of a text, together with that text. */
-export interface TextErrors {
-  readonly doc: Text;
-  readonly errors: readonly TextError[];
-}
-
-function jsonErrors(text: string): TextError[] {
+function jsonErrors(text: string): Place[] {
   try {
     JSON.parse(text);
     return [];
@@ -41,7 +33,7 @@ function jsonErrors(text: string): TextError[] {
   }
 }
 
-function yamlErrors(text: string, doc: Text): TextError[] {
+function yamlErrors(text: string, doc: Text): Place[] {
   const read = valueOfYaml(text);
   if (!('problems' in read)) return [];
   return read.problems.map(({ line, column, kind, params }) => ({
@@ -50,7 +42,7 @@ function yamlErrors(text: string, doc: Text): TextError[] {
   }));
 }
 
-function xmlErrors(text: string): TextError[] {
+function xmlErrors(text: string): Place[] {
   try {
     parseXml(text);
     return [];
@@ -60,33 +52,45 @@ function xmlErrors(text: string): TextError[] {
   }
 }
 
-/** The syntax error of a JSON, YAML or XML file. */
-export function textErrors(path: string, text: string): readonly TextError[] {
-  if (text.length > LONGEST) return [];
+function placesOf(path: string, text: string): Place[] {
   if (path.endsWith('.json')) return jsonErrors(text);
   if (/\.ya?ml$/.test(path)) return yamlErrors(text, Text.of(text.split('\n')));
   return isXml(path) ? xmlErrors(text) : [];
 }
 
-/** Checks the text shortly after the last change. */
-export function useTextErrors(path: string, text: string | null): TextErrors | null {
-  const [found, setFound] = useState<TextErrors | null>(null);
+/** The syntax errors of a JSON, YAML or XML file. */
+export function textErrors(path: string, text: string): readonly TextError[] {
+  if (text.length > LONGEST) return [];
+  return placesOf(path, text).map(({ offset, message }) => ({
+    offset,
+    line: text.slice(0, offset).split('\n').length,
+    message,
+  }));
+}
+
+/** Checks the text shortly after the last change; the findings leave the list with the editor. */
+export function useTextErrors(path: string, text: string | null): void {
   useEffect(() => {
     if (text === null || path.endsWith('.py')) return;
     const timer = setTimeout(() => {
       const plain = text.replace(/\r\n?/g, '\n');
-      setFound({ doc: Text.of(plain.split('\n')), errors: textErrors(path, plain) });
+      setTextFindings('errors', path, { text: plain, errors: textErrors(path, plain) });
     }, READ_AFTER_MS);
     return () => {
       clearTimeout(timer);
     };
   }, [path, text]);
-  return found;
+  useEffect(
+    () => () => {
+      setTextFindings('errors', path, null);
+    },
+    [path],
+  );
 }
 
 /** Marks from the error to the end of its word, or of its line. */
-export function textMarks(doc: Text, found: TextErrors | null): Mark[] {
-  if (!found?.doc.eq(doc)) return [];
+export function textMarks(doc: Text, found: TextErrors | undefined): Mark[] {
+  if (!found || !isOf(doc, found)) return [];
   return found.errors.map(({ offset, message }) => {
     const from = Math.min(offset, doc.length);
     const { to, text, from: start } = doc.lineAt(from);

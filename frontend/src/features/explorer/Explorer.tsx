@@ -6,6 +6,8 @@ import { openNewFile, type NewFileKind } from '@/store/dialogs/files';
 import { openNewRobot, ROBOT_FILE } from '@/store/dialogs/newRobot';
 import { openNewUniverse, UNIVERSE_FILE } from '@/store/dialogs/newUniverse';
 import { useShallow } from 'zustand/react/shallow';
+import { worstByFile } from '@/store/problems/list';
+import { useProblems } from '@/store/problems/useProblems';
 import { useProjectStore } from '@/store/project';
 import { ExplorerItem } from './ExplorerItem';
 import classes from './explorer.module.css';
@@ -39,6 +41,8 @@ function sectionOf(path: string): Section {
 export function Explorer() {
   const { t } = useTranslation('frame');
   const files = useProjectStore(useShallow((state) => Object.keys(state.files)));
+  const problems = useProblems();
+  const worst = useMemo(() => worstByFile(problems), [problems]);
   const sections = useMemo(() => {
     const found: Record<Section, string[]> = {
       trees: [],
@@ -74,7 +78,12 @@ export function Explorer() {
               <ul className={classes['list']}>
                 {sections[section].map((path) => (
                   <li key={path}>
-                    <ExplorerItem path={path} isTree={section === 'trees'} isAction={section === 'actions'} />
+                    <ExplorerItem
+                      path={path}
+                      isTree={section === 'trees'}
+                      isAction={section === 'actions'}
+                      worst={worst.get(path)}
+                    />
                   </li>
                 ))}
               </ul>

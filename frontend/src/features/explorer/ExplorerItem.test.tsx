@@ -1,6 +1,5 @@
 import { act, screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it } from 'vitest';
-import type { Diagnostic } from '@/api/types';
 import { useFileDialog } from '@/store/dialogs/files';
 import { useProjectStore } from '@/store/project';
 import { useScope } from '@/store/revisions/scope';
@@ -23,7 +22,7 @@ beforeEach(() => {
 });
 
 const open = (path: string, isTree = false, isAction = false) =>
-  show(<ExplorerItem path={path} isTree={isTree} isAction={isAction} />);
+  show(<ExplorerItem path={path} isTree={isTree} isAction={isAction} worst={undefined} />);
 
 async function menu(name: string) {
   await user.click(screen.getByRole('button', { name: `More for ${name}` }));
@@ -120,27 +119,7 @@ describe('the menu', () => {
   });
 });
 
-describe('the severity', () => {
-  const finding = (severity: Diagnostic['severity'], place: Partial<Diagnostic>): Diagnostic => ({
-    code: 'X',
-    severity,
-    message: '',
-    ...place,
-  });
-  const severityOf = (path: string, ...diagnostics: Diagnostic[]) => {
-    act(() => useProjectStore.setState({ diagnostics }));
-    open(path);
-    return item(path).parentElement!.dataset['severity'];
-  };
-
-  it.each([
-    ['trees/Dock.json', [finding('warning', { tree: 'Dock' }), finding('error', { tree: 'Dock' })], 'error'],
-    ['trees/Dock.json', [finding('warning', { file: 'trees/Dock.json' })], 'warning'],
-    ['trees/Dock.json', [finding('note', { tree: 'Dock' })], undefined],
-    ['trees/Dock.json', [finding('error', { tree: 'Main' })], undefined],
-    ['README.md', [finding('warning', { file: 'README.md' })], 'warning'],
-    ['README.md', [finding('error', {})], undefined],
-  ])('of %s is that of its worst finding', (path, diagnostics, expected) => {
-    expect(severityOf(path, ...diagnostics)).toBe(expected);
-  });
+it.each(['error', 'warning', undefined] as const)('is marked with its worst finding: %s', (worst) => {
+  show(<ExplorerItem path="README.md" isTree={false} isAction={false} worst={worst} />);
+  expect(item('README.md').parentElement!.dataset['severity']).toBe(worst);
 });

@@ -16,6 +16,7 @@ import { openRename } from '@/store/dialogs/files';
 import { setScope } from '@/store/revisions/scope';
 import { ROBOT_FILE } from '@/store/dialogs/newRobot';
 import { UNIVERSE_FILE } from '@/store/dialogs/newUniverse';
+import type { Worst } from '@/store/problems/list';
 import { useProjectStore } from '@/store/project';
 import { treeIdOf } from '@/store/project/state';
 import classes from './explorer.module.css';
@@ -27,6 +28,7 @@ interface ExplorerItemProps {
   readonly path: string;
   readonly isTree: boolean;
   readonly isAction: boolean;
+  readonly worst: Worst | undefined;
 }
 
 function nameOf(path: string): string {
@@ -34,13 +36,12 @@ function nameOf(path: string): string {
   return treeId ?? path.replace(/^(actions|universes)\//, '').replace(/^robots\/([^/]+)\/robot\.yaml$/, '$1');
 }
 
-export function ExplorerItem({ path, isTree, isAction }: ExplorerItemProps) {
+export function ExplorerItem({ path, isTree, isAction, worst }: ExplorerItemProps) {
   const { t } = useTranslation('frame');
   const treeId = treeIdOf(path);
   const isDiagram = useProjectStore((state) => state.files[path]?.kind === 'tree');
   const isBinary = useProjectStore((state) => state.files[path]?.kind === 'binary');
   const isMain = useProjectStore((state) => treeId !== null && state.mainTree === treeId);
-  const worst = useProjectStore((state) => worstOf(state.diagnostics, path, treeId));
   const tab: DocumentTab =
     isDiagram && treeId !== null ? { kind: 'tree', id: treeId } : { kind: 'file', path };
   const Icon = isTree
@@ -116,14 +117,4 @@ export function ExplorerItem({ path, isTree, isAction }: ExplorerItemProps) {
       )}
     </div>
   );
-}
-
-function worstOf(
-  diagnostics: readonly { severity: string; file?: string | null; tree?: string | null }[],
-  path: string,
-  treeId: string | null,
-): 'error' | 'warning' | undefined {
-  const mine = diagnostics.filter((item) => item.file === path || (treeId !== null && item.tree === treeId));
-  if (mine.some((item) => item.severity === 'error')) return 'error';
-  return mine.some((item) => item.severity === 'warning') ? 'warning' : undefined;
 }

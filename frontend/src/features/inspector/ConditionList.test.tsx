@@ -24,6 +24,15 @@ beforeEach(async () => {
   await vi.waitUntil(() => document.querySelectorAll('.cm-content').length === 2);
 });
 
+/** Adds a condition, whose field has the caret. */
+async function added() {
+  await user.click(screen.getByRole('button', { name: 'Add condition' }));
+  await user.click(await screen.findByRole('menuitem', { name: /On halt/ }));
+  const field = await screen.findByRole('textbox', { name: 'On halt' });
+  await vi.waitFor(() => expect(field).toHaveFocus());
+  return field;
+}
+
 describe('ConditionList', () => {
   it('has the scripts of the block, in the order in which they run', () => {
     const fields = [...document.querySelectorAll('.cm-content')].map((each) =>
@@ -40,8 +49,29 @@ describe('ConditionList', () => {
     await screen.findByRole('menuitem', { name: /Skip if/ });
     expect(names()).toEqual(['_skipIf', '_failureIf', '_successIf', '_onSuccess', '_onFailure', '_onHalted']);
     await user.click(screen.getByRole('menuitem', { name: /On halt/ }));
-    expect(conditions()).toEqual({ _post: 'x := 1', _while: 'y < 2', _onHalted: '' });
-    expect(await screen.findByRole('textbox', { name: 'On halt' })).toBeInTheDocument();
+    const field = await screen.findByRole('textbox', { name: 'On halt' });
+    await vi.waitFor(() => expect(field).toHaveFocus());
+    expect(conditions()).toEqual({ _post: 'x := 1', _while: 'y < 2' });
+    act(() => field.blur());
+    await vi.waitFor(() => expect(conditions()).toEqual({ _post: 'x := 1', _while: 'y < 2', _onHalted: '' }));
+  });
+
+  it('has a new one from its first letter, and takes it back with it', async () => {
+    const field = await added();
+    const view = EditorView.findFromDOM(field)!;
+    act(() => view.dispatch({ changes: { from: 0, insert: 'x' } }));
+    expect(conditions()).toEqual({ _post: 'x := 1', _while: 'y < 2', _onHalted: 'x' });
+    act(() => view.dispatch({ changes: { from: 0, to: 1 } }));
+    expect(conditions()).toEqual({ _post: 'x := 1', _while: 'y < 2' });
+    expect(field).toBeInTheDocument();
+  });
+
+  it('gives a new one up with Escape', async () => {
+    await added();
+    await user.keyboard('{Escape}');
+    expect(screen.queryByRole('textbox', { name: 'On halt' })).toBeNull();
+    expect(screen.getByRole('button', { name: 'Add condition' })).toHaveFocus();
+    expect(conditions()).toEqual({ _post: 'x := 1', _while: 'y < 2' });
   });
 
   it('removes one of them', async () => {

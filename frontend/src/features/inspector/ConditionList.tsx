@@ -1,7 +1,8 @@
 import { ActionIcon, Menu } from '@mantine/core';
 import { IconPlus, IconTrash } from '@tabler/icons-react';
-import { useMemo } from 'react';
+import { useMemo, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import type { NodeId } from '@/model/diagram';
 import { setCondition } from '@/model/edits';
 import { blackboardKeys } from '@/model/vocabulary';
 import { useProjectStore } from '@/store/project';
@@ -22,20 +23,54 @@ const CONDITIONS = [
   '_post',
 ] as const;
 
+type Condition = (typeof CONDITIONS)[number];
+
+/**
+ * The condition that was just added, until the user leaves its field: while it is empty there, the tree does
+ * not have it, so that nothing reports an empty script.
+ */
+function useNewCondition(id: NodeId) {
+  const [added, setAdded] = useState<{ readonly id: NodeId; readonly name: Condition } | null>(null);
+  const name = added?.id === id ? added.name : null;
+  // Known at once: the focus leaves a field before the page is drawn without it.
+  const isOpen = useRef(false);
+  return {
+    name,
+    add: (condition: Condition) => {
+      isOpen.current = true;
+      setAdded({ id, name: condition });
+    },
+    end: () => {
+      isOpen.current = false;
+      setAdded(null);
+    },
+    isOpen: () => isOpen.current,
+  };
+}
+
 /** Scripts before and after the node's tick, in BT.CPP's script language. */
 export function ConditionList({ diagram, id, node }: Target) {
   const { t } = useTranslation('inspector');
   const set = node.conditions ?? {};
+  const fresh = useNewCondition(id);
+  const adder = useRef<HTMLButtonElement>(null);
+  const write = (name: Condition, value: string | null) => {
+    change('condition', [setCondition(id, name, value)], { mergeKey: `condition ${id} ${name}` });
+  };
+  const cancel = () => {
+    fresh.end();
+    adder.current?.focus();
+  };
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const keys = useMemo(() => [...blackboardKeys(diagram, vocabulary).keys()].sort(), [diagram, vocabulary]);
-  const free = CONDITIONS.filter((name) => !(name in set));
+  const free = CONDITIONS.filter((name) => !(name in set) && name !== fresh.name);
   return (
     <Section
       title={t('conditions')}
       action={
-        <Menu position="bottom-end">
+        <Menu position="bottom-end" returnFocus={false}>
           <Menu.Target>
-            <ActionIcon size={24} aria-label={t('addCondition')} title={t('addCondition')}>
+            <ActionIcon ref={adder} size={24} aria-label={t('addCondition')} title={t('addCondition')}>
               <IconPlus size={15} aria-hidden="true" />
             </ActionIcon>
           </Menu.Target>
@@ -44,7 +79,7 @@ export function ConditionList({ diagram, id, node }: Target) {
               <Menu.Item
                 key={name}
                 onClick={() => {
-                  change('condition', [setCondition(id, name, '')]);
+                  fresh.add(name);
                 }}
                 rightSection={<code className={classes['code']}>{name}</code>}
               >
@@ -55,7 +90,7 @@ export function ConditionList({ diagram, id, node }: Target) {
         </Menu>
       }
     >
-      {CONDITIONS.filter((name) => name in set).map((name) => (
+      {CONDITIONS.filter((name) => name in set || name === fresh.name).map((name) => (
         <div key={name} className={classes['condition']}>
           <div className={classes['grow']}>
             <span className={classes['conditionName']}>
@@ -67,16 +102,25 @@ export function ConditionList({ diagram, id, node }: Target) {
               value={set[name] ?? ''}
               keys={keys}
               onChange={(value) => {
-                change('condition', [setCondition(id, name, value)], {
-                  mergeKey: `condition ${id} ${name}`,
-                });
+                write(name, name === fresh.name && value.trim() === '' ? null : value);
               }}
+              {...(name === fresh.name
+                ? {
+                    isNew: true,
+                    onLeave: () => {
+                      if (fresh.isOpen() && !(name in set)) write(name, '');
+                      fresh.end();
+                    },
+                    onCancel: cancel,
+                  }
+                : {})}
             />
           </div>
           <ActionIcon
             size={24}
             aria-label={t('removeCondition', { name: t(`condition.${name}`) })}
             onClick={() => {
+              if (name === fresh.name) fresh.end();
               change('condition', [setCondition(id, name, null)]);
             }}
           >

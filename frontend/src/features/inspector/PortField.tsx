@@ -1,6 +1,6 @@
 import { ActionIcon, Tooltip } from '@mantine/core';
 import { IconArrowBackUp, IconBraces, IconPencil, IconTrash } from '@tabler/icons-react';
-import { useId, useState } from 'react';
+import { useEffect, useId, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { readPortText, type PortSpec } from '@/model/ports';
 import { KeyInput } from './KeyInput';
@@ -15,6 +15,10 @@ interface PortFieldProps {
   readonly keys: readonly string[];
   readonly error: string | null;
   readonly onChange: (value: string | null) => void;
+  /** The port was just added: its value takes the caret. */
+  readonly isNew?: boolean;
+  /** Called when the focus leaves the field. */
+  readonly onLeave?: () => void;
   /** Present for a port that is set without being declared. */
   readonly onRemove?: (() => void) | undefined;
   /** Present for a port that all blocks of the type share. */
@@ -25,9 +29,29 @@ interface PortFieldProps {
 
 /** One port: a value or a blackboard key, with the widget for its type. */
 export function PortField(props: PortFieldProps) {
-  const { port, value, keys, error, onChange, onRemove, onRename, taken } = props;
+  const { port, value, keys, error, onChange, onRemove, onRename, taken, isNew = false, onLeave } = props;
   const { t } = useTranslation('inspector');
   const label = useId();
+  const field = useRef<HTMLDivElement>(null);
+  const onLeft = useRef(onLeave);
+  useEffect(() => {
+    onLeft.current = onLeave;
+  });
+  useEffect(() => {
+    const host = field.current;
+    if (!isNew || !host) return;
+    const input = host.querySelector('input');
+    input?.focus();
+    input?.select();
+    host.scrollIntoView({ block: 'nearest' });
+    const left = ({ relatedTarget }: FocusEvent) => {
+      if (!(relatedTarget instanceof Node && host.contains(relatedTarget))) onLeft.current?.();
+    };
+    host.addEventListener('focusout', left);
+    return () => {
+      host.removeEventListener('focusout', left);
+    };
+  }, [isNew]);
   const [isRenaming, setIsRenaming] = useState(false);
   const isExtra = onRemove !== undefined;
   const kind = value === null ? 'empty' : readPortText(value).kind;
@@ -37,7 +61,7 @@ export function PortField(props: PortFieldProps) {
     kind === 'broken' ||
     (port.direction === 'output' && kind !== 'literal');
   return (
-    <div className={classes['portField']}>
+    <div ref={field} className={classes['portField']}>
       <div className={classes['portHead']}>
         {isRenaming ? (
           <PortNameInput
@@ -113,7 +137,7 @@ export function PortField(props: PortFieldProps) {
           labelledBy={label}
           value={value ?? ''}
           keys={keys}
-          error={error}
+          error={isNew ? null : error}
           onChange={onChange}
         />
       ) : (
@@ -122,7 +146,7 @@ export function PortField(props: PortFieldProps) {
           port={port}
           labelledBy={label}
           value={value}
-          error={error}
+          error={isNew ? null : error}
           onChange={onChange}
         />
       )}

@@ -2,6 +2,7 @@ import { ActionIcon, Tooltip } from '@mantine/core';
 import { IconPlus } from '@tabler/icons-react';
 import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import type { NodeId } from '@/model/diagram';
 import { setPort } from '@/model/edits';
 import type { PortSpec } from '@/model/ports';
 import { blackboardKeys } from '@/model/vocabulary';
@@ -11,6 +12,7 @@ import { problemsOf } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
 import { useProblemText } from '@/ui/useProblemText';
 import { shippedPort } from '@/i18n/shipped';
+import { OutdatedPorts } from './ports/OutdatedPorts';
 import { PortField } from './PortField';
 import { PortNameInput } from './PortNameInput';
 import { Section } from './Section';
@@ -41,6 +43,7 @@ export function PortList(target: Target) {
   const diagnostics = useProjectStore((state) => state.diagnostics);
   const textOf = useProblemText();
   const [isAdding, setIsAdding] = useState(false);
+  const [fresh, setFresh] = useState<{ readonly id: NodeId; readonly name: string } | null>(null);
   const keys = useMemo(() => [...blackboardKeys(diagram, vocabulary).keys()].sort(), [diagram, vocabulary]);
   const declared = spec?.ports ?? [];
   const known = new Set(declared.map((port) => port.name));
@@ -82,6 +85,7 @@ export function PortList(target: Target) {
           }
         : {})}
     >
+      {spec?.outdated && <OutdatedPorts action={node.type} />}
       {declared.length + extra.length === 0 && !isAdding && <p className={classes['none']}>{t('noPorts')}</p>}
       {[...declared, ...extra.map(extraPort)].map((port) => (
         <PortField
@@ -89,6 +93,10 @@ export function PortList(target: Target) {
           port={{ ...port, description: shippedPort(node.type, port.name, port.description) }}
           value={node.ports?.[port.name] ?? null}
           keys={keys}
+          isNew={fresh?.id === id && fresh.name === port.name}
+          onLeave={() => {
+            setFresh(null);
+          }}
           error={errorOf(port.name)}
           taken={taken}
           onChange={(value) => {
@@ -105,7 +113,8 @@ export function PortList(target: Target) {
       {isAdding && (
         <PortNameInput
           taken={taken}
-          onDone={(name) => {
+          onDone={(name, byKey) => {
+            if (name !== null && byKey) setFresh({ id, name });
             if (name !== null && areShared) shared.add(node.type, name);
             else if (name !== null) set(name, `{${name}}`);
             setIsAdding(false);

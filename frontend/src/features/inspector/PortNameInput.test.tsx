@@ -29,7 +29,7 @@ describe('PortNameInput', () => {
     const { onDone, field } = open();
     await user.type(field, 'aim{Enter}');
     fireEvent.blur(field);
-    expect(onDone).toHaveBeenCalledExactlyOnceWith('aim');
+    expect(onDone).toHaveBeenCalledExactlyOnceWith('aim', true);
   });
 
   it('answers when it is left', async () => {
@@ -37,7 +37,7 @@ describe('PortNameInput', () => {
     await user.type(field, 'aim');
     expect(onDone).not.toHaveBeenCalled();
     await user.tab();
-    expect(onDone).toHaveBeenCalledExactlyOnceWith('aim');
+    expect(onDone).toHaveBeenCalledExactlyOnceWith('aim', false);
   });
 
   it('changes nothing with Escape, which stays in the panel', async () => {
@@ -49,13 +49,13 @@ describe('PortNameInput', () => {
     const event = createEvent.keyDown(field, { key: 'Escape' });
     fireEvent(field, event);
     expect(event.defaultPrevented).toBe(true);
-    expect(onDone).toHaveBeenCalledExactlyOnceWith(null);
+    expect(onDone).toHaveBeenCalledExactlyOnceWith(null, false);
   });
 
   it('changes nothing where the name is the same', () => {
     const { onDone, field } = open('goal');
     fireEvent.blur(field);
-    expect(onDone).toHaveBeenCalledExactlyOnceWith(null);
+    expect(onDone).toHaveBeenCalledExactlyOnceWith(null, false);
   });
 
   it.each([
@@ -70,6 +70,6 @@ describe('PortNameInput', () => {
     expect(field).toBeInvalid();
     expect(onDone).not.toHaveBeenCalled();
     fireEvent.blur(field);
-    expect(onDone).toHaveBeenCalledExactlyOnceWith(null);
+    expect(onDone).toHaveBeenCalledExactlyOnceWith(null, false);
   });
 });

@@ -7,8 +7,8 @@ interface PortNameInputProps {
   /** The present name; empty for a new port. */
   readonly before?: string;
   readonly taken: readonly string[];
-  /** Called with the name, or with null if it did not change. */
-  readonly onDone: (name: string | null) => void;
+  /** Called with the name, or with null if it did not change; `byKey`: Enter was pressed. */
+  readonly onDone: (name: string | null, byKey: boolean) => void;
 }
 
 /** Names a port of an open action or subtree. */
@@ -18,11 +18,13 @@ export function PortNameInput({ before = '', taken, onDone }: PortNameInputProps
   useEffect(() => {
     field.current?.focus();
     field.current?.select();
+    field.current?.scrollIntoView({ block: 'nearest' });
   }, []);
   const [name, setName] = useState(before);
   const isDone = useRef(false);
+  const byKey = useRef(false);
   const finish = (result: string | null) => {
-    if (!isDone.current) onDone(result);
+    if (!isDone.current) onDone(result, byKey.current);
     isDone.current = true;
   };
   const isTaken = name !== before && taken.includes(name);
@@ -44,7 +46,10 @@ export function PortNameInput({ before = '', taken, onDone }: PortNameInputProps
         finish(isValid && name !== before ? name : null);
       }}
       onKeyDown={(event) => {
-        if (event.key === 'Enter' && isValid) event.currentTarget.blur();
+        if (event.key === 'Enter' && isValid) {
+          byKey.current = true;
+          event.currentTarget.blur();
+        }
         if (event.key !== 'Escape') return;
         // The key leaves this field, not the panel.
         event.preventDefault();

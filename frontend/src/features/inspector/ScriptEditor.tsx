@@ -77,17 +77,23 @@ export interface ScriptEditorProps {
   readonly testId: string;
   readonly labelledBy?: string;
   readonly label?: string;
+  /** The field was just added: it takes the caret and scrolls into view. */
+  readonly isNew?: boolean;
   readonly onChange: (value: string) => void;
+  readonly onLeave?: () => void;
+  /** Called for Escape in an empty field. */
+  readonly onCancel?: () => void;
 }
 
 /** A script editor with colours, marks at errors, and completion; see ScriptInput. */
-export function ScriptEditor({ value, keys, testId, labelledBy, label, onChange }: ScriptEditorProps) {
+export function ScriptEditor(props: ScriptEditorProps) {
+  const { value, testId, labelledBy, label } = props;
   const { t } = useTranslation();
   const host = useRef<HTMLDivElement>(null);
   const view = useRef<EditorView | null>(null);
-  const latest = useRef({ keys, onChange, value, t });
+  const latest = useRef({ ...props, t });
   useEffect(() => {
-    latest.current = { keys, onChange, value, t };
+    latest.current = { ...props, t };
   });
 
   useEffect(() => {
@@ -106,6 +112,22 @@ export function ScriptEditor({ value, keys, testId, labelledBy, label, onChange 
           history(),
           EditorView.lineWrapping,
           autocompletion({ override: [completions(() => latest.current.keys)], icons: false }),
+          keymap.of([
+            {
+              key: 'Escape',
+              run: ({ state }) => {
+                const { onCancel } = latest.current;
+                if (!onCancel || state.doc.length > 0) return false;
+                onCancel();
+                return true;
+              },
+            },
+          ]),
+          EditorView.domEventHandlers({
+            blur: () => {
+              latest.current.onLeave?.();
+            },
+          }),
           keymap.of([...completionKeymap, ...defaultKeymap, ...historyKeymap]),
           EditorView.contentAttributes.of({ ...named, 'data-testid': testId, spellcheck: 'false' }),
           linter(
@@ -137,6 +159,11 @@ export function ScriptEditor({ value, keys, testId, labelledBy, label, onChange 
       }),
     });
     view.current = editor;
+    if (latest.current.isNew) {
+      editor.dispatch({ selection: { anchor: editor.state.doc.length } });
+      editor.focus();
+      host.current.scrollIntoView({ block: 'nearest' });
+    }
     return () => {
       view.current = null;
       editor.destroy();

@@ -6,6 +6,10 @@ import { scriptText } from '@/ui/scriptText';
 import { lazyPart } from '@/ui/parts';
 import type { ScriptEditorProps } from './ScriptEditor';
 
+const focus = (field: HTMLTextAreaElement | null): void => {
+  field?.focus();
+};
+
 const ScriptEditor = lazyPart(async () => (await import('./ScriptEditor')).ScriptEditor);
 
 /**
@@ -13,7 +17,7 @@ const ScriptEditor = lazyPart(async () => (await import('./ScriptEditor')).Scrip
  * loaded.
  */
 export function ScriptInput(props: ScriptEditorProps) {
-  const { value, testId, labelledBy, label, onChange } = props;
+  const { value, testId, labelledBy, label, isNew = false, onChange } = props;
   const { t } = useTranslation();
   const problem = useMemo(() => {
     const facts = readScript(value);
@@ -30,6 +34,7 @@ export function ScriptInput(props: ScriptEditorProps) {
             aria-label={label}
             data-testid={testId}
             value={value}
+            {...(isNew ? { ref: focus } : {})}
             onChange={(event) => {
               onChange(event.currentTarget.value);
             }}

@@ -37,6 +37,13 @@ describe('ports of an action that declares none', () => {
     await user.type(screen.getByLabelText('Name of the port'), `${name}{Enter}`);
   };
 
+  it('have the caret in the value of a new one, named with Enter', async () => {
+    await add('goal');
+    expect(screen.getByTestId('port-goal')).toHaveFocus();
+    await user.tab();
+    expect(screen.getByTestId('port-goal')).not.toHaveFocus();
+  });
+
   it('are added to, renamed on and taken from all its blocks, each in one step', async () => {
     await add('goal');
     expect([portsOf('Main', 'a'), portsOf('Main', 'b'), portsOf('Other', 'c')]).toEqual(

@@ -5,7 +5,7 @@ import { setCollapsed } from '@/model/edits';
 import type { OutlineLine } from '@/model/outline';
 import type { NodeSpec } from '@/model/vocabulary';
 import { change } from '@/store/project/edits/blocks';
-import { liveKey, useLiveStore } from '@/store/project/live';
+import { liveKey, pastOf, useLiveStore } from '@/store/project/live';
 import { useProjectStore } from '@/store/project';
 import { FamilyTile } from '@/ui/FamilyTile';
 import classes from './Outline.module.css';
@@ -23,6 +23,7 @@ interface OutlineRowProps {
 export function OutlineRow({ tree, row, node, spec, isSelected, top }: OutlineRowProps) {
   const { t } = useTranslation('outline');
   const status = useLiveStore((state) => state.statuses.get(liveKey(tree, row.id)) ?? 'IDLE');
+  const past = useLiveStore((state) => pastOf(state, liveKey(tree, row.id)));
   const name = displayName(node);
   return (
     // eslint-disable-next-line jsx-a11y/click-events-have-key-events
@@ -34,7 +35,8 @@ export function OutlineRow({ tree, row, node, spec, isSelected, top }: OutlineRo
       aria-selected={isSelected}
       {...(row.hasChildren ? { 'aria-expanded': !row.isFolded } : {})}
       className={classes['row']}
-      data-status={status}
+      data-status={past ?? status}
+      data-past={past === undefined ? undefined : ''}
       data-disabled={node.disabled || undefined}
       style={{ transform: `translateY(${top}px)`, paddingLeft: 6 + row.depth * 14 }}
       onClick={() => {

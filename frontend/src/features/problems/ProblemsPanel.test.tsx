@@ -1,7 +1,10 @@
 import { act, screen } from '@testing-library/react';
-import { describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it } from 'vitest';
 import type { Diagnostic } from '@/api/types';
+import { useLanguageStore } from '@/store/language';
 import { useProjectStore } from '@/store/project';
+import { initialSession } from '@/store/session/reduce';
+import { useSessionStore } from '@/store/session/store';
 import { nodeOf, openProject, show, user, watchNavigation } from '../../../harness/testing';
 import { ProblemsPanel } from './ProblemsPanel';
 
@@ -13,11 +16,16 @@ const finding = (more: Partial<Diagnostic>): Diagnostic => ({
 });
 
 function open(...diagnostics: Diagnostic[]) {
+  return openWith('100', ...diagnostics);
+}
+
+function openWith(msec: string, ...diagnostics: Diagnostic[]) {
   openProject({
     trees: {
-      Main: { r: { type: 'Sequence', children: ['a'] }, a: { type: 'Sleep', ports: { msec: '{' } } },
+      Main: { r: { type: 'Sequence', children: ['a'] }, a: { type: 'Sleep', ports: { msec } } },
       Dock: { d: { type: 'AlwaysSuccess' } },
     },
+    texts: { 'actions/Go.py': 'x = = 1' },
     diagnostics,
   });
   show(<ProblemsPanel />);
@@ -25,6 +33,11 @@ function open(...diagnostics: Diagnostic[]) {
 }
 
 const rows = () => screen.getAllByRole('listitem').map((row) => row.querySelector('button')!);
+
+afterEach(() => {
+  useSessionStore.setState(initialSession, true);
+  useLanguageStore.setState(useLanguageStore.getInitialState(), true);
+});
 
 describe('ProblemsPanel', () => {
   it('says that the project can run', () => {
@@ -49,7 +62,7 @@ describe('ProblemsPanel', () => {
       finding({ file: 'actions/Go.py', line: 3 }),
       finding({ tree: 'Dock' }),
     );
-    const [block, line, tree] = rows();
+    const [block, tree, line] = rows();
     expect(block).toHaveTextContent('AlwaysSuccess · port speed · Dock');
     expect(line).toHaveTextContent('actions/Go.py:3');
     expect(tree).toHaveTextContent('DockX1');
@@ -80,7 +93,7 @@ describe('ProblemsPanel', () => {
   });
 
   it('fixes a finding in one step of undo', async () => {
-    open(finding({ code: 'BT0203', tree: 'Main', node: 'a', port: 'msec' }));
+    openWith('{', finding({ code: 'BT0203', tree: 'Main', node: 'a', port: 'msec' }));
     const fixes = screen.queryAllByTestId(/^fix-/);
     expect(fixes.length).toBeGreaterThan(0);
     await user.click(fixes[0]!);
@@ -105,14 +118,54 @@ describe('ProblemsPanel', () => {
     expect(rows().map(({ dataset }) => dataset['code'])).toEqual(['A', 'C', 'B']);
   });
 
-  it('names the tree of a block that is gone, and offers no fixes', () => {
+  it('offers no fixes for a block that is gone', () => {
     open(finding({ code: 'BT0203', tree: 'Main', node: 'gone', port: 'msec' }));
-    expect(rows()[0]).toHaveTextContent('port msec · Main');
     expect(screen.queryAllByTestId(/^fix-/)).toEqual([]);
   });
 
+  it('lists a wrong value before it is saved', () => {
+    openWith('{');
+    expect(rows().map(({ dataset }) => dataset['code'])).toEqual(['BT0203']);
+    expect(screen.queryByText(/can run/)).toBeNull();
+  });
+
+  it('lists the fault of the run, and leads to its line', async () => {
+    const { openFile } = open();
+    const fault = {
+      kind: 'exception',
+      message: 'NameError: twst',
+      hint: '',
+      node_id: 'a',
+      tree_id: 'Main',
+      node_path: 'Main/Sleep',
+      file: 'actions/Go.py',
+      line: 1,
+      traceback: '',
+    } as const;
+    act(() => useSessionStore.setState({ faults: [fault] }));
+    expect(rows()[0]).toHaveTextContent('NameError: twst Sleep · actions/Go.py:1Last run');
+    await user.click(rows()[0]!);
+    expect(openFile).toHaveBeenCalledWith('actions/Go.py', 1);
+  });
+
+  it('lists what is found in a text, and leads to its line', async () => {
+    const { openFile } = open();
+    const place = { line: 2, character: 4 };
+    const served = {
+      from: place,
+      to: place,
+      severity: 'error',
+      message: 'No such name.',
+      source: 'ty x',
+    } as const;
+    act(() => useLanguageStore.setState({ findings: { 'actions/Go.py': [served] } }));
+    expect(rows()[0]).toHaveTextContent('No such name. actions/Go.py:3ty x');
+    await user.click(rows()[0]!);
+    expect(openFile).toHaveBeenCalledWith('actions/Go.py', 3);
+  });
+
   it('says it in the words of the editor where that finds the same', () => {
-    open(finding({ code: 'BT0203', tree: 'Main', node: 'a', port: 'msec', message: 'Server.' }));
+    openWith('{', finding({ code: 'BT0203', tree: 'Main', node: 'a', port: 'msec', message: 'Server.' }));
     expect(rows()[0]).toHaveTextContent('has a brace without its partner');
     expect(rows()[0]).not.toHaveTextContent('Server.');
   });

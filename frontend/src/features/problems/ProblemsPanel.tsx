@@ -1,49 +1,40 @@
 import { ScrollArea, Text } from '@mantine/core';
 import { IconAlertTriangle, IconCircleCheck, IconCircleX, IconInfoCircle } from '@tabler/icons-react';
-import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
-import type { Diagnostic, Severity } from '@/api/types';
 import { displayName } from '@/model/diagram';
+import { fixesFor } from '@/model/fixes';
 import { useProjectStore } from '@/store/project';
-import { fixesOfDiagnostic } from '@/store/project/edits/fixes';
 import { openFile, openTree } from '@/store/project/navigation';
-import { inOwnWords } from '@/store/project/problems';
+import type { ListedProblem } from '@/store/problems/list';
+import { useProblems } from '@/store/problems/useProblems';
 import { QuickFixes } from '@/ui/QuickFixes';
 import { useProblemText } from '@/ui/useProblemText';
 import classes from './problems.module.css';
 
-const ORDER: Severity[] = ['error', 'warning', 'note'];
 const ICONS = { error: IconCircleX, warning: IconAlertTriangle, note: IconInfoCircle };
 
-/** Shows the place of a finding. */
-function go(item: Diagnostic): void {
-  if (item.tree && item.node) {
-    openTree(item.tree);
-    useProjectStore.getState().reveal(item.tree, item.node);
-  } else if (item.file) {
-    openFile(item.file, item.line ?? undefined);
-  } else if (item.tree) {
-    openTree(item.tree);
+/** Shows the place of a finding: of a fault its line, of a finding in a tree its block. */
+function go({ isFault, tree, node, file, line }: ListedProblem): void {
+  if (file !== null && (isFault || tree === null || node === null)) openFile(file, line ?? undefined);
+  else if (tree !== null) {
+    openTree(tree);
+    if (node !== null) useProjectStore.getState().reveal(tree, node);
   }
 }
 
 export function ProblemsPanel() {
   const { t } = useTranslation('problems');
-  const diagnostics = useProjectStore((state) => state.diagnostics);
-  const sorted = useMemo(
-    () => [...diagnostics].sort((a, b) => ORDER.indexOf(a.severity) - ORDER.indexOf(b.severity)),
-    [diagnostics],
-  );
+  const rows = useProblems();
   return (
     <ScrollArea h="100%" type="auto" data-testid="problems">
-      {sorted.length === 0 ? (
+      {rows.length === 0 ? (
         <div className={classes['none']}>
           <IconCircleCheck size={18} aria-hidden="true" />
           <Text size="sm">{t('none')}</Text>
         </div>
       ) : (
         <ul className={classes['list']} aria-label={t('label')}>
-          {sorted.map((item, index) => (
+          {rows.map((item, index) => (
             <li key={`${item.code}-${index}`}>
               <Row item={item} />
             </li>
@@ -54,18 +45,18 @@ export function ProblemsPanel() {
   );
 }
 
-function Row({ item }: { readonly item: Diagnostic }) {
+function Row({ item }: { readonly item: ListedProblem }) {
   const { t } = useTranslation('problems');
   const diagram = useProjectStore((state) => (item.tree ? state.diagrams[item.tree] : undefined));
   const vocabulary = useProjectStore((state) => state.vocabulary);
-  const { message, hint } = useProblemText()(inOwnWords(item, diagram, vocabulary));
+  const { message, hint } = useProblemText()(item.problem);
   const node = item.node ? diagram?.nodes[item.node] : undefined;
   const Icon = ICONS[item.severity];
   const place = item.file ? [item.file, item.line].filter(Boolean).join(':') : (item.tree ?? '');
   const where = [node ? displayName(node) : '', item.port ? t('port', { port: item.port }) : '', place]
     .filter(Boolean)
     .join(' · ');
-  const fixes = node ? fixesOfDiagnostic(item) : [];
+  const fixes = diagram && !item.isFault ? fixesFor(item.problem, diagram, vocabulary) : [];
   return (
     <>
       <button
@@ -80,7 +71,7 @@ function Row({ item }: { readonly item: Diagnostic }) {
           {message} {hint ? <span className={classes['hint']}>{hint}</span> : null}
         </span>
         <span className={classes['where']}>{where}</span>
-        <span className={classes['code']}>{item.code}</span>
+        <span className={classes['code']}>{item.isFault ? t('fault') : item.code}</span>
       </button>
       {fixes.length > 0 ? (
         <div className={classes['fixes']}>

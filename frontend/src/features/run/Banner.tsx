@@ -1,5 +1,5 @@
 import { Button, CloseButton } from '@mantine/core';
-import { IconAlertTriangle, IconHourglass, IconPlugConnectedX } from '@tabler/icons-react';
+import { IconAlertTriangle, IconFlag, IconHourglass, IconPlugConnectedX } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { useShallow } from 'zustand/react/shallow';
 import { perform } from '@/commands/registry';
@@ -15,18 +15,20 @@ const ICONS = {
   silence: IconHourglass,
   fault: IconAlertTriangle,
   failure: IconAlertTriangle,
+  finished: IconFlag,
 };
 
 /** The error, its place and the next step; as wide as the page. */
 export function Banner() {
   const { t, i18n } = useTranslation('run');
   const session = useSessionStore(
-    useShallow(({ connection, connectionMessage, silentS, executorReason, faults }) => ({
+    useShallow(({ connection, connectionMessage, silentS, executorReason, faults, finished }) => ({
       connection,
       connectionMessage,
       silentS,
       executorReason,
       faults,
+      finished,
     })),
   );
   const failure = useRunStore((state) => state.failure);
@@ -59,7 +61,9 @@ export function Banner() {
           {t('command.run')}
         </Button>
       ) : null}
-      {banner.tone === 'error' ? <CloseButton size="sm" aria-label={t('dismiss')} onClick={dismiss} /> : null}
+      {banner.tone === 'error' || banner.kind === 'finished' ? (
+        <CloseButton size="sm" aria-label={t('dismiss')} onClick={dismiss} />
+      ) : null}
     </div>
   );
 }

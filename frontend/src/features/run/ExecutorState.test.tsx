@@ -45,7 +45,14 @@ describe('ExecutorState', () => {
   });
 
   it('says how the last run ended', () => {
-    const finished = { status: 'FAILURE', reason: 'root_finished', message: '' } as const;
+    const finished = {
+      status: 'FAILURE',
+      reason: 'root_finished',
+      message: '',
+      node_id: '',
+      tree_id: '',
+      node_path: '',
+    } as const;
     useSessionStore.setState({ executor: 'visualization_ready', finished });
     const { unmount } = show(<ExecutorState />);
     expect(state()).toHaveTextContent(/^Stopped · failure$/);

@@ -71,7 +71,14 @@ describe('RunControls', () => {
     expect(screen.getByTestId('executor-state')).toHaveTextContent(/^Running$/);
     expect(button('Run again')).toBeEnabled();
     executor.emit('state-changed', { state: 'visualization_ready', reason: '' });
-    executor.emit('finished', { status: 'SUCCESS', reason: 'root_finished', message: '' });
+    executor.emit('finished', {
+      status: 'SUCCESS',
+      reason: 'root_finished',
+      message: '',
+      node_id: '',
+      tree_id: '',
+      node_path: '',
+    });
     expect(screen.getByTestId('executor-state')).toHaveTextContent('Stopped · success');
     expect(button('Run')).toBeEnabled();
     for (const name of ['Pause', 'Step one tick', 'Stop (the world stays)'])

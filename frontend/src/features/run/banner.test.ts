@@ -9,6 +9,7 @@ const calm = {
   executorReason: '',
   faults: [],
   failure: null,
+  finished: null,
 } as const;
 
 const fault = (more: Partial<Fault>): Fault => ({
@@ -27,6 +28,28 @@ const fault = (more: Partial<Fault>): Fault => ({
 describe('bannerFor', () => {
   it('says nothing when all is well', () => {
     expect(bannerFor(calm)).toBeNull();
+  });
+
+  it('names the block that failed, and leads to it', () => {
+    const finished = {
+      status: 'FAILURE',
+      reason: 'root_finished',
+      message: 'The tree ended with FAILURE. Go is not written yet.',
+      node_id: 'n3',
+      tree_id: 'MainTree',
+      node_path: 'try/AlwaysFailure::3',
+    } as const;
+    expect(bannerFor({ ...calm, executorReason: finished.message, finished })).toMatchObject({
+      titleKey: 'banner.finished.FAILURE',
+      values: { node: 'AlwaysFailure' },
+      text: 'Go is not written yet.',
+      link: { tree: 'MainTree', node: 'n3' },
+    });
+    const succeeded = { ...finished, status: 'SUCCESS' } as const;
+    expect(bannerFor({ ...calm, executorReason: 'ended', finished: succeeded })).toMatchObject({
+      tone: 'success',
+      link: null,
+    });
   });
 
   it('leads to the line that raised', () => {

@@ -1,4 +1,4 @@
-import type { Fault } from '@/generated/messages';
+import type { Fault, Finished } from '@/generated/messages';
 import { t } from '@/i18n';
 import type { Connection } from '@/store/session/connectionStates';
 import type { LaunchFailure } from '@/store/run/store';
@@ -6,8 +6,8 @@ import { findingText } from '@/ui/findingText';
 
 /** The content of the banner: the most urgent problem. */
 export interface BannerContent {
-  kind: 'connection' | 'silence' | 'fault' | 'failure';
-  tone: 'error' | 'warning';
+  kind: 'connection' | 'silence' | 'fault' | 'failure' | 'finished';
+  tone: 'error' | 'warning' | 'success';
   /** The i18n key in `run:banner`, and its values. */
   titleKey: string;
   values: Record<string, string>;
@@ -25,19 +25,40 @@ interface Situation {
   executorReason: string;
   faults: readonly Fault[];
   failure: LaunchFailure | null;
+  /** How the last run ended. */
+  finished: Finished | null;
 }
 
 /** The most urgent problem: a lost connection, a silent executor, the last fault, then a refused command. */
 export function bannerFor(situation: Situation): BannerContent | null {
-  const { connection, connectionMessage, silentS, executorReason, faults, failure } = situation;
+  const { connection, connectionMessage, silentS, executorReason, faults, failure, finished } = situation;
   if (connection === 'reconnecting' || connection === 'lost')
     return connectionBanner(connection, connectionMessage);
   if (silentS > 0) return silenceBanner(silentS);
   if (failure) return failureBanner(failure);
   const fault = faults.at(-1);
   if (fault) return faultBanner(fault);
-  return executorReason ? reasonBanner(executorReason) : null;
+  if (!executorReason) return null;
+  return finished?.reason === 'root_finished' ? finishedBanner(finished) : reasonBanner(executorReason);
 }
+
+/** The first sentence of the executor, which the title says in the user's language. */
+const ENDED = /^The tree ended with \w+\.\s*/;
+
+function finishedBanner({ status, message, node_id, tree_id, node_path }: Finished): BannerContent {
+  return {
+    kind: 'finished',
+    tone: status === 'FAILURE' ? 'error' : status === 'SUCCESS' ? 'success' : 'warning',
+    titleKey: `banner.finished.${status}`,
+    values: { node: nameIn(node_path) },
+    text: message.replace(ENDED, ''),
+    hint: '',
+    link: status === 'FAILURE' && node_id ? { tree: tree_id, node: node_id } : null,
+  };
+}
+
+/** The last name of a path, without the number that the engine gives to unnamed nodes. */
+const nameIn = (path: string) => (path.split('/').at(-1) ?? '').replace(/::\d+$/, '');
 
 function reasonBanner(reason: string): BannerContent {
   return {
@@ -77,7 +98,7 @@ function silenceBanner(silentS: number): BannerContent {
 
 function faultBanner(fault: Fault): BannerContent {
   const where = fault.file && fault.line > 0;
-  const node = (fault.node_path.split('/').at(-1) ?? '').replace(/::\d+$/, '');
+  const node = nameIn(fault.node_path);
   return {
     kind: 'fault',
     tone: 'error',

@@ -1,20 +1,19 @@
 import { Button, Text, useComputedColorScheme } from '@mantine/core';
 import { IconPlayerPlayFilled } from '@tabler/icons-react';
 import { Canvas } from '@react-three/fiber';
-import { useEffect, useRef, useState } from 'react';
+import { useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { perform } from '@/commands/registry';
-import type { Scene } from '@/generated/messages';
-import { frames } from '@/store/session/frames';
 import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
-import { CameraInset } from './CameraInset';
+import { CameraInset } from './pictures/CameraInset';
 import { Notes } from './Notes';
 import { Stage } from './scene/Stage';
 import { TeleopPad } from './TeleopPad';
 import './scene/three';
+import { useScene } from './useScene';
 import { useStream } from './useStream';
-import { useUsesCamera } from './useUsesCamera';
+import { useUsesCamera } from './pictures/useUsesCamera';
 import { useVisible } from '@/ui/useVisible';
 import { ViewerToolbar } from './ViewerToolbar';
 import { keepViewOptions, loadViewOptions, type ViewOptions } from './viewOptions';
@@ -74,14 +73,6 @@ export function Viewer3d() {
       ) : null}
     </div>
   );
-}
-
-/** The last scene that was received, until the world is stopped. */
-function useScene(): Scene | null {
-  const [scene, setScene] = useState<Scene | null>(() => frames.scene());
-  const hasWorld = useSessionStore(({ executor }) => executor !== 'idle' && executor !== 'connected');
-  useEffect(() => frames.listen('scene', setScene), []);
-  return hasWorld ? scene : null;
 }
 
 function NoWorld() {

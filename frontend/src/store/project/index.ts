@@ -35,10 +35,10 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
     set((state) => changeDiagrams(state, owner, label, change, options));
   };
 
-  const travel = (go: typeof undo): void => {
+  const travel = (go: typeof undo, tree?: string): void => {
     let followed: Renaming | null = null;
     set((state) => {
-      const owner = state.activeTree;
+      const owner = tree ?? state.activeTree;
       if (owner === null) return state;
       const undoStack = state.histories[owner] ?? emptyUndo;
       let moved: Travel<Diagrams> | null;
@@ -53,8 +53,9 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       const renaming = renamed && go === undo ? { from: renamed.to, to: renamed.from } : renamed;
       const files = renaming ? withActionRenamed(state, renaming) : null;
       if (files) followed = renaming ?? null;
-      const chosen = go === undo ? moved.entry.before : moved.entry.after;
-      const diagram = moved.document[owner];
+      const chosen =
+        owner !== state.activeTree ? state.selection : go === undo ? moved.entry.before : moved.entry.after;
+      const diagram = moved.document[state.activeTree ?? owner];
       return {
         ...knowing({ ...(files ?? state), diagrams: moved.document }),
         histories: { ...state.histories, [owner]: moved.undoStack },
@@ -149,8 +150,8 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
           : state;
       });
     },
-    undo: () => {
-      travel(undo);
+    undo: (tree) => {
+      travel(undo, tree);
     },
     redo: () => {
       travel(redo);

@@ -1,6 +1,6 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { TreeNode } from '@/generated/messages';
-import { liveKey, useLiveStore } from './live';
+import { liveKey, pastOf, useLiveStore } from './live';
 
 const live = () => useLiveStore.getState();
 const node = (uid: number, node_id: string, tree_id = 'T'): TreeNode => ({
@@ -41,6 +41,26 @@ describe('live status', () => {
     expect(live().flashes.get(liveKey('T', 'a'))).toBe(first);
     live().flash([[1, 'SUCCESS']]);
     expect(live().flashes.get(liveKey('T', 'a'))?.status).toBe('SUCCESS');
+  });
+  it('of the last tick shows on blocks that are idle again, until the next tick', () => {
+    live().setStatuses([[1, 'RUNNING']]);
+    live().setPast([
+      [1, 'FAILURE'],
+      [2, 'SUCCESS'],
+      [3, 'FAILURE'],
+    ]);
+    expect([pastOf(live(), liveKey('T', 'a')), pastOf(live(), liveKey('T', 'b'))]).toEqual([
+      undefined,
+      'FAILURE',
+    ]);
+    live().setPast([]);
+    expect(pastOf(live(), liveKey('T', 'b'))).toBeUndefined();
+  });
+  it('draws an unchanged last tick only once', () => {
+    live().setPast([[1, 'FAILURE']]);
+    const first = live().past;
+    live().setPast([[1, 'FAILURE']]);
+    expect(live().past).toBe(first);
   });
   it('ends with the run', () => {
     live().setStatuses([[1, 'RUNNING']]);

@@ -20,10 +20,14 @@ export interface LiveState {
   /** Whether a tree is running, or its last statuses are still shown. */
   readonly active: boolean;
   readonly statuses: ReadonlyMap<LiveKey, NodeStatus>;
+  /** Blocks that are idle again, with their last status in the last tick. */
+  readonly past: ReadonlyMap<LiveKey, NodeStatus>;
   readonly flashes: ReadonlyMap<LiveKey, Flash>;
   readonly faults: ReadonlyMap<LiveKey, string>;
   setTree(nodes: readonly TreeNode[]): void;
   setStatuses(changed: readonly (readonly [uid: number, status: NodeStatus])[]): void;
+  /** Replaces the statuses of the last tick. */
+  setPast(past: readonly (readonly [uid: number, status: NodeStatus])[]): void;
   flash(flashed: readonly (readonly [uid: number, status: NodeStatus])[]): void;
   setFault(node: string, tree: string, message: string): void;
   clear(): void;
@@ -31,6 +35,9 @@ export interface LiveState {
 
 /** A tree that is used twice has two instances of each node: the block shows the busiest one. */
 const WEIGHT: Record<NodeStatus, number> = { RUNNING: 4, FAILURE: 3, SUCCESS: 2, SKIPPED: 1, IDLE: 0 };
+
+const busiest = (statuses: readonly NodeStatus[]): NodeStatus =>
+  statuses.reduce<NodeStatus>((best, next) => (WEIGHT[next] > WEIGHT[best] ? next : best), 'IDLE');
 
 /** Statuses of the running tree; not saved and without undo. */
 export const useLiveStore = create<LiveState>()((set, get) => {
@@ -40,13 +47,12 @@ export const useLiveStore = create<LiveState>()((set, get) => {
   let flashCount = 0;
 
   const merged = (key: LiveKey): NodeStatus =>
-    (instances.get(key) ?? [])
-      .map((uid) => byUid.get(uid) ?? 'IDLE')
-      .reduce<NodeStatus>((best, next) => (WEIGHT[next] > WEIGHT[best] ? next : best), 'IDLE');
+    busiest((instances.get(key) ?? []).map((uid) => byUid.get(uid) ?? 'IDLE'));
 
   return {
     active: false,
     statuses: new Map(),
+    past: new Map(),
     flashes: new Map(),
     faults: new Map(),
     setTree: (nodes) => {
@@ -59,7 +65,7 @@ export const useLiveStore = create<LiveState>()((set, get) => {
         keys.set(node.uid, key);
         instances.set(key, [...(instances.get(key) ?? []), node.uid]);
       }
-      set({ active: true, statuses: new Map(), flashes: new Map(), faults: new Map() });
+      set({ active: true, ...nothing() });
     },
     setStatuses: (changed) => {
       if (changed.length === 0) return;
@@ -70,6 +76,15 @@ export const useLiveStore = create<LiveState>()((set, get) => {
         if (key !== undefined) statuses.set(key, merged(key));
       }
       set({ statuses });
+    },
+    setPast: (pairs) => {
+      const past = new Map<LiveKey, NodeStatus>();
+      for (const [uid, status] of pairs) {
+        const key = keys.get(uid);
+        if (key !== undefined) past.set(key, busiest([past.get(key) ?? 'IDLE', status]));
+      }
+      // Most ticks end as the one before, and then nothing is drawn again.
+      if (!isEqual(past, get().past)) set({ past });
     },
     flash: (flashed) => {
       const now = performance.now();
@@ -92,7 +107,18 @@ export const useLiveStore = create<LiveState>()((set, get) => {
     clear: () => {
       keys = new Map();
       byUid = new Map();
-      set({ active: false, statuses: new Map(), flashes: new Map(), faults: new Map() });
+      set({ active: false, ...nothing() });
     },
   };
 });
+
+const nothing = () => ({ statuses: new Map(), past: new Map(), flashes: new Map(), faults: new Map() });
+
+function isEqual(a: ReadonlyMap<LiveKey, NodeStatus>, b: ReadonlyMap<LiveKey, NodeStatus>): boolean {
+  return a.size === b.size && [...a].every(([key, status]) => b.get(key) === status);
+}
+
+/** The status of a block in the last tick, if it is idle again. */
+export function pastOf({ statuses, past }: LiveState, key: LiveKey): NodeStatus | undefined {
+  return (statuses.get(key) ?? 'IDLE') === 'IDLE' ? past.get(key) : undefined;
+}

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { emptyDiagram, type Diagram } from '@/model/diagram';
-import { inOwnWords } from './problems';
+import { problemsOf } from './problems';
 import { useProjectStore } from '.';
 
 describe('a finding of the server', () => {
@@ -16,17 +16,25 @@ describe('a finding of the server', () => {
     node: 'n1',
   };
 
-  it('uses the translated text of the editor where it has the same finding', () => {
-    expect(inOwnWords(item, diagram, vocabulary)).toMatchObject({
-      source: 'editor',
-      kind: 'unknown-type',
-      values: { type: 'Nobody' },
+  it('is shown once, in the translated text of the editor, where that finds the same', () => {
+    expect(problemsOf(diagram, vocabulary, [item])).toEqual([
+      expect.objectContaining({ source: 'editor', kind: 'unknown-type', values: { type: 'Nobody' } }),
+    ]);
+  });
+
+  it('keeps the text and the line of the server where the editor has no such finding', () => {
+    const other = { ...item, code: 'BT0601', file: 'actions/Nobody.py', line: 3 };
+    const { message, hint, file, line } = other;
+    expect(problemsOf(diagram, vocabulary, [other])[1]).toMatchObject({
+      source: 'server',
+      message,
+      hint,
+      file,
+      line,
     });
   });
 
-  it('keeps the text of the server where the editor has no such finding', () => {
-    const alone = { source: 'server', message: item.message, hint: item.hint };
-    expect(inOwnWords({ ...item, code: 'BT0601' }, diagram, vocabulary)).toMatchObject(alone);
-    expect(inOwnWords(item, undefined, vocabulary)).toMatchObject(alone);
+  it('leaves with its block', () => {
+    expect(problemsOf(diagram, vocabulary, [{ ...item, node: 'gone' }])).toHaveLength(1);
   });
 });

@@ -15,6 +15,8 @@ export type ShownProblem =
       readonly message: string;
       readonly hint: string;
       readonly values?: Readonly<Record<string, string>> | undefined;
+      readonly file?: string | null;
+      readonly line?: number | null;
     };
 
 const placeOf = (code: string, node: NodeId | null, port: string | undefined): string =>
@@ -55,26 +57,10 @@ export function problemsOf(
       message: each.message,
       hint: each.hint ?? '',
       values: each.values,
+      file: each.file || null,
+      line: each.line ?? null,
     }));
   return [...own, ...server];
-}
-
-/**
- * A finding of the server with the editor's text if the editor has the same one, since that text is
- * translated.
- */
-export function inOwnWords(
-  item: Diagnostic,
-  diagram: Diagram | undefined,
-  vocabulary: Vocabulary,
-): ShownProblem {
-  const place = placeOf(item.code, item.node || null, item.port || undefined);
-  const own = (diagram ? ownProblems(diagram, vocabulary) : []).find(({ kind, node, port }) =>
-    CODES[kind].some((code) => placeOf(code, node, port) === place),
-  );
-  if (own) return { source: 'editor', ...own };
-  const { severity, code, message, hint, values } = item;
-  return { source: 'server', severity, node: item.node || null, code, message, hint: hint ?? '', values };
 }
 
 /** The worst finding of each node. */

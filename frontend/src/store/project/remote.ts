@@ -1,5 +1,6 @@
 import type { ProjectDetail } from '@/api/types';
 import { emptyUndo } from '@/model/undo';
+import { withLastDeclarations } from './declarations';
 import { currentText, openFiles } from './files';
 import { readSettings } from './settings';
 import type { ProjectData } from './state';
@@ -70,7 +71,7 @@ export function mergeRemote(data: ProjectData, detail: ProjectDetail): Merged {
     diagrams,
     histories,
     revision: Math.max(data.revision, detail.revision),
-    actions: detail.actions,
+    actions: withLastDeclarations(data.actions, detail.actions),
     diagnostics: detail.diagnostics,
     ...(kept.includes('project.json')
       ? {}

@@ -71,7 +71,8 @@ export interface ProjectActions {
   apply(treeId: string, label: string, recipes: readonly Recipe[], options?: EditOptions): void;
   /** Ends a gesture: the next edit is a step of its own. */
   seal(treeId?: string): void;
-  undo(): void;
+  /** Takes back the last step of a tree, or of the active one. */
+  undo(tree?: string): void;
   redo(): void;
   addTree(id: string): void;
   renameTree(from: string, to: string): void;

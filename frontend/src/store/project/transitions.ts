@@ -5,6 +5,7 @@ import { emptyUndo, record, type Renaming } from '@/model/undo';
 import { sameFacts, treeFacts } from '@/model/treeFacts';
 import { makeVocabulary, type Vocabulary } from '@/model/vocabulary';
 import { catalog } from './catalog';
+import { withLastDeclarations } from './declarations';
 import { syncTrees } from './files';
 import { actionPath, treePath, type ProjectData } from './state';
 
@@ -63,7 +64,7 @@ const NOT_CHECKED = 'BT0009';
 /** The findings after a check; if the check failed, the earlier findings stay. */
 export function findingsAfter(before: Findings, answer: Findings & Pick<CheckResult, 'checked'>): Findings {
   const { checked, diagnostics, actions } = answer;
-  if (checked !== false) return { diagnostics, actions };
+  if (checked !== false) return { diagnostics, actions: withLastDeclarations(before.actions, actions) };
   const earlier = before.diagnostics.filter(({ code }) => code !== NOT_CHECKED);
   return { diagnostics: [...earlier, ...diagnostics], actions: before.actions };
 }

@@ -229,10 +229,11 @@ class SessionConnection {
     if (wanted === this.isStreaming && wanted) return;
     this.isStreaming = wanted;
     if (!wanted) return streams.disconnect();
-    streams.connect((stream, options) => {
+    streams.connect((stream, options, sensor) => {
+      const which = sensor === undefined ? { stream } : { stream, sensor };
       const done = options
-        ? this.send('subscribe', { stream, ...options })
-        : this.send('unsubscribe', { stream });
+        ? this.send('subscribe', { ...which, ...options })
+        : this.send('unsubscribe', which);
       // If the world has no such stream (no camera, no LIDAR), its view shows a note.
       done.catch(() => undefined);
     });

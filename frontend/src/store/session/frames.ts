@@ -3,6 +3,9 @@ import type { Frame, Scene } from '@/generated/messages';
 type FrameOf<K extends Frame['type']> = Extract<Frame, { type: K }>;
 type Listener = (frame: Frame) => void;
 
+/** What a newer frame replaces: one of its kind, and of its camera. */
+const keyOf = (frame: Frame): string => (frame.type === 'camera' ? `camera/${frame.sensor}` : frame.type);
+
 /**
  * Distributes frames outside of React: viewers listen, and draw at their own pace. The last frame of each
  * kind is kept for views that open later; a new scene drops older poses.
@@ -12,19 +15,17 @@ class FrameBus {
   private readonly latest = new Map<string, Frame>();
 
   publish(frame: Frame): void {
-    const kind = frame.type;
-    if (kind === 'scene') this.latest.clear();
-    this.latest.set(kind, frame);
-    this.listeners.get(kind)?.forEach((listener) => listener(frame));
+    if (frame.type === 'scene') this.latest.clear();
+    this.latest.set(keyOf(frame), frame);
+    this.listeners.get(frame.type)?.forEach((listener) => listener(frame));
   }
 
-  /** Calls the listener at once with the last frame, if there is one, and then with each new one. */
+  /** Calls the listener at once with the last frame, of each camera, and then with each new one. */
   listen<K extends Frame['type']>(kind: K, listener: (frame: FrameOf<K>) => void): () => void {
     const set = this.listeners.get(kind) ?? new Set();
     this.listeners.set(kind, set);
     set.add(listener as Listener);
-    const last = this.latest.get(kind);
-    if (last) listener(last as FrameOf<K>);
+    for (const last of this.latest.values()) if (last.type === kind) listener(last as FrameOf<K>);
     return () => set.delete(listener as Listener);
   }
 

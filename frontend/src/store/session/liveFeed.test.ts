@@ -12,7 +12,7 @@ function hear(command: ServerMessage['command'], data: unknown): void {
 }
 
 const tick = (status: NodeStatus): void =>
-  hear('tick', { n: 1, changed: [[1, status]], flashed: [], duration_ms: 1 });
+  hear('tick', { n: 1, changed: [[1, status]], flashed: [], duration_ms: 1, past: [] });
 const shown = (): NodeStatus | undefined => useLiveStore.getState().statuses.get('Main/n1');
 
 beforeAll(() => {
@@ -56,4 +56,13 @@ it('shows at once how a stopped tree ends, whatever the rate', () => {
   tick('SUCCESS');
   hear('state-changed', { state: 'paused' });
   expect(shown()).toBe('SUCCESS');
+});
+
+it('shows the last tick until another one comes', () => {
+  setStatusRate(2);
+  hear('tick', { n: 1, changed: [], flashed: [[1, 'FAILURE']], duration_ms: 1, past: [[1, 'FAILURE']] });
+  expect(useLiveStore.getState().past.get('Main/n1')).toBe('FAILURE');
+  hear('tick', { n: 2, changed: [], flashed: [], duration_ms: 1, past: [] });
+  vi.advanceTimersByTime(600);
+  expect(useLiveStore.getState().past.size).toBe(0);
 });

@@ -4,6 +4,7 @@ import { useStatusRate } from './statusRate';
 
 const pending = new Map<number, NodeStatus>();
 const flashes = new Map<number, NodeStatus>();
+let past: Tick['past'] | null = null;
 let shownAt = 0;
 let timer: ReturnType<typeof setTimeout> | undefined;
 
@@ -16,13 +17,15 @@ export function feedLive({ command, data }: ServerMessage): void {
       return live.setTree((data as Tree).nodes);
     case 'snapshot': {
       forgetPending();
-      const { tree, statuses, faults } = data as Snapshot;
-      live.setTree(tree?.nodes ?? []);
-      live.setStatuses(statuses);
-      return faults.forEach(showFault);
+      const snapshot = data as Snapshot;
+      live.setTree(snapshot.tree?.nodes ?? []);
+      live.setStatuses(snapshot.statuses);
+      live.setPast(snapshot.past);
+      return snapshot.faults.forEach(showFault);
     }
     case 'tick': {
       const { changed, flashed } = data as Tick;
+      past = (data as Tick).past;
       for (const [uid, status] of changed) pending.set(uid, status);
       for (const [uid, status] of flashed) flashes.set(uid, status);
       return;
@@ -37,7 +40,7 @@ export function feedLive({ command, data }: ServerMessage): void {
 
 /** Shows the collected statuses, now or when the rate allows; called once after each batch of messages. */
 export function showDueStatuses(): void {
-  if (pending.size === 0 && flashes.size === 0) return;
+  if (pending.size === 0 && flashes.size === 0 && past === null) return;
   const { hz } = useStatusRate.getState();
   const wait = hz > 0 ? 1000 / hz - (performance.now() - shownAt) : 0;
   if (wait <= 1) return showStatuses();
@@ -50,6 +53,7 @@ function showStatuses(): void {
   shownAt = performance.now();
   const live = useLiveStore.getState();
   if (pending.size > 0) live.setStatuses([...pending]);
+  if (past !== null) live.setPast(past);
   if (flashes.size > 0) live.flash([...flashes]);
   forgetPending();
 }
@@ -59,6 +63,7 @@ export function forgetPending(): void {
   timer = undefined;
   pending.clear();
   flashes.clear();
+  past = null;
 }
 
 function showFault(fault: Fault): void {

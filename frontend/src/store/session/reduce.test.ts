@@ -50,6 +50,8 @@ const snapshot = (more: Partial<Snapshot> = {}): Snapshot => ({
   universe: 'walled_room',
   launch_nodes: [],
   mismatches: [],
+  past: [],
+  finished: null,
   ...more,
 });
 
@@ -217,5 +219,5 @@ describe('appendLogs', () => {
 });
 
 function tick(n: number): Events['tick'] {
-  return { n, changed: [], flashed: [], duration_ms: 0.1 };
+  return { n, changed: [], flashed: [], duration_ms: 0.1, past: [] };
 }

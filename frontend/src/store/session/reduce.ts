@@ -86,6 +86,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
       ? {}
       : { tickHz: data.tick_hz, speed: data.speed }),
     universe: data.universe,
+    finished: data.finished,
     ...appendLogs({ ...state, logs: [] }, [
       ...data.logs,
       ...data.mismatches.map((mismatch) => mismatchLog(mismatch, t)),

@@ -2,10 +2,12 @@ import { PROTOCOL, type StreamName, type Subscribe } from '@/generated/messages'
 import { frames } from './frames';
 import type { FromWorker, ToWorker } from './stream.worker';
 
-export type StreamOptions = Omit<Subscribe, 'stream'>;
+export type StreamOptions = Omit<Subscribe, 'stream' | 'sensor'>;
 
 interface Want {
   stream: StreamName;
+  /** The camera, if it is not the first. */
+  sensor: string | undefined;
   options: StreamOptions;
 }
 
@@ -14,13 +16,27 @@ export interface StreamHandle {
   release: () => void;
 }
 
-type SendSubscription = (stream: StreamName, options: StreamOptions | null) => void;
+type SendSubscription = (stream: StreamName, options: StreamOptions | null, sensor?: string) => void;
+
+/** One subscription for all views of a stream: as often and as wide as any of them wants it. */
+function together(wants: readonly Want[]): StreamOptions | null {
+  const last = wants.at(-1)?.options;
+  if (!last) return null;
+  const all = wants.map(({ options }) => options);
+  const made: StreamOptions = { ...last };
+  const rates = all.flatMap(({ max_hz }) => max_hz ?? []);
+  if (rates.length > 0) made.max_hz = Math.max(...rates);
+  const widths = all.flatMap(({ width }) => width ?? []);
+  if (widths.length < all.length) delete made.width;
+  else made.width = Math.max(...widths);
+  return made;
+}
 
 const REOPEN_AFTER_MS = 1000;
 
 /**
- * The stream socket and the subscriptions of the page. Several views can want a stream; the last options
- * apply.
+ * The stream socket and the subscriptions of the page. Several views can want a stream; each camera is a
+ * stream of its own.
  */
 class Streams {
   private worker: Worker | null = null;
@@ -44,32 +60,37 @@ class Streams {
   /** Sends all present subscriptions, and from now on each change. */
   connect(send: SendSubscription): void {
     this.send = send;
-    for (const stream of new Set(this.wants.map((want) => want.stream))) this.announce(stream);
+    const first = this.wants.filter((want) => this.wantsOf(want)[0] === want);
+    for (const want of first) this.announce(want);
   }
 
   disconnect(): void {
     this.send = null;
   }
 
-  want(stream: StreamName, options: StreamOptions): StreamHandle {
-    const want: Want = { stream, options };
+  want(stream: StreamName, options: StreamOptions, sensor?: string): StreamHandle {
+    const want: Want = { stream, options, sensor };
     this.wants.push(want);
-    this.announce(stream);
+    this.announce(want);
     return {
       update: (changed) => {
         want.options = changed;
-        this.announce(stream);
+        this.announce(want);
       },
       release: () => {
         this.wants = this.wants.filter((other) => other !== want);
-        this.announce(stream);
+        this.announce(want);
       },
     };
   }
 
-  private announce(stream: StreamName): void {
-    const last = this.wants.findLast((want) => want.stream === stream);
-    this.send?.(stream, last?.options ?? null);
+  private wantsOf({ stream, sensor }: Want): Want[] {
+    return this.wants.filter((want) => want.stream === stream && want.sensor === sensor);
+  }
+
+  private announce(want: Want): void {
+    const sensor = want.sensor === undefined ? [] : ([want.sensor] as const);
+    this.send?.(want.stream, together(this.wantsOf(want)), ...sensor);
   }
 
   private post(message: ToWorker): void {

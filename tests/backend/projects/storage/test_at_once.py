@@ -8,9 +8,11 @@ from __future__ import annotations
 import random
 
 import pytest
-from django.db import connection
+from django.db import connection, transaction
 from django.test.utils import CaptureQueriesContext
+from django.utils import timezone
 
+from backend.accounts.models import User
 from backend.projects.models import ChangeSet, CurrentFile, Draft, FileRevision, Project
 from backend.projects.storage import at_once, rows, writes
 from backend.projects.storage.changes import Content, FileChange
@@ -96,3 +98,15 @@ def test_few_files_are_one_statement_on_postgresql_alone(api, project):
     is_postgresql = connection.vendor == "postgresql"
     assert [sql.partition(" ")[0] for sql in few] == (["WITH"] if is_postgresql else ["INSERT"] * 4)
     assert [sql.partition(" ")[0] for sql in many] == ["INSERT"] * 4
+
+
+def test_the_room_that_other_projects_take_is_what_the_orm_sums(api, user):
+    mine, other, gone = (api.post("projects", {"name": name}, expect=201)["id"] for name in ("A", "B", "C"))
+    Project.objects.filter(pk=other).update(size=1000)
+    Project.objects.filter(pk=gone).update(size=50, deleted_at=timezone.now())
+    foreign = api.post("projects", {"name": "D"}, expect=201)["id"]
+    Project.objects.filter(pk=foreign).update(owner=User.objects.create(username="someone else"))
+    with transaction.atomic():
+        project = rows.project(mine, lock=True)
+    assert rows.taken_by_others(project) == rows.summed_others(project) == 1000
+    assert (at_once.taken_by_others(project) is None) == (connection.vendor != "postgresql")

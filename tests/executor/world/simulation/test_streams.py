@@ -1,5 +1,6 @@
 """Streams over a real world with pictures of one colour: the frames, their times and their size."""
 
+import dataclasses
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -91,6 +92,18 @@ def watched() -> Iterator[Watched]:
     made.world.close()
 
 
+@pytest.fixture
+def two_eyed() -> Iterator[Watched]:
+    """A world whose robot has a second camera."""
+    made = Watched()
+    robot: Any = made.world.robots[0]
+    front = robot.config.cameras[0]
+    cameras = (front, front.model_copy(update={"name": "rear"}))
+    robot.config = dataclasses.replace(robot.config, cameras=cameras)
+    yield made
+    made.world.close()
+
+
 def test_without_subscribers_nothing_is_measured(watched: Watched) -> None:
     assert watched.run(0.5) == []
     assert watched.renderer.drawn == []
@@ -159,6 +172,23 @@ def test_a_camera_is_drawn_in_the_requested_width(watched: Watched) -> None:
     [frame] = watched.stand(0.1)
     assert (frame.width, frame.height) == (320, 240)
     assert simplejpeg.decode_jpeg(frame.jpeg).shape == (240, 320, 3)
+
+
+def test_each_camera_is_sent_on_a_lane_of_its_own(two_eyed: Watched) -> None:
+    two_eyed.streams.subscribe("a", "camera")
+    two_eyed.streams.subscribe("a", "camera", sensor="rear", width=160, max_hz=5)
+    two_eyed.streams.subscribe("a", "camera", sensor="none such")
+    frames = two_eyed.run(1.0)
+    assert {frame.sensor for frame in frames} == {"camera", "rear"}
+    assert {(message.stream, decode(message.data).sensor) for message in two_eyed.sent} == {
+        ("camera", "camera"),
+        ("camera/rear", "rear"),
+    }
+    rear = [frame for frame in frames if frame.sensor == "rear"]
+    assert {frame.width for frame in rear} == {160}
+    assert 4 <= len(rear) <= 6
+    two_eyed.streams.unsubscribe("a", "camera")
+    assert {frame.sensor for frame in two_eyed.run(0.5)} == {"rear"}
 
 
 def test_a_view_follows_its_client(watched: Watched) -> None:

@@ -6,7 +6,7 @@ import { setCollapsed } from '@/model/edits';
 import { change } from '@/store/project/edits/blocks';
 import { setEditor, toggleExpanded, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
-import { liveKey, useLiveStore } from '@/store/project/live';
+import { liveKey, pastOf, useLiveStore } from '@/store/project/live';
 import { NodeSymbol } from '@/ui/NodeSymbol';
 import type { BlockNode } from '../flow';
 import { openQuickAddBelow } from '../quickAdd/open';
@@ -22,6 +22,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
   const { node, spec, problem, tree, isHorizontal, inside } = data;
   const key = inside ? liveKey(inside.tree, inside.node) : liveKey(tree, id);
   const status = useLiveStore((state) => state.statuses.get(key) ?? 'IDLE');
+  const past = useLiveStore((state) => pastOf(state, key));
   const flash = useLiveStore((state) => state.flashes.get(key));
   const fault = useLiveStore((state) => state.faults.get(key));
   const isTarget = useEditorStore((state) => state.slot?.kind === 'onto' && state.slot.parent === id);
@@ -40,6 +41,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
       data-type={node.type}
       data-family={family ?? 'unknown'}
       data-status={status}
+      data-past={past}
       data-selected={selected || undefined}
       data-disabled={node.disabled || undefined}
       data-inside={inside ? '' : undefined}
@@ -55,7 +57,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
       </span>
       <BlockTitle id={id} node={node} t={t} />
       <BlockPorts node={node} spec={spec} t={t} />
-      <StatusMark status={fault === undefined ? status : 'FAILURE'} flash={flash} />
+      <StatusMark status={fault === undefined ? status : 'FAILURE'} past={past} flash={flash} />
       {fault !== undefined && (
         <ProblemMark
           problem={{ source: 'server', severity: 'error', node: id, code: '', message: fault, hint: '' }}

@@ -4,8 +4,8 @@ import { StatusMark } from './StatusMark';
 
 type Props = Parameters<typeof StatusMark>[0];
 
-const mark = (status: Props['status'], flash?: Props['flash']) =>
-  show(<StatusMark status={status} flash={flash} />).container.querySelector('span');
+const mark = (status: Props['status'], flash?: Props['flash'], past?: Props['past']) =>
+  show(<StatusMark status={status} past={past} flash={flash} />).container.querySelector('span');
 
 describe('StatusMark', () => {
   it.each(['RUNNING', 'SUCCESS', 'FAILURE', 'SKIPPED'] as const)('shows %s', (status) => {
@@ -24,6 +24,14 @@ describe('StatusMark', () => {
     const shown = mark('IDLE', { status: 'FAILURE', count: 2 });
     expect(shown).toHaveAttribute('data-status', 'FAILURE');
     expect(shown?.className).toMatch(/passing/);
+  });
+
+  it('shows the last tick at rest while the node is idle', () => {
+    const shown = mark('IDLE', { status: 'SUCCESS', count: 2 }, 'FAILURE');
+    expect(shown).toHaveAttribute('data-status', 'FAILURE');
+    expect(shown?.className).toMatch(/past/);
+    expect(shown?.className).not.toMatch(/passing/);
+    expect(mark('RUNNING', undefined, 'FAILURE')).toHaveAttribute('data-status', 'RUNNING');
   });
 
   it('shows the status of a node that is not idle, whatever flashed', () => {

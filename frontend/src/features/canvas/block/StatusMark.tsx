@@ -11,20 +11,26 @@ const MARKS = {
 
 interface StatusMarkProps {
   readonly status: NodeStatus;
+  /** The status of the last tick, which stays until the next one. */
+  readonly past: NodeStatus | undefined;
   /** The status that the node had during the last tick, if it is idle again. */
   readonly flash: { readonly status: NodeStatus; readonly count: number } | undefined;
 }
 
-/** A status as an icon in addition to its colour; a status of the last tick only is hollow and fades. */
-export function StatusMark({ status, flash }: StatusMarkProps) {
-  const isPassing = status === 'IDLE' && flash !== undefined;
-  const shown = isPassing ? flash.status : status;
+/**
+ * A status as an icon in addition to its colour. That of the last tick only is hollow; an earlier one, of which
+ * the next tick left nothing, fades.
+ */
+export function StatusMark({ status, past, flash }: StatusMarkProps) {
+  const isPast = status === 'IDLE' && past !== undefined;
+  const isPassing = status === 'IDLE' && !isPast && flash !== undefined;
+  const shown = isPast ? past : isPassing ? flash.status : status;
   if (shown === 'IDLE') return null;
   const Mark = MARKS[shown];
   return (
     <span
-      key={isPassing ? flash.count : status}
-      className={`${classes['mark']} ${isPassing ? classes['passing'] : ''}`}
+      key={isPassing ? flash.count : shown}
+      className={`${classes['mark']} ${isPast ? classes['past'] : ''} ${isPassing ? classes['passing'] : ''}`}
       data-status={shown}
       aria-hidden="true"
     >

@@ -157,7 +157,11 @@ class Connection {
     const final = code === CLOSED.unavailable || code === CLOSED.noProject || code === CLOSED.tooMany;
     const delay = final ? undefined : RETRY_AFTER_MS[this.retries];
     this.retries += 1;
-    setState({ kind: 'failed', reason, willRetry: delay !== undefined });
+    // The findings of a server that has ended do not follow the text.
+    useLanguageStore.setState({
+      state: { kind: 'failed', reason, willRetry: delay !== undefined },
+      findings: {},
+    });
     if (delay !== undefined) {
       this.timer = setTimeout(() => {
         this.open();

@@ -1,26 +1,9 @@
-import { fixesFor, type Fix, type Making } from '@/model/fixes';
-import { CODES, findProblems } from '@/model/problems';
-import type { Diagnostic } from '@/api/types';
+import type { Fix, Making } from '@/model/fixes';
 import { createAction } from './actionTemplate';
 import { useProjectStore } from '../index';
 import { actionPath, treePath } from '../state';
 
 const store = () => useProjectStore.getState();
-
-/** The fixes of a server finding: those of the same finding of the editor, if there is one. */
-export function fixesOfDiagnostic(item: Diagnostic): Fix[] {
-  const { diagrams, vocabulary } = store();
-  const diagram = diagrams[item.tree ?? ''];
-  if (!diagram || !item.node) return [];
-  const own = findProblems(diagram, vocabulary).find(
-    (each) =>
-      each.node === item.node &&
-      (each.port ?? '') === (item.port ?? '') &&
-      CODES[each.kind].includes(item.code),
-  );
-  const port = item.port ? { port: item.port } : {};
-  return fixesFor(own ?? { code: item.code, node: item.node, ...port }, diagram, vocabulary);
-}
 
 function make(making: Making): () => void {
   const path = making.makes === 'action' ? actionPath(making.name) : treePath(making.name);

@@ -71,6 +71,21 @@ describe('Trace', () => {
     expect(only).toMatchObject({ start: 0.05, mask: BIT.FAILURE });
   });
 
+  it('shows the results of the tick that ended the run', () => {
+    const trace = new Trace();
+    trace.start([node(1), node(2)], 0);
+    trace.tick([[1, 'RUNNING']], [], 1);
+    trace.tick([[1, 'FAILURE']], [[2, 'FAILURE']], 2);
+    trace.tick([[1, 'IDLE']], [], 2);
+    trace.close();
+    for (const uid of [1, 2]) {
+      const last = trace.stretches(uid, 0, trace.now).at(-1)!;
+      expect(last).toMatchObject({ start: 2, mask: BIT.FAILURE });
+      expect(last.end).toBeGreaterThan(2);
+      expect(last.end).toBeLessThanOrEqual(trace.now);
+    }
+  });
+
   it('forgets what is older than ten minutes', () => {
     const trace = new Trace();
     trace.start([node(1)], 0);

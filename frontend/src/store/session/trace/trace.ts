@@ -38,12 +38,15 @@ export class Trace {
   private nodeTraces = new Map<number, NodeTrace>();
   private open = new Map<number, Open>();
   private forgottenAt = 0;
+  /** The time until which the results of the last tick with such results are drawn. */
+  private resultsEnd = 0;
 
   start(nodes: readonly TreeNode[], t: number): void {
     this.nodes = nodes;
     this.begin = t;
     this.now = t;
     this.forgottenAt = t;
+    this.resultsEnd = t;
     this.run += 1;
     this.nodeTraces = new Map();
     this.open = new Map();
@@ -58,7 +61,7 @@ export class Trace {
     // The world was reset: times would overlap.
     if (t < this.now - 1) this.start(this.nodes, t);
     this.advance(t);
-    for (const [uid, status] of flashed) this.nodeTrace(uid).add(t, t + FLASH_S, BIT[status]);
+    for (const [uid, status] of flashed) this.addResult(uid, status, t);
     for (const [uid, status] of changed) this.change(uid, status, t);
   }
 
@@ -74,6 +77,8 @@ export class Trace {
   /** The run ended: no stretch continues. */
   close(): void {
     for (const uid of [...this.open.keys()]) this.change(uid, 'IDLE', this.now);
+    // The results of the last tick end after it, where the drawn run ends now.
+    this.advance(this.resultsEnd);
   }
 
   status(uid: number): NodeStatus {
@@ -151,9 +156,16 @@ export class Trace {
 
   private change(uid: number, status: NodeStatus, t: number): void {
     const before = this.open.get(uid);
-    if (before) this.nodeTrace(uid).add(before.since, t, BIT[before.status]);
+    if (before && before.since === t) this.addResult(uid, before.status, t);
+    else if (before) this.nodeTrace(uid).add(before.since, t, BIT[before.status]);
     if (status === 'IDLE') this.open.delete(uid);
     else this.open.set(uid, { status, since: t });
+  }
+
+  /** Adds a status that the node had only within the tick. */
+  private addResult(uid: number, status: NodeStatus, t: number): void {
+    this.resultsEnd = t + FLASH_S;
+    this.nodeTrace(uid).add(t, this.resultsEnd, BIT[status]);
   }
 
   private nodeTrace(uid: number): NodeTrace {

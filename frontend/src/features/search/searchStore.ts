@@ -1,0 +1,42 @@
+import { create } from 'zustand';
+import { letGoOfDocument } from '@/workspace/focus';
+import { showPanel } from '@/workspace/tabs';
+
+interface SearchData {
+  readonly text: string;
+  readonly matchesCase: boolean;
+  readonly isWholeWord: boolean;
+  readonly isRegex: boolean;
+  readonly replacement: string;
+  /** Whether the row for the replacement is open. */
+  readonly isReplacing: boolean;
+  /** Increases with each request for the field of the search. */
+  readonly asked: number;
+}
+
+/** What is searched for; it outlives the panel, and is not saved. */
+export const useSearchStore = create<SearchData>(() => ({
+  text: '',
+  matchesCase: false,
+  isWholeWord: false,
+  isRegex: false,
+  replacement: '',
+  isReplacing: false,
+  asked: 0,
+}));
+
+export const setSearch = (patch: Partial<SearchData>): void => useSearchStore.setState(patch);
+
+/** Text of one line that is selected on the page; a whole file is no search. */
+function selectedText(page: Document): string {
+  const text = page.getSelection()?.toString() ?? '';
+  return text.length <= 200 && !/[\r\n]/.test(text) ? text.trim() : '';
+}
+
+/** Shows the search with the selected text in its field. */
+export function openSearch(page: Document = document, patch: Partial<SearchData> = {}): void {
+  const text = selectedText(page);
+  letGoOfDocument();
+  showPanel('search');
+  useSearchStore.setState(({ asked }) => ({ ...(text ? { text } : {}), ...patch, asked: asked + 1 }));
+}

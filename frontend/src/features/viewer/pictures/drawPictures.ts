@@ -1,0 +1,83 @@
+import type { Camera, View } from '@/generated/messages';
+import { frames } from '@/store/session/frames';
+import { useSessionStore } from '@/store/session/store';
+
+export interface Shown {
+  width: number;
+  height: number;
+  hz: number;
+  /** The age of pictures when they are drawn, in simulated ms; null until they were measured for a second. */
+  latencyMs: number | null;
+}
+
+/** The age of time `t` in the simulation, according to the newest message, s. */
+const ageOf = (t: number): number =>
+  Math.max(0, Math.max(frames.newest(), useSessionStore.getState().simTime) - t);
+
+/** Draws the pictures of a stream, or of one camera, on a canvas. While one is decoded, only the newest waits. */
+export function drawPictures(
+  stream: 'camera' | 'view',
+  canvas: HTMLCanvasElement,
+  onShown: (shown: Shown) => void,
+  sensor: string | null = null,
+): () => void {
+  const context = canvas.getContext('2d');
+  let waiting: Camera | View | null = null;
+  let isDecoding = false;
+  let isStopped = false;
+  let count = 0;
+  let since = performance.now();
+  let age = 0;
+  delete canvas.dataset['frames'];
+
+  const drawNext = async () => {
+    const frame = waiting;
+    waiting = null;
+    if (!frame || isStopped || !context) {
+      isDecoding = false;
+      return;
+    }
+    isDecoding = true;
+    try {
+      const jpeg = frame.jpeg as Uint8Array<ArrayBuffer>;
+      const bitmap = await createImageBitmap(new Blob([jpeg], { type: 'image/jpeg' }));
+      if (canvas.width !== bitmap.width) canvas.width = bitmap.width;
+      if (canvas.height !== bitmap.height) canvas.height = bitmap.height;
+      context.drawImage(bitmap, 0, 0);
+      bitmap.close();
+      measure(frame);
+    } catch {
+      // A damaged picture is skipped; the next one comes soon.
+    }
+    void drawNext();
+  };
+
+  const measure = (frame: Camera | View) => {
+    const { width, height } = frame;
+    const isFirst = canvas.dataset['frames'] === undefined;
+    canvas.dataset['frames'] = String(Number(canvas.dataset['frames'] ?? 0) + 1);
+    count += 1;
+    age += ageOf(frame.t);
+    const now = performance.now();
+    if (!isFirst && now - since < 1000) return;
+    const hz = (count * 1000) / Math.max(now - since, 1);
+    onShown(
+      isFirst
+        ? { width, height, hz: 0, latencyMs: null }
+        : { width, height, hz, latencyMs: (age / count) * 1000 },
+    );
+    count = 0;
+    age = 0;
+    since = now;
+  };
+
+  const stop = frames.listen(stream, (frame) => {
+    if (sensor !== null && frame.type === 'camera' && frame.sensor !== sensor) return;
+    waiting = frame;
+    if (!isDecoding) void drawNext();
+  });
+  return () => {
+    isStopped = true;
+    stop();
+  };
+}

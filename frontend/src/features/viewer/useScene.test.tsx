@@ -1,0 +1,27 @@
+import { act, screen } from '@testing-library/react';
+import { expect, it, onTestFinished } from 'vitest';
+import type { Scene } from '@/generated/messages';
+import { frames } from '@/store/session/frames';
+import { useSessionStore } from '@/store/session/store';
+import { show } from '../../../harness/testing';
+import { useScene } from './useScene';
+
+function Named() {
+  return <p>{useScene()?.name ?? 'none'}</p>;
+}
+
+it('is the last scene, for as long as there is a world', () => {
+  onTestFinished(() => {
+    frames.clear();
+    useSessionStore.setState({ executor: 'idle' });
+  });
+  show(<Named />);
+  expect(screen.getByText('none')).toBeInTheDocument();
+  act(() => {
+    useSessionStore.setState({ executor: 'universe_ready' });
+    frames.publish({ type: 'scene', name: 'Maze', t: 0, objects: [] } as unknown as Scene);
+  });
+  expect(screen.getByText('Maze')).toBeInTheDocument();
+  act(() => useSessionStore.setState({ executor: 'connected' }));
+  expect(screen.getByText('none')).toBeInTheDocument();
+});

@@ -1,0 +1,34 @@
+import { useShallow } from 'zustand/react/shallow';
+import { useLanguageStore } from '@/store/language';
+import { useProjectStore } from '@/store/project';
+import { useSessionStore } from '@/store/session/store';
+import { listProblems, type ListedProblem, type ProblemSources } from './list';
+import { useTextFindings } from './texts';
+
+let last: { readonly sources: ProblemSources; readonly rows: readonly ListedProblem[] } | null = null;
+
+/** The list of these sources; made once for all parts of the page that show it. */
+function rowsOf(sources: ProblemSources): readonly ListedProblem[] {
+  const before = last?.sources;
+  const isSame =
+    before !== undefined &&
+    (Object.keys(sources) as (keyof ProblemSources)[]).every((key) => before[key] === sources[key]);
+  if (last === null || !isSame) last = { sources, rows: listProblems(sources) };
+  return last.rows;
+}
+
+/** The one list of all findings: Problems, its count, and the marks in the Explorer show it. */
+export function useProblems(): readonly ListedProblem[] {
+  const project = useProjectStore(
+    useShallow(({ files, diagrams, vocabulary, diagnostics }) => ({
+      files,
+      diagrams,
+      vocabulary,
+      diagnostics,
+    })),
+  );
+  const served = useLanguageStore((state) => state.findings);
+  const { linted, errors } = useTextFindings();
+  const faults = useSessionStore((state) => state.faults);
+  return rowsOf({ ...project, served, linted, errors, faults });
+}

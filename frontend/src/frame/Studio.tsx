@@ -10,6 +10,7 @@ import { registerCanvasCommands } from '@/features/canvas/commands/canvasCommand
 import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
 import { ExportDialog } from '@/features/export/ExportDialog';
+import { ImportReport } from '@/features/importReport/ImportReport';
 import { Shortcuts } from '@/features/onboarding/Shortcuts';
 import { Banner } from '@/features/run/Banner';
 import { ViewerNotice } from '@/features/run/ViewerNotice';
@@ -154,6 +155,7 @@ function Workbench({ projectId }: StudioProps) {
       <PublishDialog />
       <ConnectDialog />
       <RestoredNotice />
+      <ImportReport projectId={projectId} />
     </div>
   );
 }

@@ -120,10 +120,10 @@ describe('the picture', () => {
     scroller.scrollTop = 10;
     view.redraw();
     pass(20);
-    expect(rects).toContainEqual([0, 15, 300, 16]);
+    expect(rects).toContainEqual([0, 15, 300, 18]);
     view.setRows([]);
     pass(20);
-    expect(rects).not.toContainEqual([0, 15, 300, 16]);
+    expect(rects).not.toContainEqual([0, 15, 300, 18]);
   });
 
   it('is as sharp as the screen', () => {

@@ -85,7 +85,7 @@ def report(studio: Studio, filename: str) -> None:
 
 
 def what_is_missing_is_said(studio: Studio) -> None:
-    """A tree of unknown nodes: stubs of each kind, a subtree that is missing, and the way to the first of them."""
+    """A tree of unknown nodes: stubs of each kind, a missing subtree, and the way to the first of them."""
     drop(studio, "unknown.xml", UNKNOWN)
     dialog = studio.page.get_by_role("dialog", name="Imported from unknown.xml")
     for words in ("Grab action", "Twice decorator", "Race control node", "Elsewhere"):

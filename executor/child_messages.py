@@ -5,9 +5,9 @@ Each message is a tagged struct; its tag is the field ``type``. A channel decode
     ToWorld, FromWorld                world process (`executor.world.process`)
     ToApplication, FromApplication    application process (`executor.application.process`)
 
-Bytes that are no member of the union do not decode: the manager ends such a child with a fault that says
-why, and a child ends itself. Both ends always have the same version, so nothing is versioned here. Messages
-that become events of the session protocol extend the event of the same name (`executor.messages`).
+Bytes that are not a message of the union cannot be decoded: the manager ends such a child with a fault that
+says why, and a child ends itself. Both ends always have the same version, so nothing is versioned here.
+Messages that become events of the session protocol extend the event of the same name (`executor.messages`).
 
 A message with a `request` asks for an answer; the answer repeats that token.
 """
@@ -25,11 +25,14 @@ Event = TypeVar("Event", bound=Struct)
 
 
 class _Message(Struct, tag_field="type", omit_defaults=True):
-    """A message that expects no answer."""
+    """Base class of messages without an answer."""
 
 
 class _Asked(Struct, tag_field="type", omit_defaults=True, kw_only=True):
-    """A request, or the answer to one; `request` is its token, or None if nobody waits for an answer."""
+    """Base class of a request or of its answer.
+
+    `request` is its token, or None if no client waits for an answer.
+    """
 
     request: str | None = None
 
@@ -53,9 +56,12 @@ class Resume(_Asked, tag="resume"):
 
 
 class StartWorld(_Message, tag="start"):
-    """Build a world: `universe` is an id or a document, `none` joins an outside ROS graph instead.
+    """Build a world.
 
-    `file` names the document in errors; `assets` is the folder with what it refers to.
+    `universe` is an id or a document; with `none` the process joins an outside ROS graph instead.
+
+    `file` is the name of the document in errors. `assets` is the folder with the files that the document
+    refers to.
     """
 
     universe: str
@@ -88,7 +94,7 @@ class StopRobot(_Message, tag="stop_robot"):
 
 
 class Teleop(_Message, tag="teleop"):
-    """Drive the first robot; `goes_on` lets a paused world run for it for a moment."""
+    """Drive the first robot. With `goes_on`, a paused world runs for a moment so that the robot moves."""
 
     linear: float
     angular: float
@@ -96,7 +102,7 @@ class Teleop(_Message, tag="teleop"):
 
 
 class MoveBody(_Asked, tag="move_body"):
-    """Put a body somewhere."""
+    """Move a body to a pose."""
 
     id: str
     pose: tuple[float, float, float, float, float, float]
@@ -122,7 +128,7 @@ class Unsubscribe(_Message, tag="unsubscribe"):
 
 
 class Pace(_Message, tag="pace"):
-    """The share of its pictures that a client was too slow for, 0 to 1."""
+    """Report the share of pictures for which a client was too slow, 0 to 1."""
 
     client: str
     lost: float
@@ -158,7 +164,10 @@ class DescribeType(_Asked, tag="describe_type"):
 
 
 class StartApplication(_Message, tag="start"):
-    """Load the application in `app_dir` and wait, paused; `outside` uses the time of an outside graph."""
+    """Load the application in `app_dir` and wait, paused.
+
+    With `outside`, it uses the time of an outside ROS graph.
+    """
 
     app_dir: str
     tick_hz: float
@@ -170,7 +179,7 @@ class StartApplication(_Message, tag="start"):
 
 
 class StepTick(_Message, tag="step"):
-    """Tick once; a `Stepped` answers."""
+    """Tick once; the answer is a `Stepped`."""
 
 
 class SetTickRate(_Asked, tag="set_tick_rate"):
@@ -180,7 +189,7 @@ class SetTickRate(_Asked, tag="set_tick_rate"):
 
 
 class SetBlackboard(_Message, tag="set_blackboard"):
-    """Write an entry; a `BlackboardSet` answers."""
+    """Write an entry of the blackboard; the answer is a `BlackboardSet`."""
 
     scope: str
     key: str
@@ -191,7 +200,10 @@ class SetBlackboard(_Message, tag="set_blackboard"):
 
 
 class Place(Struct, omit_defaults=True):
-    """Where the main thread of a child is: `text` for people, the rest where it runs an action."""
+    """The place of a child's main thread: `text` for people.
+
+    The other fields are set while it runs an action.
+    """
 
     text: str = ""
     node_id: str = ""
@@ -207,10 +219,10 @@ class Beat(_Message, tag="beat"):
     """Sign of life of a child (`executor.supervision.pulse`).
 
     Attributes:
-        turns: how often the main thread completed its loop.
-        task: what the main thread loads; "" once it runs its loop.
-        clocks: how often simulated time was published, or received.
-        place: where the main thread is, if it has not completed its loop for a while.
+        turns: number of times that the main thread completed its loop.
+        task: the name of the thing that the main thread loads; "" after loading, while it runs its loop.
+        clocks: number of times that simulated time was published (world) or received (application).
+        place: the place of the main thread, if it has not completed its loop for a while.
     """
 
     turns: int
@@ -220,7 +232,7 @@ class Beat(_Message, tag="beat"):
 
 
 class Log(_Message, tag="log"):
-    """One line of output; `time` is None where the session's own time is to be used."""
+    """One line of output; if `time` is None, the session's own time is used."""
 
     level: messages.LogLevel
     text: str
@@ -234,7 +246,7 @@ class Starting(_Message, tag="starting"):
 
 
 class Answer(_Asked, tag="answer"):
-    """A request was done, or failed with an error."""
+    """A request was carried out, or failed with an error."""
 
     error: messages.Error | None = None
 
@@ -258,7 +270,7 @@ class Progress(_Message, tag="progress"):
 
 
 class Failed(_Asked, tag="error"):
-    """A message without a request could not be obeyed."""
+    """A message without a token could not be carried out."""
 
     code: str
     message: str
@@ -266,23 +278,23 @@ class Failed(_Asked, tag="error"):
 
 
 class Sim(messages.Sim, tag_field="type", tag="sim", kw_only=True):
-    """Becomes the event `sim` at the simulated time `t`; the session adds the load of the ticks."""
+    """The event `sim` at the simulated time `t`; the session adds the load of the ticks."""
 
     t: float
 
 
 class TopicMismatch(messages.TopicMismatch, tag_field="type", tag="topic_mismatch"):
-    """Becomes the event `topic_mismatch` for clients."""
+    """The event `topic_mismatch` for clients."""
 
 
 class Topics(_Asked, tag="topics"):
-    """Becomes the event `topics` for clients."""
+    """The event `topics` for clients."""
 
     topics: list[messages.TopicInfo]
 
 
 class TopicMessage(_Asked, tag="topic_message"):
-    """Becomes the event `topic_message`, whose `type` is `message_type` here."""
+    """The event `topic_message`; its field `type` is called `message_type` here."""
 
     topic: str
     message_type: str
@@ -292,7 +304,7 @@ class TopicMessage(_Asked, tag="topic_message"):
 
 
 class TypeDescription(_Asked, tag="type_description"):
-    """Becomes the event `type_description`, whose `type` is `message_type` here."""
+    """The event `type_description`; its field `type` is called `message_type` here."""
 
     message_type: str
     fields: dict[str, str]
@@ -302,10 +314,9 @@ class TypeDescription(_Asked, tag="type_description"):
 class Frame(_Message, tag="frame"):
     """A frame of the stream socket for one client (None: for all).
 
-    `stream` names what it replaces while unsent: the stream, or `camera/NAME` of a camera asked for by name.
-
-    `data` is the encoded frame and passes through the manager as it is. Frames may be dropped in favour of
-    newer ones, unless `keep` is set: later frames refer to a scene.
+    `data` is the encoded frame; the manager does not change it. A newer frame of the same `stream` replaces
+    an unsent one, unless `keep` is set, as for a scene, to which later frames refer. `stream` is the name of
+    the stream, or `camera/NAME` for a camera that was requested by name.
     """
 
     client: str | None
@@ -330,35 +341,35 @@ class Resumed(_Message, tag="resumed"):
 
 
 class Stepped(_Message, tag="stepped"):
-    """One tick was done."""
+    """One tick was executed."""
 
 
 class BlackboardSet(_Message, tag="blackboard_set"):
-    """An entry was written, or `error` says why not."""
+    """An entry was written, or `error` is the reason why not."""
 
     error: str = ""
 
 
 class Tree(messages.Tree, tag_field="type", tag="tree"):
-    """Becomes the event `tree` for clients."""
+    """The event `tree` for clients."""
 
 
 class Tick(messages.Tick, tag_field="type", tag="tick", kw_only=True):
-    """Becomes the event `tick` at the simulated time `t`."""
+    """The event `tick` at the simulated time `t`."""
 
     t: float
 
 
 class Blackboard(messages.Blackboard, tag_field="type", tag="blackboard"):
-    """Becomes the event `blackboard` for clients."""
+    """The event `blackboard` for clients."""
 
 
 class Fault(messages.Fault, tag_field="type", tag="fault"):
-    """Becomes the event `fault` for clients."""
+    """The event `fault` for clients."""
 
 
 class Finished(messages.Finished, tag_field="type", tag="finished"):
-    """Becomes the event `finished` for clients."""
+    """The event `finished` for clients."""
 
 
 WorldCommand = (
@@ -378,7 +389,7 @@ WorldCommand = (
     | PublishTopic
     | DescribeType
 )
-"""What a started world obeys."""
+"""A command for a world that was started."""
 ToWorld = StartWorld | Stop | WorldCommand
 FromWorld = (
     Beat
@@ -438,7 +449,7 @@ def name_of(message: Struct) -> str:
 
 
 def event_of(message: Struct, event: type[Event]) -> Event:
-    """Returns the event that a message extends, without the fields of the channel.
+    """Returns the event that a message extends, without the fields that only the channel uses.
 
     Nested structs are shared, not copied.
     """

@@ -25,7 +25,10 @@ class Empty(Struct, forbid_unknown_fields=True):
 
 
 class UniverseDocument(Struct, forbid_unknown_fields=True):
-    """A universe of the project: its YAML text and the assets that it names; errors name `file`."""
+    """A universe of the project: its YAML text, and the assets that it names.
+
+    `file` is its name in errors.
+    """
 
     document: str
     assets_zip_base64: str = ""
@@ -35,8 +38,8 @@ class UniverseDocument(Struct, forbid_unknown_fields=True):
 class LaunchUniverse(Struct, forbid_unknown_fields=True):
     """Starts world and robots, paused. `universe` is a built-in id or a document.
 
-    `none` starts no world: the application runs against an outside ROS graph of this machine, in the domain
-    `domain_id`; null is the `ROS_DOMAIN_ID` with which the server was started.
+    `none` starts no world: the application joins an outside ROS graph of this machine, in the domain
+    `domain_id`. If that is null, it is the `ROS_DOMAIN_ID` of the server's environment.
     """
 
     universe: str | UniverseDocument
@@ -56,26 +59,32 @@ class RunApplication(Struct, forbid_unknown_fields=True):
 
 
 class Run(Struct, forbid_unknown_fields=True):
-    """Climbs all missing rungs of the ladder up to `application_running`."""
+    """Climbs all rungs of the ladder up to `application_running`."""
 
     universe: LaunchUniverse
     application: RunApplication
 
 
 class SetTickRate(Struct, forbid_unknown_fields=True):
-    """Ticks a second of simulated time, from the next tick on."""
+    """Sets the number of ticks for each second of simulated time, from the next tick on."""
 
     tick_hz: TickRate
 
 
 class SetSpeed(Struct, forbid_unknown_fields=True):
-    """Simulated seconds a second of real time, 0.1 to 10; 0 runs as fast as the machine can."""
+    """Sets the simulated seconds for each second of real time, 0.1 to 10.
+
+    With 0 it runs as fast as the machine can.
+    """
 
     speed: Speed
 
 
 class SetBlackboard(Struct, forbid_unknown_fields=True):
-    """Writes an entry; `scope` is the path of a subtree, "" the root. Only while paused."""
+    """Writes an entry of the blackboard; `scope` is the path of a SubTree, "" for the root.
+
+    Only while paused.
+    """
 
     scope: str
     key: str
@@ -90,14 +99,14 @@ class Teleop(Struct, forbid_unknown_fields=True):
 
 
 class MoveBody(Struct, forbid_unknown_fields=True):
-    """Puts a body somewhere: pose [x, y, z, roll, pitch, yaw] in m and rad. Only while paused."""
+    """Moves a body to a pose [x, y, z, roll, pitch, yaw] in m and rad. Only while paused."""
 
     id: str
     pose: tuple[float, float, float, float, float, float]
 
 
 class CameraPose(Struct, forbid_unknown_fields=True):
-    """Camera of the server's own view: eye and target in m, world frame."""
+    """Camera of the server's view of the world: eye and target in m, world frame."""
 
     eye: tuple[float, float, float]
     target: tuple[float, float, float]
@@ -125,7 +134,9 @@ class Unsubscribe(Struct, forbid_unknown_fields=True):
 
 
 class EchoTopic(Struct, forbid_unknown_fields=True):
-    """Sends the latest message of a topic as `topic_message`, at most `max_hz`; 0 ends it.
+    """Sends the latest message of a topic as `topic_message`, at most `max_hz` times a second.
+
+    0 ends the echo.
 
     If several clients echo a topic, all receive it at the highest of their rates.
     """
@@ -137,7 +148,7 @@ class EchoTopic(Struct, forbid_unknown_fields=True):
 class PublishTopic(Struct, forbid_unknown_fields=True):
     """Publishes one message; `message` holds the fields of `type` (`std_msgs/msg/String`) as JSON.
 
-    Missing fields keep their defaults. `"inf"`, `"-inf"` and `"nan"` stand for the numbers that JSON lacks.
+    Missing fields get their defaults. `"inf"`, `"-inf"` and `"nan"` stand for the numbers that JSON lacks.
     """
 
     topic: str
@@ -152,7 +163,7 @@ class DescribeType(Struct, forbid_unknown_fields=True):
 
 
 class RestartNode(Struct, forbid_unknown_fields=True):
-    """Restarts a node of the project's launch files; `id` as in `launch_nodes`."""
+    """Restarts a launch node of the project; `id` is its id in the event `launch_nodes`."""
 
     id: str
 

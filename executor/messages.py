@@ -111,7 +111,7 @@ class Ack(Struct):
 
 
 class Error(Struct):
-    """The command was refused or failed; nothing else changed."""
+    """The command was refused or failed; it changed nothing."""
 
     code: str
     message: str
@@ -119,14 +119,14 @@ class Error(Struct):
 
 
 class Introspection(Struct):
-    """First message on a connection, sent again when the client's role or what the world can do changes.
+    """First message on a connection, sent again when the client's role or the properties of the world change.
 
     `renderer` and `tf` describe the running world: "" and false before it is ready.
 
     `client_id` names this client when it opens the stream socket.
 
-    With the variables of `ros_environment` a ROS program on the session's host joins its graph; empty if the
-    session is isolated.
+    A ROS program on the session's host joins the session's graph with the variables of `ros_environment`;
+    they are empty if the session is isolated.
     """
 
     protocol: str
@@ -142,14 +142,17 @@ class Introspection(Struct):
 
 
 class StateChanged(Struct):
-    """The state of the ladder changed; `reason` is for users, empty if a command asked for it."""
+    """The session entered another state of the ladder.
+
+    `reason` is for users, and empty if a command caused it.
+    """
 
     state: State
     reason: str = ""
 
 
 class Progress(Struct):
-    """Progress of a long step: fraction 0 to 1 of this rung, and a sentence."""
+    """Progress of a long step: the fraction of this rung, 0 to 1, and a sentence."""
 
     rung: Rung
     fraction: float
@@ -157,7 +160,7 @@ class Progress(Struct):
 
 
 class TreeNode(Struct):
-    """One node of the running tree. `node_id` is the diagram's id, `tree_id` its diagram."""
+    """One node of the running tree. `node_id` is its id in the diagram, `tree_id` the id of that diagram."""
 
     uid: int
     parent: int
@@ -176,9 +179,10 @@ class Tree(Struct):
 
 
 class Tick(Struct):
-    """The changes of one tick, or of a halt after it: then `n` is that of the tick.
+    """The changes of one tick, or of a halt after it; a halt has the number `n` of that tick.
 
-    `past` replaces that of the message before: nodes that are idle again, with their last status in the tick.
+    `past` holds the nodes that are idle again, with their last status in the tick; it replaces the `past` of
+    the previous message.
     """
 
     n: int
@@ -189,7 +193,7 @@ class Tick(Struct):
 
 
 class BlackboardEntry(Struct):
-    """One changed entry; large values are sent as a preview (text), with `preview` set."""
+    """One changed entry; a large value is sent as a preview (text), and `preview` is then true."""
 
     scope: str
     key: str
@@ -200,7 +204,7 @@ class BlackboardEntry(Struct):
 
 
 class Blackboard(Struct):
-    """Entries that changed since the last such message."""
+    """Entries that changed since the previous message of this kind."""
 
     entries: list[BlackboardEntry]
 
@@ -215,11 +219,11 @@ class Log(Struct):
     node_path: str = ""
     time: float = 0.0
     launch_node: str = ""
-    """Id of the launch node that wrote it, if the source is `launch`."""
+    """Id of the launch node that wrote the line, if the source is `launch`."""
 
 
 class Fault(Struct):
-    """A failure: an exception in an action, or a process that died or hangs."""
+    """A run-time error: an exception in an action, or a process that ended or hangs."""
 
     kind: FaultKind
     message: str
@@ -233,7 +237,7 @@ class Fault(Struct):
 
 
 class Finished(Struct):
-    """The run ended; if the root returned its status, the node is the lowest one that decided it."""
+    """The run ended. If the root returned a status, the node is the lowest one that decided it."""
 
     status: NodeStatus
     reason: FinishReason
@@ -256,15 +260,18 @@ class Sim(Struct):
     pose: tuple[float, float, float]
     """True pose of the first robot: x and y in m, yaw in rad, world frame."""
     camera_share: float = 1.0
-    """Share of their rates at which cameras draw: below 1 on a machine too slow for real time."""
+    """The share of their rates at which cameras draw.
+
+    It is below 1 if the machine is too slow for real time.
+    """
 
 
 class TopicInfo(Struct):
     """One ROS topic: its rate over the last two seconds, and the nodes at both of its ends.
 
     `hz` and `bytes_per_s` are null without a measurement: images and point clouds are measured only while a
-    client echoes them, and the first `list_topics` after a while starts the measurement. `types` has more
-    than `type` if a robot accepts several types on its command topic.
+    client echoes them, and the first `list_topics` after a while starts the measurement. `types` holds all
+    types of the topic; several only if a robot accepts several types on its command topic.
     """
 
     name: str
@@ -308,8 +315,8 @@ class TypeDescription(Struct):
 class TopicMismatch(Struct):
     """Two ends of a topic do not match, so no message arrives; reported once while both exist.
 
-    `publisher` and `subscriber` are nodes; `reason` is the difference: message type or quality of service.
-    `hint` says how to fix it.
+    `publisher` and `subscriber` are names of ROS nodes. `reason` is the difference: message type or quality
+    of service. `hint` says how to fix it.
     """
 
     topic: str
@@ -323,7 +330,7 @@ class TopicMismatch(Struct):
 class LaunchNode(Struct):
     """A process of the project's launch files; `file` and `line` are its place there.
 
-    `end` says how it ended (exit code or signal), or why it could not be started.
+    `end` is the exit code or the signal with which it ended, or the reason why it could not be started.
     """
 
     id: str
@@ -344,7 +351,7 @@ class LaunchNodes(Struct):
 
 
 class Snapshot(Struct):
-    """Full state for a client that joins late; deltas follow."""
+    """The full state for a client that joins late; later events change it."""
 
     state: State
     tree: Tree | None

@@ -1,4 +1,6 @@
-"""MessagePack frames of the stream socket, with their name in ``type``. A part of `executor.messages`.
+"""The MessagePack frames of the stream socket, each with its name in ``type``.
+
+They are a part of the protocol in `executor.messages`.
 
 Units are SI, frames follow REP-103, times are simulated seconds.
 """
@@ -14,13 +16,13 @@ class Shape(Struct, omit_defaults=True):
     """A visual shape in its object's frame.
 
     Args:
-        shape: its kind. `size` in m is [x, y, z] for a box, [radius, length] for a cylinder or a
+        shape: the kind of shape; its `size` in m is [x, y, z] for a box, [radius, length] for a cylinder or a
             capsule along z, [radius] for a sphere, [x, y] for a plane, [sx, sy, sz] (scale) for a mesh.
         pose: [x, y, z, qx, qy, qz, qw] in the object's frame.
         color: [r, g, b, a], each 0 to 1, sRGB.
         mesh: key in `Scene.meshes` for a mesh, else "".
         texture: key in `Scene.textures`, or "" for none; the colour tints it.
-        ceiling: whether it is a ceiling or the upper part of a wall, which only robots' cameras see.
+        ceiling: whether the shape is a ceiling or the upper part of a wall, which only robots' cameras see.
     """
 
     shape: Literal["box", "cylinder", "sphere", "capsule", "plane", "mesh"]
@@ -33,7 +35,7 @@ class Shape(Struct, omit_defaults=True):
 
 
 class SceneObject(Struct):
-    """One rigid piece (a body, or a link of a robot) with its pose [x, y, z, qx, qy, qz, qw]."""
+    """One rigid object: a body, or a link of a robot; `pose` is [x, y, z, qx, qy, qz, qw]."""
 
     id: int
     body: str
@@ -44,9 +46,11 @@ class SceneObject(Struct):
 
 
 class Mesh(Struct, omit_defaults=True):
-    """Triangles: positions and normals as little-endian float32 (3 a vertex), indices as uint32.
+    """The triangles of a mesh.
 
-    `uvs` are the texture coordinates of the file, if any: two float32 a vertex; v points up.
+    Positions and normals are little-endian float32 (3 for each vertex), indices are uint32.
+
+    `uvs` are the texture coordinates of the file, if it has any: two float32 for each vertex; v points up.
     """
 
     positions: bytes
@@ -56,9 +60,10 @@ class Mesh(Struct, omit_defaults=True):
 
 
 class Texture(Struct):
-    """A repeated image: a JPEG file, and the width and height of one repetition in m.
+    """An image that is repeated: a JPEG file, and the width and height of one repetition in m.
 
-    `executor/render/mapping.py` maps it to shapes; on a mesh with `uvs` these do, and the size is unused.
+    `executor/render/mapping.py` maps it to shapes; a mesh with `uvs` uses these coordinates, and the size is
+    not used.
     """
 
     jpeg: bytes
@@ -98,10 +103,10 @@ class Scene(Struct, tag="scene", tag_field="type", omit_defaults=True):
 
 
 class Poses(Struct, tag="poses", tag_field="type"):
-    """Poses that changed: `ids` little-endian uint16, and 16 bytes of `poses` an id.
+    """The poses that changed: `ids` as little-endian uint16, and in `poses` 16 bytes for each id.
 
-    Of these, bytes 0-8 are x, y, z as int24 in 0.1 mm; byte 9 is the index of the omitted one of qx, qy, qz,
-    qw (the largest, made positive); bytes 10-15 are the others as int16 in 1/(32767 * sqrt(2)).
+    Of these 16 bytes, bytes 0-8 are x, y, z as int24 in 0.1 mm; byte 9 is the index of the omitted one of qx,
+    qy, qz, qw (the largest, made positive); bytes 10-15 are the others as int16 in 1/(32767 * sqrt(2)).
     Little-endian.
     """
 
@@ -111,7 +116,7 @@ class Poses(Struct, tag="poses", tag_field="type"):
 
 
 class Scan(Struct, tag="scan", tag_field="type"):
-    """One LIDAR scan: ranges float32 in m, counter-clockwise; pose of the sensor in the world."""
+    """One LIDAR scan: ranges as float32 in m, counter-clockwise, and the pose of the sensor in the world."""
 
     t: float
     sensor: str
@@ -123,9 +128,9 @@ class Scan(Struct, tag="scan", tag_field="type"):
 
 
 class Camera(Struct, tag="camera", tag_field="type"):
-    """One image of a robot's camera.
+    """One JPEG image of a robot's camera.
 
-    `sensor` is the sensor's name, and `robot/sensor` for every robot but the first.
+    `sensor` is the name of the sensor; for robots other than the first it is `robot/sensor`.
     """
 
     t: float
@@ -136,7 +141,7 @@ class Camera(Struct, tag="camera", tag_field="type"):
 
 
 class View(Struct, tag="view", tag_field="type"):
-    """The world as the server draws it."""
+    """One JPEG frame of the stream `view`: the world, drawn by the server."""
 
     t: float
     width: int

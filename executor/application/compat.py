@@ -42,7 +42,10 @@ def warm_up() -> None:
 
 
 def install() -> None:
-    """Makes `tree_tools`, `cv_bridge` and Python parts of ROS importable if they are not installed."""
+    """Makes `tree_tools`, `cv_bridge` and the packages of `executor/ros_python` importable.
+
+    Installed ROS packages take precedence.
+    """
     from tree_gardener import tree_tools  # noqa: PLC0415 - not before ROS has its environment
 
     tree_tools.install()

@@ -1,4 +1,4 @@
-"""Standard output and error of the actions, line by line, with the node that wrote each line."""
+"""Captures standard output and error of the actions line by line, with the node that wrote each line."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ _MAX_PENDING: Final = 1 << 16
 
 
 class Console(io.TextIOBase):
-    """Replaces `sys.stdout` or `sys.stderr`.
+    """Replaces `sys.stdout` or `sys.stderr`, and sends each line to the manager.
 
     Args:
-        level: of the lines.
-        send: takes the lines.
-        locator: finds the node that wrote.
-        original: the replaced stream; it gets the lines when the channel is closed, as in a process that
-            an action forked.
+        level: the log level of the lines.
+        send: is called with each line.
+        locator: finds the node whose action wrote a line.
+        original: the replaced stream; the lines are written to it if the channel is closed, as in a process
+            that an action forked.
     """
 
     def __init__(self, level: LogLevel, send: Callable[[Log], None], locator: Locator, original: Any) -> None:
@@ -45,12 +45,12 @@ class Console(io.TextIOBase):
 
     @property
     def encoding(self) -> str:  # type: ignore[override]
-        """The encoding of the replaced stream."""
+        """Always `utf-8`, whatever the encoding of the replaced stream."""
         return "utf-8"
 
     @property
     def buffer(self) -> Any:
-        """The binary stream of the replaced stream."""
+        """The underlying binary stream (`buffer`) of the replaced stream."""
         return self._original.buffer
 
     def fileno(self) -> int:
@@ -66,7 +66,7 @@ class Console(io.TextIOBase):
         return False
 
     def write(self, text: str) -> int:
-        """Buffers text; each complete line is sent."""
+        """Buffers the text, sends each complete line, and returns the number of characters."""
         pending = getattr(self._pending, "text", "") + str(text)
         *lines, rest = pending.split("\n")
         if len(rest) > _MAX_PENDING:
@@ -78,7 +78,7 @@ class Console(io.TextIOBase):
         return len(text)
 
     def flush(self) -> None:
-        """Sends an unfinished line of this thread."""
+        """Sends the unfinished line that this thread has buffered, if there is one."""
         rest = getattr(self._pending, "text", "")
         if rest:
             self._pending.text = ""

@@ -1,4 +1,4 @@
-"""Limits the forks of actions, so that one that forks in a loop does not exhaust the machine."""
+"""Limits how often actions may fork, so that an action that forks in a loop does not exhaust the machine."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ _limited: Final[list[bool]] = []
 
 
 def limit_forks() -> None:
-    """Makes `os.fork` fail once this process and its forks called it too often in a short time.
+    """Makes `os.fork` fail after this process and its forks have called it too often in a short time.
 
-    A refused call prolongs the refusal: on a busy machine, where forked processes take long to end, each
-    would otherwise get another share, and their number would grow.
+    A refused call prolongs the refusal: on a busy machine, forked processes take long to end; without this
+    rule each of them could fork again, and their number would grow.
 
-    It guards against accidents; the manager counts the processes and ends a tree with too many. The limit
-    lasts for the life of the process; it may be set twice.
+    The limit guards against accidents; the manager also counts the processes, and ends a process tree with
+    too many. The limit lasts for the life of the process. The function may be called twice.
     """
     if _limited:
         return

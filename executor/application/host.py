@@ -1,4 +1,4 @@
-"""Set-up of every process that runs users' code, in a session or in lock-step."""
+"""Prepares every process that runs users' code, in a session or in lock-step."""
 
 from __future__ import annotations
 
@@ -23,9 +23,10 @@ def prepare() -> None:
 
 
 def enter(folder: Path) -> Callable[[], None]:
-    """Makes the folder of the application current and importable; returns a function that undoes this.
+    """Makes the folder of the application the current folder, and its modules importable.
 
-    Modules of the project are searched last, after ours and Python's.
+    Returns a function that undoes both. Modules of the project are searched last, after those of BT Studio
+    and of Python.
     """
     before, paths = Path.cwd(), [str(folder), str(folder / "actions")]
     os.chdir(folder)

@@ -1,4 +1,4 @@
-"""Statuses of the last tick that its nodes no longer have, and the node that decided how the tree ended."""
+"""Stores the statuses of the last tick, and finds the node that decided the result of the tree."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ class LastTick:
     """The statuses of nodes in the last tick, after they became IDLE again.
 
     A node becomes IDLE when its parent resets it within the tick, or when the tree is halted after the tick.
-    The report of such a halt has the number of the tick before it, so it adds to that tick.
+    The report of such a halt has the number of the tick before it, and is added to the statuses of that tick.
 
     Attributes:
-        past: nodes that are IDLE, each with the last status that it had until then, by uid.
+        past: the last status of each node that is IDLE now, by the node's uid.
     """
 
     def __init__(self) -> None:
@@ -32,7 +32,7 @@ class LastTick:
         self._results: dict[int, Status] = {}
 
     def take(self, changes: TickChanges) -> bool:
-        """Takes the report of a tick, or of a halt; returns whether `past` changed."""
+        """Adds the report of a tick or of a halt; returns whether `past` changed."""
         before = self.past
         past = dict(before) if changes.tick == self._tick else {}
         if changes.tick != self._tick:
@@ -53,7 +53,7 @@ class LastTick:
         return self.past != before
 
     def decider(self, nodes: Sequence[Node], status: Status) -> Node:
-        """Returns the lowest node from which the root has its status.
+        """Returns the lowest node that decided the status of the root.
 
         Args:
             nodes: the nodes of the tree, in pre-order.

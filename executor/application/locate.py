@@ -22,7 +22,7 @@ _NO_PLACE: Final = ("", 0)
 
 @dataclass(frozen=True)
 class Place:
-    """A node and a line; empty where unknown."""
+    """A node, and a line in an action; a field is empty if it is unknown."""
 
     node_id: str = ""
     tree_id: str = ""
@@ -41,25 +41,25 @@ class Place:
         return f"{what} ({self.file}:{self.line})" if self.file else what
 
     def to_message(self) -> child_messages.Place | None:
-        """Returns the place as a beat reports it; None outside of the user's code."""
+        """Returns the place in the form that a beat carries; None if it is outside of the user's code."""
         return child_messages.Place(str(self), **asdict(self)) if self.is_in_action else None
 
 
 class Locator:
-    """Finds the node of a frame by the behaviour that is its `self`."""
+    """Finds the node to which a stack frame belongs: the node whose behaviour is the frame's `self`."""
 
     def __init__(self) -> None:
         self._nodes: dict[int, Any] = {}
 
     def learn(self, tree: Tree) -> None:
-        """Stores the nodes of a tree."""
+        """Stores the behaviours of a tree's nodes, so that their frames can be found."""
         for node in tree.nodes:
             behaviour = getattr(node, "instance_behaviour", None)
             if behaviour is not None:
                 self._nodes[id(behaviour)] = node
 
     def node_of(self, frame: FrameType | None) -> Any:
-        """Returns the node on whose behaviour the innermost method runs, or None."""
+        """Returns the node whose behaviour runs in the innermost method of the stack, or None."""
         for _ in range(DEPTH):
             if frame is None:
                 return None
@@ -79,11 +79,14 @@ class Locator:
         return self.place_of(frame)
 
     def beat_place(self, frame: FrameType | None) -> child_messages.Place:
-        """Returns the place of the main thread for a beat, in the user's code or in ours."""
+        """Returns the place of the main thread for a beat: in the user's code, otherwise in BT Studio's."""
         return self.place_of(frame).to_message() or place_in_our_code(frame)
 
     def place_of(self, frame: FrameType | None) -> Place:
-        """Returns node, file and line of a stack, innermost user code first."""
+        """Returns the node, file and line of the innermost user code on a stack.
+
+        An empty place without user code.
+        """
         node = self.node_of(frame)
         stack = traceback.extract_stack(frame, limit=DEPTH) if frame is not None else []
         first = next((i for i, entry in enumerate(stack) if is_action_file(entry.filename)), None)

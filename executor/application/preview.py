@@ -1,4 +1,4 @@
-"""Values of the blackboard as JSON: small plain values unchanged, others as a short text."""
+"""Converts values of the blackboard to JSON: small plain values unchanged, others to a short text."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _short.maxlevel = 3
 
 
 def preview(value: Any) -> tuple[Any, bool]:
-    """Returns a value that JSON can hold, and whether it is only a preview."""
+    """Returns a value that can be written as JSON, and whether it is a preview of the original."""
     if _is_plain(value, depth=3):
         return value, False
     try:

@@ -1,8 +1,8 @@
 """The application as a process of its own: `python -m executor.application.process --channel-fd N`.
 
-It may be started as a spare: it imports slow modules, joins the ROS graph, and waits for ``start``. The main
-thread loads, ticks and runs the actions' callbacks; a second one receives messages of the manager; a third
-one sends beats (`executor.supervision.pulse`).
+The process may be started as a spare: it then imports slow modules, joins the ROS graph, and waits for the
+message ``start``. The main thread loads, ticks and runs the actions' callbacks; a second one receives
+messages of the manager; a third one sends beats (`executor.supervision.pulse`).
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ GOODBYE_S: Final = 0.5
 
 
 class _Stop(Exception):  # noqa: N818 - the way out, not an error
-    """The run is over."""
+    """Raised to end the main loop when the run is over."""
 
 
 class Application:
@@ -90,7 +90,7 @@ class Application:
     # --- commands ---------------------------------------------------------------------------------
 
     def _listen(self) -> None:
-        """Receives messages on a thread of its own, since the main one waits for ROS."""
+        """Receives the manager's messages on a separate thread, since the main thread waits for ROS."""
         try:
             while True:
                 message = self._channel.receive()
@@ -178,7 +178,7 @@ class Application:
         sys.stderr = Console("error", self._channel.send, self._locator, sys.__stderr__)
 
     def _join(self, start: StartApplication) -> None:
-        """Replaces the graph that the spare joined, if the application needs another one."""
+        """Replaces the ROS graph that the spare joined, if the application needs another graph."""
         domain_id = self._graph.domain_id if start.domain_id is None else start.domain_id
         if not start.outside and domain_id == self._graph.domain_id:
             return
@@ -244,13 +244,13 @@ class Application:
             self._runner.tick_due(now_s)
 
     def _has_connected(self) -> bool:
-        """Delays the first tick until topics are connected; a topic without subscribers is no error."""
+        """Returns whether ticks may begin: all topics are connected, or the time for discovery is over."""
         if self._connect_by_s is None:
             self._connect_by_s = time.monotonic() + DISCOVERY_S
         return self._graph.is_connected() or time.monotonic() > self._connect_by_s
 
     def _guarded(self, work: Any) -> None:
-        """Runs code of actions and reports whatever it raises."""
+        """Runs code of actions; reports each exception that it raises, and ends the run after it."""
         from executor.application.watchdog import Interrupted  # noqa: PLC0415
 
         try:

@@ -10,14 +10,14 @@ NUMPY_SEEDS = 2**32  # numpy's legacy generator accepts no others
 
 @dataclass(frozen=True)
 class Randomness:
-    """The state of both generators right after they were seeded."""
+    """The state of both random generators immediately after they were seeded."""
 
     python: object
     numpy: str
 
     @property
     def is_untouched(self) -> bool:
-        """Whether no number was drawn since."""
+        """Whether no random number was drawn since then."""
         return _states() == (self.python, self.numpy)
 
 

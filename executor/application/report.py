@@ -1,4 +1,4 @@
-"""Reports the tree to the manager: nodes, ticks, blackboard, faults, the end."""
+"""Sends reports about the tree to the manager: its nodes, ticks, blackboard, faults and end."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ Report = (
 
 
 def describe_tree(tree: Tree) -> list[TreeNode]:
-    """Returns the nodes in pre-order."""
+    """Returns the description of each node of the tree, in pre-order."""
     return [
         TreeNode(
             uid=node.uid,
@@ -66,12 +66,12 @@ def describe_tree(tree: Tree) -> list[TreeNode]:
 
 
 class Reporter:
-    """Makes messages of the events of a tree.
+    """Makes messages for the manager from the events of a tree.
 
     Args:
-        send: takes the messages.
-        now_s: simulated time.
-        clock: limits the rate of messages; real time in a session.
+        send: is called with each message.
+        now_s: returns the simulated time in s.
+        clock: returns the time in s that limits the rate of messages; it is real time in a session.
     """
 
     def __init__(
@@ -142,7 +142,7 @@ class Reporter:
         self.flush(now=True)
 
     def flush(self, *, now: bool = False) -> None:
-        """Sends the blackboard's changes, at a limited rate."""
+        """Sends the changed entries of the blackboard, at a limited rate; immediately if `now` is set."""
         if not self._entries or (self._clock() < self._entries_due_s and not now):
             return
         self._entries_due_s = self._clock() + BLACKBOARD_INTERVAL_S
@@ -150,7 +150,7 @@ class Reporter:
         self._send(child_messages.Blackboard([_entry(change) for change in entries.values()]))
 
     def raised(self, error: TickError) -> None:
-        """Reports an exception of an action; the same one at most once a second."""
+        """Reports an exception of an action; the same exception is reported at most once a second."""
         key, now_s = (error.path, error.message), self._clock()
         if now_s < self._faults_s.get(key, 0.0):
             return
@@ -187,7 +187,7 @@ class Reporter:
             self.broke_out("load", error, place)
 
     def broke_out(self, kind: FaultKind, error: BaseException, place: Place) -> None:
-        """Reports an exception outside of a tick's own handling: sys.exit, or an error of ours."""
+        """Reports an exception that no tick handles: `sys.exit` in an action, or an error of BT Studio."""
         message = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
         if isinstance(error, SystemExit):
             message = f"the action called sys.exit({error.code!r})"

@@ -30,10 +30,12 @@ _OWN_TOPICS: Final = frozenset({"/clock", "/parameter_events", "/rosout"})
 
 
 class Graph:
-    """Context, node and executor. It is also the clock of the tree, with the time of the last `/clock`.
+    """The ROS context, node and executor of the application.
 
-    The context is rclpy's default one, so that `rclpy.ok()` and `rclpy.create_node()` work in actions; there
-    can be one graph at a time.
+    It is also the clock of the tree: its time is that of the last message on `/clock`.
+
+    The context is rclpy's default one, so that `rclpy.ok()` and `rclpy.create_node()` work in actions; only
+    one graph can exist at a time.
     """
 
     def __init__(self, domain_id: int, on_clock: Callable[[float], None], *, outside: bool = False) -> None:
@@ -65,13 +67,13 @@ class Graph:
         return self._time_s
 
     def sleep(self, duration_s: float) -> None:
-        """Waits until simulated time has passed."""
+        """Runs callbacks until this much simulated time has passed."""
         end_s = self._time_s + duration_s
         while self._time_s < end_s:
             self.spin_once(0.05)
 
     def spin_once(self, timeout_s: float) -> None:
-        """Runs one callback, or waits for one."""
+        """Runs one callback; waits for one for at most `timeout_s`."""
         try:
             self._executor.spin_once(timeout_sec=timeout_s)
         except ExternalShutdownException:
@@ -96,7 +98,7 @@ class Graph:
         self._default.close()
 
     def _has_clock(self) -> bool:
-        """Whether an outside graph has simulated time, that is a publisher of `/clock`."""
+        """Whether an outside graph publishes simulated time on `/clock`."""
         probe = Node(f"{NODE_NAME}_probe", context=self._context)
         end_s = time.monotonic() + CLOCK_PROBE_S
         try:

@@ -1,4 +1,4 @@
-"""Interrupts the main thread where it hangs, on a signal of the manager."""
+"""Interrupts the main thread while it hangs, when the manager sends a signal."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["Breaker", "Interrupted"]
 
 
 class Interrupted(BaseException):
-    """Raised in the main thread where it hangs; not an `Exception`, which actions may catch."""
+    """Raised in a main thread that hangs. It is not an `Exception`, since actions may catch those."""
 
     def __init__(self, place: Place) -> None:
         super().__init__("interrupted")

@@ -1,1 +1,1 @@
-"""Generators: TypeScript types, the page of the protocol, pictures."""
+"""Generators of TypeScript types, of the protocol's reference page, and of pictures."""

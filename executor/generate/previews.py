@@ -1,6 +1,7 @@
 """Draws the chooser's pictures of universes and robots: `python -m executor.generate.previews [ID …]`.
 
-They are committed, so that the start page needs no renderer. Draw a picture again when its content changed.
+The pictures are committed to the repository, so that the start page needs no renderer. Draw a picture again
+when its content changed.
 """
 
 from __future__ import annotations
@@ -72,7 +73,7 @@ def _draw(renderer: Renderer, universe: Universe, view: Viewpoint) -> NDArray[np
 
 
 def _ball_round(universe: Universe) -> tuple[tuple[float, float, float], float]:
-    """Returns center and radius of a ball around a universe's robot, in m."""
+    """Returns the center and the radius, in m, of a ball around the robot of a universe."""
     world = BulletWorld(universe)
     world.step(SETTLE_STEPS)
     low, high = world.robots[0].bounds

@@ -1,6 +1,6 @@
 """The page of the session protocol, generated from `executor.session.ladder` and `executor.messages`.
 
-Run ``python -m executor.generate.protocol_page`` after a change of either; a test fails otherwise.
+Run ``python -m executor.generate.protocol_page`` after a change of these modules; otherwise a test fails.
 """
 
 from __future__ import annotations

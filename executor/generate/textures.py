@@ -1,4 +1,4 @@
-"""Writes the textures that we ship for the universe editor: `python -m executor.generate.textures`."""
+"""Writes the built-in textures for the universe editor: `python -m executor.generate.textures`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ FOLDER: Final = Path(__file__).parents[2] / "frontend" / "src" / "generated" / "
 
 
 def main() -> None:
-    """Writes each picture, with the width and height in m that it covers."""
+    """Writes each texture, and the width and height in m that it covers."""
     FOLDER.mkdir(parents=True, exist_ok=True)
     tiles = {}
     for name in TEXTURES:

@@ -67,7 +67,7 @@ def _is_literal(value: object) -> bool:
 
 
 def _literals() -> dict[str, object]:
-    """Returns the named literal types; `messages` names those of commands again."""
+    """Returns the named literal types of all message modules, by name."""
     return {name: v for module in _MODULES for name, v in vars(module).items() if _is_literal(v)}
 
 
@@ -89,7 +89,10 @@ def _interface(struct: type[msgspec.Struct]) -> str:
 
 
 def _may_be_absent(struct: type[msgspec.Struct], field: types.Field) -> bool:
-    """Whether a field may be absent: for clients with a default, for the server only if UNSET."""
+    """Whether a field may be absent.
+
+    Such a field may be UNSET, or has a default that clients or the server may omit.
+    """
     if not field.required and field.default is field.default_factory:  # both NODEFAULT: it is UNSET
         return True
     from_client = struct.__name__ in _client_structs()

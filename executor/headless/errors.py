@@ -2,4 +2,4 @@
 
 
 class HeadlessError(Exception):
-    """The run cannot be done; the text says why."""
+    """The run cannot be started or continued; the text is the reason."""

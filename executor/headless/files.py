@@ -12,7 +12,7 @@ __all__ = ["write_files"]
 
 
 def write_files(folder: Path, files: Mapping[str, bytes]) -> None:
-    """Writes files by their paths in a folder.
+    """Writes files into a folder, each at its path.
 
     Raises:
         ValueError: a path is outside of the folder.

@@ -1,7 +1,7 @@
 """Ends a run in this process if it hangs, and reports where: `with Guard() as guard`.
 
 A thread detects that the run makes no progress, and interrupts the main thread. Code that holds Python's
-interpreter lock stops that thread too: for this case a separate process waits for its beats.
+interpreter lock also stops this thread; for that case a separate process waits for the beats of the thread.
 """
 
 from __future__ import annotations
@@ -42,13 +42,13 @@ BEAT_S: Final = 0.25
 STUBBORN_S: Final = 2.0
 GOODBYE_S: Final = 1.0
 END_SIGNAL: Final = signal.SIGHUP
-"""Its number, 1, is the exit status that it leads to."""
+"""The signal that ends this process; its number, 1, becomes the exit status."""
 _ACTIONS: Final = "actions/"
 _ENGINE: Final = "tree_gardener/"
 
 
 class Hung(BaseException):
-    """Raised in the main thread where it hangs; not an `Exception`, which actions may catch.
+    """Raised in a main thread that hangs. It is not an `Exception`, since actions may catch those.
 
     The text begins with file, line and column.
     """
@@ -60,7 +60,7 @@ def sentence(file: str, line: int, what: str, for_s: float) -> str:
 
 
 class Guard:
-    """Watches this process during a run. Enter it on the main thread."""
+    """Watches this process during a run; use it as a context manager on the main thread."""
 
     def __init__(self) -> None:
         self._main = threading.main_thread().ident or 0
@@ -98,7 +98,7 @@ class Guard:
         signal.signal(INTERRUPT_SIGNAL, self._before)
 
     def moved(self) -> None:
-        """Notes progress of the run."""
+        """Notes that the run made progress."""
         self._moves += 1
 
     def _break(self, _number: int, frame: FrameType | None) -> None:
@@ -132,7 +132,7 @@ class Guard:
             self._process.stdin.flush()
 
     def _end(self, for_s: float) -> None:
-        """Interrupts the main thread; ends the process if the interrupt is caught."""
+        """Interrupts the main thread, and ends the process if the interrupt has no effect."""
         frame = _user_frame(sys._current_frames().get(self._main))
         if frame is None:
             return  # our own code runs at the moment, and will return
@@ -165,7 +165,7 @@ def _by_file(file: str) -> str:
 
 
 def _node_of(frame: FrameType | None) -> Any:
-    """Returns the tree node whose action is on the stack, from the engine's frames."""
+    """Returns the node whose action is on the stack, found by the engine's frames."""
     while frame is not None:
         if _ENGINE in frame.f_code.co_filename:
             node = frame.f_locals.get("leaf") or frame.f_locals.get("self")

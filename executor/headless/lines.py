@@ -6,5 +6,5 @@ __all__ = ["mismatch_line"]
 
 
 def mismatch_line(topic: str, message: str, hint: str) -> str:
-    """Returns the line of a topic whose ends do not match."""
+    """Returns the line about a topic whose publisher and subscriber do not match."""
     return f"{topic}: {message} {hint}"

@@ -39,12 +39,12 @@ VIEW_HZ: Final = 15.0
 FIGURES_EVERY_S: Final = 0.2
 LOOK_EVERY_S: Final = 1.0
 HANGS_AFTER_S: Final = 6.0
-"""After the fault: a tick that is only slow has returned by then."""
+"""Seconds after the fault until a tick counts as hung; a tick that is only slow has returned by then."""
 
 
 @dataclass(frozen=True)
 class HeadlessOptions:
-    """Options of a run; None takes the project's setting."""
+    """Options of a run; None means the project's setting."""
 
     universe: str | None = None
     seed: int = 0
@@ -65,9 +65,9 @@ def run_headless(
     """Runs a project until its tree ends, the time is over, or it is interrupted.
 
     Args:
-        project: for its settings and universes.
+        project: the project, with its settings and universes.
         app_zip: the same project, packed.
-        options: what differs from its settings.
+        options: replace settings of the project.
         progress: called about once a second.
         say: called with each line that the actions print.
 
@@ -114,7 +114,7 @@ def _recording(
 
 
 class _Runner:
-    """The client's side of the session."""
+    """The client side of the session."""
 
     def __init__(
         self,
@@ -164,7 +164,7 @@ class _Runner:
             await asyncio.gather(*readers)
 
     def _forget_slow_loading(self) -> None:
-        """Removes the faults of slow loading: the application has loaded."""
+        """Removes the faults about slow loading, after the application has loaded."""
         errors, self._hangs_s = self._measured.report.errors, None
         errors[:] = [error for error in errors if error["kind"] != "timeout"]
 
@@ -274,7 +274,7 @@ class _Runner:
 
 
 def _located(error: dict[str, Any], faults: list[dict[str, Any]]) -> str:
-    """Writes an error as `file:line:column: CODE message (hint)`, followed by the place of the fault."""
+    """Returns an error as `file:line:column: CODE message (hint)`, with the file and line of the fault."""
     place = next((f"{f['file']}:{f['line']}:1: " for f in faults if f.get("file")), "")
     hint = f" ({error['hint']})" if error.get("hint") else ""
     return f"{place}{error['code']} {error['message']}{hint}"

@@ -1,8 +1,8 @@
 """Runs a project with its world in one process, in lock-step: sensors, then the tick, then the actuators.
 
-Time is simulated, so a run is as fast as the machine and deterministic. The application is the real one on a
-real rclpy node: Fast DDS delivers within a process before `publish` returns, so there is nothing to wait for
-between publishing and calling the callbacks that are ready.
+Time is simulated, so a run is deterministic and as fast as the machine allows. The application uses a real
+rclpy node, as in a session: Fast DDS delivers within a process before `publish` returns, so the callbacks can
+be called immediately after publishing.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ TOO_LONG: Final = "an action waited in rclpy until the end of the run; let updat
 
 @dataclass(frozen=True)
 class LockstepOptions:
-    """Options of a run; None takes the project's setting."""
+    """Options of a run; None means the project's setting."""
 
     universe: str | None = None
     robot: str | None = None
@@ -71,10 +71,10 @@ def run_lockstep(  # noqa: PLR0913 - a run, and who listens to it
 
     Args:
         project: an opened project, its files by path, or its path.
-        options: that replace the project's own settings.
-        progress: called about once a simulated second with the simulated time.
+        options: replace settings of the project; None replaces none.
+        progress: called with the simulated time, about once in each simulated second.
         watch: called before each tick with the world, for measurements.
-        say: called with each warning; on standard error if None.
+        say: called with each warning; with None, warnings are written to standard error.
         moved: called after each step of the world.
 
     Raises:
@@ -95,7 +95,7 @@ def run_lockstep(  # noqa: PLR0913 - a run, and who listens to it
 
 
 class _Run:
-    """One run: world, application and their connection."""
+    """One run: the world, the application, and the ROS connection between them."""
 
     def __init__(self, project: Project, options: LockstepOptions, say: Callable[[str], None]) -> None:
         settings = project.settings
@@ -112,7 +112,7 @@ class _Run:
         self._recorder: RunRecorder | None = None  # set when the tree is loaded
 
     def set_up(self) -> None:
-        """Makes world and application; `close` frees them also after an error."""
+        """Makes the world and the application. Call `close` afterwards, also after an error."""
         project = self._project
         recording = self._open_recording(project)
         self._world = self._make_world(project)
@@ -123,7 +123,7 @@ class _Run:
         self._recorder = self._make_recorder(recording)
 
     def play(self, progress: Progress | None, watch: Callable[[BulletWorld], None] | None) -> Report:
-        """Ticks until the end."""
+        """Ticks until the end of the run, and returns its report."""
         from tree_gardener.runner import Runner  # noqa: PLC0415 - after the environment
 
         runner = Runner(
@@ -267,7 +267,7 @@ class _Run:
     # --- running ---
 
     def _advance(self, until_step: int) -> None:
-        """Steps the world up to a step; its sensors measure meanwhile as in real time."""
+        """Steps the world up to a step; its sensors measure at their rates meanwhile, as in real time."""
         done = round(self._world.time_s / self._world.step_s)
         if done == 0:
             self._node.publish(self._sensors)
@@ -283,7 +283,7 @@ class _Run:
                     self._recorder.look()
 
     def _let_time_pass(self) -> None:
-        """Simulates while an action waits in rclpy, as real time would pass."""
+        """Simulates for a short time while an action waits in rclpy, as real time would pass."""
         if self._world.time_s >= self._options.duration_s:
             raise TimeoutError(TOO_LONG)
         self._advance(round(self._world.time_s / self._world.step_s) + PERIOD_STEPS)
@@ -370,7 +370,7 @@ class _Run:
 
 
 class _WorldClock:
-    """Simulated time for Delay, Timeout and Sleep."""
+    """The clock of the tree: simulated time for Delay, Timeout and Sleep."""
 
     def __init__(self, world: BulletWorld) -> None:
         self._world = world
@@ -403,6 +403,6 @@ def _say(line: str) -> None:
 
 
 def _use_environment() -> None:
-    """Isolates ROS from other processes, unless it was loaded already."""
+    """Sets the environment that isolates ROS from other processes, unless ROS was loaded before."""
     if "rclpy" not in sys.modules:
         os.environ.update(lockstep_environment())

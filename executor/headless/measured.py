@@ -18,7 +18,7 @@ __all__ = ["Measured"]
 
 @dataclass
 class Measured:
-    """The report of a run, as it grows."""
+    """The report of a run, updated during the run."""
 
     report: Report = field(default_factory=Report)
     period_ms: float = 50.0
@@ -30,7 +30,7 @@ class Measured:
     _start_s: float | None = None
 
     def take_event(self, name: str, data: dict[str, Any], time_s: float) -> None:
-        """Adds an event of a simulated time."""
+        """Adds an event to the report; `time_s` is its simulated time."""
         report = self.report
         match name:
             case "tree":
@@ -65,7 +65,7 @@ class Measured:
             node.ticks += status in {"SUCCESS", "FAILURE"}
 
     def take_frame(self, frame: object) -> None:
-        """Adds a pose of the robot, or the nearest range of a scan."""
+        """Adds the robot's pose of a frame, or the nearest range of a scan, to the report."""
         match frame:
             case messages.Scene():
                 robots = (o.id for o in frame.objects if o.kind == "robot")

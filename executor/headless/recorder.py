@@ -25,10 +25,10 @@ class RunRecorder:
     """Writes one run into a recording.
 
     Args:
-        recording: an open one.
-        world: the simulated one.
-        sensors: of the world.
-        tree: the ticked one; each of its ticks is written from now on.
+        recording: the open recording.
+        world: the simulated world.
+        sensors: the sensors of the world.
+        tree: the tree; each of its ticks is written from now on.
     """
 
     def __init__(self, recording: Recording, world: World, sensors: Sensors, tree: Tree) -> None:

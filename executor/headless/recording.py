@@ -2,7 +2,7 @@
 
 The first line is `{"format": "bt-studio/recording", "version": 1, …}`. An event is `{"type": "event", "t",
 "tick", "command", "data"}`, a frame as in the stream protocol with its `type` and `t`; bytes are base64. A
-name that ends with `.gz` is compressed. A recording that was cut off stays readable.
+name that ends with `.gz` is compressed. An incomplete recording can still be read.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ decode_frame: Final = msgspec.msgpack.Decoder(
 
 
 class Recording:
-    """An open file; use it as a context, or close it.
+    """A recording that is open for writing; use it as a context manager, or close it.
 
     Raises:
         OSError: the file cannot be written.
@@ -66,7 +66,7 @@ class Recording:
         self._write(frame)
 
     def packed_frame(self, data: bytes) -> None:
-        """Writes a frame as the stream socket carries it."""
+        """Writes a frame in the encoded form of the stream socket."""
         self.frame(decode_frame(data))
 
     def _write(self, line: object) -> None:

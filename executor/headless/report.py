@@ -23,9 +23,12 @@ class NodeCount:
 
 @dataclass
 class Report:
-    """A whole run. Distances and collisions are those of the first robot; lengths in m, angles in rad.
+    """The report of a whole run.
 
-    `random` is false if neither world nor actions drew a random number: then every seed gives the same run.
+    Distances and collisions are those of the first robot; lengths are in m, angles in rad.
+
+    `random` is false if neither the world nor the actions used random numbers; every seed then gives the same
+    run.
     """
 
     root_status: str = "IDLE"
@@ -53,7 +56,7 @@ class Report:
 
 
 def quantiles(durations_s: list[float]) -> dict[str, float]:
-    """Returns p50, p95 and maximum in ms."""
+    """Returns the median, the 95th percentile and the maximum (`p50`, `p95`, …) in ms."""
     ordered = sorted(durations_s)
     if not ordered:
         return {"p50": 0.0, "p95": 0.0, "max": 0.0}

@@ -1,6 +1,6 @@
-"""A page on loopback that shows a run: pictures that the server draws, and figures.
+"""Serves a page on loopback that shows a run: pictures of the world, and figures.
 
-It needs no build and no web server, so it is available wherever a run is.
+It needs no build and no web server, so every run can have it.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ class RunViewer:
     """Serves the page until it is closed; a slow browser misses pictures without delaying others.
 
     Args:
-        token: a part of the link; required of viewers.
-        look: called with the camera of a viewer; with None when the last viewer leaves.
+        token: a part of the link; viewers must send it.
+        look: called with the camera that a viewer chose, and with None when the last viewer leaves.
     """
 
     def __init__(self, token: str, look: Callable[[CameraPose | None], None]) -> None:
@@ -55,7 +55,7 @@ class RunViewer:
         self._server: Server | None = None
 
     async def start(self) -> str:
-        """Listens on a free port of loopback; returns the link."""
+        """Listens on a free port of loopback; returns the link to the page."""
         logging.getLogger("websockets.server").setLevel(logging.ERROR)
         self._server = await serve(
             self._serve,
@@ -76,7 +76,7 @@ class RunViewer:
         self._send(jpeg)
 
     def tell(self, figures: dict[str, Any]) -> None:
-        """Shows the figures of the run."""
+        """Shows the figures of the run on the page."""
         self._figures = msgspec.json.encode(figures).decode()
         self._send(self._figures)
 

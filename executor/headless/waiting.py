@@ -1,4 +1,4 @@
-"""Waits of actions in lock-step: while an action waits in rclpy, simulated time passes."""
+"""Waits of actions in lock-step: simulated time passes while an action waits in rclpy."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ def wait_in_simulation(now_s: Callable[[], float], advance: Callable[[], None]) 
     """Makes waits of rclpy's executors on the main thread advance the simulation; returns the undo function.
 
     Args:
-        now_s: simulated time.
-        advance: simulates a short time; raises once the run is over.
+        now_s: returns the simulated time in s.
+        advance: simulates a short time; raises an exception after the end of the run.
     """
     waits = _Waits(now_s, advance)
     Executor._wait_for_ready_callbacks = partialmethod(_call, waits.wait)
@@ -52,7 +52,7 @@ class _Waits:
     def wait(
         self, executor: Any, timeout_sec: Any = None, nodes: Any = None, condition: Condition = lambda: False
     ) -> Iterator[Any]:
-        """Yields ready callbacks; simulates until there is one, or until the timeout."""
+        """Yields ready callbacks; if none is ready, simulates until one is, or until the timeout."""
         if _is_foreign(executor):
             yield from self.real_wait(executor, timeout_sec, nodes, condition)
             return
@@ -87,7 +87,10 @@ class _Waits:
 
 
 def _is_foreign(executor: Any) -> bool:
-    """Whether a wait is not one of an action within a tick."""
+    """Whether a wait is not that of an action.
+
+    Then the executor belongs to the run itself, or the thread is not the main one.
+    """
     return isinstance(executor, DrainingExecutor) or threading.current_thread() is not threading.main_thread()
 
 

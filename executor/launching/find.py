@@ -17,7 +17,7 @@ LAUNCH_PY_REFUSAL = (
 
 
 class NotFound(Exception):  # noqa: N818 - an answer, not a failure of ours
-    """There is no such program; the text says where it was searched."""
+    """The program does not exist; the text says where it was searched."""
 
 
 def has_launch() -> bool:
@@ -32,7 +32,7 @@ def find_command(package: str, executable: str, root: Path, folder: Path) -> tup
         package: a ROS package, or "" for a file of the project.
         executable: its name in the package, or the path of a file.
         root: the project's folder, searched first for a file.
-        folder: the launch file's own, searched second.
+        folder: the folder of the launch file, searched second.
 
     Raises:
         NotFound: there is no such program.
@@ -60,7 +60,7 @@ def find_command(package: str, executable: str, root: Path, folder: Path) -> tup
 
 
 def find_executable(name: str, root: Path, folder: Path) -> tuple[str, ...]:
-    """Returns the program for the first word of a command.
+    """Returns the command for the program that the first word of a command line names.
 
     Raises:
         NotFound: there is no such program.
@@ -77,7 +77,7 @@ def find_executable(name: str, root: Path, folder: Path) -> tuple[str, ...]:
 
 
 def _own_file(name: str, root: Path, folder: Path) -> Path | None:
-    """Returns a file of the project; None for a path that leaves it."""
+    """Returns a file of the project; None if it does not exist or is outside of the project."""
     for base in (root, folder):
         path = (base / name).resolve()
         if path.is_file() and path.is_relative_to(root.resolve()):

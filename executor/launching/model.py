@@ -12,10 +12,11 @@ class NodeSpec:
     """One launch node.
 
     Attributes:
-        id: unique in the application.
-        command: the program and its arguments; empty if it cannot be started; `refusal` says why.
-        environment: variables set for it alone.
-        file: the launch file in the project, with the line in `line`.
+        id: its id, unique in the application.
+        command: the program and its arguments; empty if the node cannot be started; `refusal` is then the
+            reason.
+        environment: environment variables that are set for this node only.
+        file: the path of the launch file in the project; `line` is the line in it.
     """
 
     id: str
@@ -31,7 +32,7 @@ class NodeSpec:
 
 @dataclass(frozen=True)
 class LaunchPlan:
-    """All nodes of the launch files of an application; `notes` name what was left out."""
+    """All launch nodes of an application; `notes` are about elements that were left out."""
 
     nodes: tuple[NodeSpec, ...] = ()
     notes: tuple[str, ...] = field(default_factory=tuple)

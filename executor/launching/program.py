@@ -1,7 +1,7 @@
-"""Replaces itself by a program of a launch file, which cannot outlive the manager.
+"""Runs a program of a launch file so that it cannot outlive the manager.
 
 `python -m executor.launching.program FOLDER PROGRAM ARGUMENTS…` changes to the folder, asks the kernel
-for a signal at the death of the manager, and executes the program.
+for a signal at the death of the manager, and replaces itself by the program (`exec`).
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Reads the `launch/*.launch.yaml` files of an application: arguments, nodes, parameters and remappings.
 
 It supports the part of ROS 2's format that needs no `launch` package: `arg`, `let`, `node`, `executable` and
-`group`, with `$(var …)`, `$(dirname)`, `if` and `unless`. Known elements without support are left out with a
-note; errors are reported with their line.
+`group`, with `$(var …)`, `$(dirname)`, `if` and `unless`. Known elements that are not supported are left out,
+with a note. Errors are reported with their line.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ def _python_launch(root: Path, path: Path) -> NodeSpec:
 
 
 class _Reader:
-    """Reads one file; nodes and notes are added to lists that the files share."""
+    """Reads one launch file, and adds its nodes and notes to lists that all files share."""
 
     def __init__(self, root: Path, path: Path, nodes: list[NodeSpec], notes: list[str]) -> None:
         self._root = root

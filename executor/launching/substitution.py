@@ -43,7 +43,7 @@ def substitute(text: str, variables: Mapping[str, str], folder: str) -> str:
 
 
 def truth(text: str) -> bool:
-    """Reads a condition.
+    """Returns the truth value of a condition's text.
 
     Raises:
         SubstitutionError: it is neither true nor false.

@@ -1,8 +1,9 @@
 """Access rules of a manager, for both of its protocols. Pure.
 
-A web page can reach every port of the machine that its browser runs on. With a token, only
-the token counts: a page does not know it. Without one, a request must name this machine as its `Host`, which
-refuses a page whose name resolves to 127.0.0.1 (DNS rebinding), and a page must be local or listed.
+A web page can reach every port of the machine on which its browser runs. If the manager has a token, only the
+token is checked, since a foreign page does not know it. Without a token, the `Host` of a request must be this
+machine, which excludes pages whose name resolves to 127.0.0.1 (DNS rebinding), and the page's origin must be
+local or listed.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ __all__ = ["Admission", "Refusal", "is_loopback"]
 
 
 class Refusal(NamedTuple):
-    """Why a request is refused."""
+    """The reason for which a request is refused."""
 
     status: HTTPStatus
     text: str
@@ -33,7 +34,7 @@ class Admission:
     """The rules of one manager.
 
     Attributes:
-        token: required of clients; "" requires none, and only local clients are accepted.
+        token: the token that clients must send; with "" none is needed, and only local clients are accepted.
         origins: pages that may connect, such as `https://example.org`.
     """
 
@@ -41,11 +42,11 @@ class Admission:
     origins: frozenset[str] = frozenset()
 
     def judge(self, request: Request, *, reads_health: bool = False) -> Refusal | None:
-        """Returns why a request is refused, or None when it may pass.
+        """Returns the reason to refuse a request, or None if it is accepted.
 
         Args:
             request: the websocket request.
-            reads_health: whether it is for `/health`, which probes read without a token.
+            reads_health: whether the request is for `/health`, which needs no token.
         """
         host = _name_of("//" + _header(request, "Host"))
         has_token = bool(self.token) and self._shows_token(request)
@@ -60,7 +61,10 @@ class Admission:
         return Refusal(HTTPStatus.FORBIDDEN, text)
 
     def _shows_token(self, request: Request) -> bool:
-        """Accepts a bearer token or one in the address: a page cannot send headers with a websocket."""
+        """Whether a request has the token.
+
+        It is a bearer token or in the address, since a page cannot set headers of a websocket.
+        """
         expected = self.token.encode()
         scheme, _, bearer = _header(request, "Authorization").partition(" ")
         asked = parse_qs(urlsplit(request.path).query).get("token", [""])[0]
@@ -76,7 +80,7 @@ def is_loopback(host: str) -> bool:
 
 
 def _is_address(host: str) -> bool:
-    """Whether a host is an address, or localhost; others could resolve any other name to this machine."""
+    """Whether a host is an IP address or localhost; any other name could resolve to this machine."""
     with contextlib.suppress(ValueError):
         ipaddress.ip_address(host)
         return True
@@ -84,12 +88,12 @@ def _is_address(host: str) -> bool:
 
 
 def _header(request: Request, name: str) -> str:
-    """Returns a header; one that is repeated matches nothing."""
+    """Returns the value of a header; a value that matches nothing if the header is repeated."""
     return ", ".join(request.headers.get_all(name))
 
 
 def _name_of(url: str) -> str:
-    """Returns the host of an address; "" if it cannot be read."""
+    """Returns the host name of an URL; "" if it cannot be parsed."""
     with contextlib.suppress(ValueError):
         return urlsplit(url).hostname or ""
     return ""

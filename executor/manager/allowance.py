@@ -28,7 +28,10 @@ class Allowance:
         self._at_s = now_s
 
     def take(self, command: str, now_s: float) -> float:
-        """Takes the cost of a command and returns 0, or returns how long to wait in s."""
+        """Subtracts the cost of a command and returns 0.
+
+        If too few tokens are left, returns the seconds to wait.
+        """
         self._tokens = min(self._burst, self._tokens + (now_s - self._at_s) * self.rate_hz)
         self._at_s = now_s
         cost = COSTS.get(command, 1.0)

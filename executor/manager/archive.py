@@ -1,4 +1,4 @@
-"""Unpacks untrusted archives: never outside of the folder, and within limits."""
+"""Unpacks untrusted archives: within limits, and never outside of the target folder."""
 
 from __future__ import annotations
 
@@ -33,7 +33,8 @@ def unpack(archive_base64: str, folder: Path) -> None:
     """Unpacks a zip, given as base64, into an existing folder.
 
     Raises:
-        ArchiveError: it is no zip, damaged, too large, or names a path outside of the folder.
+        ArchiveError: the archive is not a zip, is damaged or too large, or contains a path outside of the
+            folder.
     """
     try:
         data = base64.b64decode(archive_base64, validate=True)
@@ -51,7 +52,7 @@ def unpack(archive_base64: str, folder: Path) -> None:
 
 
 def _check_directory(data: bytes) -> None:
-    """Refuses a directory of millions of entries, before zipfile makes an object of each."""
+    """Refuses a zip directory with millions of entries before `zipfile` makes an object of each entry."""
     at = data.rfind(_END_OF_DIRECTORY, max(0, len(data) - _LONGEST_TAIL))
     if at < 0 or at + _END.size > len(data):
         return  # it is no zip, which zipfile reports
@@ -94,7 +95,10 @@ def _safe_path(entry: zipfile.ZipInfo) -> PurePosixPath:
 
 
 def _extract(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, target: Path, limit: int) -> int:
-    """Writes one file; counts the bytes written, since the directory of the zip may lie."""
+    """Writes one file, and returns the number of bytes written.
+
+    The size in the zip's directory may be wrong.
+    """
     written = 0
     with archive.open(entry) as source, target.open("xb") as sink:
         while chunk := source.read(_CHUNK):

@@ -1,4 +1,4 @@
-"""Folders for the applications that a session unpacks."""
+"""Manages the folders into which a session unpacks applications."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ class Folders:
     """A folder for each application; the oldest are removed.
 
     Args:
-        is_alone: whether only this session uses the folder of temporary files, as in a container. When the
-            disk is full, files of earlier runs are removed then, or no further run could start.
+        is_alone: whether only this session uses the folder of temporary files, as in a container. If it is,
+            files of earlier runs are removed when the disk is full, so that another run can start.
     """
 
     def __init__(self, *, is_alone: bool) -> None:

@@ -1,8 +1,8 @@
 """Fetches a listening socket for a manager without a network.
 
 A manager in a container without a network and without a shared writable folder cannot create a reachable
-socket. The keeper beside the web server creates one and passes it through the gate: at the door of this
-session, a unix socket that the container sees through a read-only mount (`backend/sessions/gate`).
+socket. The keeper beside the web server creates one, and passes it through the gate: a unix socket for this
+session (its "door"), which the container sees through a read-only mount (`backend/sessions/gate`).
 """
 
 from __future__ import annotations
@@ -22,10 +22,11 @@ RETRY_S: Final = 0.1
 
 
 def fetch_listener(door: Path, session_id: str, token: str, *, timeout_s: float = TIMEOUT_S) -> socket.socket:
-    """Returns the session's listening socket; waits for a gate that restarts.
+    """Returns the session's listening socket. If the gate restarts, waits for it.
 
     Raises:
-        OSError: there is no such door, it does not answer, or it refuses this session.
+        OSError: the gate's unix socket (`door`) does not exist or does not answer, or the gate refuses this
+            session.
     """
     deadline_s = time.monotonic() + timeout_s
     while True:

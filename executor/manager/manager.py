@@ -68,14 +68,14 @@ class ManagerSettings:
     """Settings of a manager.
 
     Attributes:
-        port: 0 takes a free one.
-        token: required of clients; "" requires none, and only local clients are accepted.
-        domain_id: of the session's ROS graph; None selects an unused one.
-        grace_s: how long a session without clients lives; 0 is no limit.
-        listener: a unix socket to listen at too.
-        is_closed_off: whether its ROS graph is isolated, since it runs in a container.
-        is_ram: whether it speaks the RAM dialect, to one local client and without a token.
-        origins: pages that may connect; without a token local pages may, too.
+        port: the port to listen on; 0 selects a free one.
+        token: the token that clients must send; with "" none is needed, and only local clients are accepted.
+        domain_id: the domain of the session's ROS graph; None selects an unused one.
+        grace_s: the seconds for which a session without clients stays alive; 0 is without limit.
+        listener: a unix socket on which the manager listens too.
+        is_closed_off: whether the session's ROS graph is isolated, as in a container.
+        is_ram: whether the manager speaks the RAM dialect, with one local client and without a token.
+        origins: pages that may connect; without a token, local pages may connect too.
     """
 
     host: str = "127.0.0.1"
@@ -261,9 +261,9 @@ async def serve(settings: ManagerSettings, ready_fd: int | None = None, *, shows
     """Serves one session; returns why it ended.
 
     Args:
-        settings: of the manager.
-        ready_fd: receives the port; without it, stderr does.
-        shows_token: whether the token was generated, and is reported too.
+        settings: the settings of the manager.
+        ready_fd: a descriptor to which the port is written; without it, the port is written to stderr.
+        shows_token: whether the token is reported with the port, as for a generated one.
 
     Raises:
         OSError: the port is in use, or not allowed without a token.

@@ -25,7 +25,7 @@ CONTENT_TYPE: Final = CONTENT_TYPE_PLAIN_0_0_4
 
 
 class _Manager:
-    """The numbers of one session, collected when the page is requested."""
+    """Collects the metrics of one session when they are requested."""
 
     def __init__(self, session: Session, traffic: Traffic) -> None:
         self._session, self._traffic = session, traffic

@@ -1,11 +1,11 @@
 """The session's two sockets on loopback: `/control` (JSON) and `/stream` (MessagePack), and `/health`.
 
 The server has no rules of its own: it decodes commands for the state machine and sends its events.
-A frame that is no command is answered with an error, and the socket stays open.
+A frame that is not a command is answered with an error, and the socket stays open.
 
-No client can block the others: a little of each is read, handled and sent in turn, and a client that exceeds
-its allowance gets an error that says how long to wait. `/watch` is a health check: a socket that answers
-pings, without a queue of commands.
+No client can block the others: the server reads, handles and sends a little for each client in turn. A client
+that exceeds its allowance gets an error that says how long to wait. `/watch` is a health check: a socket that
+answers pings, without a queue of commands.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ _encode = msgspec.json.Encoder().encode
 
 @dataclass
 class Traffic:
-    """Counters of a server."""
+    """Counters of the messages of a server."""
 
     clients: int = 0
     streams: int = 0
@@ -81,8 +81,8 @@ class SessionServer:
     """Serves one session.
 
     Args:
-        session: for ids and snapshots.
-        report: takes events.
+        session: makes ids of clients and snapshots.
+        report: is called with each event for the state machine.
         admission: the access rules.
     """
 
@@ -112,7 +112,7 @@ class SessionServer:
         return int(next(iter(server.sockets)).getsockname()[1])
 
     async def start_at(self, listener: socket.socket) -> None:
-        """Listens at a given unix socket, too."""
+        """Listens on a given unix socket, in addition to the port."""
         self._servers.append(await unix_serve(self._serve, sock=listener, **self._options))
 
     @property
@@ -236,7 +236,7 @@ class SessionServer:
         self._report(ClientLeft(client))
 
     def _dismiss(self, client: str) -> None:
-        """Ends a connection whose loss the client noticed first."""
+        """Closes the old connection of a client that has connected again."""
         self._close_soon(self._connections[client])
         self._forget(client)
 
@@ -266,7 +266,7 @@ class SessionServer:
     # --- messages ---------------------------------------------------------------------------------
 
     async def _take_all(self, client: str, connection: ServerConnection, outbox: ControlOutbox) -> None:
-        """Takes commands in small groups, and none while too many answers are unread."""
+        """Handles commands in small groups; waits while too many of the client's replies are unread."""
         allowance = Allowance(time.monotonic())
         taken = 0
         async for frame in connection:
@@ -341,13 +341,13 @@ def _slow_down(allowance: Allowance, wait_s: float) -> tuple[str, str]:
 
 
 def _read_little(connection: ServerConnection) -> None:
-    """Limits what asyncio reads at a time; its default is 256 KiB."""
+    """Limits how many bytes asyncio reads in one step; its default is 256 KiB."""
     transport: Any = connection.transport
     transport.max_size = READ_BYTES
 
 
 async def _take_nothing(connection: ServerConnection) -> None:
-    """Waits until a client leaves; anything that it sends is answered with an error."""
+    """Waits until a client disconnects; answers each of its messages with an error."""
     async for _ in connection:
         await connection.close(UNEXPECTED, "commands are sent on /control")
 

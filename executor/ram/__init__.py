@@ -1,1 +1,1 @@
-"""The protocol of JdeRobot's Robotics Application Manager, for clients of it."""
+"""The protocol of JdeRobot's Robotics Application Manager (RAM), for its existing clients."""

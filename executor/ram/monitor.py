@@ -14,7 +14,10 @@ _STATES: Final = {"IDLE": "INVALID", "SKIPPED": "INVALID"}
 
 
 def update_text(mirror: Mirror) -> str:
-    """Returns tree and blackboard: nodes by name within their parent, each with its `state`."""
+    """Returns the tree and the blackboard as JSON.
+
+    Nodes are keyed by name within their parent, and each has its `state`.
+    """
     top: dict[str, Any] = {}
     by_uid: dict[int, dict[str, Any]] = {}
     for node in mirror.tree.nodes if mirror.tree is not None else []:

@@ -1,9 +1,9 @@
 """Serves one client that speaks the RAM dialect, on loopback.
 
-Defects of the original are not copied: a frame that is no command gets an error and the socket stays open,
-there are no hidden `to_<state>` commands, a second client receives the reason of its refusal, and the death
-of an application is reported with the new state. There is no token: hosts and origins are checked
-(`executor.manager.admission`), which refuses pages of other sites.
+Defects of the original are not copied: a frame that is not a command is answered with an error and the socket
+stays open, there are no hidden `to_<state>` commands, a second client receives the reason of its refusal, and
+the death of an application is reported with the new state. There is no token: hosts and origins are checked
+instead (`executor.manager.admission`), so pages of other sites are refused.
 """
 
 from __future__ import annotations
@@ -50,8 +50,8 @@ class RamServer:
     """Serves one session to one client.
 
     Args:
-        session: for its state.
-        report: takes events.
+        session: the session, for its state.
+        report: is called with each event for the state machine.
         origins: pages that may connect, apart from local ones, such as `https://example.org`.
     """
 
@@ -98,7 +98,7 @@ class RamServer:
             await self._server.wait_closed()
 
     def send(self, effect: Send) -> None:
-        """Sends an event if the dialect has a message for it."""
+        """Sends an event, if the RAM dialect has a message for it."""
         match effect.payload:
             case messages.Ack() if effect.request is not None:
                 self._answer(effect.request, "ack", None)
@@ -112,7 +112,7 @@ class RamServer:
                 pass
 
     def send_frame(self, frame: Frame) -> None:
-        """Ignores a frame: the dialect has no streams."""
+        """Ignores a frame, since the RAM dialect has no streams."""
 
     # --- connections ------------------------------------------------------------------------------
 

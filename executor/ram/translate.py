@@ -1,4 +1,4 @@
-"""Translates commands, states and errors between the RAM dialect and our own protocol. No I/O."""
+"""Translates commands, states and errors between the RAM dialect and the native protocol. No I/O."""
 
 from __future__ import annotations
 
@@ -63,7 +63,10 @@ class RamError(Exception):
 
 @dataclass(frozen=True)
 class Native:
-    """A command of our own protocol; `is_2024` is the era of the client, if the command shows it."""
+    """A command of the native protocol.
+
+    `is_2024` is the client's version of the dialect, if the command shows it.
+    """
 
     command: str
     data: Struct
@@ -109,7 +112,10 @@ def state_name(state: str, *, is_2024: bool) -> str:
 
 
 def error_text(error: messages.Error, trigger: str, state: str) -> str:
-    """Returns an error in the dialect's form; an illegal command has a text that clients know."""
+    """Returns an error in the form of the dialect.
+
+    For an illegal command it is the text that clients know.
+    """
     if error.code == "wrong_state":
         return f'"Can\'t trigger event {trigger} from state {state}!"'
     return f"{error.message} {error.hint}".strip()
@@ -154,7 +160,10 @@ def _application_of(data: Any) -> messages.RunApplication:
 
 
 def _settings_of(archive: str) -> dict[str, Any]:
-    """Reads the `project.json` of our own zips; a bad archive is refused later, with its reason."""
+    """Returns the `project.json` of a zip that BT Studio made.
+
+    Empty if the archive is bad, which is reported later.
+    """
     try:
         with zipfile.ZipFile(io.BytesIO(base64.b64decode(archive))) as files:
             if "project.json" not in files.namelist():

@@ -13,7 +13,7 @@ _log = logging.getLogger(__name__)
 
 
 def make_renderer(kind: str | None = None) -> Renderer:
-    """Returns the renderer `gl` or `tiny`; without a name the first that works.
+    """Returns the renderer `gl` or `tiny`; without a name, the first one that works.
 
     The variable `BT_STUDIO_RENDERER` selects one if no name is given.
     """

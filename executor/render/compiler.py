@@ -15,10 +15,12 @@ _MADV_DONTNEED: Final = 4
 
 
 def release_compiler() -> int:
-    """Drops the compiler's code from this process's memory; returns how many bytes of address space.
+    """Drops the code of the shader compiler from this process's memory.
+
+    Returns the bytes of address space that it covers.
 
     Only unmodified pages of code are dropped: the kernel loads them again from the file when they are needed.
-    Pages that the loader wrote to are kept.
+    Pages that the loader has written are kept.
     """
     try:
         maps = Path("/proc/self/maps").read_text(encoding="utf-8")

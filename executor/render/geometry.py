@@ -17,7 +17,7 @@ SEGMENTS: Final = 24
 
 
 def indexed(vertices: Vertices) -> tuple[Vertices, NDArray[np.uint32]]:
-    """Returns unique vertices, and the indices of triangles that have an area."""
+    """Returns the unique vertices, and the indices of the triangles; triangles without area are left out."""
     unique, inverse = np.unique(np.round(vertices, 6), axis=0, return_inverse=True)
     order = inverse.reshape(-1, 3)
     # At the poles of round shapes, vertices have one position and different normals.
@@ -27,7 +27,7 @@ def indexed(vertices: Vertices) -> tuple[Vertices, NDArray[np.uint32]]:
 
 
 def grid(count: int) -> Vertices:
-    """Returns the square, divided into `count` by `count` pieces."""
+    """Returns a square with edges of 1 m, divided into `count` by `count` pieces."""
     whole, pieces = square(), []
     for i in range(count):
         for j in range(count):

@@ -36,14 +36,14 @@ SUN_COLOR: Final = (0.78, 0.74, 0.68)
 GROUND_SKY: Final = (0.52, 0.55, 0.60)
 SOFTWARE: Final = ("llvmpipe", "softpipe", "swrast")
 UNITS: Final = {"matrices": 0, "shadow_map": 1, "pictures": 2}
-"""Texture units by the samplers' names."""
+"""Texture unit of each sampler, by the sampler's name."""
 
 
 class GlRenderer:
     """Draws with shadows of the first light and antialiasing.
 
     Raises:
-        RenderError: there is no EGL, or it is older than OpenGL 3.3.
+        RenderError: EGL is missing, or its OpenGL is older than 3.3.
     """
 
     def __init__(self) -> None:
@@ -200,7 +200,7 @@ class GlRenderer:
             program["bright"].value = tuple(dark + base * color * max(-self._sun[2], 0.0))
 
     def _settle(self) -> None:
-        """Releases the compiler once it is done: it is as large as the rest of the renderer."""
+        """Releases the shader compiler after its work, since it is as large as the rest of the renderer."""
         if self._unsettled and self._is_software:
             self._unsettled -= 1
             if not self._unsettled:
@@ -293,7 +293,7 @@ class GlRenderer:
     def _measure(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
     ) -> NDArray[np.float32]:
-        """Returns depth and row of the object for each pixel."""
+        """Returns, for each pixel, the depth and the row of the object in the scene."""
         stock, context = self._place(poses), self._context
         target = self._targets.measured(width, height)
         target.use()
@@ -371,7 +371,7 @@ def _make_context() -> Any:
 
 
 def _finished(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Smooths rows of RGBA in place, and returns RGB."""
+    """Smooths the edges of a picture of RGBA rows in place, and returns it as RGB."""
     return _rgb(smoothed(picture))
 
 

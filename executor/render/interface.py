@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 
 NOTHING: Final = -1
-"""Of a segmentation: no object, and no ground."""
+"""Value in a segmentation: neither an object nor the ground."""
 GROUND: Final = -2
-"""Of a segmentation: the ground."""
+"""Value in a segmentation: the ground."""
 
 
 class RenderError(Exception):
@@ -32,7 +32,7 @@ class Viewpoint:
 
     Args:
         fov: horizontal field of view in rad.
-        roofless: leaves ceilings out, as views from outside do.
+        roofless: whether ceilings are left out, as in views from outside.
     """
 
     eye: tuple[float, float, float]
@@ -105,15 +105,15 @@ class Renderer(Protocol):
         Args:
             poses: one row [x, y, z, qx, qy, qz, qw] for each object of the scene.
             view: the camera.
-            width: of the picture in pixels.
-            height: of the picture in pixels.
-            smooth: with antialiasing, if supported; it doubles the cost.
+            width: the width of the picture in pixels.
+            height: the height of the picture in pixels.
+            smooth: whether to use antialiasing, if supported; it doubles the cost.
         """
 
     def redraw(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
     ) -> NDArray[np.uint8]:
-        """Returns the same as `draw`, but may draw only the changes. It is for views that are drawn often.
+        """Returns the same as `draw`, but may draw only the changes. Use it for views that are drawn often.
 
         If nothing has changed, it may return the same array as before. Do not write into it.
         """

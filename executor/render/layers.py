@@ -1,4 +1,4 @@
-"""Textures of a scene as renderers need them."""
+"""Converts textures of a scene to the form that renderers need."""
 
 from __future__ import annotations
 

@@ -18,16 +18,16 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float32]
 
 FLAT: Final = 0.99
-"""Normals of a cylinder with at least this share of z are those of a cap."""
+"""Texture coordinates of shapes: one repetition has the size of its texture in the world."""
 
 
 def coordinates(kind: str, points: Floats, normals: Floats, tile: tuple[float, float]) -> Floats:
-    """Returns the texture coordinates of each vertex; 1 is a repetition, v points up.
+    """Returns the texture coordinates of each vertex; 1 is one repetition, and v points up.
 
     Args:
         kind: `box`, `plane`, `cylinder`, `sphere`, `capsule` or `mesh`.
-        points: in m, in the shape's frame; three rows a triangle.
-        normals: of the vertices.
+        points: the vertices in m, in the shape's frame; three rows for each triangle.
+        normals: the normals of the vertices.
         tile: width and height of a repetition in m.
     """
     uvs = _along_axes(points, normals, tile)
@@ -58,7 +58,7 @@ def _along_axes(points: Floats, normals: Floats, tile: tuple[float, float]) -> F
 
 
 def _wrapped(points: Floats, tile: tuple[float, float], *, is_ball: bool) -> Floats:
-    """Wraps around z from -x; triangles across the seam continue beyond 1."""
+    """Wraps the texture around the z axis, from -x on; triangles that cross the seam continue beyond 1."""
     radius = float(np.linalg.norm(points[:, :2], axis=1).max(initial=0.0))
     times = max(1, round(2 * math.pi * radius / tile[0]))
     around = np.hypot(points[:, 0], points[:, 1])

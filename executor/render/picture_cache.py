@@ -27,11 +27,11 @@ if TYPE_CHECKING:
 MOST_KEPT: Final = 2
 MOST_RECTANGLES: Final = 8
 WORTH_IT: Final = 0.6
-"""Share of the picture from which a full redraw is as fast."""
+"""Share of the picture above which a full redraw is as fast as a partial one."""
 BLUR_M: Final = 0.03
-"""Margin around an object in which its shadow is sampled; two texels of the shadow map are added."""
+"""Margin in m around an object in which its shadow is sampled; two texels of the shadow map are added."""
 STEEPEST: Final = -0.1
-"""Flatter light casts shadows that are too long to track."""
+"""Largest z of the light's direction at which shadows are tracked; those of flatter light are too long."""
 
 
 @dataclass
@@ -44,7 +44,7 @@ class CachedPicture:
     light: NDArray[np.float64]
 
     def outdated(self, pieces: Pieces, placed: Floats, plan: ShadowPlan, key: Key) -> list[Rectangle] | None:
-        """Returns the parts to redraw, and counts them as drawn; None is the full picture."""
+        """Returns the parts to redraw, and counts them as drawn; None stands for the full picture."""
         if not np.array_equal(self.light, plan.matrix) or plan.sun[2] > STEEPEST:
             return None
         moved = np.abs(placed - self.placed).max(axis=(1, 2), initial=0.0) > MOVED
@@ -64,7 +64,7 @@ class CachedPicture:
 
 
 class PictureCache:
-    """The pictures of the last views."""
+    """Stores the pictures of the most recently used views."""
 
     def __init__(self) -> None:
         self._cached: dict[Key, CachedPicture] = {}
@@ -77,7 +77,7 @@ class PictureCache:
         return found
 
     def keep(self, key: Key, picture: CachedPicture) -> None:
-        """Stores a picture; the least recently used one is dropped."""
+        """Stores a picture; the least recently used one is dropped if there are too many."""
         self._cached.pop(key, None)
         while len(self._cached) >= MOST_KEPT:
             del self._cached[next(iter(self._cached))]
@@ -99,7 +99,10 @@ def _reached(
 
 
 def _boxes(points: NDArray[np.float64], view: Viewpoint, width: int, height: int) -> NDArray[np.int64] | None:
-    """Returns [left, top, right, bottom] in pixels of each row of points; None if one is behind the eye."""
+    """Returns [left, top, right, bottom] in pixels for each row of points.
+
+    None if a point is behind the eye.
+    """
     matrix = view.projection_matrix(width, height) @ view.view_matrix()
     clip = points @ matrix[:, :3].T + matrix[:, 3]
     ahead = clip[:, :, 3]

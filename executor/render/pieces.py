@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 VERTEX: Final = np.dtype(
     [("position", "<f4", 3), ("normal", "<f4", 3), ("color", "u1", 4), ("row", "<f4")], align=False
 )
-"""Position in m and normal in the object's frame, colour in sRGB, row of the object in the scene."""
+"""One vertex: position in m and normal in the object's frame, colour in sRGB, and row of the object."""
 
 SEGMENTS: Final = (24, 16, 10, 6)
 LEVELS_PX: Final = (4.0, 9.0, 22.0)
@@ -32,13 +32,13 @@ SMALLEST_PX: Final = 0.5
 
 
 class Pieces:
-    """All shapes of a scene, one piece each, in up to four levels of detail.
+    """All shapes of a scene, one piece for each shape, in up to four levels of detail.
 
     Attributes:
         vertices: all vertices of all levels, as `VERTEX`.
         uvs: texture coordinates of each vertex as u, v and layer; empty without textures.
-        rows: the object's row of each piece.
-        lows, highs: of each piece, the corners of its box in the object's frame.
+        rows: for each piece, the row of its object in the scene.
+        lows, highs: for each piece, the corners of its bounding box in the object's frame.
     """
 
     def __init__(self, scene: Scene) -> None:
@@ -79,11 +79,11 @@ class Pieces:
         return len(self.rows)
 
     def largest_order(self) -> int:
-        """Returns the largest number of indices of all pieces."""
+        """Returns the number of indices of all pieces in their highest level of detail."""
         return sum(max(len(order) for order in orders) for orders in self._orders)
 
     def centers(self, placed: Floats) -> Floats:
-        """Returns the center of each piece in the world, where `placed` has the objects' matrices."""
+        """Returns the center of each piece in the world; `placed` holds the objects' matrices."""
         turned = placed[self.rows]
         centers: Floats = np.einsum("nij,nj->ni", turned[:, :, :3], self._middles) + turned[:, :, 3]
         return centers
@@ -98,7 +98,7 @@ class Pieces:
         )
 
     def corners_of(self, numbers: NDArray[np.intp], placed: Floats, margin: float) -> NDArray[np.float64]:
-        """Returns the eight corners in the world of some pieces' enlarged boxes: (pieces, 8, 3)."""
+        """Returns the corners in the world of some pieces' boxes, enlarged by a margin: (pieces, 8, 3)."""
         turned = placed[self.rows[numbers]].astype(np.float64)
         ends = np.stack([self.lows[numbers] - margin, self.highs[numbers] + margin], axis=1)
         corners = np.stack(
@@ -115,14 +115,14 @@ class Pieces:
     def seen_apart(
         self, placed: Floats, view: Viewpoint, width: int, height: int, part: Rectangle | None = None
     ) -> tuple[Order, Order]:
-        """Returns them in two parts: without and with textures.
+        """Returns the visible triangles in two parts: those without and those with textures.
 
         Args:
             placed: the objects' matrices.
             view: the camera.
-            width: of the picture in pixels.
-            height: of the picture in pixels.
-            part: restricts them to a part of the picture, whose first row is the top one.
+            width: the width of the picture in pixels.
+            height: the height of the picture in pixels.
+            part: restricts the triangles to this part of the picture; rows count from the top.
         """
         nearest, levels = self._nearest(placed, view, width, height, part)
         textured = self.is_textured[nearest]
@@ -134,7 +134,7 @@ class Pieces:
     def _nearest(
         self, placed: Floats, view: Viewpoint, width: int, height: int, part: Rectangle | None = None
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Returns the pieces that may be visible, the nearest first, with their levels."""
+        """Returns the pieces that may be visible, the nearest first, and their levels of detail."""
         if not len(self):
             return np.zeros(0, np.intp), np.zeros(0, np.intp)
         matrix = view.view_matrix().astype(np.float32)
@@ -171,7 +171,7 @@ class Pieces:
     def _distances(
         self, placed: Floats, numbers: NDArray[np.intp], eye: tuple[float, float, float]
     ) -> Floats:
-        """Returns the distance of each piece's box from the eye."""
+        """Returns the distance from the eye to the bounding box of each piece."""
         turned = placed[self.rows[numbers]]
         local = np.einsum("nji,nj->ni", turned[:, :, :3], np.array(eye, np.float32) - turned[:, :, 3])
         apart = local - np.clip(local, self.lows[numbers], self.highs[numbers])
@@ -180,7 +180,7 @@ class Pieces:
 
 
 def matrices(poses: Floats) -> Floats:
-    """Returns the 3×4 matrices of rows [x, y, z, qx, qy, qz, qw]."""
+    """Returns the 3×4 matrices of poses [x, y, z, qx, qy, qz, qw], one for each row."""
     x, y, z, w = poses[:, 3], poses[:, 4], poses[:, 5], poses[:, 6]
     result = np.empty((len(poses), 3, 4), np.float32)
     result[:, 0, 0] = 1 - 2 * (y * y + z * z)
@@ -215,7 +215,7 @@ def _box(positions: Floats) -> tuple[Floats, Floats]:
 
 
 def _placed(points: Floats, shape: Shape, row: int) -> NDArray[np.void]:
-    """Returns the vertices of a shape in its object's frame."""
+    """Returns the vertices of a shape in the frame of its object."""
     turn = matrices(np.array([shape.pose], np.float32))[0]
     scale = np.array(_scale(shape), np.float32)
     normals = points[:, 3:6] / scale
@@ -230,12 +230,18 @@ def _placed(points: Floats, shape: Shape, row: int) -> NDArray[np.void]:
 
 
 def _key(shape: Shape) -> tuple[object, ...]:
-    """Returns the key of a shape's triangles; with a texture each size has its own, to avoid stretching."""
+    """Returns the key of a shape's triangles.
+
+    A textured shape has a key for each size, so that the texture is not stretched.
+    """
     return (*_mesh_key(shape), shape.texture, *shape.size) if shape.texture else _mesh_key(shape)
 
 
 def _painted(shape: Shape, scene: Scene) -> list[Floats]:
-    """Returns a shape's triangles in each level; with two more columns for texture coordinates."""
+    """Returns the triangles of a shape in each level of detail.
+
+    Textured shapes have two more columns for texture coordinates.
+    """
     levels = _levels(_mesh_key(shape), scene)
     if not shape.texture:
         return levels

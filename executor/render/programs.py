@@ -22,7 +22,7 @@ TEXTURED: Final = {
     "object_textured": (shaders.TEXTURED_VERTEX, shaders.TEXTURED_FRAGMENT),
     "ground_textured": (shaders.GROUND_VERTEX, shaders.TEXTURED_GROUND_FRAGMENT),
 }
-"""Programs of scenes with textures."""
+"""Shader programs that only scenes with textures need."""
 
 
 def compile_all(
@@ -31,8 +31,8 @@ def compile_all(
     """Returns all programs by name.
 
     Args:
-        context: of moderngl.
-        gather: filter shadows in the shader, which is faster than the sampler on a CPU.
+        context: the context of moderngl.
+        gather: whether to filter shadows in the shader, which is faster than the sampler on a CPU.
         sources: vertex and fragment shaders by name.
     """
     gather = gather and context.version_code >= GATHER_VERSION

@@ -1,7 +1,8 @@
 """The GL renderer's shader programs. Colours are linear inside and (nearly) sRGB in the picture.
 
-They are optimised for software rendering: there every varying and every texel costs time, `if` saves nothing,
-and triangles cost more than pixels. So lighting is computed at vertices, and fragments only mix.
+The programs are optimised for software rendering, in which every varying and every texel costs time, `if`
+saves nothing, and triangles cost more than pixels. So lighting is computed for each vertex, and fragment
+shaders only mix colours.
 """
 
 from __future__ import annotations

@@ -45,7 +45,7 @@ class ShadowPlan:
 
     @property
     def texel_m(self) -> float:
-        """Returns the width of a texel."""
+        """The width of a texel in m."""
         return 2 * self.reach_m / SIZE
 
     def dirty(self, placed: Floats, view: Viewpoint) -> list[tuple[Rectangle, Order]]:
@@ -73,7 +73,7 @@ class ShadowPlan:
     # --- inside ---
 
     def _fit(self, placed: Floats) -> None:
-        """Fits the map to the scene, with a margin for motion."""
+        """Fits the shadow map to the scene, with a margin for motion."""
         low, high = self._bounds(placed)
         half = (high - low) / 2 + ROOM_M
         self._middle = self._center = (low + high) / 2
@@ -102,7 +102,7 @@ class ShadowPlan:
         return center
 
     def _matrix(self, center: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Returns the transform from the world to the map: x, y and depth from 0 to 1."""
+        """Returns the transform from the world to the shadow map: x, y and depth from 0 to 1."""
         matrix = np.eye(4)
         matrix[:3, :3] = self._turn
         matrix[:3, 3] = -center
@@ -141,7 +141,7 @@ def _are_outside(texels: Floats) -> bool:
 
 
 def _boxes(texels: Floats) -> NDArray[np.int64]:
-    """Returns [left, bottom, right, top] of each, enlarged by a texel."""
+    """Returns [left, bottom, right, top] of each row, enlarged by a texel."""
     low = np.floor(texels[:, :2] - texels[:, 2:] - 1)
     high = np.ceil(texels[:, :2] + texels[:, 2:] + 1)
     boxes: NDArray[np.int64] = np.clip(np.column_stack([low, high]), 0, SIZE).astype(np.int64)

@@ -1,8 +1,8 @@
 """Smooths the edges of a finished picture, for software rendering.
 
-Morphological antialiasing (Reshetov, 2009): a staircase in the picture is a straight edge, sampled once
-a pixel. Runs of edge pixels and the steps at their ends determine that edge, and so its coverage of each
-pixel. The work is proportional to the edges, not to the pixels.
+Morphological antialiasing (Reshetov, 2009): a staircase in the picture is a straight edge that was sampled
+once for each pixel. Runs of edge pixels and the steps at their ends determine the straight edge, and thus the
+share of each pixel that it covers. The work is proportional to the edges, not to the pixels.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 CONTRAST: Final = 12
 LEAST_WEIGHT: Final = 11
-"""In 256ths: a smaller share of a neighbour in a pixel is invisible."""
+"""Smallest weight that is mixed, in 256ths; a smaller share of a neighbour is invisible."""
 _EVEN: Final = np.uint32(0x00FF00FF)
 _ODD: Final = np.uint32(0xFF00FF00)
 _HALF: Final = np.uint32(0x00800080)
@@ -48,7 +48,7 @@ def smoothed(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def _new_lines(edges: Indices, length: int) -> NDArray[np.bool_]:
-    """Returns where an edge does not continue the one before."""
+    """Returns whether each edge begins a new run: it does not continue the edge before it."""
     new = np.ones(len(edges), bool)
     np.not_equal(edges[1:] - edges[:-1], 1, out=new[1:])
     new |= edges % length == 0
@@ -75,10 +75,10 @@ class _Pixels:
 
         Args:
             edges: pixels with an edge between them and the pixel `across` further, run by run.
-            new_line: where an edge does not continue the one before.
+            new_line: whether each edge does not continue the one before it.
             steps: edges between a pixel and the pixel `along` further.
-            along: from a pixel to the next one in a run.
-            across: from a pixel to the one at the other side of its edge.
+            along: the offset from a pixel to the next one in a run.
+            across: the offset from a pixel to the one on the other side of its edge.
         """
         if not len(edges):
             return
@@ -112,7 +112,10 @@ class _Pixels:
         self._mix(np.where(is_here, here, there), np.where(is_here, there, here), weight.astype(np.uint32))
 
     def _mix(self, pixels: Indices, others: Indices, weight: NDArray[np.uint32]) -> None:
-        """Mixes 256ths of other pixels into pixels, two bytes of a colour at a time."""
+        """Mixes other pixels into pixels, with weights in 256ths.
+
+        Processes two bytes of a colour in one step.
+        """
         own, other, rest = self.colors.take(pixels), self.colors.take(others), np.uint32(256) - weight
         even = ((own & _EVEN) * rest + (other & _EVEN) * weight + _HALF) >> _EIGHT
         odd = ((own >> _EIGHT) & _EVEN) * rest + ((other >> _EIGHT) & _EVEN) * weight + _HALF

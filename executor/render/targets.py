@@ -16,7 +16,10 @@ MOST_SIZES: Final = 6
 
 
 class Targets:
-    """Framebuffers of the most recently used sizes. With `samples` > 1 the hardware smooths the edges."""
+    """Keeps the framebuffers of the most recently used sizes.
+
+    With `samples` > 1 the hardware smooths edges.
+    """
 
     def __init__(self, context: Any, samples: int) -> None:
         self._context = context
@@ -42,7 +45,10 @@ class Targets:
     def read(
         self, width: int, height: int, *, of: Size | None = None, at: Size = (0, 0)
     ) -> NDArray[np.uint8]:
-        """Returns the last picture as rows of RGBA; with `of`, a part of a picture of that size."""
+        """Returns the last picture as rows of RGBA.
+
+        With `of` and `at`, returns a part of a picture of the size `of`.
+        """
         plain = self._plain[of or (width, height)]
         if self._drawn is not plain:
             self._context.copy_framebuffer(plain, self._drawn)
@@ -51,7 +57,7 @@ class Targets:
         return picture
 
     def measured(self, width: int, height: int) -> Any:
-        """Returns the framebuffer for two floats a pixel."""
+        """Returns the framebuffer for depth and object: two floats for each pixel."""
         size = (width, height)
         target = self._measured.pop(size, None)
         if target is None:
@@ -68,7 +74,7 @@ class Targets:
 
 
 def _forget_oldest(kept: dict[Size, Any]) -> None:
-    """Bounds the memory: clients choose the sizes of their pictures."""
+    """Drops the oldest framebuffer if there are too many; clients choose the sizes of their pictures."""
     while len(kept) > MOST_SIZES:
         target = kept.pop(next(iter(kept)))
         for attachment in (*target.color_attachments, target.depth_attachment):

@@ -1,4 +1,4 @@
-"""The renderer of last resort: PyBullet's TinyRenderer. It needs no OpenGL, and is slow."""
+"""The fallback renderer: PyBullet's TinyRenderer. It needs no OpenGL, and is slow."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ class TinyRenderer:
         )
 
     def _body(self, scene_object: SceneObject) -> list[int]:
-        """Makes one body for each shape: TinyRenderer gives all shapes of a body one colour."""
+        """Creates one body for each shape, since TinyRenderer gives all shapes of a body the same colour."""
         uids = [
             self._bullet.createMultiBody(0, -1, self._visual(shape), basePosition=scene_object.pose[:3])
             for shape in scene_object.shapes
@@ -117,7 +117,7 @@ class TinyRenderer:
         return uids
 
     def _tinted(self, color: list[float], texture: str) -> list[float]:
-        """Returns the mean colour of a texture, since this renderer has none."""
+        """Returns a colour tinted with the mean colour of a texture; this renderer draws no textures."""
         paint = self._paints.get(texture, (1.0, 1.0, 1.0))
         return [*(part * tint for part, tint in zip(color, paint, strict=False)), color[3]]
 
@@ -150,7 +150,7 @@ class TinyRenderer:
         return visual
 
     def _triangles(self, vertices: NDArray[np.float32], scale: list[float], common: dict[str, Any]) -> int:
-        """Makes a shape of our own triangles, since TinyRenderer's round shapes are coarse."""
+        """Creates a shape from given triangles, since TinyRenderer's own round shapes are coarse."""
         points, order = geometry.indexed(vertices)
         visual: int = self._bullet.createVisualShape(
             self._bullet.GEOM_MESH,

@@ -55,15 +55,15 @@ CommandType = Literal["twist", "twist_stamped", "both"]
 
 
 class RobotError(DocumentError):
-    """A robot that cannot be used; `problems` say why and where."""
+    """A robot cannot be used; `problems` hold the reasons and their places."""
 
 
 class Drive(Strict):
     """A differential drive. Speeds in m/s and rad/s, accelerations in m/s² and rad/s².
 
-    `turn_factor` is the ratio of the effective track width in turns to `track`: 1 with one wheel a side, more
-    if wheels must skid. `slip_noise` is the standard deviation in m of the distance that odometry measures
-    for a wheel after 1 m; it grows with the square root of the distance.
+    `turn_factor` is the ratio of the effective track width in turns to `track`: 1 with one wheel on each
+    side, more if wheels must skid. `slip_noise` is the standard deviation in m of the distance that odometry
+    measures for a wheel after 1 m; it grows with the square root of the distance.
     """
 
     kind: Literal["differential"] = "differential"
@@ -82,10 +82,10 @@ class Drive(Strict):
 
 
 class JointDrive(Strict):
-    """A motor that holds a joint at the position that came last on `topic` (`std_msgs/Float64`).
+    """A motor that holds a joint at the last position received on `topic` (`std_msgs/Float64`).
 
-    Positions are in rad, of a prismatic joint in m, and kept within the limits of the URDF; `max_rate` is in
-    rad/s or m/s, `torque` in Nm or N.
+    Positions are in rad, or in m for a prismatic joint, and are kept within the limits of the URDF;
+    `max_rate` is in rad/s or m/s, `torque` in Nm or N.
     """
 
     joint: str
@@ -98,8 +98,8 @@ class JointDrive(Strict):
 class RobotDocument(Strict):
     """A `robot.yaml`, before its names are looked up in the URDF.
 
-    `command_type` is the message type of `/cmd_vel`: `geometry_msgs/Twist`, `geometry_msgs/TwistStamped`
-    as robots of ROS 2 Jazzy do, or both. With `ground_truth` it publishes its true pose on
+    `command_type` is the message type of `/cmd_vel`: `geometry_msgs/Twist`, `geometry_msgs/TwistStamped` as
+    for robots of ROS 2 Jazzy, or both. With `ground_truth` the robot publishes its true pose on
     `/ground_truth/odom`.
     """
 
@@ -123,12 +123,13 @@ class RobotConfig:
     """A robot, read and checked.
 
     Args:
-        wheels: links whose contact is no collision: wheels and casters.
-        friction: friction by link, where it is not 0.8.
-        joints: other joints that have a motor.
+        wheels: links whose contacts do not count as collisions: wheels and casters.
+        friction: friction by link; 0.8 for links without an entry.
+        joints: the joints with a motor, other than those of wheels.
         command_type: the message type of `/cmd_vel`.
-        ground_truth: whether it publishes its true pose.
-        skid: factor of the friction along y by link, 0 to 1: wheels that turn by skidding slide sideways.
+        ground_truth: whether the robot publishes its true pose.
+        skid: factor of the friction along y by link, 0 to 1, for wheels that slide sideways when the robot
+            turns.
     """
 
     id: str
@@ -151,17 +152,17 @@ class RobotConfig:
 
 
 def robot_ids() -> tuple[str, ...]:
-    """Returns the ids of the robots that we ship."""
+    """Returns the ids of the built-in robots."""
     return tuple(sorted(path.parent.name for path in _FOLDER.glob("*/robot.yaml")))
 
 
 def preview_path(robot_id: str) -> Path:
-    """Returns the path of the picture of a robot that we ship; `executor.generate.previews` draws it."""
+    """Returns the path of the picture of a built-in robot; `executor.generate.previews` draws it."""
     return _FOLDER / robot_id / "preview.webp"
 
 
 def load_robot(robot_id: str, assets: Path | None = None) -> RobotConfig:
-    """Returns a robot by id: one of the project's own (`robots/<id>/` in `assets`) or one that we ship.
+    """Returns a robot by its id: one of the project (`robots/<id>/` in `assets`), or a built-in one.
 
     Raises:
         RobotError: it does not exist or is wrong.
@@ -179,7 +180,7 @@ def load_robot(robot_id: str, assets: Path | None = None) -> RobotConfig:
 
 
 def _read(robot_id: str, folder: Path, shown: str) -> RobotConfig:
-    """Reads a robot; errors name the folder as `shown`, a path of the project."""
+    """Reads a robot; `shown` is the name of its folder in errors, a path of the project."""
     file = folder / "robot.yaml"
     try:
         located = read_yaml(file.read_text(encoding="utf-8"), file.name)
@@ -218,7 +219,7 @@ def _read_urdf(path: Path, shown: str) -> tuple[Urdf, dict[str, Mesh]]:
 
 
 def _check_names(shown: str, located: Located, document: RobotDocument, urdf: Urdf) -> None:
-    """Refuses names of links and joints that the URDF does not have."""
+    """Checks that the URDF has all links and joints that the document names."""
     drive = document.drive
     links: list[tuple[tuple[str | int, ...], str]] = [
         *((("wheels", i), name) for i, name in enumerate(document.wheels)),

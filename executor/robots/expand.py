@@ -1,4 +1,7 @@
-"""Turns xacro and SDF into URDF. It runs only where a robot is loaded, never in the web server."""
+"""Turns xacro and SDF into URDF.
+
+The conversion runs only in processes that load a robot, never in the web server.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,7 @@ _log = logging.getLogger(__name__)
 
 
 def urdf_of(path: Path) -> bytes:
-    """Returns the URDF of a file: made from SDF if its name ends in `.sdf`, expanded if it does in `.xacro`.
+    """Returns the URDF of a file: converts `.sdf`, expands `.xacro`, and returns other files unchanged.
 
     Raises:
         UrdfError: the SDF or the macros are wrong.
@@ -47,7 +50,7 @@ def _urdf_of_sdf(path: Path) -> bytes:
 
 
 def _line_of(message: str, path: Path) -> int:
-    """Finds the line of a message: xacro names the element, not its place."""
+    """Returns the line of an error message: xacro names the element without its line."""
     words = [word for pair in re.findall(r"'([^']+)'|(xacro:\w+)", message) for word in pair if word]
     names = [*words, *(Path(word).name for word in words if "/" in word)]
     lines = path.read_text(encoding="utf-8", errors="replace").splitlines()

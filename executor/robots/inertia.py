@@ -20,9 +20,9 @@ class Inertial:
     """The inertia of a rigid body.
 
     Args:
-        mass: in kg.
-        pose: of the frame of `tensor`, whose origin is the centre of mass, in the link's frame.
-        tensor: 3×3, in kg m².
+        mass: the mass in kg.
+        pose: the pose of the frame of `tensor` in the link's frame; its origin is the centre of mass.
+        tensor: the 3×3 inertia tensor in kg m².
     """
 
     mass: float
@@ -30,13 +30,13 @@ class Inertial:
     tensor: NDArray[np.float64]
 
     def seen_from(self, pose: Pose) -> Inertial:
-        """Returns the inertia of a link at this pose, in the frame of the pose."""
+        """Returns the inertia in the frame in which the link has this pose."""
         return Inertial(self.mass, compose(pose, self.pose), self.tensor)
 
     def joined(self, other: Inertial) -> Inertial:
-        """Returns the inertia of both as one body, with the axes of the link's frame.
+        """Returns the inertia of both bodies joined into one, with the axes of the link's frame.
 
-        The parallel axis theorem: about the common centre each adds m (|d|² E - d dᵀ).
+        By the parallel axis theorem each body adds m (|d|² E - d dᵀ) to its tensor about the common centre.
         """
         mass = self.mass + other.mass
         if mass <= 0:

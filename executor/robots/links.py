@@ -1,4 +1,4 @@
-"""Reads a URDF, xacro or SDF model with all its meshes; errors have their line."""
+"""Reads a URDF, xacro or SDF model with all its meshes; errors have a line."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def read_links(path: Path, where: str) -> tuple[Urdf, dict[str, Mesh]]:
     """Returns the links of a file, and their meshes by their names in it.
 
     Args:
-        path: of the file; meshes are searched in its folder.
+        path: the path of the file; meshes are searched in its folder.
         where: the name of the file in errors.
 
     Raises:
@@ -46,7 +46,7 @@ def read_links(path: Path, where: str) -> tuple[Urdf, dict[str, Mesh]]:
 
 
 def _line_of(mesh: str, path: Path) -> int:
-    """Finds the line of a file that names a mesh; a line of the URDF made of it would not help users."""
+    """Returns the line of the file that names a mesh; a line of the generated URDF would not help users."""
     stem = mesh.rsplit("/", 1)[-1]
     lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
     return next((i for i, line in enumerate(lines, 1) if stem in line), 1)

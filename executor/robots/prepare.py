@@ -1,4 +1,4 @@
-"""Makes the URDF that the physics engine loads: converted meshes, merged fixed links, all with a mass."""
+"""Makes the URDF for the physics engine: converts meshes, merges fixed links, gives every link a mass."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _FEATHER: Final = (
 
 
 def mesh_path(name: str, folder: Path) -> Path:
-    """Returns the file that a URDF names: relative to it, or `package://any/…` within the robot's folder.
+    """Returns the path of a mesh that a URDF names: relative to `folder`, or `package://…` in or beside it.
 
     Raises:
         MeshError: it is outside of the folder.
@@ -48,7 +48,7 @@ def physical_urdf(text: str, meshes: dict[str, Mesh], apart: Collection[str] = (
 
     Args:
         text: the URDF, valid.
-        meshes: by their names in the URDF.
+        meshes: the meshes by their names in the URDF.
         apart: links that must not be merged with the links that they are fixed to.
     """
     root = etree.fromstring(text.encode(), etree.XMLParser(resolve_entities=False, no_network=True))

@@ -1,7 +1,7 @@
 """Merges links that are fixed to each other, since each link costs time in each physics step.
 
-Renderer and sensors use the whole URDF; only the physics server gets the merged one. The dynamics are the
-same: collision shapes move to the link that carries them, masses are joined exactly.
+Renderer and sensors use the original URDF; only the physics server gets the merged one. The dynamics do not
+change: collision shapes move to the link that carries them, masses are joined exactly.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ def merge_fixed_links(root: etree._Element, apart: Collection[str]) -> None:
 
     Args:
         root: the URDF, valid.
-        apart: links whose contacts or friction are their own; nothing is merged with them.
+        apart: links that are not merged, since their contacts or friction are needed separately.
     """
     links = {link.get("name", ""): link for link in root.findall("link")}
     joints = root.findall("joint")

@@ -1,7 +1,8 @@
 """Makes a URDF of an SDF model: links with visual and collision shapes, and joints.
 
-The frame of a URDF link is at its joint, that of an SDF link anywhere; so every pose is first computed in the
-frame of the model. The model's own pose is left to the universe that places it.
+The frame of a URDF link is at its joint, while that of an SDF link can be anywhere. So every pose is first
+computed in the frame of the model. The pose of the model itself is ignored, since the universe places the
+model.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 MAX_BYTES: Final = 20_000_000
 PLANE_THICKNESS_M: Final = 0.002
 ENDLESS: Final = 1e6
-"""A larger limit means no limit."""
+"""Limits above this value mean "no limit"."""
 _QUIET: Final = frozenset(
     {"pose", "static", "link", "joint", "frame", "self_collide", "allow_auto_disable", "enable_wind"}
 )
@@ -44,7 +45,7 @@ _KINDS: Final = {
 
 @dataclass
 class Made:
-    """A URDF, and the parts of the SDF that were left out."""
+    """A URDF made from SDF, and the parts of the SDF that were left out."""
 
     urdf: bytes
     left_out: list[Problem] = field(default_factory=list)
@@ -54,7 +55,7 @@ def urdf_of_sdf(data: bytes, file: str = "model.sdf") -> Made:
     """Returns the URDF of the first model of an SDF document.
 
     Raises:
-        UrdfError: it is no SDF with a model, or invalid.
+        UrdfError: the document is not an SDF with a model, or is invalid.
     """
     if len(data) > MAX_BYTES or b"<!DOCTYPE" in data:
         raise UrdfError("an SDF model has no DOCTYPE and is smaller than 20 MB", file)
@@ -82,7 +83,7 @@ class _Model:
         self._above = self._tree()
 
     def made(self) -> Made:
-        """Returns the whole as URDF."""
+        """Returns the URDF of the whole model, and the parts that were left out."""
         robot = etree.Element("robot", name=self._model.get("name") or "model")
         for name, link in self._links.items():
             robot.append(self._link(name, link))
@@ -113,7 +114,10 @@ class _Model:
         return found
 
     def _tree(self) -> dict[str, etree._Element]:
-        """Returns the joint above each link that has one; joints that would close a loop are left out."""
+        """Returns the joint above each link, by link.
+
+        Joints to the world, and those that would close a loop, are left out.
+        """
         above: dict[str, etree._Element] = {}
         for name, joint in self._joints.items():
             parent, child = _text(joint, "parent"), _text(joint, "child")
@@ -152,7 +156,10 @@ class _Model:
         return self._known[name]
 
     def _pose(self, element: etree._Element, base: str, asked: tuple[str, ...] = ()) -> Pose:
-        """Returns an element's pose in the model's frame; relative to `base` by default."""
+        """Returns the pose of an element in the model's frame.
+
+        Its values are relative to `base` unless it names another frame.
+        """
         pose = element.find("pose")
         if pose is not None:
             base = pose.get("relative_to") or base
@@ -161,7 +168,7 @@ class _Model:
         return compose(self._in_model(base, asked), own)
 
     def _link_frame(self, link: str) -> Pose:
-        """Returns the frame of a link in the URDF: at its joint, or at the model's origin without one."""
+        """Returns a link's frame in the URDF: at its joint, or at the model's origin if it has no joint."""
         joint = self._above.get(link)
         return IDENTITY if joint is None else self._in_model(joint.get("name", ""))
 
@@ -269,7 +276,7 @@ class _Model:
             etree.SubElement(made, "dynamics", values)
 
     def _axis(self, joint: etree._Element, axis: etree._Element) -> Sequence[float]:
-        """Returns a joint's axis in its own frame."""
+        """Returns the axis of a joint in the joint's frame."""
         xyz = axis.find("xyz")
         if xyz is None:
             return (0.0, 0.0, 1.0)

@@ -1,4 +1,4 @@
-"""The sensors of a robot's `robot.yaml`. SI units; each is at a link of the URDF."""
+"""Models of the sensors in `robot.yaml`. SI units; each sensor is at a link of the URDF."""
 
 from __future__ import annotations
 
@@ -18,13 +18,15 @@ Rate = Annotated[float, Field(gt=0, le=60, allow_inf_nan=False)]
 
 
 class Strict(BaseModel):
-    """A part of a document that refuses unknown keys."""
+    """Base class of document parts that refuse unknown keys."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 class Lidar(Strict):
-    """A counter-clockwise scanner; a full circle begins straight ahead, others at the right.
+    """A counter-clockwise scanner.
+
+    A full circle begins straight ahead, a smaller range of angles at its right end.
 
     Ranges outside of `range_min` to `range_max` are -inf and +inf (REP-117); `noise_m` is the standard
     deviation of a range.
@@ -98,7 +100,10 @@ class Imu(Strict):
 
 
 class Bumper(Strict):
-    """Reports contacts of the front half: `topic` for any, and below it /left, /center and /right."""
+    """Reports contacts of the robot's front half.
+
+    `topic` is for any contact, its subtopics /left, /center and /right are for the zones.
+    """
 
     name: SensorName = "bumper"
     kind: Literal["bumper"]
@@ -108,7 +113,10 @@ class Bumper(Strict):
 
 
 class Battery(Strict):
-    """A battery. Currents in A: of the electronics, and at full speed. Wheels stop when it is empty."""
+    """A battery. Currents in A: of the electronics, and of the motors at full speed.
+
+    Wheels stop when it is empty.
+    """
 
     name: SensorName = "battery"
     kind: Literal["battery"]

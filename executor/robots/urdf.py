@@ -24,7 +24,7 @@ Rgba = tuple[float, float, float, float]
 
 
 class UrdfError(Exception):
-    """A URDF that cannot be used; `line` counts from 1."""
+    """A URDF cannot be used; `line` counts from 1."""
 
     def __init__(self, message: str, file: str, line: int = 1) -> None:
         self.message = message
@@ -47,7 +47,7 @@ def _line(element: etree._Element) -> int:
 
 @dataclass(frozen=True)
 class Visual:
-    """A visual shape in its link's frame; `size` as in `messages.Shape`."""
+    """A visual shape in the frame of its link; `size` is as in `messages.Shape`."""
 
     shape: str
     size: tuple[float, ...]
@@ -66,7 +66,7 @@ class Link:
 
 @dataclass(frozen=True)
 class Joint:
-    """A joint; `axis` in the joint's frame, `origin` in the parent's, `limits` in rad or m."""
+    """A joint. `axis` is in the joint's frame, `origin` in the parent's frame, `limits` in rad or m."""
 
     name: str
     kind: str
@@ -79,7 +79,7 @@ class Joint:
 
 @dataclass(frozen=True)
 class Urdf:
-    """A robot's tree of links; `text` is the document."""
+    """A robot's tree of links; `text` is the URDF document."""
 
     name: str
     root: str
@@ -99,7 +99,7 @@ class Urdf:
         return {mesh.get("filename", ""): _line(mesh) for mesh in meshes}
 
     def rigid_parent(self, link: str) -> tuple[str, Pose]:
-        """Returns the link that carries this one through fixed joints, and its pose in that link's frame."""
+        """Returns the link that carries `link` through fixed joints only, and the pose of `link` in it."""
         pose = IDENTITY
         while (joint := self.joint_above.get(link)) is not None and joint.kind == "fixed":
             pose = compose(joint.origin, pose)
@@ -187,7 +187,7 @@ def read_origin(element: etree._Element) -> Pose:
 
 
 def read_inertial(link: etree._Element) -> Inertial | None:
-    """Returns the inertia of a link; None if it has none of its own."""
+    """Returns the inertia of a link; None if the URDF gives none."""
     element = link.find("inertial")
     if element is None:
         return None

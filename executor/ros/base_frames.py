@@ -1,6 +1,6 @@
-"""The frames below a robot's sensors, as TurtleBot3 has them: `odom`, `base_footprint`, `base_link`.
+"""The base frames of a robot, with the names of TurtleBot3: `odom`, `base_footprint`, `base_link`.
 
-`base_footprint` is on the ground below the robot; odometry and ground truth are its poses.
+`base_footprint` is on the ground below the robot; odometry and ground truth report the pose of this frame.
 """
 
 from __future__ import annotations
@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 
 
 def fixed_transforms(config: RobotConfig, prefix: str = "") -> list[Any]:
-    """Returns the transforms from `base_footprint` to links of the URDF that the URDF itself lacks.
+    """Returns the fixed transforms from `base_footprint` to the root of the URDF.
+
+    None if the URDF has that frame itself.
 
     `base_link` exists also for a robot whose links have other names.
     """
@@ -31,7 +33,10 @@ def fixed_transforms(config: RobotConfig, prefix: str = "") -> list[Any]:
 
 
 def footprint_of(config: RobotConfig) -> Pose:
-    """Returns the pose of the root link in `base_footprint`: its wheels touch the ground."""
+    """Returns the pose of the root link in `base_footprint`.
+
+    The height follows from the wheels, which touch the ground.
+    """
     joint = config.urdf.joints[config.drive.left[0]]
     _, above = config.urdf.rigid_parent(joint.parent)
     height = config.drive.wheel_radius - compose(above, joint.origin)[2]
@@ -39,13 +44,16 @@ def footprint_of(config: RobotConfig) -> Pose:
 
 
 def odometry_frame(config: RobotConfig) -> str:
-    """Returns the child frame of odometry: the URDF's root if `base_footprint` is below it."""
+    """Returns the child frame of odometry.
+
+    It is `base_footprint`, unless that is a link below the URDF's root; then it is the root.
+    """
     below = messages.BASE_FRAME in config.urdf.links and config.urdf.root != messages.BASE_FRAME
     return config.urdf.root if below else messages.BASE_FRAME
 
 
 def true_odometry(robot: Robot, now_s: float, prefix: str) -> Any:
-    """Returns the message of `/ground_truth/odom`."""
+    """Returns the message of `/ground_truth/odom`, the true pose and twist of a robot."""
     config = robot.config
     base = robot.base_pose
     if odometry_frame(config) != config.urdf.root:

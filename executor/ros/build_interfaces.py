@@ -1,10 +1,10 @@
 """Builds ROS message packages that have no wheel, and installs them beside the others.
 
 Set-up runs `python -m executor.ros.build_interfaces`. The definitions are in `interfaces/`; the generators
-are in the rosidl wheels and get their own copy of `empy<4`. A package is built again when its definition, one
-that it uses, this program or a generator has changed. If that fails, a sentence says why and what is missing,
-and the exit status is still 0, since nothing else needs these packages. `COMPLETE` exists when all were
-built.
+are in the rosidl wheels and get their own copy of `empy<4`. A package is built again when its definition,
+that of a package that it uses, this program or a generator has changed. If the build fails, the program
+prints a sentence with the reason and the missing packages; the exit status is still 0, since nothing else
+needs these packages. The file `COMPLETE` exists when all were built.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ rclpy.shutdown()
 
 
 class CannotBuildError(Exception):
-    """The packages cannot be built; the text says why."""
+    """The packages cannot be built; the text is the reason."""
 
 
 def missing() -> list[str]:
@@ -118,7 +118,7 @@ def build(packages: Sequence[str], say: Callable[[str], None]) -> None:
 
 
 class _Build:
-    """One build: packages in parallel, with as many programs at once as processors."""
+    """One build: packages in parallel, with as many programs at the same time as there are processors."""
 
     def __init__(self, work: Path, say: Callable[[str], None]) -> None:
         self._work = work
@@ -134,7 +134,7 @@ class _Build:
         }
 
     def run(self, packages: Iterable[str]) -> None:
-        """Builds the packages and those of ours that they use; installs them when all are built."""
+        """Builds the packages and the built-in packages that they use; installs all of them at the end."""
         wanted = {name for package in packages for name in (package, *needed_by(package)) if name in PACKAGES}
         (self._work / "lib").mkdir()
         # Each package blocks several threads that wait for its steps and for the packages that it uses.
@@ -185,7 +185,10 @@ class _Build:
         self._take_turn(command, self._environment)
 
     def _units(self, package: str) -> dict[str, list[Path]]:
-        """Returns the compilation units: sources are combined, to parse the same headers once."""
+        """Returns the sources of each compilation unit.
+
+        Sources are combined so that common headers are parsed once.
+        """
         folder = self._work / package
         descriptions = sorted(folder.glob("*/detail/*__description.c"))
         structures = [path for path in sorted(folder.glob("*/detail/*.c")) if path not in descriptions]
@@ -221,7 +224,7 @@ class _Build:
         return [f"-I{folder}" for folder in folders]
 
     def _link(self, package: str, objects: list[Path]) -> None:
-        """Makes one library of the package, and the extension that registers it in Python."""
+        """Makes the library of the package, and the extension that registers it in Python."""
         lib, own = self._work / "lib", f"{package}__bt_studio"
         others = [f"{name}__bt_studio" for name in needed_by(package) if name in PACKAGES]
         for name in needed_by(package):
@@ -242,7 +245,7 @@ class _Build:
         self._take_turn([*head, str(compiled), *paths, up, f"-l{own}", *links, "-o", str(extension)])
 
     def _install(self, package: str) -> None:
-        """Copies the runtime files, the package's folder last: a partial copy never looks complete."""
+        """Copies the runtime files, the package's folder last; so a partial copy never looks complete."""
         STAMPS.mkdir(parents=True, exist_ok=True)
         (STAMPS / package).unlink(missing_ok=True)
         library = f"lib{package}__bt_studio.so"
@@ -269,7 +272,10 @@ class _Build:
 
 
 def _included(source: Path) -> str:
-    """Includes a source; static names get a suffix, since other sources define the same names."""
+    """Returns the text that includes a source.
+
+    Static names get a suffix, since other sources define the same names.
+    """
     names: list[str] = []
     if source.name.endswith("__description.c"):
         names = sorted(set(_STATIC.findall(source.read_text(encoding="utf-8"))))
@@ -313,7 +319,7 @@ def _fetch_empy(target: Path) -> None:
 
 
 def _replace(source: Path, target: Path) -> None:
-    """Replaces a file that a running program may have mapped."""
+    """Replaces a file without writing into it, since a running program may have mapped it."""
     beside = target.with_name(f".{target.name}.new")
     shutil.copy2(source, beside)
     beside.replace(target)

@@ -1,9 +1,9 @@
 """Commands of a robot on `/cmd_vel`: `Twist`, `TwistStamped`, or both.
 
 A participant of the middleware supports one type for a topic. A robot that accepts both subscribes to `Twist`
-with the world's own participant; a second one for `TwistStamped` is created only once there is a publisher of
-it, since it costs memory and time. If the application is in the world's participant (lock-step), the robot
-subscribes to the type that is published there.
+with the world's own participant; a second participant for `TwistStamped` is created only when a publisher of
+that type appears, since it costs memory and time. If the application is in the world's participant
+(lock-step), the robot subscribes to the type that the application publishes.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ TYPES: Final[dict[CommandType, tuple[type, ...]]] = {
 }
 STAMPED: Final = "geometry_msgs/msg/TwistStamped"
 LOOK_EVERY: Final = 15
-"""Calls of `take` between searches for a publisher of the second type: four searches a second."""
+"""Calls of `take` between two searches for a publisher of the second type; that is four searches a second."""
 _DEPTH: Final = 10
 _NS: Final = 1e-9
 
 
 class Command(NamedTuple):
-    """A target twist in m/s and rad/s, and its simulated time."""
+    """A target twist in m/s and rad/s, and the simulated time in s from which it is valid."""
 
     linear: float
     angular: float
@@ -45,12 +45,12 @@ class Commands:
     """The commands of one robot.
 
     A stamped command is valid for `timeout_s` from its stamp, as with ROS 2's diff_drive_controller; older
-    ones are refused. A stamp of 0 counts as now, and so does one in the future, as from a program that does
-    not use simulated time. The frame is ignored: a twist is in the robot's own.
+    ones are refused. A stamp of 0 or in the future counts as now, since its program may not use simulated
+    time. The `frame_id` is ignored: a twist is always in the robot's frame.
 
     Args:
         node: subscribes to the first type.
-        second: makes, or returns, the node that subscribes to the other one.
+        second: returns the node that subscribes to the second type; creates it at the first call.
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class Commands:
         self._noted = False
 
     def take(self, now_s: float) -> tuple[Command | None, bool]:
-        """Returns the last command that arrived, and whether it is valid."""
+        """Returns the last command that arrived since the last call (or None), and whether it is valid."""
         if len(self._subscriptions) < len(self.types):
             self._check_for_stamped()
         arrived: list[tuple[int, Any]] = []

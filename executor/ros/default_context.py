@@ -23,7 +23,7 @@ class DefaultContext:
     """Replaces rclpy's default context by a new one, until `close`.
 
     Args:
-        domain_id: of the graph; that of the environment if None.
+        domain_id: the domain of the ROS graph; with None, the domain that the environment names.
         simulated: whether nodes that actions create use simulated time, as the run's own node does.
     """
 

@@ -1,4 +1,7 @@
-"""The environment in which a process joins a session's ROS graph. Set it before `rclpy` is imported."""
+"""Defines the environment variables with which a process joins a session's ROS graph.
+
+Set them before `rclpy` is imported.
+"""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ class Due:
         self._done = -1
 
     def __call__(self, time_s: float) -> bool:
-        """Returns whether it is due, and counts it as done then."""
+        """Returns whether a turn is due at this simulated time; counts it as done then."""
         turn = int(time_s * self.rate_hz + 1e-6)
         if turn == self._done:
             return False
@@ -33,9 +33,10 @@ class Due:
 
 @dataclass(frozen=True)
 class Feed:
-    """One measurement and the publishers that send it; `make` measures.
+    """A measurement, and the publishers that send its message. `make` measures and returns the message.
 
-    `is_picture` is set if it must be rendered, `of_camera` also if it only accompanies a picture.
+    `is_picture` is set if the measurement must be rendered; `of_camera` is also set for messages that
+    accompany a picture.
     """
 
     publishers: list[Any]
@@ -46,7 +47,7 @@ class Feed:
 
     @property
     def has_receiver(self) -> bool:
-        """Returns whether it has subscribers."""
+        """Whether one of the publishers has a subscriber."""
         return any(publisher.get_subscription_count() for publisher in self.publishers)
 
     def publish(self, sensors: Sensors, now_s: float) -> None:
@@ -59,7 +60,7 @@ class Feed:
 
 
 class Feeds:
-    """Feeds grouped by rate: many share one, and most calls find none due."""
+    """Feeds, grouped by rate: many have the same rate, and in most calls none is due."""
 
     def __init__(self, feeds: Sequence[Feed]) -> None:
         groups: dict[tuple[float, bool], list[Feed]] = {}
@@ -75,7 +76,7 @@ class Feeds:
                     feed.publish(sensors, now_s)
 
     def slow_cameras(self, share: float) -> None:
-        """Reduces cameras to a share of their rates."""
+        """Reduces the rates of cameras to a share of their configured rates."""
         for due, feeds in self._groups:
             if feeds[0].of_camera:
                 due.rate_hz = feeds[0].rate_hz * share

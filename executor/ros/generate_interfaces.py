@@ -1,8 +1,8 @@
-"""Generates sources of a package of interfaces: `python generate_interfaces.py STEP FOLDER SHARE…`.
+"""Generates the sources of an interface package: `python generate_interfaces.py STEP FOLDER SHARE…`.
 
-A separate program, since it needs `empy<4` while other packages need a newer one. FOLDER has the package's
-name and its interface files, and receives the sources; SHARE are the folders of the packages that it uses.
-The steps after `describe` may run in parallel.
+It is a separate program, since it needs `empy<4` while other packages need a newer version. FOLDER has the
+package's name and its interface files, and receives the sources; SHARE are the folders of the packages that
+it uses. The steps after `describe` may run in parallel.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ INTROSPECTION: Final = "introspection"
 
 
 def describe(folder: Path, share: list[str]) -> None:
-    """Translates the files to IDL, and describes each type with its hash."""
+    """Translates the interface files to IDL, and writes a description of each type with its hash."""
     for kind in KINDS:
         for path in sorted((folder / kind).glob(f"*.{kind}")):
             convert_to_idl(folder, folder.name, path.relative_to(folder), folder)
@@ -37,7 +37,10 @@ def describe(folder: Path, share: list[str]) -> None:
 
 
 def structures(folder: Path, share: list[str]) -> None:
-    """Writes the C structures; by kind, since the generator confuses a message with an action of its name."""
+    """Writes the C structures.
+
+    They are written kind by kind, since the generator confuses a message with an action of the same name.
+    """
     for kind in KINDS:
         if files := _idl(folder, kind):
             described = sorted((folder / kind).glob("*.json"))

@@ -40,12 +40,15 @@ def definitions_of(package: str) -> dict[str, str]:
 
 
 def _told_apart(line: str, number: int) -> str:
-    """Adds a comment to a constant: rosidl confuses equal constants in the parts of an action."""
+    """Appends a comment with a number to the definition of a constant.
+
+    Otherwise rosidl confuses equal constants in the parts of an action.
+    """
     return f"{line}  # line {number}" if "=" in line else line
 
 
 def needed_by(package: str) -> tuple[str, ...]:
-    """Returns all packages whose interfaces a package needs, in the order of `PACKAGES`."""
+    """Returns all packages whose interfaces a package needs, sorted by name."""
     needs = {*COMMON, *PACKAGES.get(package, ())}
     for name in PACKAGES.get(package, ()):
         needs |= {*needed_by(name)} if name in PACKAGES else set()

@@ -75,7 +75,7 @@ def image(camera: Camera, pixels: NDArray[np.uint8], time_s: float, prefix: str 
 
 
 def depth_image(camera: Camera, metres: NDArray[np.float32], time_s: float, prefix: str = "") -> Image:
-    """Returns a depth image as 32FC1, in m."""
+    """Returns a depth image as 32FC1; values are in m."""
     message = Image()
     message.header.stamp = to_time(time_s)
     message.header.frame_id = prefix + optical_frame(camera)
@@ -129,7 +129,7 @@ def odometry(state: Odometry, time_s: float, prefix: str = "", frame: str = BASE
 def ground_truth(
     pose: Pose, twist: tuple[float, float, float], time_s: float, prefix: str = "", frame: str = BASE_FRAME
 ) -> OdometryMessage:
-    """Returns the true pose in the world and the true twist, exact."""
+    """Returns the odometry message of the true pose in the world and the true twist, without noise."""
     message = OdometryMessage()
     message.header.stamp = to_time(time_s)
     message.header.frame_id = WORLD_FRAME
@@ -142,7 +142,7 @@ def ground_truth(
 
 
 def transform(parent: str, child: str, pose: Pose, time_s: float = 0.0) -> TransformStamped:
-    """Returns the transform of one frame in another."""
+    """Returns the pose of the frame `child` in the frame `parent`, as a transform message."""
     message = TransformStamped()
     message.header.stamp = to_time(time_s)
     message.header.frame_id, message.child_frame_id = parent, child
@@ -209,7 +209,10 @@ def optical_frame(camera: Camera) -> str:
 
 
 def _data(pixels: NDArray[Any]) -> array.array[int]:
-    """Makes an array of the right type: rclpy takes it as it is, but copies bytes item by item."""
+    """Returns the pixels as an array of the type that rclpy uses unchanged.
+
+    Rclpy copies `bytes` item by item.
+    """
     data = array.array("B")
     data.frombytes(np.ascontiguousarray(pixels).reshape(-1).view(np.uint8).data)  # its bytes, copied once
     return data
@@ -226,7 +229,7 @@ def _heading(yaw: float) -> Quaternion:
 
 
 def transforms(messages: list[TransformStamped]) -> Any:
-    """Returns the message of `/tf`; only if `tf2_msgs` is installed."""
+    """Returns the message of `/tf`. Requires `tf2_msgs`."""
     from tf2_msgs.msg import TFMessage  # noqa: PLC0415 - built at set-up, may be missing
 
     return TFMessage(transforms=messages)

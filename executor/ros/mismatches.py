@@ -1,4 +1,4 @@
-"""Detects topics whose ends do not match: messages never arrive, without any error."""
+"""Detects topics whose ends do not match: messages never arrive, and no error is reported."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ __all__ = ["Mismatches"]
 
 LOOK_S: Final = 1.0
 OURS: Final = "world"
-"""Prefix of the world's nodes: they may subscribe to a topic with more than one type."""
+"""Prefix of the names of the world's own nodes, which may subscribe to a topic with more than one type."""
 _IGNORED: Final = ("/rosout", "/parameter_events")
 _NO_NAME_YET: Final = "_NODE_NAME_UNKNOWN_"
 
 
 class Mismatches:
-    """Reports each mismatch once while it exists.
+    """Finds topics whose ends do not match, and reports each mismatch once while it exists.
 
     Args:
-        node: for queries of the graph.
-        report: takes each mismatch.
+        node: the node that queries the ROS graph.
+        report: is called with each mismatch.
     """
 
     def __init__(self, node: Node, report: Callable[[TopicMismatch], None]) -> None:
@@ -39,13 +39,13 @@ class Mismatches:
         self._look_s = 0.0
 
     def poll(self, now_s: float) -> None:
-        """Checks once a second of real time."""
+        """Checks the graph, at most once a second of real time."""
         if now_s >= self._look_s:
             self._look_s = now_s + LOOK_S
             self.look()
 
     def look(self) -> None:
-        """Checks now."""
+        """Checks the graph now."""
         present: set[tuple[str, ...]] = set()
         for topic, _ in self._node.get_topic_names_and_types():
             if topic in _IGNORED:
@@ -66,7 +66,7 @@ class Mismatches:
 
 
 def _may_pass(found: TopicMismatch) -> bool:
-    """Whether a robot may subscribe to this type soon, so that the next check finds no mismatch."""
+    """Whether a mismatch may disappear soon, since a robot can change the type of its subscription."""
     return found.reason == "type" and found.subscriber.startswith(f"/{OURS}")
 
 

@@ -1,7 +1,9 @@
-"""A world's ROS node: takes `/cmd_vel`, publishes sensors, odometry and time. It needs no executor.
+"""The ROS node of a world: it receives `/cmd_vel`, and publishes sensors, odometry and time.
 
-Nothing is called back: `poll` takes messages, `publish` sends what is due. So the world's loop has one thread
-and a defined order, and the same node serves real time and lock-step.
+It needs no executor.
+
+There are no callbacks: `poll` reads messages, `publish` sends the messages that are due. So the world's loop
+has one thread and a defined order, and the same node serves real time and lock-step.
 """
 
 from __future__ import annotations
@@ -35,7 +37,7 @@ _TF_QOS: Final = QoSProfile(depth=100)
 
 
 class WorldNode:
-    """The topics of a world and of its robots."""
+    """Publishes and receives the topics of a world and of its robots."""
 
     def __init__(  # noqa: PLR0913 - a world, and how it takes part in the graph
         self,
@@ -80,11 +82,11 @@ class WorldNode:
         self.refused_commands = 0
 
     def poll(self) -> None:
-        """Takes the commands that arrived; the last one of each robot counts."""
+        """Reads the commands that arrived, and applies the last one of each robot."""
         self.refused_commands += sum(not robot.poll(self._world.time_s) for robot in self._robots)
 
     def publish(self, sensors: Sensors) -> None:
-        """Publishes what is due. Topics without subscribers are neither measured nor drawn."""
+        """Publishes the messages that are due. Topics without subscribers are neither measured nor drawn."""
         now_s = self._world.time_s
         if self._clock_due(now_s):
             self.publish_clock()
@@ -110,23 +112,26 @@ class WorldNode:
         return any(feed.has_receiver for feed in self._pictures)
 
     def take_notes(self) -> list[str]:
-        """Returns new notes for users about received commands."""
+        """Returns the notes for users about received commands since the last call."""
         notes = [note for robot in self._robots for note in robot.commands.notes]
         for robot in self._robots:
             robot.commands.notes.clear()
         return notes
 
     def types_of(self, topic: str) -> tuple[type, ...]:
-        """Returns the types that a robot accepts on a command topic; none for another topic."""
+        """Returns the types that a robot accepts on a command topic; empty for any other topic."""
         return next((robot.commands.types for robot in self._robots if robot.commands.topic == topic), ())
 
     def node_for(self, topic: str, message_type: type) -> Node:
-        """Returns the node whose participant supports a topic with a type."""
+        """Returns the node that can use a topic with this type.
+
+        A participant supports one type for a topic.
+        """
         types = self.types_of(topic)
         return self._second_node() if message_type in types and message_type is not types[0] else self.node
 
     def make_way(self, topic: str, message_type: type) -> None:
-        """Changes the type of a robot's command subscription in this participant."""
+        """Changes the type of a robot's command subscription, for a node of this participant."""
         for robot in self._robots:
             if robot.commands.topic == topic:
                 robot.commands.make_way(message_type)
@@ -141,7 +146,7 @@ class WorldNode:
             self._second.context.try_shutdown()
 
     def _second_node(self) -> Node:
-        """Returns a node in another participant, created when it is first needed."""
+        """Returns a node in another participant; creates it at the first call."""
         if self._second is None:
             context = Context()
             rclpy.init(context=context, domain_id=self.node.context.get_domain_id())

@@ -1,8 +1,8 @@
 """Publishes on a separate thread, so that a frozen subscriber does not block the world.
 
-Fast DDS delivers messages in shared memory. A process that is stopped (by a debugger, SIGSTOP) may hold its
-lock; a publisher then waits for up to three seconds. rclpy holds the interpreter lock while it publishes, so
-a thread alone would not help: this calls rcl directly.
+Fast DDS delivers messages in shared memory. A process that is stopped (by a debugger, SIGSTOP) may hold the
+lock of that memory; a publisher then waits for up to three seconds. rclpy holds the interpreter lock while it
+publishes, so a thread alone would not help: this module calls rcl directly.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ if TYPE_CHECKING:
 __all__ = ["Outlet", "Piped", "RclPublish"]
 
 DEPTH: Final = 5
-"""Queue length of a topic; beyond that the oldest message is dropped."""
+"""Queue length of a topic; if the queue is full, the oldest message is dropped."""
 PATIENCE_S: Final = 0.02
 
 
 class _Array(ctypes.Structure):
-    """`rcl_serialized_message_t`; the allocator is not used, since nothing is resized."""
+    """The C type `rcl_serialized_message_t`. Its allocator is not used, since nothing is resized."""
 
     _fields_ = (
         ("buffer", ctypes.c_char_p),
@@ -49,14 +49,14 @@ class RclPublish:
         self._publish.restype = ctypes.c_int
 
     def __call__(self, publisher: Any, data: bytes) -> None:
-        """Sends a message; a failure is ignored, as without subscribers."""
+        """Sends a message; ignores a failure, like a topic without subscribers."""
         array = _Array(data, len(data), len(data))
         with contextlib.suppress(rclpy_implementation.InvalidHandle), publisher.handle:
             self._publish(publisher.handle.pointer, ctypes.byref(array), None)
 
 
 class Outlet:
-    """Sends messages in order; a call never blocks for longer than a moment.
+    """Sends messages in order on a thread; its methods block for a moment at most.
 
     Args:
         send: sends one serialized message of a publisher; may block.
@@ -75,7 +75,7 @@ class Outlet:
         self._thread.start()
 
     def publish(self, publisher: Any, message: Any) -> None:
-        """Queues a message; it is serialized now, and may be changed afterwards."""
+        """Serializes and queues a message; the caller may change the message afterwards."""
         self.put(publisher, serialize_message(message))
 
     def put(self, publisher: Any, data: bytes) -> None:
@@ -90,7 +90,7 @@ class Outlet:
             self._changed.notify_all()
 
     def flush(self) -> None:
-        """Waits a moment for the thread to send the queue."""
+        """Waits a moment until the thread has sent the queue."""
         with self._changed:
             patience_s = 0.0 if self._is_late else PATIENCE_S
             self._is_late = not self._changed.wait_for(self._is_done, patience_s)

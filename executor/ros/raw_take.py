@@ -1,4 +1,4 @@
-"""Takes messages of a subscription without an executor."""
+"""Reads messages of a subscription without an executor."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ from typing import Any
 
 
 def take(subscription: Any) -> Any:
-    """Takes one message; None if there is none."""
+    """Removes and returns the next message of a subscription; None if there is none."""
     taken = take_with_info(subscription)
     return None if taken is None else taken[0]
 
 
 def take_with_info(subscription: Any) -> tuple[Any, dict[str, Any]] | None:
-    """Takes one message with its metadata of the middleware."""
+    """Removes and returns the next message with its metadata from the middleware; None if there is none."""
     with subscription.handle:
         taken: tuple[Any, dict[str, Any]] | None = subscription.handle.take_message(
             subscription.msg_type, subscription.raw
@@ -21,4 +21,7 @@ def take_with_info(subscription: Any) -> tuple[Any, dict[str, Any]] | None:
 
 
 def ignore(message: object) -> None:
-    """Placeholder callback, never called: messages are taken, and no executor spins the node."""
+    """Serves as the callback of subscriptions.
+
+    It is never called, since messages are read without an executor.
+    """

@@ -32,19 +32,22 @@ LATCHED_QOS: Final = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_L
 _OPTICAL: Final = (0.0, 0.0, 0.0, -0.5, 0.5, -0.5, 0.5)
 _COMMANDS: Final = 10
 SENSOR_QOS: Final = QoSProfile(depth=5)
-"""Reliable, which matches subscribers of both kinds. A full queue drops the oldest message."""
+"""Quality of service of sensors: reliable, which matches both kinds of subscribers.
+
+A full queue drops the oldest message.
+"""
 
 
 class RobotTopics:
-    """Takes a robot's commands and feeds its topics.
+    """Reads the commands of one robot, and feeds its topics.
 
     Args:
-        node: of the publishers.
-        robot: a function, since a reset creates new robots.
-        index: which robot of the world; the first one's names have no prefix.
-        renamed: topics by the name of the sensor, from the universe.
-        second: makes a node for messages of a second type on one topic.
-        outlet: what the feeds publish through; None for their publishers themselves.
+        node: the node of the publishers.
+        robot: returns the robot; a function, since a reset creates new robots.
+        index: the number of the robot in the world; the names of robot 0 have no prefix.
+        renamed: topics that the universe renames, by the name of the sensor.
+        second: returns a node for messages of a second type on one topic.
+        outlet: the outlet through which the feeds publish; with None, they use their publishers directly.
     """
 
     def __init__(  # noqa: PLR0913 - a robot, and what its names come from
@@ -94,7 +97,10 @@ class RobotTopics:
         self._describe()
 
     def poll(self, now_s: float) -> bool:
-        """Takes commands; the last one of each topic counts. Returns whether all were valid."""
+        """Reads the commands that arrived, and applies the last one of each topic.
+
+        Returns whether all were valid.
+        """
         robot = self._robot()
         command, obeyed = self.commands.take(now_s)
         if command is not None:
@@ -105,7 +111,7 @@ class RobotTopics:
         return obeyed
 
     def moving_transforms(self, now_s: float) -> list[Any]:
-        """Returns the transforms of the odometry and of moving links."""
+        """Returns the transforms of the odometry frame and of moving links."""
         robot = self._robot()
         found = [messages.odometry_transform(robot.odometry, now_s, self._frames, self._base)]
         for name, (position, _) in robot.joint_states().items():

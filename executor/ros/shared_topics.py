@@ -1,4 +1,7 @@
-"""Command topics of an application in the world's participant: the world adapts to its message types."""
+"""Adapts the world's command topics to an application in the same participant.
+
+The world subscribes with the application's message type.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +21,7 @@ _MAKERS: Final = ("create_publisher", "create_subscription")
 
 
 def share_commands(world: WorldNode, context: Context) -> Callable[[], None]:
-    """Changes the world's subscription before a node of `context` uses a command topic.
+    """From now on, changes the world's subscription when a node of `context` uses a command topic.
 
     A participant supports one type for a topic, and the choice of the application is not known in advance.
     Returns a function that undoes this.

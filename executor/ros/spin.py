@@ -1,4 +1,4 @@
-"""Single-threaded executors that are cheaper than rclpy's: they take messages without a full wait set."""
+"""Single-threaded executors that are cheaper than rclpy's: they read messages without a full wait set."""
 
 from __future__ import annotations
 
@@ -25,14 +25,17 @@ class PatientExecutor(SingleThreadedExecutor):  # type: ignore[misc]
     """Waits for messages and calls their callbacks.
 
     For each wait, rclpy's own executor creates a timer, a wait set of all entities of a node, and a task;
-    that costs more than most callbacks. Here all but plain subscriptions only end the wait, and are then left
-    to rclpy.
+    that costs more than most callbacks. This executor handles plain subscriptions itself; all other entities
+    only end the wait, and rclpy then handles them.
     """
 
     _waits = 0
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
-        """Calls what is ready, each once at most, or waits for it; raises what a callback raises."""
+        """Calls the callbacks that are ready, each at most once, or waits for one.
+
+        An exception of a callback is raised here.
+        """
         self._waits += 1
         nodes = list(self.get_nodes())
         goes_on = any(not task.done() for task, _, _ in self._tasks)
@@ -52,7 +55,7 @@ class PatientExecutor(SingleThreadedExecutor):  # type: ignore[misc]
             super().spin_once(0)
 
     def _wait(self, nodes: list[Node], timeout_s: float | None) -> tuple[list[Subscription], bool]:
-        """Returns the plain subscriptions that are ready, and whether anything else is."""
+        """Waits; returns the plain subscriptions that are ready, and whether any other entity is ready."""
         held: list[Any] = []
         try:
             subscriptions, timers, clients, services = (
@@ -91,7 +94,7 @@ class PatientExecutor(SingleThreadedExecutor):  # type: ignore[misc]
 
 
 class DrainingExecutor(SingleThreadedExecutor):  # type: ignore[misc]
-    """The executor of lock-step runs: `drain` delivers all messages published in this process before."""
+    """The executor of lock-step runs: `drain` delivers all messages published earlier in this process."""
 
     holds_time = True
     """No time passes during a callback, so waiting in one is pointless."""
@@ -122,7 +125,10 @@ class DrainingExecutor(SingleThreadedExecutor):  # type: ignore[misc]
         return calls
 
     def _call_subscriptions(self, most: int) -> int:
-        """Calls the callbacks of plain subscriptions: taking a message costs a tenth of a wait set."""
+        """Calls the callbacks of plain subscriptions; returns their number.
+
+        Reading a message costs a tenth of a wait set.
+        """
         calls = 0
         for node in self.get_nodes():
             for subscription in list(node.subscriptions):
@@ -131,14 +137,17 @@ class DrainingExecutor(SingleThreadedExecutor):  # type: ignore[misc]
         return calls
 
     def _may_have_more(self) -> bool:
-        """Returns whether other entities could be ready, which only a wait set shows."""
+        """Whether other entities could be ready, which only a wait set shows."""
         if self._tasks:
             return True
         return any(_has_more(node) for node in self.get_nodes())
 
 
 def _hold(things: Iterable[Any], held: list[Any]) -> list[Any]:
-    """Protects entities from destruction during a wait; returns those that still exist."""
+    """Protects entities from destruction, by holding their handles in `held`.
+
+    Returns those that still exist.
+    """
     found = []
     for thing in things:
         handle = thing.handle
@@ -157,7 +166,10 @@ def _is_plain(subscription: Subscription) -> bool:
 
 
 def _call_once(subscription: Subscription) -> int:
-    """Takes the next message and calls its callback."""
+    """Reads the next message of a subscription and calls its callback.
+
+    Returns the number of calls, 0 or 1.
+    """
     try:
         with subscription.handle:
             taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)

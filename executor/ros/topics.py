@@ -1,4 +1,4 @@
-"""Topic tools of clients: listing, echoing and publishing topics of a ROS graph."""
+"""Topic tools for clients: list, echo and publish topics of a ROS graph."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ _UNMEASURED: Final = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/PointC
 
 
 class TopicError(ValueError):
-    """A request cannot be done; `code` is for the client."""
+    """A request cannot be carried out; `code` is the error code for the client."""
 
     def __init__(self, code: str, message: str) -> None:
         super().__init__(message)
@@ -67,7 +67,7 @@ class TopicError(ValueError):
 
 @dataclass
 class _Reader:
-    """A subscription to one topic: it measures the rate, and echoes messages as long as a client asks."""
+    """A subscription to one topic: it measures the rate, and echoes messages while a client requests it."""
 
     type_name: str
     subscription: Any
@@ -93,9 +93,9 @@ class Topics:
     """Handles topic requests of clients. Rates are those of the last two seconds of real time.
 
     Args:
-        node: of the queries, subscriptions and publishers.
-        commands: the world, whose robots may accept two types on one topic.
-        outlet: publishes messages; None for the publishers themselves.
+        node: the node that is used for queries, subscriptions and publishers.
+        commands: the world's node, whose robots may accept two types on one topic.
+        outlet: the outlet through which messages are published; with None, publishers are used directly.
     """
 
     def __init__(
@@ -121,7 +121,7 @@ class Topics:
         """Handles a request.
 
         Raises:
-            TopicError: it cannot be done; the text says why.
+            TopicError: the request cannot be carried out; the text is the reason.
         """
         match message:
             case ListTopics():
@@ -137,7 +137,7 @@ class Topics:
                 self._publish(message.topic, message.message_type, message.message)
 
     def poll(self, now_s: float) -> None:
-        """Takes received messages, sends echoes, and publishes messages that waited for subscribers."""
+        """Reads received messages, sends echoes, and publishes messages that waited for subscribers."""
         self._publish_waiting(now_s)
         self._begin_patient(now_s)
         for name, reader in list(self._readers.items()):
@@ -183,7 +183,7 @@ class Topics:
         self._send(child_messages.Topics(topics=rows))
 
     def _node_names(self, ends: list[Any], *, own: bool = False) -> list[str]:
-        """Returns the nodes at one end of a topic, except our own and those whose name is unknown yet."""
+        """Returns the nodes at one end of a topic, except BT Studio's own and those with an unknown name."""
         names = [
             f"{end.node_namespace.rstrip('/')}/{end.node_name}"
             for end in ends
@@ -284,7 +284,7 @@ class Topics:
         return self._publishers[topic, type_name]
 
     def _types(self, topic: str, there: list[str]) -> list[str]:
-        """Returns the types of a topic; of the types that a robot accepts, the published one is first."""
+        """Returns the types of a topic; if a robot accepts several types, the published one is first."""
         takes = () if self._commands is None else self._commands.types_of(topic)
         if not takes or not there:
             return there
@@ -298,7 +298,10 @@ class Topics:
         return self._node if self._commands is None else self._commands.node_for(topic, kind)
 
     def _publish_waiting(self, now_s: float) -> None:
-        """Publishes messages once subscribers have discovered a new publisher; before, they would be lost."""
+        """Publishes waiting messages whose new publisher was discovered by subscribers.
+
+        Earlier they would be lost.
+        """
         left = []
         for unsent in self._unsent:
             if unsent.publisher.get_subscription_count() < unsent.listeners and now_s < unsent.until_s:
@@ -309,7 +312,7 @@ class Topics:
 
 
 def _rates(reader: _Reader | None, now_s: float) -> tuple[float | None, float | None]:
-    """Returns messages and bytes a second; None without enough data."""
+    """Returns messages and bytes for each second; None without enough data."""
     if reader is None or now_s - reader.since_s < WINDOW_S / 4:
         return None, None
     span_s = min(now_s - reader.since_s, WINDOW_S)
@@ -329,4 +332,4 @@ def _take_raw(subscription: Any) -> bytes | None:
 
 
 def _ignore(message: object) -> None:
-    """Placeholder callback, never called: messages are taken, and no executor spins this node."""
+    """Serves as the callback of subscriptions; it is never called, since no executor spins this node."""

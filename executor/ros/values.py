@@ -1,4 +1,4 @@
-"""ROS messages as plain JSON values and back, with every field checked before ROS receives it."""
+"""Converts ROS messages to plain JSON values and back; every field is checked before ROS receives it."""
 
 from __future__ import annotations
 
@@ -47,14 +47,17 @@ def message_type(name: str) -> Any:
 
 @dataclass
 class Flattened:
-    """A message as dicts, lists and numbers; `cut` has the true lengths of shortened values, by path."""
+    """A message as dicts, lists and numbers.
+
+    `cut` holds the true lengths of shortened values, by their path.
+    """
 
     value: Any = None
     cut: dict[str, int] = field(default_factory=dict)
     _left: int = MOST_VALUES
 
     def of(self, item: Any, path: str) -> Any:
-        """Returns one value."""
+        """Returns one value as a plain value; `path` is its place in the message."""
         if hasattr(item, "get_fields_and_field_types"):
             start = f"{path}." if path else ""
             return {name: self.of(getattr(item, name), start + name) for name in _fields(item)}
@@ -87,10 +90,10 @@ def flatten(message: Any) -> Flattened:
 
 
 def describe(name: str) -> dict[str, Any]:
-    """Returns a type's fields with their types, and a message with their defaults.
+    """Returns a type's fields with their types, and a message with their defaults, as plain values.
 
     Raises:
-        ValueError: as `message_type`.
+        ValueError: the type is not installed, or its name is invalid.
     """
     kind = message_type(name)
     return {"fields": dict(kind.get_fields_and_field_types()), "example": flatten(kind()).value}
@@ -105,7 +108,7 @@ def _fields(message: Any) -> dict[str, str]:
 
 
 def fill(message: Any, values: Any, path: str = "") -> None:
-    """Sets a message's fields from plain values; missing fields are unchanged.
+    """Sets a message's fields from plain values; fields that are missing in `values` are not changed.
 
     Raises:
         FieldError: there is no such field, or a value does not fit.

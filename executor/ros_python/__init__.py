@@ -1,6 +1,6 @@
-"""Python parts of ROS 2 without wheels, under their own names and with their own interfaces.
+"""Python packages of ROS 2 that have no wheels, under their own names and with their own interfaces.
 
 This folder is last on the path of the processes that run users' code (`application/compat`), so that
-installed packages take precedence. It implements the part of the documented behaviour that actions use; the
-packages import each other, rclpy, numpy and messages, and nothing else of BT Studio.
+installed packages take precedence. The packages implement the part of the documented behaviour that actions
+use. They import each other, rclpy, numpy and messages, and nothing else of BT Studio.
 """

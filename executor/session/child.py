@@ -34,15 +34,15 @@ Message = TypeVar("Message", bound=Struct)
 _TASKS: Final[dict[type[Struct], str]] = {Starting: "loading", WorldReady: "", ApplicationReady: ""}
 """The task of a child's main thread after it sent one of these messages."""
 _ACCEPTED: Final = frozenset({Starting, WorldReady, ApplicationReady, Failed, Fault})
-"""Messages that show that a child received its start message."""
+"""Messages that prove that a child received its start message."""
 _NOT_STORED: Final = (Tick, Log, Blackboard, Tree, Sim, Answer, Beat)
 
 
 class Child:
     """A world or an application process.
 
-    A child is spawned before it is needed (a spare), and is in use once it has received its start message.
-    Until then it runs none of the user's code, so another process can replace it.
+    A child is spawned before it is needed (a spare). It is in use from the time when it received its start
+    message; before, it runs none of the user's code, and another process can replace it.
 
     Attributes:
         hang: the message of the fault that reported its hang; "" while it does not hang.
@@ -64,41 +64,44 @@ class Child:
 
     @property
     def key(self) -> tuple[Kind, int]:
-        """Kind and number."""
+        """Kind and number of the child."""
         return self.kind, self.number
 
     @property
     def is_in_use(self) -> bool:
-        """Whether it has received its start message."""
+        """Whether the child has received its start message."""
         return self.is_started and not self._said.keys().isdisjoint(_ACCEPTED)
 
     @property
     def hanging_node(self) -> str:
-        """Where its main thread was last seen in the user's code."""
+        """The place in the user's code where the main thread was last seen."""
         return self.vitals.place.text if self.vitals.is_in_action else ""
 
     @property
     def is_hanging(self) -> bool:
-        """Whether its hang was reported, and it has not recovered since."""
+        """Whether the child's hang was reported and the child has not recovered since."""
         return bool(self.hang) and not self.vitals.is_well
 
     def expect(self, token: str) -> None:
-        """Stores the token of a request that the session itself sent."""
+        """Stores the token of a request that the session itself sent, to recognise the answer."""
         self._answers[token] = None
 
     def take_answer(self, message: Answer) -> bool:
-        """Stores an answer to a request that the session itself sent; returns whether it is one."""
+        """Stores an answer to a request of the session itself.
+
+        Returns False if it answers another request.
+        """
         if message.request is None or message.request not in self._answers:
             return False
         self._answers[message.request] = message
         return True
 
     def answer(self, token: str) -> Answer | None:
-        """Returns the answer to a request of the session's own, once it arrived."""
+        """Returns the answer to a request of the session itself; None if it has not arrived yet."""
         return self._answers.get(token)
 
     def note(self, message: FromWorld | FromApplication) -> None:
-        """Stores the last message of each type."""
+        """Notes a message: updates the signs of life, and stores the last message of each type."""
         self.vitals.heard(from_main=not isinstance(message, Beat | Log))
         if isinstance(message, Beat):
             self.vitals.beat(message)
@@ -110,12 +113,12 @@ class Child:
             self._said[type(message)] = message
 
     def said(self, kind: type[Message]) -> Message | None:
-        """Returns the last message of a type since it was last forgotten."""
+        """Returns the last message of a type that was stored since `forget`; None if there is none."""
         message = self._said.get(kind)
         return message if isinstance(message, kind) else None
 
     def forget(self, kind: type[Struct]) -> None:
-        """Removes the stored message of a type, to wait for a new one."""
+        """Removes the stored message of a type, before the session waits for a new one."""
         self._said.pop(kind, None)
 
     def end(self, reason: str, last_lines: tuple[str, ...] = ()) -> None:

@@ -25,11 +25,11 @@ _SAME: dict[type[Struct], type[Struct]] = {
     child_messages.Finished: messages.Finished,
     child_messages.TopicMismatch: messages.TopicMismatch,
 }
-"""Messages that are an event as they are."""
+"""Messages that are sent to clients as an event without further change."""
 
 
 def forward(stage: Stage, child: Child, event: ChildSaid) -> None:
-    """Sends a message of a living child to its receivers among the clients."""
+    """Sends a message of a living child to the clients that must receive it."""
     message = event.message
     match message:
         case child_messages.Tick():
@@ -58,7 +58,7 @@ def forward(stage: Stage, child: Child, event: ChildSaid) -> None:
 
 
 def log(stage: Stage, event: ChildSaid) -> None:
-    """Sends a line of a child's output to all clients; also the last lines of a child that was dropped."""
+    """Sends a line of a child's output to all clients, also a last line of a child that was dropped."""
     message = event.message
     if not isinstance(message, Log) or event.kind == "node":
         return

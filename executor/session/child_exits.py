@@ -1,4 +1,7 @@
-"""Reactions to the end of a child process: the ladder goes down to the highest state that still holds."""
+"""Handles the end of a child process.
+
+The ladder goes down to the highest state that is possible without it.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +21,7 @@ __all__ = ["exited", "lose"]
 
 
 def exited(stage: Stage, event: ChildExited) -> None:
-    """Handles the exit of a world or an application, expected or not."""
+    """Handles the exit of a world or an application, whether it was expected or not."""
     child = stage.children.of(event)
     if child is None:
         return
@@ -42,7 +45,7 @@ def exited(stage: Stage, event: ChildExited) -> None:
 
 
 def lose(stage: Stage, child: Child, reason: str, message: str) -> None:
-    """Ends a child that is in use, and enters the highest state that holds without it."""
+    """Ends a child that is in use, and enters the highest state that is possible without it."""
     stage.children.drop(child.kind, reason=reason)
     _fall(stage, child, message)
 
@@ -56,7 +59,7 @@ def _stopped(stage: Stage) -> None:
 
 
 def _fall(stage: Stage, child: Child, message: str) -> None:
-    """Enters the highest state that holds without the child."""
+    """Enters the highest state that is possible without the child."""
     rung = State.CONNECTED if child.kind == "world" else State.VISUALIZATION_READY
     if stage.state.height <= rung.height:
         return

@@ -1,4 +1,4 @@
-"""The child processes of a session: starting them, sending them messages, ending them."""
+"""The child processes of a session: starts them, sends them messages, and ends them."""
 
 from __future__ import annotations
 
@@ -19,13 +19,15 @@ __all__ = ["Children"]
 
 
 class Children:
-    """At most one living child of each kind; extra nodes are those of `LaunchNodes`.
+    """Manages the world and the application: at most one living child of each kind.
+
+    `LaunchNodes` manages other processes.
 
     Args:
-        effect: takes what is to be done.
-        clock: seconds of the session's clock.
+        effect: is called with each effect to carry out.
+        clock: returns the time of the session in s.
         token: makes the token of a request.
-        lost: called with a child that is dropped and why, before its end is under way.
+        lost: called with a child that is dropped and the reason, before the child is ended.
     """
 
     def __init__(
@@ -50,7 +52,7 @@ class Children:
         return self._count
 
     def get(self, kind: Kind) -> Child | None:
-        """Returns the living child of a kind."""
+        """Returns the living child of a kind, or None."""
         return self.living.get(kind)
 
     def of(self, event: ChildSaid | ChildLooked | ChildTraced | ChildExited) -> Child | None:
@@ -59,7 +61,7 @@ class Children:
         return child if child is not None and child.number == event.number else None
 
     def ensure(self, kind: Kind) -> Child:
-        """Returns the living child of a kind, and starts one where there is none."""
+        """Returns the living child of a kind; starts one if there is none."""
         if kind not in self.living:
             self.living[kind] = Child(kind, self.next_number(), self._clock())
             self._effect(Spawn(kind, self._count))
@@ -79,12 +81,15 @@ class Children:
         self._tell("application", message)
 
     def ask(self, child: Child, message: Request, token: str) -> None:
-        """Sends a request whose answer will have the token."""
+        """Sends a request to a child; its answer will have the same token."""
         message.request = token
         self._effect(Tell(child.kind, child.number, message))
 
     def order(self, kind: Kind, message: Request) -> tuple[Child, str]:
-        """Sends a request of the session, not of a client; returns the child and the token of its answer."""
+        """Sends a request that no client asked for.
+
+        Returns the child and the token of the expected answer.
+        """
         child, token = self.ensure(kind), self._token()
         child.expect(token)
         self.ask(child, message, token)
@@ -95,7 +100,10 @@ class Children:
         self._effect(Interrupt(child.kind, child.number))
 
     def drop(self, kind: Kind, *, grace_s: float = 0.0, reason: str = "was ended") -> None:
-        """Ends the child of a kind: immediately, or after a grace period in which it may end by itself."""
+        """Drops the child of a kind and ends it.
+
+        After a grace period, in which it may end by itself, it is killed.
+        """
         child = self.living.pop(kind, None)
         if child is None:
             return

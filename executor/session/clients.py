@@ -31,10 +31,11 @@ class _Client:
 
 
 class Clients:
-    """Keeps the clients by id. The first is the driver, later ones are viewers until they take over.
+    """Stores the clients by id. The first is the driver, later ones are viewers until they take over.
 
-    When the driver's connection is lost, the next client that connects becomes the driver (it may be the
-    same page, reloaded). A viewer that is already connected becomes the driver after a time without one.
+    When the driver's connection is lost, the next client that connects becomes the driver (it may be the same
+    page, reloaded). A viewer that is already connected becomes the driver if the session has been without a
+    driver for a while.
     """
 
     def __init__(self, now_s: float) -> None:
@@ -45,7 +46,8 @@ class Clients:
     def client_id(self, resumed: str | None) -> str:
         """Returns the id for a new connection: the old one for a client that reconnects.
 
-        It may reconnect before the loss of its old connection is noticed; knowing the id is proof enough.
+        A client may reconnect before the loss of its old connection is noticed. A connection that knows the
+        id is accepted as that client.
         """
         return resumed if resumed is not None and resumed in self._clients else uuid4().hex
 
@@ -76,7 +78,10 @@ class Clients:
         return orphaned
 
     def deadline_s(self, grace_s: float, promote_s: float) -> float | None:
-        """Returns when `promote` or `is_abandoned` may have a result at the earliest."""
+        """Returns the earliest time at which `promote` or `is_abandoned` can have a new result.
+
+        None if there is none.
+        """
         if self._empty_since_s is not None:
             return self._empty_since_s + grace_s if grace_s else None
         if self._driver is not None and not self._clients[self._driver].is_here:
@@ -84,7 +89,10 @@ class Clients:
         return None
 
     def promote(self, now_s: float, promote_s: float) -> list[str]:
-        """Makes a viewer the driver if the driver stays away; returns the clients whose role changed."""
+        """Makes a viewer the driver if the driver was away for `promote_s`.
+
+        Returns the clients whose role changed.
+        """
         driver = self._clients.get(self._driver) if self._driver else None
         if driver is None or driver.is_here or now_s < driver.left_s + promote_s:
             return []
@@ -101,7 +109,7 @@ class Clients:
         return [client, *(c for c in (before,) if c is not None and self._clients[c].is_here)]
 
     def is_abandoned(self, now_s: float, grace_s: float) -> bool:
-        """Whether no client was connected for the grace period; 0 is no limit."""
+        """Whether no client was connected during the grace period; a grace period of 0 never ends."""
         return bool(grace_s) and self._empty_since_s is not None and now_s >= self._empty_since_s + grace_s
 
     # --- streams and topics -----------------------------------------------------------------------
@@ -112,7 +120,7 @@ class Clients:
             self._clients[client].has_stream = is_open
 
     def has_stream(self, client: str) -> bool:
-        """Whether frames can reach the client."""
+        """Whether frames can reach the client: its stream socket is open."""
         return client in self._clients and self._clients[client].has_stream
 
     def subscribe(self, client: str, data: Subscribe) -> None:
@@ -129,17 +137,20 @@ class Clients:
         self._clients[client].streams.pop((stream, sensor), None)
 
     def streams_of(self, client: str) -> list[Subscribe]:
-        """Returns the subscriptions that can be served to a client."""
+        """Returns the subscriptions of a client; none while its stream socket is closed."""
         return list(self._clients[client].streams.values()) if self.has_stream(client) else []
 
     def wanted_streams(self) -> Iterator[tuple[str, Subscribe]]:
-        """Yields all subscriptions that can be served, with their clients."""
+        """Yields all subscriptions of clients whose stream socket is open, each with its client."""
         for client in self._clients:
             for data in self.streams_of(client):
                 yield client, data
 
     def echo(self, client: str, topic: str, max_hz: float) -> float:
-        """Stores at which rate a client echoes a topic, 0 to end it; returns the highest rate."""
+        """Stores the rate at which a client echoes a topic, 0 to end the echo.
+
+        Returns the highest rate of all clients.
+        """
         if max_hz > 0:
             self._clients[client].echoed[topic] = max_hz
         else:
@@ -147,23 +158,23 @@ class Clients:
         return max((self._clients[c].echoed[topic] for c in self._echoers(topic)), default=0.0)
 
     def echoes_too_many(self, client: str, topic: str) -> bool:
-        """Whether a viewer has reached its limit of echoed topics, without this one."""
+        """Whether a viewer has reached its limit of echoed topics; `topic` itself does not count."""
         echoed = self._clients[client].echoed
         is_full = len(echoed) >= MOST_ECHOED_BY_VIEWER and topic not in echoed
         return is_full and self.role(client) == "viewer"
 
     def here(self) -> list[str]:
-        """Returns the connected clients."""
+        """Returns the ids of the connected clients."""
         return [client for client, record in self._clients.items() if record.is_here]
 
     def echoes(self) -> dict[str, float]:
-        """Returns the topics that clients echo, with their highest rates."""
+        """Returns the topics that clients echo, each with the highest requested rate."""
         here = [record.echoed for record in self._clients.values() if record.is_here]
         topics = {topic for echoed in here for topic in echoed}
         return {topic: max(echoed.get(topic, 0.0) for echoed in here) for topic in topics}
 
     def listeners(self, event: Struct) -> list[str]:
-        """Returns the clients that get a `topics` or `topic_message` event."""
+        """Returns the clients that receive a `topics` or `topic_message` event."""
         if isinstance(event, TopicMessage):
             return list(self._echoers(event.topic))
         assert isinstance(event, Topics)  # noqa: S101 - the only other type that comes here

@@ -1,6 +1,6 @@
 """Input (events) and output (effects) of the session's state machine.
 
-Times are seconds of a monotonic clock and are arguments: the machine never reads one.
+Times are seconds of a monotonic clock and are arguments: the state machine never reads a clock.
 """
 
 from __future__ import annotations
@@ -120,8 +120,8 @@ class ChildExited:
 class ChildLooked:
     """A sample of a child's state as the kernel reports it, several times a second.
 
-    `state` is the kernel's letter for it. Since the last sample its main thread ran for `ran_s`, and waited
-    for a processor for `waited_s`.
+    `state` is the kernel's letter for the state. Since the last sample the main thread ran for `ran_s`, and
+    waited for a processor for `waited_s`.
     """
 
     kind: Kind
@@ -133,7 +133,7 @@ class ChildLooked:
 
 @dataclass(frozen=True)
 class ChildTraced:
-    """The result of `Inspect`: the text of faulthandler, or "".
+    """The result of `Inspect`: the stacks as faulthandler writes them, or "".
 
     `uid` is the tree node that was being ticked; 0 if none.
     """
@@ -148,7 +148,8 @@ class ChildTraced:
 class Unpacked:
     """An archive was unpacked into `folder`, or refused with `error`.
 
-    `plan` holds the nodes of its launch files; `problem` is the file that cannot be read, and why.
+    `plan` holds the nodes of the launch files; `problem` names a launch file that cannot be read, with the
+    reason.
     """
 
     token: int
@@ -160,7 +161,7 @@ class Unpacked:
 
 @dataclass(frozen=True)
 class TimePassed:
-    """`Session.deadline_s` is over."""
+    """The time `Session.deadline_s` was reached."""
 
 
 Event = (
@@ -184,7 +185,10 @@ Event = (
 
 @dataclass(frozen=True)
 class Send:
-    """Send an event to a client (None: to all); `request` is the id of the command that it answers."""
+    """Send an event to a client, or to all with None.
+
+    `request` is the id of the command that the event answers.
+    """
 
     client: str | None
     name: str
@@ -196,7 +200,7 @@ class Send:
 class Spawn:
     """Start a child process. A failure is reported with `ChildExited`.
 
-    `node` is the extra node to start, in `folder`.
+    For a launch node, `node` is the node to start and `folder` its working folder.
     """
 
     kind: Kind
@@ -216,7 +220,7 @@ class Tell:
 
 @dataclass(frozen=True)
 class Interrupt:
-    """Interrupt the child's current tick by a signal."""
+    """Interrupt the current tick of a child by a signal."""
 
     kind: Kind
     number: int
@@ -232,7 +236,7 @@ class Inspect:
 
 @dataclass(frozen=True)
 class Retire:
-    """Wait up to `grace_s` for a child that has received `Stop`, then kill what is left of it."""
+    """Wait up to `grace_s` for a child that has received `Stop`, then kill its remaining processes."""
 
     kind: Kind
     number: int
@@ -241,7 +245,7 @@ class Retire:
 
 @dataclass(frozen=True)
 class Kill:
-    """Kill a child and its descendants at once."""
+    """Kill a child and its descendants immediately."""
 
     kind: Kind
     number: int
@@ -249,7 +253,7 @@ class Kill:
 
 @dataclass(frozen=True)
 class Unpack:
-    """Unpack an archive (base64) into a folder of its own, and report with `Unpacked`."""
+    """Unpack an archive (base64) into a new folder, and report the result with `Unpacked`."""
 
     token: int
     archive_base64: str
@@ -257,7 +261,7 @@ class Unpack:
 
 @dataclass(frozen=True)
 class EndSession:
-    """End the manager: no client reconnected within the grace period."""
+    """End the manager, since no client reconnected within the grace period."""
 
     reason: str
 

@@ -1,4 +1,4 @@
-"""Commands that take no time, or that a child answers: none of them is a step."""
+"""Commands that are not steps: they take no time, or a child answers them."""
 
 from __future__ import annotations
 
@@ -36,9 +36,9 @@ def _ask(  # noqa: PLR0913 - one question
     patience_s: float = ANSWER_S,
     then: Callable[[], None] | None = None,
 ) -> None:
-    """Forwards a command to a child, whose answer is the reply; `then` is called on success.
+    """Forwards a command to a child; the child's answer becomes the reply. `then` is called on success.
 
-    `topic` is noted as echoed by the client; the note is removed if the child refuses.
+    The client counts as echoing `topic`, unless the child refuses.
     """
     child = stage.children.get(kind)
     if child is None:
@@ -178,4 +178,4 @@ ANSWER_LATER: Final = frozenset(
         "restart_node",
     }
 )
-"""Commands that are not acknowledged at once: the handler or a child answers."""
+"""Commands that are not acknowledged immediately: the handler or a child answers later."""

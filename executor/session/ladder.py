@@ -13,7 +13,10 @@ __all__ = ["TABLE", "Row", "State", "is_legal", "where"]
 
 
 class State(StrEnum):
-    """A rung of the ladder, from bottom to top; PAUSED is as high as APPLICATION_RUNNING."""
+    """A rung of the ladder.
+
+    States are listed from bottom to top; PAUSED is as high as APPLICATION_RUNNING.
+    """
 
     IDLE = "idle"
     CONNECTED = "connected"
@@ -24,7 +27,7 @@ class State(StrEnum):
 
     @property
     def height(self) -> int:
-        """The number of rungs below."""
+        """The number of rungs below this one."""
         return min(list(State).index(self), 4)
 
     def reaches(self, other: State) -> bool:
@@ -44,11 +47,12 @@ class Row:
     """One command of the protocol.
 
     Attributes:
-        sources: the states in which it is legal.
-        target: the state that it leads to; None leaves the state as it is.
-        is_step: it takes time: other steps are refused until it ends, `cancel` ends it early.
-        for_viewers: clients that do not drive may send it too.
-        does: one sentence for the reference page.
+        sources: the states in which the command is legal.
+        target: the state after the command; None if the state does not change.
+        is_step: whether the command takes time; other steps are refused until it ends, and `cancel` ends it
+            early.
+        for_viewers: whether viewers may send the command too.
+        does: the sentence that describes the command in the reference page.
     """
 
     sources: frozenset[State]

@@ -1,4 +1,4 @@
-"""The launch nodes of an application: starting, restarting and ending them, and reporting their state."""
+"""The launch nodes of an application: starts, restarts and ends them, and reports their state."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ GRACE_S: Final = 1.0
 class _Node:
     spec: NodeSpec
     number: int = 0
-    """Number of its process; 0 while there is none."""
+    """Number of the node's process; 0 if it has none."""
     state: messages.LaunchState = "ended"
     restarts: int = 0
     end: str = ""
@@ -44,7 +44,7 @@ class _Node:
 
 
 class LaunchNodes:
-    """All launch nodes; they run as long as the application."""
+    """All launch nodes of an application; they run as long as the application."""
 
     def __init__(self) -> None:
         self._nodes: dict[str, _Node] = {}
@@ -67,7 +67,7 @@ class LaunchNodes:
             self._tell(stage)
 
     def stop(self, stage: Stage) -> None:
-        """Ends all nodes; each has a second to end by itself."""
+        """Ends all nodes; each has a second in which it may end by itself."""
         running = [node for node in self._nodes.values() if node.number]
         for node in running:
             self._retire(stage, node)
@@ -76,7 +76,7 @@ class LaunchNodes:
             self._tell(stage)
 
     def restart(self, stage: Stage, id_: str) -> str:
-        """Restarts a node, running or not; returns why it cannot, or ""."""
+        """Restarts a node, whether it runs or not; returns the reason why it cannot, or ""."""
         node = self._nodes.get(id_)
         if node is None:
             return f"The launch files have no node {id_!r}."
@@ -104,7 +104,7 @@ class LaunchNodes:
             )
 
     def exited(self, stage: Stage, event: ChildExited) -> None:
-        """Reports the exit of a node; one that the session ended is not known any more."""
+        """Reports the exit of a node; a node that the session itself ended is ignored."""
         node = self._of(event.number)
         if node is None:
             return

@@ -1,7 +1,7 @@
 """State of the running tree and world, for the snapshot of a client that joins late.
 
-`Mirror.apply` takes every event that is sent to clients; `Mirror.snapshot` is the state of a client that
-received all of them.
+`Mirror.apply` receives every event that is sent to clients; `Mirror.snapshot` is the state that a client has
+after all these events.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ class Mirror:
         self.universe = ""
 
     def begin_run(self, tick_hz: float) -> None:
-        """Removes the state of the run before."""
+        """Removes the state of the previous run."""
         self.tree = None
         self.statuses.clear()
         self.past = []
@@ -73,7 +73,7 @@ class Mirror:
         self.tick_hz = tick_hz
 
     def apply(self, event: Struct) -> None:
-        """Takes one event that is sent to all clients."""
+        """Updates the state by one event that is sent to all clients."""
         match event:
             case StateChanged():
                 self.state = State(event.state)
@@ -109,7 +109,7 @@ class Mirror:
         return self.tick_ms, 1000.0 / self.tick_hz if self.tick_hz else 0.0
 
     def snapshot(self) -> Snapshot:
-        """Returns everything that a client needs before it can follow the deltas."""
+        """Returns the complete state, which a client needs before the following events."""
         return Snapshot(
             state=self.state.value,
             tree=self.tree,

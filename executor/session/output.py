@@ -22,7 +22,7 @@ class Output:
     """Collects the effects of a session until the adapters take them.
 
     Args:
-        mirror: receives every event for all clients, for those that join later.
+        mirror: receives every event for all clients, so that clients that join later get its state.
     """
 
     def __init__(self, mirror: Mirror) -> None:
@@ -34,12 +34,12 @@ class Output:
         self._effects.append(effect)
 
     def emit(self, event: Struct) -> None:
-        """Sends an event to all clients, also to those that join later."""
+        """Sends an event to all clients, and to the mirror for clients that join later."""
         self._mirror.apply(event)
         self._effects.append(Send(None, _EVENT_NAMES[type(event)], event))
 
     def send(self, client: str, event: Struct, request: str | None = None) -> None:
-        """Sends an event to one client; `request` is the command that it answers."""
+        """Sends an event to one client; `request` is the id of the command that it answers."""
         self._effects.append(Send(client, _EVENT_NAMES[type(event)], event, request))
 
     def refuse(self, command: CommandCame, code: str, message: str, hint: str = "") -> None:

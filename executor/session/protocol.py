@@ -1,9 +1,9 @@
 """The session as a state machine without I/O: events in, effects out, time as an argument.
 
 `Session.handle` takes one event of `executor.session.events` and returns the effects. `ladder.TABLE` says in
-which states a command is legal; `steps` and `immediate` implement the commands.
-A step that takes time is a generator that yields what it waits for, so other events are handled meanwhile.
-One step runs at a time; `cancel` and `disconnect` end it early.
+which states a command is legal; `steps` and `immediate` implement the commands. A command that takes time is
+a step: a generator that yields the conditions for which it waits, so that other events are handled meanwhile.
+Only one step runs at a time; `cancel` and `disconnect` end it early.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ RETIRE_GRACE_S: Final = 2.0
 
 @dataclass
 class _Job:
-    """The step under way, and the clients and requests that are answered at its end."""
+    """The step in progress, and the clients and requests that are answered at its end."""
 
     command: str
     askers: list[tuple[str, str]]
@@ -100,7 +100,10 @@ class Session:
 
     @property
     def deadline_s(self) -> float | None:
-        """When `TimePassed` is due at the latest, if nothing else happens."""
+        """The latest time at which the session must receive `TimePassed`, if nothing else happens.
+
+        None if there is none.
+        """
         times = [self.clients.deadline_s(self.about.grace_s, self.about.promote_s)]
         times.append(self.questions.deadline_s)
         if self._job is not None:
@@ -108,7 +111,7 @@ class Session:
         return min((t for t in times if t is not None), default=None)
 
     def prestart(self) -> list[Effect]:
-        """Starts both processes ahead of the first command, since their imports take time."""
+        """Starts world and application before the first command, since their imports take time."""
         self.children.replenish()
         return self.output.take()
 
@@ -126,14 +129,17 @@ class Session:
     # --- what the steps use -----------------------------------------------------------------------
 
     def enter(self, state: State, reason: str = "") -> None:
-        """Changes the state of the ladder; the only place that does."""
+        """Changes the state of the ladder; no other function does."""
         _log.info("%s -> %s %s", self.state, state, reason)
         if not state.reaches(State.UNIVERSE_READY):
             self.renderer, self.has_tf = "", False
         self.output.emit(messages.StateChanged(state.value, reason))
 
     def unpack(self, archive_base64: str) -> Callable[[], Unpacked | None]:
-        """Unpacks an archive; returns a function that returns the result once it exists."""
+        """Orders an archive to be unpacked.
+
+        Returns a function that returns the result, or None before it exists.
+        """
         self._archives += 1
         token = self._archives
         self.output.effect(Unpack(token, archive_base64))
@@ -171,7 +177,7 @@ class Session:
                 pass
 
     def introspect(self, client: str) -> None:
-        """Sends a client the properties of the session, and the client's role."""
+        """Sends a client the properties of the session and its role in it."""
         payload = messages.Introspection(
             protocol=messages.PROTOCOL,
             client_id=client,
@@ -187,7 +193,10 @@ class Session:
         self.output.send(client, payload)
 
     def know_world(self, renderer: str, *, has_tf: bool) -> None:
-        """Stores what the world can do, and notifies clients if that changed."""
+        """Stores the capabilities of the world, and notifies clients of a change.
+
+        These are its renderer, and whether it publishes tf.
+        """
         if (renderer, has_tf) == (self.renderer, self.has_tf):
             return
         self.renderer, self.has_tf = renderer, has_tf
@@ -214,7 +223,7 @@ class Session:
         self._after_forward(child, event.message)
 
     def _after_forward(self, child: Child, message: Struct) -> None:
-        """Leaves the application's state when its run ended, and stops the robot when its tick hangs."""
+        """Leaves the state of a running application after the run, and stops the robot when a tick hangs."""
         if isinstance(message, Finished) and self.state in HAS_APPLICATION and not child.is_stopping:
             steps.stop_moving(self)
             self.children.drop(child.kind, grace_s=RETIRE_GRACE_S, reason="finished its run")
@@ -254,11 +263,11 @@ class Session:
 
     @property
     def is_free(self) -> bool:
-        """Whether no step is under way."""
+        """Whether no step is in progress."""
         return self._job is None
 
     def begin_own(self, command: str, generator: Step) -> None:
-        """Begins a step that no client asked for."""
+        """Begins a step that no client requested."""
         self._job = _Job(command, [], generator)
 
     def _join_or_refuse(self, job: _Job, event: CommandCame) -> None:
@@ -275,7 +284,10 @@ class Session:
         self._begin(event)
 
     def _cancel(self, *, also_bounded: bool = False) -> None:
-        """Ends the step under way, unless it is bounded by short timeouts anyway."""
+        """Ends the step in progress if it climbs the ladder.
+
+        All other steps have short timeouts; with `also_bounded` they are ended too.
+        """
         if self._job is None or not (also_bounded or self._job.command in _CLIMBING):
             return
         job, self._job = self._job, None
@@ -287,7 +299,7 @@ class Session:
         self._fail(job, failure)
 
     def _advance(self) -> None:
-        """Resumes the step under way as often as its waits are over."""
+        """Resumes the step in progress until it has to wait again."""
         while (job := self._job) is not None:
             try:
                 if not self._resume(job):
@@ -301,7 +313,7 @@ class Session:
                 self._fail(job, failure)
 
     def _resume(self, job: _Job) -> bool:
-        """Resumes the step if its wait is over; returns whether it was resumed."""
+        """Resumes a step if its wait is over; returns whether it did."""
         if job.wait is None:
             job.wait = next(job.steps)
         else:

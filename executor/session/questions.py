@@ -1,4 +1,7 @@
-"""Requests to a child on behalf of a client, until it answers, ends, or takes too long."""
+"""Requests to a child on behalf of a client.
+
+They are open until the child answers, ends, or takes too long.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +23,7 @@ ANSWER_S: Final = 5.0
 
 @dataclass(frozen=True)
 class Question:
-    """One command of a client that a child answers; `then` is called if it succeeds."""
+    """A command of a client that a child has to answer; `then` is called if the command succeeds."""
 
     client: str
     request: str
@@ -31,7 +34,7 @@ class Question:
 
 
 class Questions:
-    """The open questions by the token that the child repeats."""
+    """The open questions, by the token that the child repeats in its answer."""
 
     def __init__(self) -> None:
         self._questions: dict[str, Question] = {}
@@ -59,25 +62,25 @@ class Questions:
         return token
 
     def asker(self, token: str | None) -> str | None:
-        """Returns the client whose question has this token."""
+        """Returns the client whose question has this token, or None."""
         question = None if token is None else self._questions.get(token)
         return None if question is None else question.client
 
     def answered(self, token: str) -> Question | None:
-        """Removes and returns the question with this token; None if it is not open any more."""
+        """Removes and returns the question with this token; None if it is not open (any more)."""
         return self._questions.pop(token, None)
 
     def expired(self, now_s: float) -> list[Question]:
-        """Removes and returns the questions that waited too long."""
+        """Removes and returns the questions whose answer is too late."""
         return self._take(lambda question: now_s >= question.until_s)
 
     def orphaned(self, child: tuple[Kind, int]) -> list[Question]:
-        """Removes and returns the questions to a child that is gone."""
+        """Removes and returns the questions to a child that has ended."""
         return self._take(lambda question: question.child == child)
 
     @property
     def deadline_s(self) -> float | None:
-        """When the next question expires."""
+        """The time at which the next question expires; None if none is open."""
         return min((question.until_s for question in self._questions.values()), default=None)
 
     def _take(self, which: Callable[[Question], bool]) -> list[Question]:
@@ -86,7 +89,7 @@ class Questions:
 
 
 def answer(stage: Stage, question: Question, error: messages.Error | None) -> None:
-    """Answers a command whose child answered, or cannot any more."""
+    """Replies to the client of a question, after its child answered or can no longer answer."""
     if error is None:
         if question.then is not None:
             question.then()
@@ -98,6 +101,6 @@ def answer(stage: Stage, question: Question, error: messages.Error | None) -> No
 
 
 def answer_late(stage: Stage, questions: list[Question], code: str, reason: str, why: str = "") -> None:
-    """Answers commands whose child did not answer."""
+    """Replies with an error to the clients of questions that their child did not answer."""
     for question in questions:
         answer(stage, question, messages.Error(code, why or f"The {question.child[0]} {reason}."))

@@ -1,4 +1,4 @@
-"""Steps of the commands that concern a run under way."""
+"""Steps of the commands for a loaded application: pause, resume, step, and writing the blackboard."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def stop_moving(stage: Stage) -> None:
 
 
 def go(stage: Stage, application: Child) -> Step:
-    """Resumes time in both processes."""
+    """Resumes simulated time and ticks, in both processes."""
     application.forget(Resumed)
     world = stage.children.order("world", child_messages.Resume())
     stage.children.tell_application(child_messages.Resume())
@@ -61,7 +61,7 @@ def go(stage: Stage, application: Child) -> Step:
 
 
 def pause(stage: Stage, _: Struct) -> Step:
-    """Stops ticks and simulated time together."""
+    """Pauses ticks and simulated time together."""
     application = stage.children.ensure("application")
     application.forget(Paused)
     stage.children.tell_application(child_messages.Pause())
@@ -80,7 +80,10 @@ def pause(stage: Stage, _: Struct) -> Step:
 
 
 def await_tick(stage: Stage, application: Child, until: Callable[[], Any]) -> Ended:
-    """Waits for a message that follows the current tick; ends a tick that hangs and returns the failure."""
+    """Waits for a message that follows the current tick.
+
+    If the tick hangs, ends it and returns the failure.
+    """
     vitals = application.vitals
     for _ in range(ROUNDS_OF_PATIENCE):
         try:
@@ -96,7 +99,9 @@ def await_tick(stage: Stage, application: Child, until: Callable[[], Any]) -> En
 
 
 def end_hanging_tick(stage: Stage, application: Child) -> Broken:
-    """Interrupts the tick, so that the application reports its node; kills the application if that fails.
+    """Interrupts a tick that hangs, so that the application reports the node.
+
+    Kills the application if that fails.
 
     Returns the failure for the command that waits for the tick.
     """
@@ -156,7 +161,7 @@ def resume(stage: Stage, _: Struct) -> Step:
 
 
 def step(stage: Stage, _: Struct) -> Step:
-    """Ticks once, and simulates one tick period."""
+    """Ticks once, and simulates the time of one tick period."""
     application = stage.children.ensure("application")
     application.forget(Stepped)
     stage.children.tell_application(child_messages.StepTick())

@@ -1,7 +1,8 @@
 """`Stage`: the interface of the session for its parts, and the values that they share.
 
-The parts (`steps`, `running`, `immediate`, `streaming`, `child_events`, `child_exits`, `launch_nodes` and
-`watch`) import this module, and `protocol.Session` imports the parts: no part knows the session itself.
+The parts of the session (`steps`, `running`, `immediate`, `streaming`, `child_events`, `child_exits`,
+`launch_nodes` and `watch`) import this module, and `protocol.Session` imports the parts: no part knows the
+session itself.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ class About:
 
 @dataclass
 class LastRun:
-    """The last run, for a restart."""
+    """The data of the last run, which a restart needs."""
 
     universe: messages.LaunchUniverse | None = None
     application: messages.RunApplication | None = None
@@ -53,7 +54,7 @@ class LastRun:
     is_outside: bool = False
     seed: int = 0
     deaf_until_s: float = 0.0
-    """An application that receives no time is not restarted a second time before this time."""
+    """Until this time, an application that receives no simulated time is not restarted again."""
 
 
 class Stage(Protocol):
@@ -76,19 +77,22 @@ class Stage(Protocol):
 
     @property
     def is_free(self) -> bool:
-        """Whether no step is under way."""
+        """Whether no step is in progress."""
 
     def enter(self, state: State, reason: str = "") -> None:
         """Changes the state of the ladder."""
 
     def introspect(self, client: str) -> None:
-        """Sends a client what the session is, and the client's role."""
+        """Sends a client the properties of the session and its role in it."""
 
     def know_world(self, renderer: str, *, has_tf: bool) -> None:
-        """Stores what the world can do."""
+        """Stores the capabilities of the world: its renderer, and whether it publishes tf."""
 
     def unpack(self, archive_base64: str) -> Callable[[], Unpacked | None]:
-        """Unpacks an archive; returns a function that returns the result once it exists."""
+        """Orders an archive to be unpacked.
+
+        Returns a function that returns the result, or None before it exists.
+        """
 
     def begin_own(self, command: str, generator: Step) -> None:
-        """Begins a step that no client asked for."""
+        """Begins a step that no client requested."""

@@ -1,8 +1,8 @@
 """Steps: the commands that take time, as generators.
 
-A step yields a `Wait` and is resumed with its result; `StepFailed` is raised into it when the wait cannot
-succeed any more, times out, or the step is cancelled. A step that fails leaves the ladder on the last rung
-that it reached.
+A step yields a `Wait` and is resumed with its result; `StepFailed` is raised in the generator when the wait
+can no longer succeed or times out, or when the step is cancelled. A step that fails leaves the ladder on the
+last rung that it reached.
 """
 
 from __future__ import annotations
@@ -105,7 +105,7 @@ def _launch_universe(stage: Stage, data: messages.LaunchUniverse) -> Step:
 
 
 def _start_world(stage: Stage, start: StartWorld, tries: int = 2) -> Answered[WorldReady]:
-    """Starts the universe in the spare world; a dead spare is replaced once."""
+    """Starts the universe in the spare world; replaces a spare that is dead, once."""
     world = stage.children.ensure("world")
     world.is_started = True
     stage.children.tell_world(start)
@@ -195,7 +195,7 @@ def _start_application(stage: Stage) -> Child:
 
 
 def _await_application(stage: Stage, application: Child, tries: int = 2) -> Step:
-    """Waits until the application is loaded, then resumes time; a dead spare is replaced once."""
+    """Waits until the application is loaded, then resumes time; replaces a spare that is dead, once."""
     try:
         reply = yield Wait(
             taken(application, Fault, ApplicationReady),
@@ -251,7 +251,7 @@ def _run(stage: Stage, data: messages.Run) -> Step:
 
 
 def _reuse_world(stage: Stage, speed: float) -> list[tuple[Child, str]]:
-    """Resets a running world; returns the requests that it has to answer."""
+    """Resets a running world for a new run; returns the requests that it still has to answer."""
     orders = [stage.children.order("world", child_messages.Reset())]
     if not stage.run.is_outside:
         orders.append(stage.children.order("world", child_messages.SetSpeed(speed)))
@@ -260,7 +260,7 @@ def _reuse_world(stage: Stage, speed: float) -> list[tuple[Child, str]]:
 
 
 def _aim(stage: Stage, data: messages.LaunchUniverse) -> None:
-    """Stores the seed of the actions, and the ROS graph of the application and its launch nodes."""
+    """Stores the seed of the actions, and the ROS graph that the application and its launch nodes use."""
     stage.run.seed = data.seed
     stage.run.is_outside = data.universe == "none"
     stage.run.domain_id = _domain_of(stage, data)
@@ -333,7 +333,7 @@ def _disconnect(stage: Stage, _: Struct) -> Step:
 
 
 def _typed(kind: type[Data], step: Callable[[Stage, Data], Step]) -> Callable[[Stage, Struct], Step]:
-    """Makes a step of a command's data from one of any data; `COMMANDS` holds the same types."""
+    """Converts a step for one type of data to a step for any data; `COMMANDS` ensures the type."""
 
     def begin(stage: Stage, data: Struct) -> Step:
         if not isinstance(data, kind):

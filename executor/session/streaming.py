@@ -16,7 +16,7 @@ __all__ = ["close_all", "open_all", "resume_echoes", "subscribe", "take"]
 
 
 def take(stage: Stage, event: StreamOpened | StreamClosed | StreamPaced) -> None:
-    """Takes an event of a stream socket."""
+    """Handles the opening, closing or pace of a client's stream socket."""
     match event:
         case StreamOpened():
             _open(stage, event.client)
@@ -27,14 +27,14 @@ def take(stage: Stage, event: StreamOpened | StreamClosed | StreamPaced) -> None
 
 
 def subscribe(stage: Stage, client: str, data: messages.Subscribe) -> None:
-    """Asks the world for one stream."""
+    """Asks the world to send one stream to a client."""
     stage.children.tell_world(
         child_messages.Subscribe(client, data.stream, data.max_hz, data.width, data.camera_pose, data.sensor)
     )
 
 
 def open_all(stage: Stage) -> None:
-    """Asks the world for all streams that clients subscribed to."""
+    """Asks the world for all streams to which clients are subscribed."""
     for client, data in stage.clients.wanted_streams():
         subscribe(stage, client, data)
 
@@ -46,7 +46,7 @@ def close_all(stage: Stage) -> None:
 
 
 def resume_echoes(stage: Stage) -> None:
-    """Asks a new world for the topics that clients echo, as soon as these topics exist."""
+    """Asks a new world to echo the topics that clients echo, as soon as these topics exist."""
     for topic, max_hz in stage.clients.echoes().items():
         stage.children.tell_world(child_messages.EchoTopic(topic, max_hz, patient=True))
 

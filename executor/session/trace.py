@@ -18,7 +18,7 @@ _OWN: Final = re.compile(
 
 @dataclass(frozen=True)
 class Frame:
-    """One line of Python on a stack."""
+    """A line of Python code on a stack."""
 
     file: str
     line: int
@@ -26,12 +26,18 @@ class Frame:
 
 
 def action_frame(text: str) -> Frame | None:
-    """Returns the innermost line of an action: of the current thread, or of another one."""
+    """Returns the innermost line of an action, first of the current thread, then of the others.
+
+    None if there is none.
+    """
     return next((frame for frame in _frames(text) if frame.file.startswith(_ACTIONS)), None)
 
 
 def own_frame(text: str) -> Frame | None:
-    """Returns the innermost line in this repository, with its path in it."""
+    """Returns the innermost line in this repository, with its path in the repository.
+
+    None if there is none.
+    """
     for frame in _frames(text):
         if (match := _OWN.search(frame.file)) is not None:
             return Frame(match["file"], frame.line, frame.function)
@@ -39,7 +45,7 @@ def own_frame(text: str) -> Frame | None:
 
 
 def _frames(text: str) -> list[Frame]:
-    """All frames, innermost first; those of the current thread before those of the others."""
+    """Returns all frames, innermost first; those of the current thread come before those of other threads."""
     threads: list[tuple[bool, list[Frame]]] = []
     for line in text.splitlines():
         if match := _FRAME.match(line):

@@ -1,7 +1,7 @@
-"""Liveness of a child process, from its beats and from samples of its state. Time is an argument.
+"""Tracks whether a child process is alive, from its beats and from samples of its state. Time is an argument.
 
-Only time in which the child could have worked counts: not the delay of the manager itself, and little of the
-time in which the child waited for a processor. So a slow machine alone never looks like a hang.
+Only time in which the child could have worked is counted: delays of the manager are not, and of the time in
+which the child waited for a processor only a small share is. So a slow machine alone never looks like a hang.
 """
 
 from __future__ import annotations
@@ -21,9 +21,12 @@ END_AFTER_S: Final = 8.0
 LOADING_S: Final = 60.0
 LONGEST_GAP_S: Final = 0.5
 BUSY_SHARE: Final = 0.1
-"""Share of the time that counts: a thread that computes at least this long is at work."""
+"""Share of the counted time: a thread that computes for at least this share is active."""
 MOST_FORGIVEN: Final = 0.75
-"""Limit of the share of a sample that waits for a processor excuse: a busy machine must not hide a hang."""
+"""The largest share of a sample that is not counted because the child waited for a processor.
+
+So a busy machine cannot hide a hang.
+"""
 FROZEN_S: Final = 1.0
 STARTING: Final = "starting"
 STOPPED: Final = "T"
@@ -32,16 +35,16 @@ ON_DISK: Final = "D"
 
 
 class Vitals:
-    """Liveness of one child.
+    """The signs of life of one child.
 
     Attributes:
-        silent_s: since the last message.
-        stuck_s: since its main thread completed its loop.
-        idle_s: in which it neither completed its loop nor computed.
-        deaf_s: since it received, or published, simulated time; counted by `watch`.
-        task: what it loads, or another long task; "" while its main thread should run its loop.
-        place: where its main thread is, if it has not completed its loop for a moment.
-        state: the kernel's letter.
+        silent_s: counted seconds since the last message.
+        stuck_s: counted seconds since the main thread completed its loop.
+        idle_s: counted seconds in which the main thread neither completed its loop nor computed.
+        deaf_s: counted seconds since the child received or published simulated time; `watch` adds to them.
+        task: the long task of the main thread, such as loading; "" while it should run its loop.
+        place: the place of the main thread, if it has not completed its loop for a moment.
+        state: the kernel's letter for the state of the process.
     """
 
     def __init__(self, now_s: float) -> None:
@@ -55,7 +58,7 @@ class Vitals:
         self._looked_s = now_s
 
     def heard(self, *, from_main: bool) -> None:
-        """Notes a message; `from_main` if only the main thread sends such."""
+        """Notes a message; `from_main` is set if only the main thread sends messages of this kind."""
         self.silent_s = 0.0
         if from_main:
             self.stuck_s = self.idle_s = 0.0
@@ -72,7 +75,7 @@ class Vitals:
             self.clocks, self.deaf_s = message.clocks, 0.0
 
     def look(self, seen: ChildLooked, now_s: float) -> float:
-        """Takes a sample of the process; returns the seconds that count since the last one."""
+        """Adds a sample of the process; returns the counted seconds since the last sample."""
         gap_s = min(max(0.0, now_s - self._looked_s), LONGEST_GAP_S)
         self._looked_s, self.state = now_s, seen.state
         forgiven_s = min(seen.waited_s, MOST_FORGIVEN * gap_s)
@@ -87,12 +90,12 @@ class Vitals:
 
     @property
     def is_frozen(self) -> bool:
-        """Whether no thread of it sends anything."""
+        """Whether no thread of the child sends anything."""
         return self.silent_s >= FROZEN_S or self.state == STOPPED
 
     @property
     def is_in_action(self) -> bool:
-        """Whether its main thread was last seen in the user's code."""
+        """Whether the main thread of the child was last seen in the user's code."""
         return bool(self.place.file or self.place.node_path)
 
     @property
@@ -107,7 +110,7 @@ class Vitals:
 
     @property
     def is_lost(self) -> bool:
-        """Whether it must be ended."""
+        """Whether the child has been inactive for so long that it must be ended."""
         if self.task:
             # A child that uses the processor is still loading. One that is idle waits for an event that never
             # comes.
@@ -119,5 +122,5 @@ class Vitals:
 
     @property
     def is_well(self) -> bool:
-        """Whether it works normally."""
+        """Whether the child works normally."""
         return self.silent_s < FROZEN_S and self.stuck_s < FAULT_AFTER_S / 2

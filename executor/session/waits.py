@@ -32,7 +32,7 @@ REPLY_TIMEOUT_S: Final = 5.0
 
 
 class StepFailed(Exception):  # noqa: N818 - it is the outcome of a step
-    """A step failed; code, message and hint are for the client."""
+    """A step failed; code, message and hint are sent to the client."""
 
     def __init__(self, code: str, message: str, hint: str = "") -> None:
         super().__init__(message)
@@ -43,7 +43,10 @@ class StepFailed(Exception):  # noqa: N818 - it is the outcome of a step
 
 @dataclass(frozen=True)
 class Wait:
-    """A condition: over once `until` returns a value, or raises `StepFailed`."""
+    """A condition that a step waits for.
+
+    It is met when `until` returns a value, and fails when `until` raises `StepFailed`.
+    """
 
     until: Callable[[], Any]
     timeout_s: float
@@ -58,7 +61,10 @@ Answered = Generator[Wait, Any, Message]
 
 
 def message_of(child: Child, *kinds: type[Message]) -> Callable[[], Message | None]:
-    """Returns a condition: the child sent one of these messages; it fails if the child is gone."""
+    """Returns the condition that the child has sent one of these messages.
+
+    It fails if the child has ended.
+    """
 
     def until() -> Message | None:
         for kind in kinds:
@@ -72,7 +78,10 @@ def message_of(child: Child, *kinds: type[Message]) -> Callable[[], Message | No
 
 
 def taken(child: Child, *kinds: type[Message]) -> Callable[[], Message | None]:
-    """Returns the same condition as `message_of`, for a start: it fails at once if the spare hangs."""
+    """Returns the same condition as `message_of` for the start of a child.
+
+    It fails immediately if the spare hangs.
+    """
     until = message_of(child, *kinds)
 
     def taken() -> Message | None:
@@ -98,7 +107,7 @@ def answered(child: Child, *kinds: type[Message]) -> Callable[[], Message | None
 
 
 def confirmed(ordered: tuple[Child, str], what: str, timeout_s: float = REPLY_TIMEOUT_S) -> Wait:
-    """Waits for the answer to `Children.order`."""
+    """Returns a wait for the answer to a request that `Children.order` sent."""
     child, token = ordered
 
     def until() -> bool | None:
@@ -122,7 +131,7 @@ def is_spare_lost(child: Child, failure: StepFailed) -> bool:
 
 
 def gone(child: Child) -> Callable[[], bool | None]:
-    """Returns a condition: the child has ended."""
+    """Returns the condition that the child has ended."""
     return lambda: None if child.is_alive else True
 
 

@@ -1,4 +1,4 @@
-"""Detects hanging children: reports the hang, ends the child, and goes down the ladder."""
+"""Detects children that hang: reports the hang, ends the child, and goes down the ladder."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ __all__ = ["looked", "traced"]
 
 LATEST_TRACE_S: Final = FAULT_AFTER_S + 2.0
 SPARES_LOST: Final = 2
-"""In a row; after that the next spare is started only when it is needed."""
+"""Number of spares lost in a row after which the next spare is started only when it is needed."""
 CLOCK_PERIOD_S: Final = 1 / 60
 CLOCKS_MISSED: Final = 4
 DEAF_AGAIN_S: Final = 60.0
@@ -40,7 +40,7 @@ _RESTART_HINT: Final = "The application is started again, once."
 
 
 def looked(stage: Stage, event: ChildLooked, now_s: float) -> None:
-    """Evaluates a sample of a child."""
+    """Evaluates a sample of a child: reports a hang, a recovery, or ends the child."""
     child = stage.children.of(event)
     if child is None:
         return
@@ -62,7 +62,7 @@ def looked(stage: Stage, event: ChildLooked, now_s: float) -> None:
 
 
 def traced(stage: Stage, event: ChildTraced) -> None:
-    """Takes the stack dump of a silent child."""
+    """Reports a hang with the stack dump of the child."""
     child = stage.children.of(event)
     if child is None or child.hang:
         return
@@ -130,7 +130,10 @@ def _fault(stage: Stage, child: Child, trace: ChildTraced | None) -> messages.Fa
 
 
 def _place_of(stage: Stage, frame: Frame, uid: int) -> Place:
-    """Returns the node that is being ticked, or the only one whose action is in the file."""
+    """Returns the place of a frame, with its node.
+
+    This is the node that is being ticked, or the only one whose action is in the file.
+    """
     nodes = stage.mirror.tree.nodes if stage.mirror.tree is not None else []
     kind = frame.file.rsplit("/", 1)[-1].removesuffix(".py")
     same = [node for node in nodes if node.uid == uid] or [node for node in nodes if node.type == kind]
@@ -177,7 +180,7 @@ def _name(child: Child) -> str:
 
 
 def _listen_for_time(stage: Stage, child: Child, counted_s: float, now_s: float) -> None:
-    """Detects an application without simulated time: it would never tick, and never report that."""
+    """Restarts an application that receives no simulated time: it would never tick, and never report that."""
     vitals, world, run = child.vitals, stage.children.get("world"), stage.run
     is_due = stage.state is State.APPLICATION_RUNNING and not run.is_outside and stage.is_free
     if world is None or not is_due or child.hang or world.hang:

@@ -1,4 +1,4 @@
-"""Merges a frame with an older one of its stream that is not sent yet."""
+"""Merges a frame with an older frame of the same stream that was not sent yet."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _encode = msgspec.msgpack.Encoder().encode
 
 
 def supersede(waiting: bytes, newer: bytes) -> bytes:
-    """Returns one frame in place of both.
+    """Returns one frame that replaces both.
 
     A picture or a scan replaces the older one. `poses` holds only changes, so dropping one could leave a body
     that has come to rest in the wrong place: poses are merged.

@@ -1,4 +1,4 @@
-"""Queues of one client. Both are bounded, however slow the client is."""
+"""Queues of the messages for one client. Both are bounded, even if the client is slow."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ PACE_S: Final = 0.5
 
 
 class ControlOutbox:
-    """Messages in order. For a client that is too slow, a new snapshot replaces the backlog.
+    """A queue of messages in order. If the client is too slow, a new snapshot replaces the waiting messages.
 
     Args:
         snapshot: makes the bytes of a snapshot message.
@@ -54,11 +54,11 @@ class ControlOutbox:
         self._filled.set()
 
     async def has_room(self) -> None:
-        """Waits until the client has read some of its replies, if too many are unread."""
+        """Waits until the client has read some of its replies, if too many of them are unread."""
         await self._room.wait()
 
     async def take(self) -> bytes:
-        """Returns the next message."""
+        """Waits for the next message, and returns it."""
         await self._filled.wait()
         if self._messages:
             data, is_reply = self._messages.popleft()
@@ -82,7 +82,7 @@ class ControlOutbox:
 
 
 class StreamOutbox:
-    """The latest frame of each stream. A scene is sent before poses of it."""
+    """A queue of the latest frame of each stream. A scene is sent before poses that refer to it."""
 
     def __init__(self) -> None:
         self._pictures = self._lost = 0
@@ -102,7 +102,7 @@ class StreamOutbox:
         self._filled.set()
 
     def lost_share(self, now_s: float) -> float | None:
-        """Returns the share of pictures that newer ones replaced, every `PACE_S`; otherwise None."""
+        """Returns the share of pictures that newer ones replaced, once in each `PACE_S`; otherwise None."""
         if not self._pictures or (self._reported_s is not None and now_s - self._reported_s < PACE_S):
             return None
         share = self._lost / self._pictures
@@ -111,7 +111,7 @@ class StreamOutbox:
         return None if is_first else share
 
     async def take(self) -> bytes:
-        """Returns the oldest frame, a scene first."""
+        """Waits for a frame, and returns the oldest one, or a scene first."""
         await self._filled.wait()
         stream = "scene" if "scene" in self._frames else next(iter(self._frames))
         data = self._frames.pop(stream)

@@ -1,4 +1,4 @@
-"""Encoding of poses on the stream: 16 bytes each, where floats would take 28.
+"""Encodes poses for the stream: 16 bytes for each pose, while floats would need 28.
 
 =====  ==============================================================================================
 bytes  what

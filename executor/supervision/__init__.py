@@ -1,1 +1,1 @@
-"""Child processes: starting, supervising, confining and ending them."""
+"""Child processes: starts, supervises, confines and ends them."""

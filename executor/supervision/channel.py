@@ -1,13 +1,14 @@
 """Messages between the manager and its children: length-prefixed MessagePack over a socket pair.
 
-The messages are those of `executor.child_messages`; each end is given the union that it receives. The child's
-end (`Channel`) is synchronous and may be used from any thread; the manager's end (`AsyncChannel`) belongs to
-an event loop. Both are bounded: a `Frame` may be dropped, and of the frames that wait only the latest of a
-client's stream is sent, unless `keep` is set (a scene, to which later frames refer). All other messages are
-control messages and are never dropped; a peer that does not read them for `STALL_TIMEOUT_S` counts as dead.
+The messages are those of `executor.child_messages`; each end is created with the union of the messages that
+it receives. The child's end (`Channel`) is synchronous and may be used from any thread; the manager's end
+(`AsyncChannel`) belongs to an event loop. Both are bounded: a newer `Frame` of the same client and stream
+replaces one that waits, unless `keep` is set (as for a scene, to which later frames refer). All other
+messages are control messages and are never dropped. An other end that does not read them for
+`STALL_TIMEOUT_S` counts as dead.
 
     ChannelError
-    └── ChannelClosed    the other end is gone, or does not read
+    └── ChannelClosed    the other end has ended, or does not read
 """
 
 from __future__ import annotations
@@ -44,11 +45,11 @@ _PREFIX: Final = struct.Struct("<I")
 
 
 class ChannelError(Exception):
-    """The other end broke the protocol of the channel."""
+    """The other end violated the protocol of the channel."""
 
 
 class ChannelClosed(ChannelError):  # noqa: N818 - it is an event more than an error
-    """The other end is gone."""
+    """The other end of the channel has ended."""
 
 
 def socket_pair() -> tuple[socket.socket, socket.socket]:
@@ -112,7 +113,7 @@ class Channel(Generic[Sent, Received]):
 
     Args:
         fd: the descriptor; the channel owns it from now on.
-        decode: makes a message of the bytes that the other end sends.
+        decode: converts the bytes that the other end sends to a message.
     """
 
     def __init__(self, fd: int, decode: Callable[[bytes], Received]) -> None:
@@ -130,14 +131,17 @@ class Channel(Generic[Sent, Received]):
         os.register_at_fork(after_in_child=self._abandon)
 
     def fileno(self) -> int:
-        """Returns the descriptor to wait on; when it is readable, call `receive(0)` until it returns None."""
+        """Returns the descriptor to wait on.
+
+        When it is readable, call `receive(0)` until that returns None.
+        """
         return self._socket.fileno()
 
     def send(self, message: Sent) -> None:
-        """Queues a message; writes it at once where that does not block.
+        """Queues a message, and writes it immediately if that does not block.
 
         Raises:
-            ChannelClosed: the manager is gone, or has not read for `STALL_TIMEOUT_S`.
+            ChannelClosed: the manager has ended, or has not read for `STALL_TIMEOUT_S`.
         """
         with self._changed:
             deadline = time.monotonic() + STALL_TIMEOUT_S
@@ -153,11 +157,13 @@ class Channel(Generic[Sent, Received]):
                 self._changed.notify_all()
 
     def receive(self, timeout_s: float | None = None) -> Received | None:
-        """Returns the next message, or None if none came in time. Without a timeout it waits without limit.
+        """Waits for the next message and returns it; returns None after the timeout.
+
+        Without a timeout the wait has no limit.
 
         Raises:
-            ChannelClosed: the manager is gone.
-            ChannelError: a message does not decode.
+            ChannelClosed: the manager has ended.
+            ChannelError: a message cannot be decoded.
         """
         deadline = None if timeout_s is None else time.monotonic() + timeout_s
         while True:
@@ -170,7 +176,7 @@ class Channel(Generic[Sent, Received]):
             self._read()
 
     def flush(self, timeout_s: float = STALL_TIMEOUT_S) -> bool:
-        """Waits until all messages are written; returns whether they were."""
+        """Waits until all messages are written, or until the timeout; returns whether all were written."""
         with self._changed:
             return (
                 self._changed.wait_for(lambda: self._closed or not (self._outbox or self._writing), timeout_s)
@@ -178,7 +184,7 @@ class Channel(Generic[Sent, Received]):
             )
 
     def close(self) -> None:
-        """Ends the channel; what was not yet written is lost. May be called twice."""
+        """Ends the channel; messages that are not written yet are lost. May be called twice."""
         with self._changed:
             self._close()
 
@@ -285,7 +291,7 @@ class AsyncChannel(Generic[Sent, Received]):
         """Writes a message without waiting.
 
         Raises:
-            ChannelClosed: the child is gone, or does not read its messages.
+            ChannelClosed: the child has ended, or does not read its messages.
         """
         if self._writer.is_closing():
             raise ChannelClosed("the process is gone")
@@ -294,11 +300,11 @@ class AsyncChannel(Generic[Sent, Received]):
         self._writer.write(encode(message))
 
     async def receive(self) -> Received:
-        """Returns the next message.
+        """Waits for the next message, and returns it.
 
         Raises:
-            ChannelClosed: the child is gone.
-            ChannelError: a message does not decode.
+            ChannelClosed: the child has ended.
+            ChannelError: a message cannot be decoded.
         """
         try:
             (length,) = _PREFIX.unpack(await self._reader.readexactly(_PREFIX.size))

@@ -1,4 +1,4 @@
-"""Ties the life of a child process to the manager: the first thing that a child does."""
+"""Binds the life of a child process to that of the manager; a child calls this first."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def _prctl(option: int, value: int) -> None:
 def die_with_parent() -> None:
     """Makes the kernel kill this process, and its forks from Python, when its parent ends.
 
-    The environment holds the parent's id, to notice a parent that ended before the call.
+    If the parent ended before the call, its id in the environment shows that, and this process ends.
     """
     _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     expected = os.environ.pop(PARENT_VARIABLE, "")
@@ -36,5 +36,5 @@ def die_with_parent() -> None:
 
 
 def adopt_orphans() -> None:
-    """Makes this process the parent of descendants whose own parent ends, so that it can end them."""
+    """Makes this process the parent of descendants that lose their own parent, so that it can end them."""
     _prctl(_PR_SET_CHILD_SUBREAPER, 1)

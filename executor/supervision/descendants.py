@@ -1,4 +1,4 @@
-"""All descendants of this process, without reading the state of every process of the machine each time."""
+"""Finds all descendants of this process without reading the state of every process each time."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ import psutil
 __all__ = ["Descendants"]
 
 NOBODY: Final = 0
-"""Parent id of the first process, of kernel threads, and of processes from outside of a container."""
+"""The parent id of the first process, of kernel threads, and of processes from outside of a container."""
 FORGET_EVERY: Final = 16
-"""Calls after which everything is read again, since process ids are reused."""
+"""Number of calls after which all processes are read again, since process ids are reused."""
 
 
 class Descendants:
-    """Finds the descendants of this process repeatedly.
+    """Finds the descendants of this process in repeated calls.
 
-    A descendant of a sub-reaper remains one for life, and no other process becomes one: so only processes
-    that are new since the last call are asked for their parent.
+    A descendant of a sub-reaper remains a descendant for its life, and no other process becomes one. So the
+    parent is read only of processes that are new since the last call.
     """
 
     def __init__(self) -> None:
@@ -41,7 +41,7 @@ class Descendants:
         return list(self._found.values())
 
     def _sort(self, new: set[int]) -> None:
-        """Sorts new processes into descendants and others, parents before their children."""
+        """Sorts new processes into descendants and others; handles parents before their children."""
         parents = {pid: _parent_of(pid) for pid in new}
         own = os.getpid()
         for pid in new - {own}:

@@ -1,4 +1,4 @@
-"""Files that their owner keeps locked while it lives."""
+"""Files that a process keeps locked during its life."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ YOUNGEST_S: Final = 1.0
 
 
 def is_young(file: Path) -> bool:
-    """Whether a file was made just now, or is gone."""
+    """Whether a file was made less than a moment ago, or does not exist."""
     try:
         return _is_recent(file.stat(follow_symlinks=False))
     except OSError:
@@ -25,7 +25,10 @@ def is_young(file: Path) -> bool:
 
 
 def is_abandoned(lock: Path) -> bool:
-    """Whether the lock is not held any more; a file that cannot be opened belongs to another user."""
+    """Whether no process holds the lock any more.
+
+    False for a file that cannot be opened, since it belongs to another user.
+    """
     try:
         descriptor = os.open(lock, os.O_RDONLY | os.O_CLOEXEC | os.O_NOFOLLOW)
     except OSError:

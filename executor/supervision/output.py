@@ -1,4 +1,4 @@
-"""Makes log messages of the standard streams of a child: lines are truncated and limited in rate."""
+"""Converts the standard streams of a child to log messages; lines are truncated and limited in rate."""
 
 from __future__ import annotations
 
@@ -63,9 +63,9 @@ class LineReader:
     """Reads one stream of a child until its end.
 
     Args:
-        level: of lines without a level; those of rclpy's logger have one.
-        report: takes each log message.
-        clock: monotonic seconds.
+        level: the level of lines that name none, unlike those of rclpy's logger.
+        report: is called with each log message.
+        clock: returns a monotonic time in s.
     """
 
     def __init__(self, level: LogLevel, report: Callable[[Log], None], clock: Callable[[], float]) -> None:

@@ -1,4 +1,4 @@
-"""One child process with its descendants: spawning, receiving, and ending the whole process tree."""
+"""One child process with its descendants: spawns it, receives its messages, and ends its process tree."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ CLOSED_CHANNEL_GRACE_S: Final = 1.0
 
 @dataclass(frozen=True)
 class Limits:
-    """Resource limits of a child; memory is limited for the process and for its process tree."""
+    """Resource limits of a child; memory is limited for the process itself, and for its process tree."""
 
     memory_bytes: int | None = None
     file_bytes: int | None = None
@@ -50,7 +50,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class Program:
-    """The command line of a kind of child; `--channel-fd N` is added where it has a channel."""
+    """The command line of a kind of child; `--channel-fd N` is added if the child has a channel."""
 
     arguments: tuple[str, ...]
     environment: Mapping[str, str] = field(default_factory=dict)
@@ -61,9 +61,9 @@ class ChildProcess:
     """A running child.
 
     Args:
-        program: what to run.
-        on_message: takes each message of the child, and its output as `Log` messages.
-        decode: makes a message of its bytes; None for a program without a channel.
+        program: the command line to run.
+        on_message: is called with each message of the child, and with its output as `Log` messages.
+        decode: converts bytes to a message; None for a program without a channel.
 
     Make it with `spawn`; `wait` returns once the process and all its descendants are gone.
     """
@@ -144,7 +144,10 @@ class ChildProcess:
         return tuple(self._err.last_lines)
 
     def tell(self, message: Told) -> None:
-        """Sends a message; it is lost if the child is gone, and a child that does not read is killed."""
+        """Sends a message to the child.
+
+        It is lost if the child has ended; a child that does not read is killed.
+        """
         if self._channel is None:
             return
         try:
@@ -153,9 +156,9 @@ class ChildProcess:
             self.kill(f"was ended: {error}")
 
     def look(self) -> tuple[str, float, float] | None:
-        """Samples the child: its state, and the seconds that it ran and waited since the last sample.
+        """Samples the child: its state, and how long it ran and waited for a processor since the last sample.
 
-        Returns None for the first sample, a child that is gone, and a child without a channel.
+        Returns None for the first sample, for a child that has ended, and for a child without a channel.
         """
         if self._channel is None or self.exited.done():
             return None
@@ -165,7 +168,10 @@ class ChildProcess:
         return self._signs.state, self._signs.ran_s - before.ran_s, self._signs.waited_s - before.waited_s
 
     async def trace(self) -> tuple[str, int]:
-        """Returns a dump of the child's stacks, and the tree node that is being ticked."""
+        """Returns a dump of the child's stacks, and the number of the tree node that is being ticked.
+
+        Without a dump they are "" and 0.
+        """
         if self._notes is None or self.exited.done():
             return "", 0
         text = await self._notes.trace(self.pid)
@@ -177,7 +183,7 @@ class ChildProcess:
             self._popen.send_signal(INTERRUPT_SIGNAL)
 
     def ask_to_end(self) -> None:
-        """Interrupts a child without a channel, as Ctrl+C would; others received a message."""
+        """Interrupts a child without a channel, as Ctrl+C would; other children were asked by a message."""
         if self._decode is None:
             with contextlib.suppress(ProcessLookupError, PermissionError):
                 os.killpg(self.pid, signal.SIGINT)
@@ -189,7 +195,7 @@ class ChildProcess:
             os.killpg(self.pid, signal.SIGKILL)
 
     async def wait(self) -> None:
-        """Waits until nothing of the child is left; then `reason` says how it ended."""
+        """Waits until no process of the child is left; `reason` then tells how it ended."""
         await self.exited
         code = self._popen.wait()
         self.reason = self.reason or _exit_reason(code, self._program.limits)
@@ -206,7 +212,7 @@ class ChildProcess:
             self._notes.close()
 
     def check_limits(self, descendants: Iterable[psutil.Process]) -> None:
-        """Kills a child whose processes, out of the given descendants, exceed its limits."""
+        """Kills the child if its processes, which are searched in `descendants`, exceed its limits."""
         limits = self._program.limits
         tree = self._tree(descendants)
         if limits.processes is not None and len(tree) > limits.processes:
@@ -217,7 +223,7 @@ class ChildProcess:
             )
 
     def tree(self) -> list[psutil.Process]:
-        """Returns the child and its living descendants, also those that left its process group."""
+        """Returns the child's process and its living descendants, also those that left its process group."""
         return self._tree(psutil.Process().children(recursive=True))
 
     def _tree(self, descendants: Iterable[psutil.Process]) -> list[psutil.Process]:
@@ -294,7 +300,7 @@ class ChildProcess:
             await asyncio.sleep(0.005 if round_ < 20 else 0.05)
 
     def _reap(self, killed: set[int]) -> None:
-        """Collects orphans of the child that ended."""
+        """Collects the exit status of orphans of the child that have ended."""
         for process in psutil.Process().children():
             with contextlib.suppress(psutil.Error, OSError):
                 is_ours = process.pid in killed or os.getsid(process.pid) == self.pid
@@ -314,7 +320,10 @@ def _exit_reason(code: int, limits: Limits) -> str:
 
 
 def _used_bytes(tree: Iterable[psutil.Process], limit: int) -> int:
-    """Returns the memory of a process tree. The slow exact count is made only if the rough one is high."""
+    """Returns the memory of a process tree in bytes.
+
+    Makes the slow exact count only if the rough one is near the limit.
+    """
     tree = list(tree)
     rough = _sum_up(tree, lambda process: process.memory_info().rss)
     return rough if rough <= limit else _sum_up(tree, lambda process: process.memory_full_info().pss)

@@ -1,9 +1,9 @@
 """Reports to the manager whether a child process hangs, and where.
 
-A separate thread sends a `Beat` four times a second from the start of the process. Without beats the process
-is frozen, or some code holds Python's interpreter lock. For that case the manager passes a file
-(`NOTES_VARIABLE`): on a signal, `faulthandler` dumps all stacks there, in C and so without the lock. The
-first bytes of the file hold the number of the tree node that is being ticked.
+A separate thread sends a `Beat` four times a second from the start of the process. If the beats stop, the
+process is frozen, or some code holds Python's interpreter lock. For that case the manager passes a file
+(`NOTES_VARIABLE`): on a signal, `faulthandler` writes all stacks into it, in C and therefore without the
+lock. The first bytes of the file hold the number of the tree node that is being ticked.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ __all__ = ["NOTES_BYTES", "NOTES_VARIABLE", "Pulse", "place_in_our_code"]
 
 NOTES_VARIABLE: Final = "BT_STUDIO_NOTES_FD"
 NOTES_BYTES: Final = mmap.PAGESIZE
-"""Offset of the stacks in the file; the number of the node is before it."""
+"""Offset of the stacks in the file; the number of the tree node is before it."""
 BEAT_S: Final = 0.25
 AWAY_S: Final = 0.5
 _ROOT: Final = str(Path(__file__).parents[2]) + os.sep
 
 
 def place_in_our_code(frame: FrameType | None) -> Place:
-    """Returns the innermost line of a stack that is in this repository; empty without one."""
+    """Returns the innermost line of a stack that is in this repository; an empty place if there is none."""
     while frame is not None:
         file = frame.f_code.co_filename
         if file.startswith(_ROOT) and "site-packages" not in file:
@@ -50,8 +50,8 @@ class Pulse:
     """Sends the beats of this process. Create it on the main thread, before anything slow.
 
     Attributes:
-        clocks: how often the process received, or published, simulated time.
-        locate: makes a place of a frame of the main thread.
+        clocks: number of times that the process received or published simulated time.
+        locate: returns the place of a frame of the main thread.
         current: the number of the tree node that is being ticked; the manager reads it from the file.
     """
 
@@ -70,13 +70,13 @@ class Pulse:
         self._turns += 1
 
     def rests(self) -> None:
-        """Notes that loading is done: the main thread runs its loop from now on."""
+        """Notes that loading has ended and the main thread runs its loop from now on."""
         self._task = ""
         self._turns += 1
 
     @contextmanager
     def busy(self, task: str) -> Iterator[None]:
-        """Marks a task of the main thread that may take long."""
+        """Marks a task of the main thread that may take long, while the context lasts."""
         before, self._task = self._task, task
         self._turns += 1
         try:
@@ -104,7 +104,10 @@ class Pulse:
 
 
 def _take_notes() -> list[int] | memoryview[int]:
-    """Registers the dump of stacks on the manager's signal; returns where to write the node's number."""
+    """Registers the stack dump for the manager's signal.
+
+    Returns the memory into which the node's number is written.
+    """
     given = os.environ.pop(NOTES_VARIABLE, "")
     if not given:
         return [0]

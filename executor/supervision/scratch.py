@@ -1,6 +1,7 @@
-"""A temporary folder that is removed after its process, even after a kill.
+"""A temporary folder that is removed after its process has ended, even if the process was killed.
 
-Its owner keeps a file in it locked. Creating a folder removes all folders whose lock is not held any more.
+The owner keeps a file in the folder locked. When a new folder is created, all folders whose lock is no longer
+held are removed.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ LOCK: Final = ".lock"
 
 
 class Scratch:
-    """A folder of this process.
+    """A temporary folder of this process.
 
     Raises:
         OSError: the disk is full.

@@ -1,8 +1,9 @@
 """Removes the shared memory that Fast DDS leaves in `/dev/shm` when its process is killed.
 
-Each segment `fastrtps_<id>` has a file `fastrtps_<id>_el` on which its owner holds a lock while it lives.
-A port `fastrtps_port<number>` belongs to its reader in the same way. But a writer to a reader that is gone
-creates the port again without a lock; `fastdds shm clean` does not remove it when the writer is killed too.
+Each segment `fastrtps_<id>` has a file `fastrtps_<id>_el`, which its owner keeps locked during its life. In
+the same way a port `fastrtps_port<number>` belongs to its reader. But if a process writes to a reader that
+has ended, it creates the port again without a lock; `fastdds shm clean` does not remove such a port after the
+writer is killed too.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ PORT: Final = re.compile(r"fastrtps_port\d+")
 
 
 def remove_abandoned_segments(folder: Path = FOLDER) -> int:
-    """Removes the segments whose owner is gone; returns their number."""
+    """Removes the segments whose owner has ended; returns their number."""
     locks = list(folder.glob(f"fastrtps_*{LOCK_SUFFIX}"))
     abandoned = [lock.name.removesuffix(LOCK_SUFFIX) for lock in locks if is_abandoned(lock)]
     abandoned += _ports_of_nobody(folder)

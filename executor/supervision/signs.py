@@ -21,10 +21,11 @@ _TICK_S: Final = 1.0 / os.sysconf("SC_CLK_TCK")
 
 @dataclass(frozen=True)
 class Signs:
-    """Times of the main thread in seconds since its start; `state` is the letter of proc(5).
+    """Times of a process's main thread in seconds since its start; `state` is the letter of proc(5).
 
-    `waited_s` is how long it was runnable without a processor. Other threads do not count: threads that wait
-    for the interpreter lock wake up all the time, which on a busy machine looks like a wait for a processor.
+    `waited_s` is the time for which it was ready to run, but had no processor. Other threads do not count:
+    threads that wait for the interpreter lock wake up all the time, and on a busy machine that looks like
+    waiting for a processor.
     """
 
     state: str
@@ -33,7 +34,7 @@ class Signs:
 
 
 def look_at(pid: int) -> Signs | None:
-    """Samples a process; None if it is gone."""
+    """Samples a process; returns None if it has ended."""
     try:
         # The name may contain any character; it ends at the last parenthesis.
         fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
@@ -47,10 +48,10 @@ def look_at(pid: int) -> Signs | None:
 
 
 class Notes:
-    """The file into which a process that does not respond dumps its stacks.
+    """The file into which a process that does not respond writes its stacks.
 
     Args:
-        fd: of the file; None makes one.
+        fd: the descriptor of the file; None creates a new file.
     """
 
     def __init__(self, fd: int | None = None) -> None:
@@ -60,11 +61,11 @@ class Notes:
         self.fd = fd
 
     def current_uid(self) -> int:
-        """The number of the tree node that is being ticked; 0 if none is."""
+        """Returns the number of the tree node that is being ticked; 0 if none is."""
         return int.from_bytes(os.pread(self.fd, 4, 0), "little")
 
     async def trace(self, pid: int) -> str:
-        """Returns a dump of a process's stacks; "" if it writes none."""
+        """Makes a process write its stacks, and returns them; "" if it writes none."""
         before = self._size()
         try:
             os.kill(pid, TRACE_SIGNAL)

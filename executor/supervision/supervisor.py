@@ -1,4 +1,4 @@
-"""Starts, supervises and ends the children of a session, as the effects of its state machine say."""
+"""Starts, supervises and ends the children of a session, as its state machine requires."""
 
 from __future__ import annotations
 
@@ -51,9 +51,11 @@ class Supervisor:
 
     Args:
         programs: the program of each kind of child.
-        report: takes `ChildSaid`, `ChildLooked`, `ChildTraced` and `ChildExited`, on the event loop.
-        on_frame: takes the frames, which bypass the state machine.
-        reaps_all: whether every other child of this process is an orphan of one of the children.
+        report: is called with each `ChildSaid`, `ChildLooked`, `ChildTraced` and `ChildExited`, on the event
+            loop.
+        on_frame: is called with each frame; frames bypass the state machine.
+        reaps_all: whether every other child process of this process is an orphan of one of the session's
+            children.
     """
 
     def __init__(
@@ -89,7 +91,7 @@ class Supervisor:
             self._report(ChildTraced(effect.kind, effect.number))
 
     async def close(self) -> None:
-        """Kills all children and waits until nothing of them is left."""
+        """Kills all children, and waits until none of their processes is left."""
         if self._checker is not None:
             self._checker.cancel()
         while self._tasks:
@@ -123,7 +125,7 @@ class Supervisor:
         task.add_done_callback(self._tasks.discard)
 
     async def _live(self, spawn: Spawn) -> None:
-        """Runs a child from its start to its exit."""
+        """Runs a child from its start to its exit, and reports its events."""
         key = (spawn.kind, spawn.number)
 
         def on_message(message: Said) -> None:

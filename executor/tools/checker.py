@@ -1,4 +1,4 @@
-"""One run of ruff on a text: with a timeout, and no configuration but its arguments."""
+"""Runs ruff once on a text: with a timeout, and without configuration except its arguments."""
 
 from __future__ import annotations
 
@@ -19,13 +19,19 @@ PROGRAM: Final = str(Path(sys.executable).with_name("ruff"))
 
 
 async def serve_checker(connection: ServerConnection) -> None:
-    """Takes `{arguments, source}`, answers `{status, output}`; a null status is a timeout."""
+    """Receives `{arguments, source}` as JSON, and answers `{status, output}`.
+
+    The status is null after a timeout.
+    """
     asked = json.loads(await connection.recv())
     await connection.send(json.dumps(await run_ruff(asked["arguments"], asked["source"])))
 
 
 async def run_ruff(arguments: list[str], source: str, program: str = PROGRAM) -> dict[str, Any]:
-    """Runs the program on a source."""
+    """Runs the program with a source as its input.
+
+    Returns its `status` (None after a timeout) and its `output`.
+    """
     process = await asyncio.create_subprocess_exec(
         program,
         *arguments,

@@ -1,14 +1,14 @@
 """One open editor: a folder with its project's Python, and a language server on it.
 
-The first message is our `{home, library, python}`, for the configuration that the web server writes. Then it
-sends
+The first message goes to the web server: `{home, library, python}`, the paths for the configuration that it
+writes. Then the web server sends
 
     {"files": {path: text, or null to remove}}   as text; the first starts the language server
     messages of the editor                       as bytes, relayed unchanged
 
-and gets the language server's bytes, and sometimes `{"memory_bytes": n}` as text. Order is preserved: a file
-that was sent before some bytes exists when the language server reads them. The connection ends when either
-side ends, with a reason if the disk is full.
+and receives the bytes of the language server, and sometimes `{"memory_bytes": n}` as text. Order is
+preserved: a file that was sent before some bytes exists when the language server reads them. The connection
+ends when either side ends, with a reason if the disk is full.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ _CHUNK_BYTES: Final = 64 * 1024
 
 
 async def serve_editor(connection: ServerConnection, home: Path, command: tuple[str, ...] = COMMAND) -> None:
-    """Serves one editor in an empty folder of its own, until either side ends."""
+    """Serves one editor in a new empty folder, until either side ends."""
     told = {"home": str(home), "library": LIBRARY, "python": sys.executable}
     await connection.send(json.dumps(told))
     try:
@@ -122,7 +122,7 @@ def put_files(home: Path, files: Mapping[str, str | None]) -> None:
     """Writes and removes files below a folder.
 
     Raises:
-        OSError: a path is outside of it, or the disk is full.
+        OSError: a path is outside of the folder, or the disk is full.
     """
     for path, text in files.items():
         parts = PurePosixPath(path).parts

@@ -32,9 +32,9 @@ class ToolsServer:
     """Serves the editors of one user.
 
     Args:
-        listener: the unix socket to listen at.
-        token: clients must send it as `Authorization: Bearer`.
-        grace_s: how long it stays without clients.
+        listener: the unix socket on which the server listens.
+        token: the token that clients must send as `Authorization: Bearer`.
+        grace_s: the seconds for which the server waits without clients before it ends.
     """
 
     def __init__(self, listener: socket.socket, token: str, *, grace_s: float) -> None:
@@ -46,7 +46,7 @@ class ToolsServer:
         self._timer: asyncio.TimerHandle | None = None
 
     async def run(self) -> None:
-        """Serves until `end`, or until there was no client for the grace period."""
+        """Serves until `end` is called, or until no client was connected for the grace period."""
         with tempfile.TemporaryDirectory(prefix="bt-studio-tools-") as folder:
             self._root = Path(folder)
             options = {"process_request": self._check, "max_size": MAX_MESSAGE_BYTES, "compression": None}
@@ -56,7 +56,7 @@ class ToolsServer:
                 await self._ended.wait()
 
     def end(self) -> None:
-        """Ends `run`."""
+        """Makes `run` return."""
         self._ended.set()
 
     def _wait_for_clients(self) -> None:

@@ -1,4 +1,4 @@
-"""YAML documents with the line of every value; aliases, tags and huge documents are refused."""
+"""Reads YAML documents with the line of every value; aliases, tags and huge documents are refused."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Problem:
 
 
 class DocumentError(Exception):
-    """A document that cannot be read; `problems` say why and where."""
+    """A document cannot be read; `problems` hold the reasons and their places."""
 
     def __init__(self, problems: list[Problem], file: str = "") -> None:
         self.problems = problems
@@ -43,7 +43,7 @@ class DocumentError(Exception):
 
 @dataclass(frozen=True)
 class Located:
-    """A document's value, with the place of each part."""
+    """The value of a document, with the place of each of its parts."""
 
     value: Any
     places: dict[Path, tuple[int, int]]
@@ -59,7 +59,7 @@ def read_yaml(text: str, file: str = "") -> Located:
     """Reads one YAML document.
 
     Raises:
-        DocumentError: it is not YAML, or uses a feature that is refused.
+        DocumentError: the text is not YAML, or uses a feature that is refused.
     """
     if len(text) > MAX_BYTES:
         raise DocumentError([Problem(f"the document is larger than {MAX_BYTES} bytes", code="BTU002")], file)

@@ -1,4 +1,4 @@
-"""Reads universe documents; errors have their line."""
+"""Reads universe documents; errors have a line."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ M = TypeVar("M", bound=BaseModel)
 
 
 class UniverseError(DocumentError):
-    """A universe that cannot be used; `problems` say why and where."""
+    """A universe cannot be used; `problems` hold the reasons and their places."""
 
 
 def builtin_path(universe_id: str) -> Path:
-    """Returns the file of a universe that we ship.
+    """Returns the file of a built-in universe.
 
     Raises:
         UniverseError: there is no such universe.
@@ -39,12 +39,12 @@ def builtin_path(universe_id: str) -> Path:
 
 
 def preview_path(universe_id: str) -> Path:
-    """Returns the path of the picture of a universe that we ship; `executor.generate.previews` draws it."""
+    """Returns the path of the picture of a built-in universe; `executor.generate.previews` draws it."""
     return _FOLDER / "previews" / f"{universe_id}.webp"
 
 
 def load_builtin(universe_id: str) -> Universe:
-    """Returns a universe that we ship."""
+    """Returns a built-in universe."""
     path = builtin_path(universe_id)
     return parse_universe(path.read_text(encoding="utf-8"), path.name)
 
@@ -53,7 +53,7 @@ def parse_universe(text: str, file: str = "universe.yaml") -> Universe:
     """Returns the universe that a document describes.
 
     Raises:
-        UniverseError: with every problem found and the line of each.
+        UniverseError: the document is invalid; the error holds every problem, each with its line.
     """
     try:
         return validate(read_yaml(text, file), Universe, file)
@@ -62,10 +62,10 @@ def parse_universe(text: str, file: str = "universe.yaml") -> Universe:
 
 
 def validate(document: Located, model: type[M], file: str) -> M:
-    """Checks a document against a model.
+    """Checks a document against a model, and returns it as an instance of the model.
 
     Raises:
-        DocumentError: with every problem found and the line of each.
+        DocumentError: the document is invalid; the error holds every problem, each with its line.
     """
     try:
         return model.model_validate(document.value)

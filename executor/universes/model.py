@@ -28,9 +28,9 @@ FILES: Final[dict[str, tuple[str, ...]]] = {
     "urdf": (".urdf", ".xacro"),
     "sdf": (".sdf",),
 }
-"""Suffixes of the file of each shape that has one."""
+"""Permitted suffixes of a model's file, for each shape that has a file."""
 TEXTURES: Final = ("asphalt", "brick", "carpet", "checker", "grass", "tiles", "wood")
-"""The textures that we ship."""
+"""Names of the built-in textures."""
 PICTURES: Final = (".png", ".jpg", ".jpeg")
 _AXES: Final = ("x", "y", "z", "roll", "pitch", "yaw")
 _RANDOM_KEY: Final = re.compile(
@@ -43,10 +43,10 @@ class _Strict(BaseModel):
 
 
 class _Painted(_Strict):
-    """A thing with a colour, and optionally a repeated texture.
+    """An object with a colour, and optionally a repeated texture.
 
-    `texture` is one of ours (`TEXTURES`) or a PNG or JPEG file of the project; `tile` is the width and
-    height of one repetition in m. The colour tints it; its default is then white.
+    `texture` is a built-in texture (`TEXTURES`), or a PNG or JPEG file of the project; `tile` is the width
+    and height of one repetition in m. The colour tints the texture; with a texture its default is white.
     """
 
     color: Color = "#ffffff"
@@ -95,17 +95,19 @@ class Ceiling(_Painted):
 
 
 class Model(_Painted):
-    """A thing; without mass it never moves. `size` is in m; `SIZE_MEANING` explains its values.
+    """An object of the world; without mass it never moves.
 
-    A mesh is read from `file`, a path in the project; its `size` is a scale. Without mass its
-    collision shape is the mesh itself, with mass its convex hull. Without `solid` it is visual only (paint, a
-    carpet, a line on the floor): robots and rays pass through it.
+    `size` is in m; `SIZE_MEANING` explains its values.
 
-    A `urdf` or `sdf` is a model of several links from `file`, with its own sizes and colours; its joints move
-    freely. Without mass its root is fixed; otherwise that is its total mass.
+    A mesh is read from `file`, a path in the project; its `size` is a scale. The collision shape of a mesh is
+    the mesh itself without mass, and its convex hull with mass. A model without `solid` is visual only
+    (paint, a carpet, a line on the floor): robots and rays pass through it.
 
-    Robots' cameras see a wall with `to_ceiling` up to the universe's ceiling; views of the world show its own
-    height, so that rooms can be seen. Its own height counts for rays and bodies.
+    A `urdf` or `sdf` is read from `file` and has several links, with their own sizes and colours; its joints
+    move freely. Without `mass` its root link is fixed; otherwise `mass` is its total mass.
+
+    For robots' cameras, a wall with `to_ceiling` reaches the universe's ceiling. Views of the world show the
+    wall's own height, so that rooms can be seen; rays and bodies meet that height too.
     """
 
     id: Name
@@ -122,7 +124,7 @@ class Model(_Painted):
 
     @property
     def is_assembly(self) -> bool:
-        """Whether it is made of links and joints."""
+        """Whether the model is made of links and joints."""
         return self.shape in ("urdf", "sdf")
 
     @model_validator(mode="after")
@@ -180,7 +182,7 @@ class Actor(_Strict):
 class RobotPlace(_Strict):
     """A robot and its initial pose; `topics` renames the topics of its sensors.
 
-    With `ground_truth` it publishes its true pose on `/ground_truth/odom`.
+    With `ground_truth` the robot publishes its true pose on `/ground_truth/odom`.
     """
 
     id: Name = "robot"
@@ -214,7 +216,7 @@ class View(_Strict):
 
 
 class Universe(_Strict):
-    """A world: ground, ceiling, things, people, robots and light."""
+    """A universe: ground, ceiling, models, people, robots and light."""
 
     format: Literal["bt-studio/universe"]
     version: Literal[1]
@@ -258,7 +260,7 @@ class Universe(_Strict):
         return [*self.models, *self.actors, *self.robots]
 
     def random_target(self, key: str) -> tuple[str, str, int]:
-        """Returns (id, field, index into the field or -1) of a key of `random`."""
+        """Returns (id, field, index into the field or -1) for a key of `random`."""
         match = _RANDOM_KEY.match(key)
         if match is None:
             raise KeyError(key)

@@ -1,4 +1,4 @@
-"""Writes the JSON Schemas of our YAML formats: `python -m executor.universes.reference`."""
+"""Writes the JSON Schemas of the universe format: `python -m executor.universes.reference`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Makes a universe of an SDF world: the supported part, and a list of what was left out."""
+"""Converts an SDF world to a universe, and lists the elements that were left out."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _GREY: Final = "#9aa4b0"
 
 @dataclass
 class Imported:
-    """A universe's document, as YAML, and the parts of the world that were left out."""
+    """A universe's document as YAML, and the elements of the SDF world that were left out."""
 
     text: str
     left_out: list[Problem] = field(default_factory=list)
@@ -37,7 +37,7 @@ def import_sdf(data: bytes, file: str = "world.sdf") -> Imported:
     """Returns the universe of an SDF world.
 
     Raises:
-        UniverseError: it is no SDF, or has no supported part.
+        UniverseError: the document is not an SDF, or has no supported element.
     """
     reader = _Reader(file)
     document = reader.world(_parse(data, file))

@@ -1,4 +1,4 @@
-"""PyBullet without its global state: one physics server, whose id is added to every call."""
+"""PyBullet without its global state: one physics server, whose id is passed to every call."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def _silenced() -> Iterator[None]:
-    """Suppresses the greeting that PyBullet prints at import in C: stdout may have to be JSON."""
+    """Suppresses the greeting that PyBullet prints in C at its import, since stdout may have to be JSON."""
     sys.stdout.flush()
     saved = [os.dup(1), os.dup(2)]
     null = os.open(os.devnull, os.O_WRONLY)

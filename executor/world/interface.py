@@ -1,4 +1,7 @@
-"""Interface of a world, whatever its physics engine. Times are simulated seconds, frames follow REP-103."""
+"""Interface of a world, independent of its physics engine.
+
+Times are simulated seconds, frames follow REP-103.
+"""
 
 from __future__ import annotations
 
@@ -22,12 +25,15 @@ if TYPE_CHECKING:
 
 
 class WorldError(Exception):
-    """The world cannot do a request."""
+    """The world cannot carry out a request."""
 
 
 @dataclass(frozen=True)
 class LidarReading:
-    """One scan, counter-clockwise from straight ahead; REP-117: +inf out of range, -inf too near."""
+    """One scan, counter-clockwise from straight ahead.
+
+    As in REP-117, +inf is out of range, -inf is too near.
+    """
 
     time_s: float
     ranges: NDArray[np.float32]
@@ -39,32 +45,33 @@ class Robot(Protocol):
 
     @property
     def id(self) -> str:
-        """Its name in the universe."""
+        """The robot's name in the universe."""
 
     @property
     def config(self) -> RobotConfig:
-        """Its configuration."""
+        """The robot's configuration."""
 
     @property
     def odometry(self) -> Odometry:
-        """Pose and twist by its wheels."""
+        """Pose and twist of the robot as its wheels measure them."""
 
     @property
     def pose(self) -> tuple[float, float, float]:
-        """True x and y in m and yaw in rad."""
+        """True pose of the robot: x and y in m, yaw in rad."""
 
     @property
     def distance_m(self) -> float:
-        """Distance that the true pose has travelled since the start."""
+        """Distance in m that the robot has travelled since the start, by its true pose."""
 
     @property
     def collisions(self) -> int:
         """Number of collisions since the start."""
 
     def command(self, linear: float, angular: float, at_s: float | None = None) -> bool:
-        """Sets the target twist in m/s and rad/s; refuses (False) one that is not finite.
+        """Sets the target twist in m/s and rad/s; returns False if it is not finite.
 
-        `at_s` is its simulated time; None is now. It is valid for the drive's timeout.
+        `at_s` is the simulated time of the command; None is now. The command is valid for the timeout of the
+        drive.
         """
 
     @property
@@ -73,16 +80,16 @@ class Robot(Protocol):
 
     @property
     def twist(self) -> tuple[float, float, float]:
-        """True speed along x and y of the robot, in m/s, and about z, in rad/s."""
+        """True speed along the robot's x and y in m/s, and about z in rad/s."""
 
     def stop(self) -> None:
         """Sets the target velocity to zero."""
 
     def command_joint(self, joint: str, position: float) -> bool:
-        """Sets the target of a joint with a motor in rad or m; refuses (False) one that is not finite."""
+        """Sets the target position of a motor's joint in rad or m; returns False if it is not finite."""
 
     def joint_states(self) -> dict[str, tuple[float, float]]:
-        """Returns position in rad or m and rate of each joint with a motor, the wheels' first."""
+        """Returns the position in rad or m and the rate of each joint with a motor; the wheels come first."""
 
     def scan(self, lidar: Lidar) -> LidarReading:
         """Returns a scan at the current time."""
@@ -97,11 +104,11 @@ class Robot(Protocol):
         """Returns the zones of the bumper that are pressed."""
 
     def camera_pose(self, camera: Camera) -> Pose:
-        """Returns the pose of a camera in the world; it looks along x, with z up in the image."""
+        """Returns the pose of a camera in the world: it looks along x, and z points up in the image."""
 
 
 class World(Protocol):
-    """A simulated world; time passes only in `step`."""
+    """A simulated world; its time passes only during `step`."""
 
     @property
     def name(self) -> str:
@@ -109,15 +116,15 @@ class World(Protocol):
 
     @property
     def time_s(self) -> float:
-        """Simulated time since the last reset."""
+        """Simulated time in s since the last reset."""
 
     @property
     def step_s(self) -> float:
-        """Length of a step."""
+        """Length of a step in s."""
 
     @property
     def scene(self) -> Scene:
-        """The scene; `poses` are those of its objects, in the same order."""
+        """The scene; `poses` returns the poses of its objects in the same order."""
 
     @property
     def robots(self) -> Sequence[Robot]:
@@ -130,7 +137,7 @@ class World(Protocol):
         """Restores the initial state."""
 
     def save(self) -> Any:
-        """Returns the full state, for `restore` of the same world."""
+        """Returns the full state of this world, for `restore`."""
 
     def restore(self, state: Any) -> None:
         """Restores a saved state; the simulation continues exactly as it did then."""
@@ -139,17 +146,20 @@ class World(Protocol):
         """Frees a saved state."""
 
     def poses(self) -> NDArray[np.float32]:
-        """Poses of the scene's objects, one row [x, y, z, qx, qy, qz, qw] each. Do not write into it."""
+        """Returns the poses of the scene's objects, one row [x, y, z, qx, qy, qz, qw] each.
+
+        Do not write into the array.
+        """
 
     def move_body(self, body: str, pose: Sequence[float]) -> None:
-        """Drags a body to [x, y, z, roll, pitch, yaw].
+        """Moves a body to the pose [x, y, z, roll, pitch, yaw].
 
         Raises:
             WorldError: there is no such body, or it cannot be moved.
         """
 
     def take_collisions(self) -> list[tuple[str, Collision]]:
-        """Returns the (robot, collision) pairs since the last call."""
+        """Returns the collisions since the last call, each with its robot."""
 
     def close(self) -> None:
         """Frees the physics engine. May be called twice."""

@@ -1,7 +1,7 @@
 """The world as a process of its own: `python -m executor.world.process --channel-fd N`.
 
-It receives and sends messages on its channel (`executor.child_messages`); the other end is the session. It
-may be started as a spare: it loads slow modules, and waits for ``start``.
+It exchanges messages (`executor.child_messages`) with the session on its channel. The process may be started
+as a spare: it then loads slow modules, and waits for the message ``start``.
 """
 
 from __future__ import annotations
@@ -43,11 +43,11 @@ StreamMessage = child_messages.Subscribe | child_messages.Unsubscribe | child_me
 
 
 class _Stop(Exception):  # noqa: N818 - the way out, not an error
-    """The manager stopped the world."""
+    """Raised when the manager stops the world."""
 
 
 class WorldProcess:
-    """Receives messages and runs the loop, in one thread."""
+    """Receives messages and runs the simulation loop, in one thread."""
 
     def __init__(self, channel: Channel[FromWorld, ToWorld], pulse: Pulse) -> None:
         self._channel = channel
@@ -60,7 +60,7 @@ class WorldProcess:
         """The token of the request under way."""
 
     def run(self) -> None:
-        """Runs until it is stopped, or the manager is gone."""
+        """Runs until the world is stopped or the manager has ended."""
         try:
             self._warm_up()
             self._pulse.rests()
@@ -84,7 +84,7 @@ class WorldProcess:
             self._loop.run_due(time.monotonic())
 
     def _warm_up(self) -> None:
-        """Loads modules that `start` would otherwise wait for."""
+        """Loads modules in advance, so that `start` does not have to wait for them."""
         from executor.render import make_renderer  # noqa: PLC0415 - slow to load
         from executor.ros import node  # noqa: F401, PLC0415 - ROS reads the environment when it is loaded
         from executor.world.physics import bullet  # noqa: F401, PLC0415
@@ -94,7 +94,10 @@ class WorldProcess:
         self._context = self._join(int(os.environ.get("ROS_DOMAIN_ID", "0")))
 
     def _join(self, domain_id: int) -> Context:
-        """Joins a ROS graph; a spare joins the one of the environment before `start`."""
+        """Returns the context of a ROS graph.
+
+        A spare has joined the graph of its environment before `start`.
+        """
         if self._context is not None and self._context.get_domain_id() == domain_id:
             return self._context
         import rclpy  # noqa: PLC0415 - ROS reads the environment when it is loaded
@@ -247,7 +250,7 @@ class WorldProcess:
         self._request = None
 
     def _answer(self, message: child_messages.Answer | TopicReply) -> None:
-        """Sends a message with the token of the request that it answers, if there is one."""
+        """Sends a message to the manager, with the token of the request that it answers, if there is one."""
         message.request = self._request
         self._channel.send(message)
 

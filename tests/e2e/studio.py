@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 # The limit of the page for a click, a fill or an expectation.
 WAIT_MSEC = 60_000
 OUTPUT = Path(__file__).parent / "output"
+# The canvas has its whole width: a lesson opens in the walks that ask for it.
+NO_LESSONS = (
+    """localStorage.getItem("bts.lessons") ?? localStorage.setItem("bts.lessons", '{"opens":false}')"""
+)
 # The page shows a refused or lost request; the browser's own note of it is not an error of the page.
 EXPECTED_NOTES = re.compile(
     r"Failed to load resource|WebSocket connection to .* failed|GPU stall|GL Driver Message"
@@ -34,6 +38,7 @@ class Studio:
         self.server = server
         self.complaints: list[str] = []
         page.context.set_default_timeout(WAIT_MSEC)
+        page.add_init_script(NO_LESSONS)
         page.on("console", self._note)
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
 

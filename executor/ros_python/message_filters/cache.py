@@ -18,7 +18,7 @@ class Cache(SimpleFilter):
         self.connectInput(f)
 
     def connectInput(self, f: Any) -> None:  # noqa: N802 - its name in ROS
-        """Stores the output of a filter."""
+        """Connects the output of a filter as the input of this cache."""
         self.incoming_connection = f.registerCallback(self.add)
 
     def add(self, msg: Any) -> None:
@@ -37,11 +37,11 @@ class Cache(SimpleFilter):
         return [msg for stamp, msg in self._kept() if from_stamp <= stamp <= to_stamp]
 
     def getElemAfterTime(self, stamp: Any) -> Any:  # noqa: N802 - its name in ROS
-        """Returns the oldest message of that time or after it; None if there is none."""
+        """Returns the oldest message at this time or later; None if there is none."""
         return next((msg for time, msg in self._kept() if time >= stamp), None)
 
     def getElemBeforeTime(self, stamp: Any) -> Any:  # noqa: N802 - its name in ROS
-        """Returns the newest message of that time or before it; None if there is none."""
+        """Returns the newest message at this time or earlier; None if there is none."""
         return next((msg for time, msg in reversed(self._kept()) if time <= stamp), None)
 
     def getLatestTime(self) -> Any:  # noqa: N802 - its name in ROS

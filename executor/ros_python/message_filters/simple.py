@@ -1,4 +1,4 @@
-"""The base class of all filters, and the filter of a subscription."""
+"""The base class of all filters, and `Subscriber`, the filter of a subscription."""
 
 from __future__ import annotations
 
@@ -15,13 +15,16 @@ DEFAULT_DEPTH = 10
 
 
 class SimpleFilter:
-    """Calls its callbacks with each output."""
+    """Base class of filters: it calls the registered callbacks with each output."""
 
     def __init__(self) -> None:
         self.callbacks: dict[int, tuple[Callable[..., Any], tuple[Any, ...]]] = {}
 
     def registerCallback(self, cb: Callable[..., Any], *args: Any) -> int:  # noqa: N802 - its name in ROS
-        """Registers `cb`, which is called with each output and then `args`."""
+        """Registers `cb`, which is called with each output followed by `args`.
+
+        Returns the number of the callback.
+        """
         connection = len(self.callbacks)
         self.callbacks[connection] = (cb, args)
         return connection
@@ -58,7 +61,10 @@ class Subscriber(SimpleFilter):
 
 
 def stamp_of(message: Any, *, allow_headerless: bool, who: str) -> Time | None:
-    """Returns the stamp of a message; the current time for one without header, if that is allowed."""
+    """Returns the stamp of a message.
+
+    For a message without header, returns the current time if `allow_headerless` is set, otherwise None.
+    """
     stamp = getattr(getattr(message, "header", None), "stamp", None)
     if stamp is not None:
         return stamp if hasattr(stamp, "nanoseconds") else Time.from_msg(stamp)

@@ -25,7 +25,7 @@ class TimeSynchronizer(SimpleFilter):
         self.connectInput(fs)
 
     def connectInput(self, fs: Sequence[Any]) -> None:  # noqa: N802 - its name in ROS
-        """Takes the outputs of filters as inputs."""
+        """Connects the outputs of filters as inputs."""
         self.queues: list[dict[int, Any]] = [{} for _ in fs]
         self.input_connections = [
             source.registerCallback(self.add, queue, index)
@@ -33,7 +33,7 @@ class TimeSynchronizer(SimpleFilter):
         ]
 
     def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int | None = None) -> None:
-        """Takes a message of one input."""
+        """Adds a message of one input; passes on a complete set."""
         stamp = stamp_of(msg, allow_headerless=False, who="message_filters")
         if stamp is None:
             return
@@ -55,8 +55,8 @@ class TimeSynchronizer(SimpleFilter):
 class ApproximateTimeSynchronizer(TimeSynchronizer):
     """Passes on one message of each input when their stamps differ by less than `slop` seconds.
 
-    Of each other input, the message nearest to the new one is tried first. With `allow_headerless`, a message
-    without a stamp counts from the time of its arrival.
+    For each of the other inputs, the message whose stamp is nearest to that of the new one is tried first.
+    With `allow_headerless`, a message without a stamp gets the time of its arrival.
     """
 
     def __init__(
@@ -71,7 +71,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         super().__init__(fs, queue_size)
 
     def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int | None = None) -> None:
-        """Takes a message of one input."""
+        """Adds a message of one input; passes on a complete set."""
         stamp = stamp_of(msg, allow_headerless=self.allow_headerless, who="message_filters_approx")
         if stamp is None:
             return
@@ -85,12 +85,18 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
                 self._put_out(stamps)
 
     def _near(self, queue: dict[int, Any], now: int) -> list[int]:
-        """Returns stamps within the slop, the nearest first, and the older of two as near."""
+        """Returns the stamps of a queue that are within the slop of `now`, nearest first.
+
+        Of two equally near stamps the older one is first.
+        """
         near = [stamp for stamp in queue if abs(stamp - now) <= self.slop.nanoseconds]
         return sorted(near, key=lambda stamp: (abs(stamp - now), stamp))
 
     def _fitting(self, near: Sequence[Sequence[int]], taken: list[int]) -> list[int] | None:
-        """Returns the first choice of one stamp of each whose spread is less than the slop."""
+        """Returns one stamp from each list in `near`: the first choice whose spread is less than the slop.
+
+        Returns None if there is none.
+        """
         if taken and max(taken) - min(taken) >= max(self.slop.nanoseconds, 1):
             return None
         if len(taken) == len(near):

@@ -38,10 +38,11 @@ def read_points(
 
     Args:
         cloud: the message.
-        field_names: what to read; all fields if None.
-        skip_nans: leaves points out that are not a number in one of the fields.
-        uvs: reads only those points: indices, or pairs of column and row of an organised cloud.
-        reshape_organized_cloud: returns rows and columns instead of a list.
+        field_names: the fields to read; None reads all fields.
+        skip_nans: whether to leave out points with a value that is not a number.
+        uvs: the points to read: indices, or pairs of column and row of an organised cloud; None reads all
+            points.
+        reshape_organized_cloud: whether an organised cloud is returned with rows and columns.
     """
     kind = dtype_from_fields(cloud.fields, cloud.point_step)
     rows = np.frombuffer(cloud.data, np.uint8).reshape(cloud.height, cloud.row_step)
@@ -75,7 +76,10 @@ def read_points_numpy(
     uvs: Iterable[Any] | None = None,
     reshape_organized_cloud: bool = False,  # noqa: FBT001, FBT002 - as in ROS
 ) -> Any:
-    """Returns the points of a cloud whose fields are of one type as a plain array: a row for each point."""
+    """Returns the points of a cloud as a plain array with a row for each point.
+
+    All fields that are read must have one type.
+    """
     wanted = [field for field in cloud.fields if field_names is None or field.name in field_names]
     if len({field.datatype for field in wanted}) > 1:
         raise ValueError("the fields are of several types; read_points can read them")
@@ -97,9 +101,9 @@ def read_points_list(
 
 
 def dtype_from_fields(fields: Iterable[Any], point_step: int | None = None) -> np.dtype[Any]:
-    """Returns the type of one point.
+    """Returns the numpy type of one point.
 
-    A field of several values has a column for each, `name_0`, `name_1` …; one without a name is called by
+    A field of several values has a column for each, `name_0`, `name_1` …; a field without a name is called by
     its number.
     """
     names, formats, offsets = [], [], []
@@ -124,11 +128,11 @@ def create_cloud(header: Any, fields: Sequence[Any], points: Any, point_step: in
     """Returns a cloud.
 
     Args:
-        header: its header.
-        fields: what a point is made of.
-        points: a structured array, an array with a row for each point, or rows of values; of two
-            dimensions of points for an organised cloud.
-        point_step: bytes of a point, if more than its fields have.
+        header: the header of the message.
+        fields: the fields of a point.
+        points: a structured array, an array with a row for each point, or rows of values; for an organised
+            cloud, the points have two dimensions.
+        point_step: the bytes of a point, if they are more than those of its fields.
     """
     kind = dtype_from_fields(fields, point_step)
     table = points if isinstance(points, np.ndarray) else np.array([tuple(each) for each in points], kind)

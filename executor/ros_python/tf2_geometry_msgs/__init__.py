@@ -1,4 +1,4 @@
-"""Transforms of `geometry_msgs` for `tf2_ros.Buffer.transform`; importing it is enough."""
+"""Registers transforms of `geometry_msgs` for `tf2_ros.Buffer.transform` when it is imported."""
 
 from geometry_msgs.msg import PointStamped, PoseStamped, PoseWithCovarianceStamped, Vector3Stamped
 from tf2_geometry_msgs.tf2_geometry_msgs import (

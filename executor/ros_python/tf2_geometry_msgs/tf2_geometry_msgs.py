@@ -78,7 +78,7 @@ def do_transform_wrench(wrench: Any, transform: Any) -> Any:
 
 
 def transform_covariance(cov_in: Any, transform: Any) -> Any:
-    """Returns a covariance of x, y, z and the rotations about them, in the transform's axes: R C Rᵀ."""
+    """Returns a covariance of x, y, z and the rotations about them, rotated into another frame: R C Rᵀ."""
     turn = _motion(transform).rotation
     columns = [rotate(turn, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
     both = np.kron(np.eye(2), np.array(columns).T)
@@ -86,7 +86,7 @@ def transform_covariance(cov_in: Any, transform: Any) -> Any:
 
 
 def to_msg_msg(msg: Any) -> Any:
-    """Returns the message itself."""
+    """Returns the message unchanged."""
     return msg
 
 

@@ -28,14 +28,21 @@ _NOT_NORMALISED = 1e-2  # tolerated deviation of a quaternion's squared length f
 
 
 class _Climb(NamedTuple):
-    """A path up the tree: its frames, the pose of the first one in each, and why the path ended."""
+    """A path up the tree.
+
+    `frames` holds the pose of the first frame in each frame of the path; `ended` is the error that ended the
+    path, or None.
+    """
 
     frames: dict[str, Motion]
     ended: ExtrapolationException | None
 
 
 class BufferCore:
-    """Stores transforms for `cache_time`, 10 s by default; static ones without limit."""
+    """Stores transforms for `cache_time`, which is 10 s by default.
+
+    Static transforms are stored without limit.
+    """
 
     def __init__(self, cache_time: Any = None) -> None:
         self._cache_ns = Duration(seconds=CACHE_S).nanoseconds if cache_time is None else _ns(cache_time)
@@ -76,7 +83,7 @@ class BufferCore:
 
         Raises:
             LookupException: a frame is not known.
-            ConnectivityException: nothing connects them.
+            ConnectivityException: the frames are not connected.
         """
         with self._lock:
             self._check("get_latest_common_time", target_frame, source_frame)
@@ -85,15 +92,16 @@ class BufferCore:
     # --- look-ups ---
 
     def lookup_transform_core(self, target_frame: str, source_frame: str, time: Any) -> Any:
-        """Returns the transform that takes what is in `source_frame` into `target_frame`.
+        """Returns the transform of data from `source_frame` into `target_frame`.
 
-        `time` is a `rclpy.time.Time` or the message of one; 0 is the latest for which both are known.
+        `time` is a `rclpy.time.Time` or the message of one; 0 means the latest time for which both frames are
+        known.
 
         Raises:
             LookupException: a frame is not known.
-            ConnectivityException: nothing connects them.
+            ConnectivityException: the frames are not connected.
             ExtrapolationException: the time is outside of the stored samples.
-            InvalidArgumentException: a name is none.
+            InvalidArgumentException: the name of a frame is invalid.
         """
         with self._lock:
             self._check("lookupTransform", target_frame, source_frame)
@@ -103,10 +111,10 @@ class BufferCore:
     def lookup_transform_full_core(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> Any:
-        """Returns the transform from one frame at one time into another at another time.
+        """Returns the transform from one frame at one time into another frame at another time.
 
-        Between the two times, the source is assumed to be at rest in `fixed_frame`. Raises as
-        `lookup_transform_core`.
+        Between the two times, the source is assumed to be at rest in `fixed_frame`. Raises the same
+        exceptions as `lookup_transform_core`.
         """
         with self._lock:
             self._check("lookupTransform", target_frame, source_frame, fixed_frame)
@@ -115,7 +123,7 @@ class BufferCore:
         return _message(target_frame, source_frame, stamp_ns, compose(from_fixed, into_fixed))
 
     def can_transform_core(self, target_frame: str, source_frame: str, time: Any) -> tuple[bool, str]:
-        """Returns whether `lookup_transform_core` would succeed, and the reason if not."""
+        """Returns whether `lookup_transform_core` would succeed, and the reason if it would not."""
         try:
             self.lookup_transform_core(target_frame, source_frame, time)
         except TransformException as error:
@@ -125,7 +133,7 @@ class BufferCore:
     def can_transform_full_core(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> tuple[bool, str]:
-        """Returns whether `lookup_transform_full_core` would succeed, and the reason if not."""
+        """Returns whether `lookup_transform_full_core` would succeed, and the reason if it would not."""
         try:
             self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
         except TransformException as error:
@@ -183,7 +191,10 @@ class BufferCore:
         return _Climb(frames, None)
 
     def _latest_common(self, target: str, source: str) -> int:
-        """Returns the time of the oldest of the latest samples on the path; 0 if all are static."""
+        """Returns the latest time for which all frames on the path have a sample.
+
+        0 if all frames are static.
+        """
         up, down = self._latest_of(source), self._latest_of(target)
         common = next((frame for frame in down if frame in up), None)
         if common is None:
@@ -192,7 +203,10 @@ class BufferCore:
         return 0 if math.isinf(latest_ns) else int(latest_ns)
 
     def _latest_of(self, frame: str) -> dict[str, float]:
-        """Returns the ancestors of a frame, and the latest time of the path to each; inf if it is static."""
+        """Returns each ancestor of a frame with the latest time for which the path to it is known.
+
+        Inf if the path is static.
+        """
         known, found = math.inf, {frame: math.inf}
         while (history := self._frames.get(frame)) and (sample := history.latest):
             if not history.is_static:
@@ -242,7 +256,7 @@ class BufferCore:
 
 
 def _problem_of(child: str, parent: str, transform: Any) -> str:
-    """Returns why a transform is invalid; empty if it is valid."""
+    """Returns the reason why a transform is invalid; "" if it is valid."""
     if not child or not parent:
         return "a frame has no name"
     if child == parent:
@@ -272,7 +286,7 @@ def _message(target: str, source: str, stamp_ns: int, motion: Motion) -> Any:
 
 
 def _ns(time: Any) -> int:
-    """Returns nanoseconds of a `Time`, a `Duration`, or the message of one."""
+    """Returns a `Time`, a `Duration`, or the message of one of them, in nanoseconds."""
     if hasattr(time, "nanoseconds"):
         return int(time.nanoseconds)
     return int(time.sec) * 1_000_000_000 + int(time.nanosec)

@@ -22,4 +22,4 @@ class InvalidArgumentException(TransformException):
 
 
 class TimeoutException(TransformException):
-    """There was no transform before the timeout."""
+    """No transform was found before the timeout."""

@@ -19,7 +19,10 @@ class Sample(NamedTuple):
 
 
 class History:
-    """The samples of one frame, in the order of their stamps; a static frame has one that is always valid."""
+    """The samples of one frame, in the order of their stamps.
+
+    A static frame has one sample, which is always valid.
+    """
 
     def __init__(self, cache_ns: int, *, is_static: bool = False) -> None:
         self.is_static = is_static
@@ -27,7 +30,7 @@ class History:
         self._samples: list[Sample] = []
 
     def add(self, sample: Sample) -> bool:
-        """Adds a sample and removes old ones; returns whether it was new and not too old."""
+        """Adds a sample and removes old ones; returns False if the sample is not new, or too old."""
         if self.is_static:
             self._samples = [sample]
             return True
@@ -44,22 +47,22 @@ class History:
 
     @property
     def latest(self) -> Sample | None:
-        """The sample of the latest stamp."""
+        """The sample with the latest stamp; None if there is no sample."""
         return self._samples[-1] if self._samples else None
 
     @property
     def oldest(self) -> Sample | None:
-        """The sample of the earliest stamp."""
+        """The sample with the earliest stamp; None if there is no sample."""
         return self._samples[0] if self._samples else None
 
     def __len__(self) -> int:
         return len(self._samples)
 
     def at(self, stamp_ns: int) -> Sample:
-        """Returns the sample at a time, interpolated; 0 is the latest stamp.
+        """Returns the interpolated sample at a time; 0 means the latest stamp.
 
         Raises:
-            ExtrapolationException: the moment lies outside of the history.
+            ExtrapolationException: the time is outside of the stored samples.
         """
         if self.is_static or stamp_ns == 0:
             return self._samples[-1]

@@ -12,7 +12,7 @@ _NEARLY_PARALLEL = 1.0 - 1e-9
 
 
 class Motion(NamedTuple):
-    """Transforms a point from the child's frame into the parent's."""
+    """A translation and a rotation; it transforms a point from the child's frame into the parent's."""
 
     translation: Vector = (0.0, 0.0, 0.0)
     rotation: Turn = (0.0, 0.0, 0.0, 1.0)

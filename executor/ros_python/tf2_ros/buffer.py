@@ -21,12 +21,12 @@ POLL_S = 0.01
 
 
 class Buffer(BufferCore, BufferInterface):
-    """Holds transforms; a `TransformListener` fills it.
+    """Stores the transforms that a `TransformListener` receives.
 
-    Given a node, it offers the service `tf2_frames`, and removes its samples when the node's time jumps
-    back. While `lookup_transform` waits, it takes the messages of its listeners itself: the executor of a
-    node with one thread is blocked in the callback that waits. In lock-step no time passes during a callback,
-    so there it does not wait.
+    With a node, the buffer offers the service `tf2_frames`, and removes its samples when the node's time
+    jumps back. While `lookup_transform` waits, it reads the messages of its listeners itself, since a
+    single-threaded executor is blocked in the callback that waits. In lock-step no time passes during a
+    callback, so it does not wait.
     """
 
     def __init__(self, cache_time: Any = None, node: Any = None) -> None:
@@ -43,7 +43,7 @@ class Buffer(BufferCore, BufferInterface):
         self.jump_handle = self.clock.create_jump_callback(threshold, post_callback=self.time_jump_callback)
 
     def time_jump_callback(self, time_jump: Any) -> None:
-        """Removes the samples from before a time jump."""
+        """Removes all samples after a jump of time."""
         get_logger("tf2_buffer").warning("Detected jump back in time. Clearing tf buffer.")
         self.clear()
 
@@ -63,7 +63,7 @@ class Buffer(BufferCore, BufferInterface):
         """Returns the transform from `source_frame` into `target_frame`; waits for it up to `timeout`.
 
         Raises:
-            TransformException: there is none; its kind says why.
+            TransformException: the transform is not known; the subclass tells the reason.
         """
         self._wait(lambda: self.can_transform_core(target_frame, source_frame, time)[0], timeout)
         return self.lookup_transform_core(target_frame, source_frame, time)
@@ -77,7 +77,10 @@ class Buffer(BufferCore, BufferInterface):
         fixed_frame: str,
         timeout: Any = None,
     ) -> Any:
-        """Returns the transform from one frame at one time into another at another time."""
+        """Returns the transform from one frame at one time into another frame at another time.
+
+        Waits for it up to `timeout`.
+        """
         ways = (target_frame, target_time, source_frame, source_time, fixed_frame)
         self._wait(lambda: self.can_transform_full_core(*ways)[0], timeout)
         return self.lookup_transform_full_core(*ways)
@@ -90,7 +93,10 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Any = None,
         return_debug_tuple: bool = False,  # noqa: FBT001, FBT002 - as in tf2
     ) -> Any:
-        """Returns whether there is a transform, after waiting up to `timeout`; optionally with the reason."""
+        """Returns whether a transform is known, after waiting for it up to `timeout`.
+
+        With `return_debug_tuple` also the reason.
+        """
         self._wait(lambda: self.can_transform_core(target_frame, source_frame, time)[0], timeout)
         result = self.can_transform_core(target_frame, source_frame, time)
         return result if return_debug_tuple else result[0]
@@ -105,7 +111,7 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Any = None,
         return_debug_tuple: bool = False,  # noqa: FBT001, FBT002 - as in tf2
     ) -> Any:
-        """Returns whether there is a transform over time, after waiting up to `timeout`."""
+        """Returns whether a transform between two times is known, after waiting for it up to `timeout`."""
         ways = (target_frame, target_time, source_frame, source_time, fixed_frame)
         self._wait(lambda: self.can_transform_full_core(*ways)[0], timeout)
         result = self.can_transform_full_core(*ways)
@@ -114,20 +120,20 @@ class Buffer(BufferCore, BufferInterface):
     # --- futures ---
 
     async def lookup_transform_async(self, target_frame: str, source_frame: str, time: Any) -> Any:
-        """Returns a transform once there is one."""
+        """Waits until a transform is known, and returns it."""
         await self.wait_for_transform_async(target_frame, source_frame, time)
         return self.lookup_transform_core(target_frame, source_frame, time)
 
     async def lookup_transform_full_async(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> Any:
-        """Returns a transform over time once there is one."""
+        """Waits until a transform between two times is known, and returns it."""
         ways = (target_frame, target_time, source_frame, source_time, fixed_frame)
         await self.wait_for_transform_full_async(*ways)
         return self.lookup_transform_full_core(*ways)
 
     def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Any) -> Any:
-        """Returns a future that gets the transform once there is one."""
+        """Returns a future that is completed when the transform is known."""
         ways = (target_frame, source_frame, time)
         return self._future(
             lambda: self.can_transform_core(*ways)[0], lambda: self.lookup_transform_core(*ways)
@@ -136,7 +142,7 @@ class Buffer(BufferCore, BufferInterface):
     def wait_for_transform_full_async(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> Any:
-        """Returns a future that gets the transform over time once there is one."""
+        """Returns a future that is completed when the transform between two times is known."""
         ways = (target_frame, target_time, source_frame, source_time, fixed_frame)
         return self._future(
             lambda: self.can_transform_full_core(*ways)[0], lambda: self.lookup_transform_full_core(*ways)

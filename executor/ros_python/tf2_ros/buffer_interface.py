@@ -41,25 +41,25 @@ class NotImplementedException(Exception):  # noqa: N818 - its name in tf2
 
 
 class TransformRegistration:
-    """Registers the transform of a type: a function of the object and a `TransformStamped`."""
+    """Stores a transform function for each type: a function of the object and a `TransformStamped`."""
 
     _functions: ClassVar[dict[Any, Callable[[Any, Any], Any]]] = {}
 
     def add(self, key: Any, callback: Callable[[Any, Any], Any]) -> None:
-        """Registers the transform of the type `key`."""
+        """Registers the transform function of the type `key`."""
         self._functions[key] = callback
 
     def get(self, key: Any) -> Callable[[Any, Any], Any]:
-        """Returns the transform of a type.
+        """Returns the transform function of a type.
 
         Raises:
-            TypeException: no transform is registered.
+            TypeException: no function is registered for the type.
         """
         return _found(self._functions, key)
 
 
 class ConvertRegistration:
-    """Registers conversions between types, direct ones and those by way of a message."""
+    """Stores conversions between types: direct ones, and those by way of a message."""
 
     _to_message: ClassVar[dict[Any, Callable[[Any], Any]]] = {}
     _from_message: ClassVar[dict[Any, Callable[[Any], Any]]] = {}
@@ -99,7 +99,7 @@ class BufferInterface:
     def transform(
         self, object_stamped: Any, target_frame: str, timeout: Any = None, new_type: Any = None
     ) -> Any:
-        """Returns an object with a header in another frame, at the time of its stamp.
+        """Returns an object transformed into another frame, at the time of the stamp in its header.
 
         `tf2_geometry_msgs` must be imported for the types of `geometry_msgs`.
         """
@@ -117,7 +117,10 @@ class BufferInterface:
         timeout: Any = None,
         new_type: Any = None,
     ) -> Any:
-        """Returns an object in another frame at another time; until then it is at rest in `fixed_frame`."""
+        """Returns an object transformed into another frame at another time.
+
+        Between the two times it is assumed to be at rest in `fixed_frame`.
+        """
         header = object_stamped.header
         wait = timeout or Duration()
         found = self.lookup_transform_full(
@@ -126,7 +129,7 @@ class BufferInterface:
         return self._transformed(object_stamped, found, new_type)
 
     def lookup_transform(self, target_frame: str, source_frame: str, time: Any, timeout: Any = None) -> Any:
-        """Returns a transform; implemented by the buffer."""
+        """Returns a transform; subclasses implement it."""
         raise NotImplementedException
 
     def lookup_transform_full(  # noqa: PLR0913, PLR0917 - as in tf2
@@ -138,11 +141,11 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Any = None,
     ) -> Any:
-        """Returns a transform over time; implemented by the buffer."""
+        """Returns a transform between two times; subclasses implement it."""
         raise NotImplementedException
 
     def can_transform(self, target_frame: str, source_frame: str, time: Any, timeout: Any = None) -> Any:
-        """Returns whether there is a transform; implemented by the buffer."""
+        """Returns whether a transform is known; subclasses implement it."""
         raise NotImplementedException
 
     def can_transform_full(  # noqa: PLR0913, PLR0917 - as in tf2
@@ -154,7 +157,7 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Any = None,
     ) -> Any:
-        """Returns whether there is a transform over time; implemented by the buffer."""
+        """Returns whether a transform between two times is known; subclasses implement it."""
         raise NotImplementedException
 
     def _transformed(self, thing: Any, transform: Any, new_type: Any) -> Any:
@@ -163,7 +166,7 @@ class BufferInterface:
 
 
 def Stamped(obj: Any, stamp: Any, frame_id: str) -> Any:  # noqa: N802 - its name in tf2
-    """Adds a header to an object."""
+    """Sets the stamp and the frame of an object, and returns the object."""
     obj.header = Header(frame_id=frame_id, stamp=stamp)
     return obj
 

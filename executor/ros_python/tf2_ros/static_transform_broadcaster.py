@@ -12,7 +12,7 @@ __all__ = ["StaticTransformBroadcaster"]
 
 
 class StaticTransformBroadcaster:
-    """Publishes constant transforms; later subscribers receive all of them, too."""
+    """Publishes constant transforms; subscribers that join later receive all of them too."""
 
     def __init__(self, node: Any, qos: Any = None) -> None:
         latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -20,6 +20,6 @@ class StaticTransformBroadcaster:
         self._sent: dict[str, Any] = {}
 
     def sendTransform(self, transform: Any) -> None:  # noqa: N802 - its name in tf2
-        """Publishes a `TransformStamped`, or several, together with all previous ones."""
+        """Publishes a `TransformStamped`, or a list of them, together with all that were sent before."""
         self._sent |= {each.child_frame_id: each for each in listed(transform)}
         self.pub_tf.publish(TFMessage(transforms=list(self._sent.values())))

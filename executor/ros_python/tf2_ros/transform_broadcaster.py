@@ -17,10 +17,10 @@ class TransformBroadcaster:
         self.pub_tf = node.create_publisher(TFMessage, "/tf", QoSProfile(depth=100) if qos is None else qos)
 
     def sendTransform(self, transform: Any) -> None:  # noqa: N802 - its name in tf2
-        """Publishes a `TransformStamped`, or several."""
+        """Publishes a `TransformStamped`, or a list of them."""
         self.pub_tf.publish(TFMessage(transforms=listed(transform)))
 
 
 def listed(transform: Any) -> list[Any]:
-    """Returns one transform or several as a list."""
+    """Returns a list: of one transform, or of several."""
     return list(transform) if hasattr(transform, "__iter__") else [transform]

@@ -16,7 +16,7 @@ DEPTH = 100
 
 
 class TransformListener:
-    """Receives transforms while its node is spun; with `spin_thread`, on a thread of its own."""
+    """Receives transforms while its node is spun; with `spin_thread`, on a separate thread."""
 
     def __init__(
         self, buffer: Any, node: Any, *, spin_thread: bool = False, qos: Any = None, static_qos: Any = None
@@ -66,11 +66,11 @@ class TransformListener:
 
     @property
     def _time_passes(self) -> bool:
-        """Whether messages can arrive during a wait; not in lock-step, where the world waits too."""
+        """Whether messages can arrive during a wait. It is False in lock-step, where the world waits too."""
         return not getattr(self.node.executor, "holds_time", False)
 
     def _take(self) -> None:
-        """Takes messages in place of the executor, which is blocked while a callback waits."""
+        """Reads messages in place of the executor, which is blocked while a callback waits."""
         if self._spins:
             return
         for subscription, take in ((self.tf_static_sub, self.static_callback), (self.tf_sub, self.callback)):

@@ -1,1 +1,1 @@
-"""Poses, meshes and visual shapes: pure, without a physics engine."""
+"""Poses, meshes and visual shapes: pure functions, without a physics engine."""

@@ -25,7 +25,7 @@ def joint_pose(joint: Joint, position: float) -> Pose:
 
 
 def link_pose(urdf: Urdf, base: Pose, link: str, positions: Mapping[str, float]) -> Pose:
-    """Returns the pose of a link, from its root and the joints' positions; others are at 0."""
+    """Returns the pose of a link, from the pose of the root and the positions of the joints (default 0)."""
     chain: list[Joint] = []
     while (joint := urdf.joint_above.get(link)) is not None:
         chain.append(joint)
@@ -41,11 +41,11 @@ def add_links(body: str, urdf: Urdf, meshes: str, objects: SceneObjects, kind: K
     """Adds one object for the root with its fixed links, and one for each moving link.
 
     Args:
-        body: of the links.
+        body: the body to which the links belong.
         urdf: the links.
-        meshes: prefix of the names of their meshes in the scene.
-        objects: receives them.
-        kind: of all of them.
+        meshes: the prefix of the names of the links' meshes in the scene.
+        objects: the scene objects, to which the new ones are added.
+        kind: the kind of all new objects.
     """
     shapes: dict[str, list[Shape]] = {}
     for link in urdf.links.values():

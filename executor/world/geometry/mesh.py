@@ -20,14 +20,14 @@ SHARP_COSINE: Final = 0.77  # edges of more than 40° between faces are shaded s
 
 
 class MeshError(Exception):
-    """A mesh that cannot be used; the text says why."""
+    """A mesh cannot be used; the text is the reason."""
 
 
 def load_mesh(path: Path) -> Mesh:
-    """Returns the triangles of a file, all its parts in one, in the file's own units.
+    """Returns the triangles of all parts of a file as one mesh, in the units of the file.
 
     Raises:
-        MeshError: it is missing, too large, of an unsupported format, or broken.
+        MeshError: the file is missing, too large, of an unsupported format, or damaged.
     """
     if path.suffix.lower() not in SUFFIXES:
         raise MeshError(f"meshes of kind {path.suffix or '(none)'} are not read; use {', '.join(SUFFIXES)}")
@@ -54,7 +54,10 @@ def load_mesh(path: Path) -> Mesh:
 def _shaded(
     points: NDArray[np.float64], faces: NDArray[np.int64], uvs: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Returns rows of point, normal and uv, and the faces by row: smooth if round, sharp at edges."""
+    """Returns rows of point, normal and uv, and the faces as rows of indices.
+
+    Normals are smooth on round surfaces, and sharp at edges.
+    """
     _, place = np.unique(np.round(points, 6), axis=0, return_inverse=True)
     across = np.cross(points[faces[:, 1]] - points[faces[:, 0]], points[faces[:, 2]] - points[faces[:, 0]])
     flat = _unit(across)
@@ -76,7 +79,7 @@ def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def write_obj(mesh: Mesh, path: Path) -> None:
-    """Writes a mesh in the format of the physics engine."""
+    """Writes a mesh as an OBJ file for the physics engine."""
     points = np.frombuffer(mesh.positions, "<f4").reshape(-1, 3)
     faces = np.frombuffer(mesh.indices, "<u4").reshape(-1, 3) + 1
     lines = [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in points.tolist()]
@@ -91,7 +94,7 @@ class _Found(NamedTuple):
 
 
 def _triangles(path: Path) -> _Found:
-    """Reads and merges the parts of a file. The library could, but only with Pillow."""
+    """Reads a file and merges its parts; the mesh library could merge them too, but needs Pillow for that."""
     import trimesh  # noqa: PLC0415 - slow to load, and few robots have meshes
 
     try:

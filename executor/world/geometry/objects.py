@@ -1,4 +1,4 @@
-"""The scene objects of a world, with functions that return the poses of those that move."""
+"""The scene objects of a world, and functions that return the current poses of objects that move."""
 
 from __future__ import annotations
 
@@ -37,14 +37,14 @@ class SceneObjects:
         self._movers.append(where)
 
     def place(self, object_id: int, pose: Pose) -> None:
-        """Stores the pose of an object that has no such function."""
+        """Stores the pose of an object that has no mover."""
         self.objects[object_id].pose = list(pose)
         if object_id < len(self._poses):
             self._poses = self._poses.copy()  # callers may keep the last array unchanged
             self._poses[object_id] = pose
 
     def tell(self, poses: NDArray[np.float32]) -> None:
-        """Writes the poses into the objects, for a scene."""
+        """Writes the poses into the objects, before the scene is sent."""
         for scene_object, pose in zip(self.objects, poses.tolist(), strict=True):
             scene_object.pose = pose
 

@@ -1,4 +1,4 @@
-"""The parts of a person, with hinges, in the frame of a standing person who faces along x."""
+"""The rigid parts of a person, with hinges, in the frame of a standing person who faces along x."""
 
 from __future__ import annotations
 
@@ -20,7 +20,10 @@ Rgba = list[float]
 
 @dataclass(frozen=True)
 class Part:
-    """A rigid part. `sign` is its direction of swing in the gait; `capsule` is its radius, length, z."""
+    """A rigid part.
+
+    `sign` is the direction of its swing in the gait; `capsule` holds its radius, its length and its z.
+    """
 
     name: str
     hinge: tuple[float, float, float]

@@ -18,11 +18,11 @@ Pose = tuple[float, float, float, float, float, float, float]
 
 IDENTITY: Final[Pose] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 _STRAIGHT_UP: Final = 1 - 1e-12
-"""Sine of the pitch from which roll and yaw cannot be distinguished any more."""
+"""Sine of the pitch above which roll and yaw cannot be distinguished."""
 
 
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """Returns the rotation about the fixed axes x, then y, then z."""
+    """Returns the rotation about the fixed axes: first x, then y, then z."""
     sr, cr = math.sin(roll / 2), math.cos(roll / 2)
     sp, cp = math.sin(pitch / 2), math.cos(pitch / 2)
     sy, cy = math.sin(yaw / 2), math.cos(yaw / 2)
@@ -97,7 +97,7 @@ def rotation(q: Sequence[float]) -> NDArray[np.float64]:
 
 
 def to_xyz_rpy(pose: Pose) -> tuple[float, float, float, float, float, float]:
-    """Returns [x, y, z, roll, pitch, yaw] of a pose."""
+    """Returns the values [x, y, z, roll, pitch, yaw] of a pose."""
     qx, qy, qz, qw = pose[3:]
     sine = 2 * (qw * qy - qz * qx)
     if abs(sine) > _STRAIGHT_UP:  # gimbal lock: roll and yaw share an axis, so all is yaw

@@ -1,4 +1,4 @@
-"""The gait of a person: along a path at constant speed, with swinging legs. Pure geometry."""
+"""The gait of a person: walks along a path at constant speed, with swinging legs. Pure geometry."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TURN_RATE: Final = 3.0  # rad/s
 
 
 class Path:
-    """A polyline, walked from its first point; closed if `loop`, otherwise back and forth."""
+    """A polyline along which an actor walks: in a circle if `loop` is set, otherwise back and forth."""
 
     def __init__(self, points: Sequence[tuple[float, float]], *, loop: bool) -> None:
         closed = [*points, points[0]] if loop or len(points) == 1 else [*points, *reversed(points[:-1])]
@@ -51,7 +51,7 @@ class Path:
 
 @dataclass(frozen=True)
 class Gait:
-    """Pose of a walker: `swing` is the angle in rad of the left leg and the right arm."""
+    """Pose of a walker; `swing` is the angle in rad of the left leg and of the right arm."""
 
     x: float
     y: float
@@ -61,7 +61,10 @@ class Gait:
 
 
 class Walker:
-    """A person on a path. The heading follows the path's with a limited rate, for natural corners."""
+    """A person who walks along a path.
+
+    The heading follows that of the path with a limited rate, which makes corners natural.
+    """
 
     def __init__(self, path: Path, speed: float, start_m: float = 0.0) -> None:
         self._path = path
@@ -69,7 +72,7 @@ class Walker:
         self.gait = self._gait(start_m, path.at(start_m)[2])
 
     def advance(self, dt_s: float) -> Gait:
-        """Walks for `dt_s`."""
+        """Walks for `dt_s`, and returns the new pose."""
         distance = self.gait.distance_m + self._speed * dt_s
         wanted = wrap(self._path.at(distance)[2] - self.gait.yaw)
         limit = TURN_RATE * dt_s

@@ -1,4 +1,4 @@
-"""Actors in the physics server: bodies that are moved along their path, and that robots can bump into."""
+"""Actors in the physics server: bodies that are moved along their path; robots can bump into them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class BulletActor:
-    """A person who walks, unaffected by collisions."""
+    """A person who walks and is not affected by collisions."""
 
     def __init__(self, bullet: Bullet, actor: Actor) -> None:
         self.id = actor.id
@@ -54,16 +54,16 @@ class BulletActor:
         self._carry()
 
     def save(self) -> Gait:
-        """Returns what `restore` needs."""
+        """Returns the state for `restore`."""
         return self._walker.gait
 
     def restore(self, gait: Gait) -> None:
-        """Restores a state of `save`."""
+        """Restores a state that `save` returned."""
         self._walker.gait = gait
         self._carry()
 
     def add_to_scene(self, objects: SceneObjects) -> None:
-        """Adds one object for each part."""
+        """Adds a scene object for each part of the actor."""
         ids = [
             (objects.add(self.id, part.name, "actor", list(part.shapes), part.pose(self._walker.gait)), part)
             for part in self._parts

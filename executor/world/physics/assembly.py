@@ -29,7 +29,7 @@ def read_assembly(model: Model, assets: Path | None) -> Links:
     """Reads the links of a model from the project's files.
 
     Raises:
-        DocumentError: the file is missing or invalid; with the line.
+        DocumentError: the file is missing or invalid; the error has the line.
     """
     if assets is None:
         problem = Problem(f"{model.id!r} needs the project's files", code="BTR002")
@@ -65,11 +65,11 @@ class Assembly:
 
     @property
     def is_dynamic(self) -> bool:
-        """Whether any part of it can move."""
+        """Whether any part of the assembly can move."""
         return self._model.mass > 0 or bool(self._joints)
 
     def add_to_scene(self, objects: SceneObjects) -> None:
-        """Adds its visual shapes."""
+        """Adds the visual shapes of the assembly to the scene."""
         kind: Kind = "dynamic" if self.is_dynamic else "static"
         self._ids = add_links(self._model.id, self._urdf, self._model.file, objects, kind)
         for object_id, pose in self._where():
@@ -78,7 +78,7 @@ class Assembly:
             objects.add_mover(self._where)
 
     def move_body(self, pose: Pose, objects: SceneObjects) -> None:
-        """Sets the pose of its root; its joints are unchanged."""
+        """Sets the pose of the root; the joints do not change."""
         put_at_rest(self._bullet, self.uid, compose(pose, self._inertial))
         for object_id, link in self._where():
             objects.place(object_id, link)

@@ -25,7 +25,7 @@ FINITE_PLANE_THICKNESS = 0.02
 
 @dataclass(frozen=True)
 class Body:
-    """A body of the physics server that is neither robot nor actor."""
+    """A body of the physics server that is neither a robot nor an actor."""
 
     uid: int
     is_dynamic: bool
@@ -50,7 +50,7 @@ def model_mesh(model: Model, assets: Path | None) -> Mesh:
     """Reads the mesh of a model from the project's files.
 
     Raises:
-        WorldError: it is missing, or cannot be used.
+        WorldError: the mesh is missing, or cannot be used.
     """
     try:
         if assets is None:
@@ -123,7 +123,7 @@ def _collision_shape(bullet: Bullet, model: Model, mesh: Mesh | None) -> int:
 
 
 def _mesh_shape(bullet: Bullet, model: Model, mesh: Mesh) -> int:
-    """Creates a collision shape of a mesh: its triangles if it never moves, otherwise its convex hull."""
+    """Creates the collision shape of a mesh: its triangles if it never moves, otherwise its convex hull."""
     points = np.frombuffer(mesh.positions, "<f4").reshape(-1, 3).tolist()
     options: dict[str, Any] = {"meshScale": list(model.size or (1.0, 1.0, 1.0))}
     if model.mass == 0:

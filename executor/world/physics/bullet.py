@@ -37,7 +37,10 @@ STEP_HZ: Final = 240
 CONTROL_EVERY: Final = 4  # steps
 GRAVITY: Final = 9.81
 RESIDUAL: Final = 1e-6
-"""Residual at which the solver stops. A drive of 8 m ends within 3 mm of the result of 300 iterations."""
+"""Residual at which the solver stops.
+
+After a drive of 8 m, the result differs by less than 3 mm from that of 300 iterations.
+"""
 
 
 @dataclass(frozen=True)
@@ -50,7 +53,7 @@ class _Saved:
 
 @dataclass
 class _Content:
-    """Content that a reset creates again."""
+    """The content of the world that a reset creates again."""
 
     ground: int = -1
     bodies: dict[str, Body] = field(default_factory=dict)
@@ -66,9 +69,9 @@ class BulletWorld:
 
     Args:
         universe: the document.
-        seed: of the universe's random values and the sensors' noise.
-        robot: id of a robot that replaces the universe's own.
-        assets: folder of the project's own robots and meshes.
+        seed: the seed of the universe's random values and of the sensors' noise.
+        robot: the id of a robot that replaces the one of the universe.
+        assets: the folder with the project's robots and meshes.
 
     Raises:
         RobotError: a robot of the universe does not exist or is invalid.
@@ -109,12 +112,16 @@ class BulletWorld:
 
     @property
     def has_drawn(self) -> bool:
-        """Whether any random number was drawn from the seed so far."""
+        """Whether results may depend on the seed.
+
+        They may if the universe has random values, or if noise of a robot is configured; IMU noise counts
+        once the IMU was read.
+        """
         return bool(self._universe.random) or any(robot.has_drawn for robot in self.robots)
 
     @property
     def time_s(self) -> float:
-        """Simulated time since the last reset."""
+        """Simulated time in s since the last reset."""
         return self._steps / STEP_HZ
 
     @property
@@ -180,17 +187,17 @@ class BulletWorld:
         self._collisions.clear()
 
     def forget(self, state: _Saved) -> None:
-        """Frees a saved state."""
+        """Frees the memory of a saved state."""
         self._bullet.removeState(state.physics)
 
     def poses(self) -> NDArray[np.float32]:
-        """Poses of the scene's objects, computed at most once a step."""
+        """Returns the poses of the scene's objects; they are computed at most once in each step."""
         if self._poses is None:
             self._poses = self._objects.update()
         return self._poses
 
     def move_body(self, body: str, pose: Sequence[float]) -> None:
-        """Drags a model or a robot to [x, y, z, roll, pitch, yaw]."""
+        """Moves a model or a robot to the pose [x, y, z, roll, pitch, yaw]."""
         wanted = from_xyz_rpy(pose)
         for robot in self._content.robots:
             if robot.id == body:
@@ -227,7 +234,10 @@ class BulletWorld:
             robot.control(now_s, dt_s)
 
     def _obstacle_name(self, uid: int) -> str | None:
-        """Returns the name of a body that a robot touches; None for the ground, which is no collision."""
+        """Returns the name of a body that a robot touches.
+
+        None for the ground, which does not count as a collision.
+        """
         return self._content.names.get(uid)
 
     def _inertial_of(self, uid: int) -> Pose:

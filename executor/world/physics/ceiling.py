@@ -1,4 +1,4 @@
-"""Ceilings: visible to robots' cameras alone.
+"""Ceilings: only robots' cameras see them.
 
 From outside only a roof would be visible, so views of the world leave ceilings out, and show walls with their
 own height. A ceiling casts no shadow: the sun lights rooms as if it did not exist.
@@ -23,7 +23,10 @@ OVERLAP_M: Final = 0.01
 
 
 def ceiling_of(universe: Universe) -> tuple[Shape, Pose] | None:
-    """Returns the ceiling, a face that looks down. It covers the models that reach it, otherwise all."""
+    """Returns the ceiling, a face that looks down.
+
+    It covers the models that reach it, or all models if none does.
+    """
     ceiling = universe.ceiling
     standing = [model for model in universe.models if model.mass == 0 and len(model.size) == 3]
     under = [model for model in standing if model.to_ceiling] or standing

@@ -1,4 +1,4 @@
-"""Counts collisions by episode: a long scrape along a wall is one collision."""
+"""Counts collisions by episode: a long contact along a wall is one collision."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ EPISODE_GAP_S: Final = 0.5
 
 @dataclass(frozen=True)
 class Collision:
-    """The start of an episode, with the body that was hit."""
+    """The start of a collision, with the body that was hit."""
 
     time_s: float
     body: str
@@ -18,13 +18,16 @@ class Collision:
 
 @dataclass
 class CollisionCounter:
-    """Contacts less than `EPISODE_GAP_S` apart belong to one episode."""
+    """Counts collisions: contacts that are less than `EPISODE_GAP_S` apart belong to one collision."""
 
     count: int = 0
     last_contact_s: float = float("-inf")
 
     def observe(self, now_s: float, body: str | None) -> Collision | None:
-        """Takes the body in contact (None without one); returns a collision when an episode starts."""
+        """Notes the body in contact, or None without contact.
+
+        Returns a collision when one starts, otherwise None.
+        """
         if body is None:
             return None
         is_new = now_s - self.last_contact_s > EPISODE_GAP_S

@@ -1,4 +1,4 @@
-"""A differential drive: from target twist to wheel rates, and from wheel angles to odometry."""
+"""A differential drive: computes wheel rates from a target twist, and odometry from wheel angles."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ Covariance = tuple[float, float, float, float, float, float]
 
 
 class Odometry(NamedTuple):
-    """Pose in the odom frame in m and rad, and twist in the robot's own, by its wheels.
+    """Pose in the odom frame in m and rad, and twist in the robot's frame, both as the wheels measure them.
 
-    `covariance` is that of the pose: xx, xy, x·yaw, yy, y·yaw and yaw·yaw.
+    `covariance` holds six values of the covariance of the pose: xx, xy, x·yaw, yy, y·yaw and yaw·yaw.
     """
 
     x: float = 0.0
@@ -31,7 +31,7 @@ class Odometry(NamedTuple):
 
 
 class DriveState(NamedTuple):
-    """The state of the drive, to save a world."""
+    """The state of the drive, for saving a world."""
 
     wanted: tuple[float, float] = (0.0, 0.0)
     commanded_s: float = -math.inf
@@ -42,7 +42,10 @@ class DriveState(NamedTuple):
 
 
 class DifferentialDrive:
-    """Makes wheel rates of twists, within the limits of the drive; stops without commands."""
+    """Computes wheel rates from target twists, within the limits of the drive.
+
+    Stops the robot without commands.
+    """
 
     def __init__(self, config: Drive, noise: np.random.Generator | None = None) -> None:
         self._config = config
@@ -73,7 +76,7 @@ class DifferentialDrive:
         )
 
     def observe(self, left: float, right: float, dt_s: float) -> Odometry:
-        """Takes the wheels' angles in rad, `dt_s` after the last ones, and returns the new odometry."""
+        """Receives the wheels' angles in rad, `dt_s` after the last ones, and returns the new odometry."""
         last, old, limit = self.state.wheel_angles, self.state.odometry, self._config
         if last is None or dt_s <= 0:
             self.state = self.state._replace(wheel_angles=(left, right))
@@ -102,10 +105,10 @@ class DifferentialDrive:
     def _grown(self, old: Covariance, ways: tuple[float, float], moved: float, middle: float) -> Covariance:
         """Returns the covariance after another distance: J P Jᵀ + G Q Gᵀ.
 
-        J is the Jacobian of the new pose by the old one, G that by the distances of the wheels; Q =
-        slip_noise² · diag(|left|, |right|), which is the noise that `_believed` adds. Siegwart and
-        Nourbakhsh, Introduction to Autonomous Mobile Robots, 5.2.4: the error of odometry for a differential
-        drive.
+        J is the Jacobian of the new pose with respect to the old one, G that with respect to the distances of
+        the wheels; Q = slip_noise² · diag(|left|, |right|), which is the noise that `_believed` adds. See
+        Siegwart and Nourbakhsh, Introduction to Autonomous Mobile Robots, 5.2.4, for the error of the
+        odometry of a differential drive.
         """
         limit = self._config
         if limit.slip_noise <= 0:
@@ -129,7 +132,10 @@ class DifferentialDrive:
         return xx, xy, xt, yy, yt, tt
 
     def _believed(self, way: float) -> float:
-        """Returns a wheel's distance as odometry measures it: with a random walk along the distance."""
+        """Returns the distance that odometry measures for a wheel.
+
+        Its error is a random walk along the true distance.
+        """
         if self._noise is None or self._config.slip_noise <= 0:
             return way
         return way + self._config.slip_noise * math.sqrt(abs(way)) * float(self._noise.normal())

@@ -20,9 +20,9 @@ class JointMotors:
 
     Args:
         bullet: the physics server.
-        uid: the robot in it.
-        config: of the robot.
-        indices: of its joints in the physics server, by name.
+        uid: the id of the robot in the physics server.
+        config: the configuration of the robot.
+        indices: the indices of the joints in the physics server, by name.
     """
 
     def __init__(self, bullet: Bullet, uid: int, config: RobotConfig, indices: Mapping[str, int]) -> None:
@@ -39,20 +39,20 @@ class JointMotors:
         return bool(self._drives)
 
     def command(self, joint: str, position: float) -> bool:
-        """Sets the target of a joint in rad or m, within its limits; refuses one that is not finite."""
+        """Sets the target of a joint in rad or m, within its limits; returns False if it is not finite."""
         if not math.isfinite(position):
             return False
         self._wanted[joint] = self._within(joint, position)
         return True
 
     def control(self) -> None:
-        """Sets the motors' current targets; called once a control period while there is power."""
+        """Sets the motors' current targets; called once in each control period while the robot has power."""
         for name, wanted in self._wanted.items():
             if self._held.get(name) != wanted:
                 self._hold(self._drives[name], wanted)
 
     def states(self) -> dict[str, tuple[float, float]]:
-        """Returns position and rate of each joint."""
+        """Returns the position and the rate of each joint."""
         if not self._indices:
             return {}
         states = self._bullet.getJointStates(self._uid, list(self._indices.values()))
@@ -63,7 +63,7 @@ class JointMotors:
         return dict(self._wanted), dict(self._held)
 
     def restore(self, saved: object) -> None:
-        """Restores a state of `save`."""
+        """Restores a state that `save` returned."""
         if not isinstance(saved, tuple):
             raise TypeError("not saved joints")
         wanted, held = saved

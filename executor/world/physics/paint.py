@@ -1,4 +1,4 @@
-"""Textures: procedural ones that we ship, and image files of a project."""
+"""Textures: procedural built-in ones, and image files of a project."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _MARKERS_WITHOUT_SIZE: Final = frozenset({0xC4, 0xC8, 0xCC})
 
 
 class PaintError(Exception):
-    """A picture that cannot be used; the text says why."""
+    """A picture cannot be used; the text is the reason."""
 
 
 def textures_of(universe: Universe, assets: Path | None) -> dict[str, Texture]:
@@ -59,7 +59,7 @@ def textures_of(universe: Universe, assets: Path | None) -> dict[str, Texture]:
 
 
 def texture_key(thing: Painted) -> str:
-    """Returns the key of a texture in the scene; each size has its own."""
+    """Returns the key of a texture in the scene; each size of a texture has its own key."""
     tile = "" if thing.tile is None else f"@{thing.tile[0]:g}x{thing.tile[1]:g}"
     return f"{thing.texture}{tile}" if thing.texture else ""
 
@@ -91,10 +91,10 @@ def _own(name: str, assets: Path | None) -> tuple[bytes, tuple[float, float]]:
 
 
 def image_size(data: bytes) -> tuple[int, int]:
-    """Returns width and height of a PNG or JPEG without decoding it.
+    """Returns the width and height of a PNG or JPEG without decoding it.
 
     Raises:
-        PaintError: it is neither.
+        PaintError: the data are neither a PNG nor a JPEG.
     """
     if data.startswith(b"\x89PNG\r\n\x1a\n") and len(data) >= 24:
         return int.from_bytes(data[16:20], "big"), int.from_bytes(data[20:24], "big")
@@ -116,7 +116,7 @@ def _jpeg(bgr: NDArray[np.uint8]) -> bytes:
 
 @functools.cache
 def shipped(name: str) -> tuple[bytes, tuple[float, float]]:
-    """Returns a texture of ours as JPEG, and the width and height in m that it covers."""
+    """Returns a built-in texture as JPEG, and the width and height in m that it covers."""
     draw, tile = _PAINTERS[name]
     rgb = np.clip(draw(np.random.default_rng(7)), 0.0, 1.0) * 255
     return _jpeg(np.ascontiguousarray(rgb[:, :, ::-1].round().astype(np.uint8))), tile
@@ -149,7 +149,7 @@ def _checker(_: np.random.Generator) -> Picture:
 
 
 def _wood(generator: np.random.Generator) -> Picture:
-    """Four boards, of two pieces each."""
+    """Returns a picture of four wooden boards, each of two pieces."""
     rows, columns = _cells()
     board = rows * 4 // SIZE
     joint = np.array([40, 168, 100, 228])[board]
@@ -161,7 +161,7 @@ def _wood(generator: np.random.Generator) -> Picture:
 
 
 def _brick(generator: np.random.Generator) -> Picture:
-    """Eight rows of four bricks, each row shifted by half a brick."""
+    """Returns a picture of eight rows of four bricks, each row shifted by half a brick."""
     rows, columns = _cells()
     high, wide = SIZE // 8, SIZE // 4
     row = rows // high
@@ -182,7 +182,7 @@ def _carpet(generator: np.random.Generator) -> Picture:
 
 
 def _tiles(generator: np.random.Generator) -> Picture:
-    """Two by two tiles with light joints."""
+    """Returns a picture of two by two tiles with light joints."""
     rows, columns = _cells()
     half = SIZE // 2
     tile = rows // half * 2 + columns // half

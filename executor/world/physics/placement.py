@@ -1,6 +1,8 @@
-"""The only module that sets poses of bodies: at reset, at a drag, and for actors, which are moved by design.
+"""Sets the poses of bodies; no other module does.
 
-Robots move by their wheels and by contact alone;
+They are set at a reset, when a user drags a body, and for actors, which are moved by design.
+
+Robots move only by their wheels and by contact;
 `tests/executor/world/physics/test_motion_lint.py` checks this.
 """
 

@@ -9,7 +9,7 @@ from executor.universes.model import Universe
 
 
 def draw(universe: Universe, seed: int) -> Universe:
-    """Returns the universe with each value of `random` drawn; the same seed draws the same."""
+    """Returns a universe in which each value of `random` was drawn; the same seed draws the same values."""
     if not universe.random:
         return universe
     generator = random.Random(seed)  # noqa: S311 - for variety, not for secrets

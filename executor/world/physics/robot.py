@@ -100,7 +100,7 @@ class BulletRobot:
 
     @property
     def odometry(self) -> Odometry:
-        """Pose and twist by its wheels."""
+        """Pose and twist of the robot as its wheels measure them."""
         return self._drive.state.odometry
 
     @property
@@ -116,7 +116,7 @@ class BulletRobot:
 
     @property
     def pose(self) -> tuple[float, float, float]:
-        """True x and y in m and yaw in rad."""
+        """True pose of the robot: x and y in m, yaw in rad."""
         pose = self.base_pose
         return pose[0], pose[1], yaw_of(pose[3:])
 
@@ -129,7 +129,7 @@ class BulletRobot:
 
     @property
     def twist(self) -> tuple[float, float, float]:
-        """True speed along x and y of the robot, in m/s, and about z, in rad/s."""
+        """True speed along the robot's x and y in m/s, and about z in rad/s."""
         (x, y, _), (_, _, turn) = self._bullet.getBaseVelocity(self.uid)
         # PyBullet's velocity is that of the centre of mass.
         center, _ = self._bullet.getBasePositionAndOrientation(self.uid)
@@ -139,7 +139,7 @@ class BulletRobot:
         return x * cosine + y * sine, y * cosine - x * sine, turn
 
     def command(self, linear: float, angular: float, at_s: float | None = None) -> bool:
-        """Sets the target twist, of now or an earlier time; refuses one that is not finite."""
+        """Sets the target twist, for now or for an earlier time; returns False if it is not finite."""
         return self._drive.command(linear, angular, self._clock_s if at_s is None else at_s)
 
     def stop(self) -> None:
@@ -147,11 +147,11 @@ class BulletRobot:
         self._drive.command(0.0, 0.0, self._clock_s)
 
     def command_joint(self, joint: str, position: float) -> bool:
-        """Sets the target of a joint with a motor; refuses one that is not finite."""
+        """Sets the target position of a motor's joint; returns False if it is not finite."""
         return self._motors.command(joint, position)
 
     def joint_states(self) -> dict[str, tuple[float, float]]:
-        """Returns position and rate of each joint with a motor, the wheels' first."""
+        """Returns the position and the rate of each joint with a motor; the wheels come first."""
         names = (*self.config.drive.left, *self.config.drive.right)
         states = self._bullet.getJointStates(self.uid, self._wheel_joints)
         wheels = {name: (state[0], state[1]) for name, state in zip(names, states, strict=True)}
@@ -189,7 +189,7 @@ class BulletRobot:
             self._motors.control()
 
     def measure(self, now_s: float, dt_s: float) -> None:
-        """Reads wheels and inner sensors; called at the end of a control period."""
+        """Reads the wheels and the inner sensors; called at the end of a control period."""
         self._clock_s = now_s
         self._drive.observe(*self._wheel_angles(), dt_s)
         center, turn = self._bullet.getBasePositionAndOrientation(self.uid)
@@ -202,7 +202,10 @@ class BulletRobot:
             self._at = (x, y)
 
     def observe_contact(self, now_s: float, name_of: Callable[[int], str | None]) -> Collision | None:
-        """Reads the contacts of the robot; called once a physics step."""
+        """Reads the contacts of the robot; called once in each physics step.
+
+        Returns a collision when one starts, otherwise None.
+        """
         self._clock_s = now_s
         touched = None
         for contact in self._contacts():
@@ -214,13 +217,16 @@ class BulletRobot:
 
     @property
     def has_drawn(self) -> bool:
-        """Whether anything of the robot is random: LIDARs, wheels, or a noisy measurement."""
+        """Whether the robot's results may depend on random numbers.
+
+        These are noise of its LIDARs or wheels, or of an IMU that was read.
+        """
         config = self.config
         is_noisy = config.drive.slip_noise > 0 or any(lidar.noise_m > 0 for lidar in config.lidars)
         return is_noisy or self._proprioception.has_drawn
 
     def moved_by_hand(self) -> None:
-        """Notes that the robot was moved by hand, which is no travel."""
+        """Notes that a user moved the robot; such a move does not count as travelled distance."""
         self._at = self.pose[:2]
         self._drive.state = DriveState(
             wheel_angles=self._drive.state.wheel_angles, odometry=self._drive.state.odometry
@@ -241,7 +247,7 @@ class BulletRobot:
         )
 
     def restore(self, saved: object, now_s: float) -> None:
-        """Restores a state of `save`."""
+        """Restores a state that `save` returned."""
         if not isinstance(saved, _Saved):
             raise TypeError("not a saved robot")
         self._clock_s = now_s
@@ -258,7 +264,7 @@ class BulletRobot:
         self._apply(rates if self._proprioception.has_power else (0.0, 0.0))
 
     def add_to_scene(self, objects: SceneObjects, sensors: list[SensorPlacement]) -> None:
-        """Adds the robot's visual shapes and its sensors."""
+        """Adds the robot's visual shapes to the scene, and its sensors to the list."""
         ids = add_links(self.id, self.config.urdf, self.config.id, objects, "robot")
         objects.add_mover(lambda: self._where(ids))
         sensors += sensor_placements(self.config, ids)
@@ -266,7 +272,7 @@ class BulletRobot:
     # --- inside ---
 
     def _contacts(self) -> Iterator[Sequence[Any]]:
-        """Returns PyBullet's contact points, except those of wheels."""
+        """Yields PyBullet's contact points, except those of wheels."""
         for link in self._bumping:
             for contact in self._bullet.getContactPoints(bodyA=self.uid, linkIndexA=link):
                 if contact[8] <= TOUCH_M and contact[3] not in self._wheel_links:
@@ -329,7 +335,10 @@ class BulletRobot:
         return joints, links
 
     def _bumping_links(self) -> list[int]:
-        """Returns the links to query for contacts: all with one query if single queries would cost more."""
+        """Returns the links to query for contacts.
+
+        If single queries would cost more, one query for all links.
+        """
         solid = [
             index
             for index in self._links.values()

@@ -1,4 +1,4 @@
-"""A battery, discharged by idling and driving. Pure; time is an argument."""
+"""A battery that is discharged by idling and driving. Pure; time is an argument."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class BatteryModel:
 
     @property
     def is_empty(self) -> bool:
-        """Whether it is empty."""
+        """Whether the battery is empty."""
         return self.charge <= 0.0
 
     def drain(self, effort: float, dt_s: float) -> None:

@@ -1,4 +1,4 @@
-"""A bumper: the pressed zones of a robot's front. Pure; time is an argument."""
+"""A bumper: the zones at the robot's front that are pressed. Pure; time is an argument."""
 
 from __future__ import annotations
 
@@ -13,7 +13,10 @@ HELD_S: Final = 0.1  # longer than the period of measurements, so that no touch 
 
 
 def zone_of(x: float, y: float) -> Zone | None:
-    """Returns the zone of a contact at x ahead and y to the left of the center; None behind."""
+    """Returns the zone of a contact that is x m ahead and y m to the left of the center.
+
+    None if it is behind.
+    """
     bearing = math.atan2(y, x)
     if abs(bearing) <= CENTER_RAD:
         return "center"
@@ -35,5 +38,5 @@ class Bumper:
             self.touched_s[zone] = now_s
 
     def pressed(self, now_s: float) -> frozenset[Zone]:
-        """Returns the zones that are pressed."""
+        """Returns the zones that are pressed at this time."""
         return frozenset(zone for zone, then_s in self.touched_s.items() if now_s - then_s <= HELD_S)

@@ -1,4 +1,4 @@
-"""An inertial measurement unit: from pose and velocity of a body. Pure; time is an argument."""
+"""An inertial measurement unit: measures from the pose and velocity of a body. Pure; time is an argument."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ GRAVITY = 9.81
 
 @dataclass(frozen=True)
 class ImuReading:
-    """A measurement in the sensor's frame: turning rate in rad/s, proper acceleration in m/s².
+    """A measurement in the sensor's frame: the turning rate in rad/s and the proper acceleration in m/s².
 
     Args:
-        orientation: quaternion x, y, z, w in the world frame.
-        acceleration: +g upwards at rest.
+        orientation: the quaternion x, y, z, w in the world frame.
+        acceleration: the proper acceleration; at rest it is g upwards.
     """
 
     time_s: float
@@ -31,7 +31,7 @@ class ImuReading:
 
 
 class ImuModel:
-    """Computes the acceleration over a control period, as a real sensor averages."""
+    """Computes the mean acceleration over a control period, as a real sensor measures it."""
 
     def __init__(self, config: Imu, seed: tuple[int, ...]) -> None:
         self._config = config
@@ -41,7 +41,7 @@ class ImuModel:
         self._felt: Vector = (0.0, 0.0, GRAVITY)
 
     def observe(self, velocity: Vector, dt_s: float) -> None:
-        """Takes the velocity of the sensor in the world frame, `dt_s` after the last call."""
+        """Receives the velocity of the sensor in the world frame, `dt_s` after the last call."""
         old = self.velocity
         if old is not None and dt_s > 0:
             x, y, z = ((now - before) / dt_s for now, before in zip(velocity, old, strict=True))
@@ -49,7 +49,7 @@ class ImuModel:
         self.velocity = velocity
 
     def reading(self, time_s: float, pose: Pose, rate: Vector) -> ImuReading:
-        """Returns the measurement at a pose, with a turning rate in the world frame."""
+        """Returns the measurement at a pose; the turning rate is given in the world frame."""
         config = self._config
         into_own = (-pose[3], -pose[4], -pose[5], pose[6])
         self.has_drawn = config.rate_noise > 0 or config.acceleration_noise > 0

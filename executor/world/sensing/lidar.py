@@ -1,4 +1,4 @@
-"""A LIDAR by ray casting."""
+"""Simulates a LIDAR by ray casting."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
 
 class LidarCaster:
-    """Casts the rays of one LIDAR, which pass through its own robot.
+    """Casts the rays of one LIDAR; they pass through the robot that carries it.
 
     Args:
         rays: the ray caster.
-        config: number and range of the rays.
+        config: the number and range of the rays.
         own: the robot's body.
-        mask: Bullet's collision filter, in which the robot's group is missing.
-        seed: of the noise.
+        mask: the collision filter of Bullet, without the group of the robot.
+        seed: the seed of the noise.
     """
 
     def __init__(self, rays: RayCaster, config: Lidar, own: int, mask: int, seed: tuple[int, ...]) -> None:
@@ -40,7 +40,7 @@ class LidarCaster:
         self._directions = np.stack([np.cos(angles), np.sin(angles), np.zeros_like(angles)]) * self._reach
 
     def scan(self, time_s: float, pose: Pose) -> LidarReading:
-        """Measures from a pose."""
+        """Returns a scan from a pose."""
         directions = rotation(pose[3:]) @ self._directions
         fractions = self._rays.cast(pose[:3], directions, self._own, self._mask)
         return LidarReading(time_s, self._valid(fractions * self._reach, fractions < 1.0, time_s), pose)

@@ -20,7 +20,10 @@ if TYPE_CHECKING:
 
 
 class Proprioception:
-    """The inner sensors of one robot; `pose_of` returns the pose of a link, now or for a given root."""
+    """The inner sensors of one robot.
+
+    `pose_of` returns the pose of a link, for the current or a given pose of the root.
+    """
 
     def __init__(self, config: RobotConfig, seed: tuple[int, int], pose_of: Callable[..., Pose]) -> None:
         self._config = config
@@ -37,16 +40,16 @@ class Proprioception:
 
     @property
     def has_drawn(self) -> bool:
-        """Whether a noisy measurement was made."""
+        """Whether a measurement with noise was made."""
         return any(imu.has_drawn for imu in self._imus.values())
 
     @property
     def has_imu(self) -> bool:
-        """Whether the robot has an IMU, which needs velocities."""
+        """Whether the robot has an IMU; only an IMU needs velocities."""
         return bool(self._imus)
 
     def move(self, root: Pose, center: Vector, linear: Vector, rate: Vector, dt_s: float) -> None:
-        """Takes the pose of the root, the velocity of its centre of mass, and its turning rate."""
+        """Updates the IMU: pose of the root, velocity of the centre of mass, and turning rate."""
         self._rate = rate
         (vx, vy, vz), (wx, wy, wz) = linear, rate
         for imu in self._config.imus:
@@ -61,7 +64,7 @@ class Proprioception:
             battery.drain(effort, dt_s)
 
     def touch(self, point: tuple[float, float, float], now_s: float) -> None:
-        """Adds a contact at a point of the world."""
+        """Adds a contact at a point in the world frame, in m."""
         for bumper in self._config.bumpers[:1]:
             x, y, *_ = compose(inverse(self._pose_of(bumper.link)), (*point, 0.0, 0.0, 0.0, 1.0))
             self._bumper.touch(x, y, now_s)
@@ -79,10 +82,10 @@ class Proprioception:
         return self._batteries[battery.name].reading()
 
     def save(self) -> object:
-        """Returns the state."""
+        """Returns the state of all inner sensors."""
         return copy.deepcopy((self._imus, self._batteries, self._bumper, self._rate))
 
     def restore(self, saved: object) -> None:
-        """Restores a state of `save`."""
+        """Restores a state that `save` returned."""
         if isinstance(saved, tuple):
             self._imus, self._batteries, self._bumper, self._rate = copy.deepcopy(saved)

@@ -1,7 +1,10 @@
-"""Ray casting. Static boxes and cylinders are computed here, for all rays at once.
+"""Ray casting.
 
-A ray costs the physics server several microseconds, most of them for walls and shelves. Only rays that enter
-the bounding box of another body before they hit one of these are cast there.
+Intersections with static boxes and cylinders are computed in this module, for all rays in one operation.
+
+A ray costs several microseconds in the physics server, mostly because of walls and shelves. So a ray is cast
+in the physics server only if it enters the bounding box of another body before it hits a static box or
+cylinder.
 """
 
 from __future__ import annotations
@@ -28,7 +31,9 @@ MARGIN_M: Final = 0.01
 
 
 class RayCaster:
-    """Casts rays into one world, whose floor is at z = 0. Create a new one with the world's content.
+    """Casts rays into one world, whose floor is at z = 0.
+
+    Create a new caster whenever the content of the world is created.
 
     Args:
         bullet: the physics server.
@@ -42,12 +47,12 @@ class RayCaster:
         self._others: list[tuple[int, int]] = []
 
     def add_still_box(self, uid: int, size: Sequence[float]) -> None:
-        """Adds a static box; its size in m."""
+        """Adds a static box; its size is in m."""
         x, y, z = (length / 2 for length in size)
         self._boxes[uid] = (x, y, z)
 
     def add_still_cylinder(self, uid: int, radius: float, length: float) -> None:
-        """Adds a static cylinder along its z."""
+        """Adds a static cylinder along its z axis; radius and length are in m."""
         self._cylinders[uid] = (radius, radius, length / 2)
 
     def add_body(self, uid: int) -> None:
@@ -62,15 +67,15 @@ class RayCaster:
         self._still = []
 
     def cast(self, origin: Sequence[float], rays: Floats, own: int, mask: int) -> Floats:
-        """Returns the share of each ray before its first hit; 1 without a hit.
+        """Returns, for each ray, the share of its length before the first hit; 1 without a hit.
 
         A ray that begins within a body leaves it without a hit.
 
         Args:
-            origin: of all rays, in m.
-            rays: (3, n), vectors from there to their ends, in m.
-            own: the body that carries the sensor, which is not hit.
-            mask: Bullet's collision filter, in which that body's group is missing.
+            origin: the origin of all rays, in m.
+            rays: (3, n), the vectors from the origin to the ends of the rays, in m.
+            own: the body that carries the sensor, which the rays do not hit.
+            mask: the collision filter of Bullet, without the group of that body.
         """
         start = np.asarray(origin, np.float64)
         shares = _to_ground(start, rays)
@@ -106,7 +111,7 @@ class RayCaster:
 
 
 class _Still(ABC):
-    """Bodies of one shape, at their current poses."""
+    """Static bodies of one shape, at their current poses."""
 
     def __init__(self, poses: list[tuple[Sequence[float], Sequence[float]]], halves: list[Halves]) -> None:
         count = len(poses)
@@ -117,7 +122,10 @@ class _Still(ABC):
         self._reaches = (np.abs(self._turns) @ self._halves[:, :, None])[:, :, 0]
 
     def cast(self, start: Floats, rays: Floats) -> Floats:
-        """Returns the shares at which rays enter the first body; 1 for rays that enter none."""
+        """Returns, for each ray, the share of its length before it enters the first body.
+
+        1 if it enters none.
+        """
         low, high = start + np.minimum(rays.min(axis=1), 0), start + np.maximum(rays.max(axis=1), 0)
         is_near = np.all(
             (self._centres + self._reaches >= low) & (self._centres - self._reaches <= high), axis=1
@@ -133,29 +141,32 @@ class _Still(ABC):
     @staticmethod
     @abstractmethod
     def crossings(starts: Floats, rays: Floats, halves: Floats) -> tuple[Floats, Floats]:
-        """Returns where lines enter and leave the bodies, each in its body's frame, as shares of the rays.
+        """Returns the points at which lines enter and leave the bodies, as shares of the rays' lengths.
 
         Args:
-            starts: (m, 3), origins of the rays.
-            rays: (m, 3, n).
-            halves: (m, 3), half the bodies' sizes.
+            starts: (m, 3), the origin of the rays in the frame of each body.
+            rays: (m, 3, n), the rays in the frame of each body.
+            halves: (m, 3), half the size of each body.
         """
 
 
 class _Boxes(_Still):
     @staticmethod
     def crossings(starts: Floats, rays: Floats, halves: Floats) -> tuple[Floats, Floats]:
-        """Uses the slab method."""
+        """Returns the shares at which lines enter and leave boxes, by the slab method."""
         near, far = _between(starts, rays, halves)
         return np.fmax.reduce(near, axis=1), np.fmin.reduce(far, axis=1)
 
 
 class _Cylinders(_Still):
-    """Cylinders about z, with the radius as half size along x and y."""
+    """Cylinders about z; their half sizes along x and y are the radius."""
 
     @staticmethod
     def crossings(starts: Floats, rays: Floats, halves: Floats) -> tuple[Floats, Floats]:
-        """Solves a quadratic about the axis, and uses a slab along it."""
+        """Returns the shares at which lines enter and leave cylinders.
+
+        It solves a quadratic about the axis, and uses a slab along it.
+        """
         along, across = (rays[:, :2] ** 2).sum(axis=1), (starts[:, :2, None] * rays[:, :2]).sum(axis=1)
         outside = (starts[:, :2] ** 2).sum(axis=1) - halves[:, 0] ** 2
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -168,7 +179,7 @@ class _Cylinders(_Still):
 
 
 def _between(starts: Floats, rays: Floats, halves: Floats) -> tuple[Floats, Floats]:
-    """Returns where lines enter and leave the slab of each axis."""
+    """Returns the shares at which lines enter and leave the slab of each axis."""
     with np.errstate(divide="ignore", invalid="ignore"):
         inverse = 1.0 / rays
         first = (-halves - starts)[:, :, None] * inverse

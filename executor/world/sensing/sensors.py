@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 
 
 class Sensors:
-    """Measures and draws on demand. Call `changed` after each step.
+    """Makes measurements and pictures on demand. Call `changed` after each step.
 
     Args:
-        renderer: makes the renderer, at the first picture.
+        renderer: creates the renderer; called for the first picture.
     """
 
     def __init__(self, world: World, renderer: Callable[[], Renderer]) -> None:
@@ -52,7 +52,7 @@ class Sensors:
         return self._kept[key]  # type: ignore[return-value]
 
     def picture(self, robot: Robot, camera: Camera, width: int | None = None) -> Picture:
-        """Returns the current image of a camera, in its own size or narrower."""
+        """Returns the current image of a camera, in its configured size, or scaled to `width`."""
         wide = min(width or camera.width, camera.width)
         high = max(1, round(camera.height * wide / camera.width))
         key = ("picture", robot.id, camera.name, wide)
@@ -62,7 +62,10 @@ class Sensors:
         return self._kept[key]  # type: ignore[return-value]
 
     def depth(self, robot: Robot, camera: Camera) -> NDArray[np.float32]:
-        """Returns the current depth image of a camera, in m along its axis; -inf too near, +inf too far."""
+        """Returns the current depth image of a camera, in m along the optical axis.
+
+        -inf is too near, +inf too far.
+        """
         key = ("depth", robot.id, camera.name)
         if key not in self._kept:
             view = Viewpoint.of_pose(robot.camera_pose(camera), camera.fov, camera.near, camera.far)
@@ -73,7 +76,7 @@ class Sensors:
         return self._kept[key]  # type: ignore[return-value]
 
     def view(self, viewpoint: Viewpoint, width: int, height: int) -> Picture:
-        """Returns a view of the world; the same array as before if nothing in it changed."""
+        """Returns a view of the world; if nothing in the world changed, the same array as before."""
         return self._loaded().redraw(self._world.poses(), viewpoint, width, height)
 
     def close(self) -> None:

@@ -1,11 +1,12 @@
 """Adaptation of picture quality and rates to the load. Pure.
 
-Three things adapt. Pictures for a slow client get smaller, worse and fewer: the manager reports the share of
-each client's pictures that newer ones replaced before they could be sent, and each level down halves the
-bytes. Cameras draw less often on a machine that cannot draw them at their rates in real time, so that robots
-are not slowed down. The server's own view gets smaller if it cannot be drawn at its rate.
+Three things adapt. Pictures for a slow client get smaller, fewer and of lower quality. For each client, the
+manager reports the share of its pictures that newer ones replaced before they could be sent; each lower level
+halves the bytes. Cameras draw less often on a machine that cannot draw them at their rates in real time, so
+that robots are not slowed down. The server's own view gets smaller if it cannot be drawn at its rate.
 
-A level up is tried when nothing was lost for a while, and less often each time that it proved too much.
+A higher level is tried when nothing was lost for a while; each time that it turns out to be too high, it is
+tried less often.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ LONGEST_PATIENCE: Final = 96
 
 @dataclass(frozen=True)
 class Level:
-    """Shares of the requested width and rate, and the JPEG quality."""
+    """A level of quality: shares of the requested width and rate, and the JPEG quality."""
 
     width: float
     rate: float
@@ -44,11 +45,11 @@ LEVELS: Final = (
 
 
 CAMERA_SHARES: Final = (1.0, 0.7, 0.5, 0.35, 0.25, 0.15)
-"""Shares of a camera's rate."""
+"""The levels for cameras, as shares of their configured rates."""
 TOO_SLOW: Final = 0.03
 
 VIEW_SHARES: Final = (1.0, 0.75, 0.6, 0.5, 0.35)
-"""Shares of the requested width."""
+"""The levels for the server's view, as shares of the requested width."""
 TOO_FEW: Final = 0.15
 COUNTED_S: Final = 0.5
 COUNTED_PERIODS: Final = 4
@@ -58,8 +59,8 @@ class Adaptation(Generic[T]):
     """Selects one of several levels, of which the first is the best.
 
     Args:
-        levels: the choices.
-        too_much: the lost share from which the level is too high.
+        levels: the levels to choose from.
+        too_much: the share of lost pictures from which the level is too high.
     """
 
     def __init__(self, levels: Sequence[T], too_much: float = TOO_MUCH) -> None:
@@ -76,7 +77,7 @@ class Adaptation(Generic[T]):
         return self._levels[self._at]
 
     def note(self, lost: float) -> None:
-        """Takes the share lost since the last call, 0 to 1."""
+        """Adapts the level to the share of pictures lost since the last call, 0 to 1."""
         if lost > self._too_much:
             if self._has_just_risen:
                 self._patience = min(self._patience * 2, LONGEST_PATIENCE)
@@ -95,7 +96,7 @@ class Adaptation(Generic[T]):
 
 
 class CameraRates:
-    """The share of their rates at which cameras draw, by the real-time factor of the world."""
+    """Computes the share of their rates at which cameras draw, from the real-time factor of the world."""
 
     def __init__(self) -> None:
         self._adaptation = Adaptation(CAMERA_SHARES, TOO_SLOW)
@@ -107,7 +108,10 @@ class CameraRates:
         return self._adaptation.level
 
     def note(self, real_time_factor: float, speed: float) -> None:
-        """Takes the real-time factor of the last second. Above real time no picture is dropped."""
+        """Adapts the share to the real-time factor of the last second.
+
+        If the world is faster than real time, no picture is dropped.
+        """
         late = max(0.0, 1 - real_time_factor / speed) if 0 < speed <= 1 else 0.0
         # The better of the last two seconds counts, since a single slow one may be an exception.
         self._adaptation.note(min(late, self._late))
@@ -115,7 +119,7 @@ class CameraRates:
 
 
 class ViewSize:
-    """The share of its width at which a view is drawn, by the share of its pictures that were on time."""
+    """Computes the share of its width at which a view is drawn, from the share of pictures on time."""
 
     def __init__(self) -> None:
         self._adaptation = Adaptation(VIEW_SHARES, TOO_FEW)
@@ -128,7 +132,7 @@ class ViewSize:
         return self._adaptation.level
 
     def sent(self, now_s: float, period_s: float, version: int) -> None:
-        """Notes a picture of a version of the world; a paused world has no more versions."""
+        """Notes a picture of a version of the world. The version of a paused world does not change."""
         if self._since is None:
             self._since = (now_s, version)
             return

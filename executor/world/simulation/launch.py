@@ -1,4 +1,4 @@
-"""Makes the world that a client requested."""
+"""Creates the world that a client requested."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ if TYPE_CHECKING:
 
 
 def find_universe(universe: str, file: str = "") -> Universe:
-    """Returns a universe by its built-in id, or from its YAML text; errors in the text name `file`.
+    """Returns a universe by its built-in id, or from its YAML text. `file` is the name of the text in errors.
 
     Raises:
-        UniverseError: there is none, or the text is invalid.
+        UniverseError: there is no such universe, or the text is invalid.
     """
     if "\n" in universe or ":" in universe:
         return parse_universe(universe, file or "universe.yaml")
@@ -25,7 +25,7 @@ def find_universe(universe: str, file: str = "") -> Universe:
 def make_world(
     universe: str, *, seed: int = 0, robot: str | None = None, assets: Path | None = None, file: str = ""
 ) -> BulletWorld:
-    """Returns the world of a universe; errors in its text name `file`.
+    """Returns the world of a universe. `file` is the name of the universe's text in errors.
 
     Raises:
         DocumentError: the universe or its robot does not exist or is invalid.

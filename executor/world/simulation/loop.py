@@ -1,4 +1,4 @@
-"""A running world: physics, sensors, ROS and streams, driven by real time that is given as an argument."""
+"""Runs a world: physics, sensors, ROS and streams. Real time is an argument."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class _Report:
 
 
 class SimulationLoop:
-    """Steps a world at its pace and publishes everything that is due. Starts paused."""
+    """Steps a world at its pace, and publishes the messages and frames that are due. It starts paused."""
 
     def __init__(
         self, world: World, sensors: Sensors, node: WorldNode, send: Send, *, speed: float = 1.0
@@ -73,11 +73,14 @@ class SimulationLoop:
         self.is_paused = False
 
     def set_speed(self, speed: float) -> None:
-        """Sets the simulated seconds a second of real time; 0 is as fast as the machine can."""
+        """Sets the simulated seconds for each second of real time.
+
+        With 0 the world runs as fast as the machine can.
+        """
         self._pacer.set_speed(speed)
 
     def step(self, dt_s: float) -> None:
-        """Simulates a duration at once; for a paused world."""
+        """Simulates a duration immediately; for a paused world."""
         self._advance(max(1, round(dt_s / self._world.step_s)))
 
     def reset(self) -> None:
@@ -90,7 +93,10 @@ class SimulationLoop:
         self._steps, self._report = 0, None
 
     def teleop(self, linear: float, angular: float, *, goes_on: bool = False) -> None:
-        """Drives the first robot by hand; with `goes_on` a paused world runs for a moment."""
+        """Drives the first robot by hand.
+
+        With `goes_on` a paused world runs for a moment so that the robot moves.
+        """
         if self._world.robots:
             self._world.robots[0].command(linear, angular)
             self._is_driven = goes_on
@@ -106,7 +112,7 @@ class SimulationLoop:
         self._sensors.changed()
 
     def run_due(self, now_s: float) -> None:
-        """Does everything that is due at a real time."""
+        """Runs everything that is due at this real time."""
         if self._stands_still(now_s):
             self._pacer.pause()
             self._idle(now_s)
@@ -118,7 +124,7 @@ class SimulationLoop:
         self._report_due(now_s)
 
     def next_due_s(self, now_s: float) -> float:
-        """Returns the seconds until `run_due` is due."""
+        """Returns the seconds until `run_due` has something to do."""
         if not self.is_paused or self._is_driven or now_s < self._driven_until_s:
             return self._pacer.next_due_s(now_s, PERIOD_STEPS - self._steps % PERIOD_STEPS)
         idle = self._clock_s + IDLE_CLOCK_S - now_s
@@ -132,7 +138,7 @@ class SimulationLoop:
         return self.is_paused and now_s >= self._driven_until_s
 
     def _idle(self, now_s: float) -> None:
-        """Publishes the time also while paused, for nodes that join then."""
+        """Publishes the simulated time also while it is paused, for nodes that join during the pause."""
         if now_s - self._clock_s >= IDLE_CLOCK_S:
             self._clock_s = now_s
             self._node.poll()

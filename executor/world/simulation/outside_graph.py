@@ -1,7 +1,8 @@
-"""An outside ROS graph in place of a simulated world: the application controls its robot.
+"""Replaces a simulated world by an outside ROS graph, whose robot the application controls.
 
-It has the interface of `SimulationLoop`, for the same messages. Nothing is simulated, and time is that of the
-outside graph. A pause cannot stop it; it only sets the robot's target velocity to zero.
+`OutsideGraph` has the interface of `SimulationLoop`, and handles the same messages. Nothing is simulated; the
+time is that of the outside graph. A pause does not stop that time; it only sets the robot's target velocity
+to zero.
 """
 
 from __future__ import annotations
@@ -30,20 +31,20 @@ REPORT_S: Final = 1.0
 
 
 class _NoStreams:
-    """Streams of a graph without a world."""
+    """Replaces the streams for a graph without a world."""
 
     def subscribe(self, client: str | None, stream: str, **wishes: Any) -> None:
-        """Sends nothing."""
+        """Does nothing: there are no streams."""
 
     def unsubscribe(self, client: str | None, stream: str, *, sensor: str) -> None:
-        """Ends nothing."""
+        """Does nothing: there are no streams."""
 
     def pace(self, client: str | None, lost: float) -> None:
-        """Slows nothing."""
+        """Does nothing: there are no streams."""
 
 
 class OutsideGraph:
-    """A node in an outside graph, for topic tools, driving by hand, and stopping the robot."""
+    """A node in an outside ROS graph, for topic tools, for driving by hand, and to stop the robot."""
 
     def __init__(self, context: Context, send: Send) -> None:
         self.node = Node("bt_studio", context=context)
@@ -69,15 +70,15 @@ class OutsideGraph:
         """Does nothing: outside time cannot be stepped."""
 
     def set_speed(self, speed: float) -> None:
-        """Refuses: the speed of outside time cannot be changed."""
+        """Raises an error: the speed of outside time cannot be changed."""
         self._refuse(f"the speed cannot be {speed:g}")
 
     def reset(self) -> None:
-        """Stops the robot; it is not moved back."""
+        """Stops the robot; the robot is not moved back."""
         self.stop_robots()
 
     def teleop(self, linear: float, angular: float, *, goes_on: bool = False) -> None:
-        """Drives the robot by hand; outside time passes anyway."""
+        """Drives the robot by hand; `goes_on` has no effect, since outside time always passes."""
         twist = Twist()
         twist.linear.x, twist.angular.z = linear, angular
         self._velocity.publish(twist)
@@ -87,11 +88,11 @@ class OutsideGraph:
         self._velocity.publish(Twist())
 
     def move_body(self, body: str, pose: Sequence[float]) -> None:
-        """Refuses: outside bodies cannot be moved."""
+        """Raises an error: outside bodies cannot be moved."""
         self._refuse(f"{body!r} cannot be moved to {list(pose)[:2]}")
 
     def run_due(self, now_s: float) -> None:
-        """Runs the watchers, and sends a `Sim` once a second."""
+        """Runs the topic tools and the other watchers, and sends a `Sim` once a second."""
         self._seen_s = now_s
         for watch in self.watchers:
             watch(now_s)
@@ -113,7 +114,7 @@ class OutsideGraph:
         )
 
     def next_due_s(self, now_s: float) -> float:
-        """Returns the seconds until `run_due` is due."""
+        """Returns the seconds until `run_due` has something to do."""
         return max(0.0, self._seen_s + LOOK_S - now_s)
 
     def close(self) -> None:

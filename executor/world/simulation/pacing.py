@@ -1,4 +1,4 @@
-"""Paces simulated time by real time. Time is an argument."""
+"""Derives simulated time from real time. Time is an argument."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ FREE_RUN_STEPS: Final = 48
 
 
 class Pacer:
-    """Computes how many steps are due. After a stall, at most `LARGEST_DELAY_S` is caught up."""
+    """Computes the number of steps that are due. After a stall, at most `LARGEST_DELAY_S` is caught up."""
 
     def __init__(self, step_s: float, speed: float = 1.0) -> None:
         self._step_s = step_s
@@ -21,7 +21,7 @@ class Pacer:
 
     @property
     def speed(self) -> float:
-        """Simulated seconds a second of real time; 0 is as fast as the machine can."""
+        """Simulated seconds for each second of real time; 0 is as fast as the machine can."""
         return self._speed
 
     def set_speed(self, speed: float) -> None:
@@ -32,7 +32,7 @@ class Pacer:
         self._anchor_s = None
 
     def pause(self) -> None:
-        """Ignores the real time from now until the next `due`."""
+        """Pauses: real time from now until the next call of `due` is ignored."""
         self._anchor_s = None
 
     def due(self, now_s: float) -> int:

@@ -1,7 +1,7 @@
-"""Streams of clients, each at its requested rate.
+"""Sends streams to clients, each at its requested rate.
 
-The scene comes first, then only poses that changed. Nothing is sent twice: a paused world sends only data
-that is new to a new or changed subscription.
+The scene is sent first, then only poses that changed. Nothing is sent twice: of a paused world, only data
+that a new or changed subscription has not received yet are sent.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 MAX_HZ: Final[dict[str, float]] = {"poses": 60.0, "scan": 30.0, "camera": 30.0, "view": 30.0}
 PICTURES: Final = ("camera", "view")
 REST_SHARE: Final = 0.25
-"""Pause after a picture before the next one, as a share of the time that it took."""
+"""Pause between two pictures, as a share of the time that the first one took."""
 MOVED_M: Final = 1e-4
 VIEW_WIDTH: Final = 960
 WIDTHS: Final = (64, 1920)
@@ -63,7 +63,7 @@ class Subscription:
 
 
 class Streams:
-    """All subscriptions of a world. `send` takes frames."""
+    """All subscriptions of a world. `send` is called with each frame."""
 
     def __init__(
         self, world: World, sensors: Sensors, send: Send, *, clock: Callable[[], float] = time.monotonic
@@ -97,7 +97,7 @@ class Streams:
         camera_pose: CameraPose | None = None,
         sensor: str = "",
     ) -> None:
-        """Starts a stream, or changes it. Each camera is a stream of its own."""
+        """Starts a stream of a client, or changes it. Each camera is a separate stream."""
         rate = min(max(max_hz, 0.1), MAX_HZ[stream])
         wide = None if width is None else min(max(width, WIDTHS[0]), WIDTHS[1])
         old = self._subscriptions.get((client, stream, sensor))
@@ -109,13 +109,16 @@ class Streams:
         self._subscriptions[client, stream, sensor] = new
 
     def unsubscribe(self, client: str | None, stream: str, *, sensor: str = "") -> None:
-        """Ends a stream, if there is one."""
+        """Ends a stream of a client, if it exists."""
         self._subscriptions.pop((client, stream, sensor), None)
         if not any(one.client == client for one in self._subscriptions.values()):
             self._adaptations.pop(client, None)
 
     def pace(self, client: str | None, lost: float) -> None:
-        """Takes the share of its pictures that a client was too slow for, about twice a second."""
+        """Adapts a client's pictures to the share of them for which it was too slow.
+
+        Called about twice a second.
+        """
         if any(one.client == client for one in self._subscriptions.values()):
             self._adaptations.setdefault(client, Adaptation(LEVELS)).note(lost)
 
@@ -129,7 +132,7 @@ class Streams:
         return max(0.0, min((s.next_s - now_s for s in self._subscriptions.values()), default=1.0))
 
     def send_due(self, now_s: float) -> None:
-        """Sends the frames that are due. After a slow picture the world gets time to step."""
+        """Sends the frames that are due. After a slow picture, the world gets time for its steps first."""
         may_draw, drawing_s = now_s >= self._rests_until_s, 0.0
         for subscription in list(self._subscriptions.values()):
             is_picture = subscription.stream in PICTURES
@@ -162,7 +165,10 @@ class Streams:
         return True
 
     def _sample(self, subscription: Subscription) -> object:
-        """Identifies the measurement of a frame; a sensor makes no more of them than its rate."""
+        """Returns a value that identifies the measurement of a frame.
+
+        It changes at most at the rate of the sensor.
+        """
         if subscription.stream == "view":
             return self._sensors.version
         rate_hz = self._rate_hz(subscription)
@@ -223,7 +229,7 @@ class Streams:
         return View(t=self._world.time_s, width=width, height=height, jpeg=jpeg)
 
     def _jpeg_once(self, picture: NDArray[np.uint8], quality: int) -> bytes:
-        """Encodes a picture, unless it is the last one again."""
+        """Encodes a picture as JPEG; for the same picture as before it returns the same bytes."""
         known, of_quality, jpeg = self._encoded
         if picture is not known or quality != of_quality:
             jpeg = _jpeg(picture, quality)

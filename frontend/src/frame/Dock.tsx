@@ -18,6 +18,7 @@ import { useProjectStore } from '@/store/project';
 import { forgetLayouts, keepLayout, type FrameWidth } from '@/workspace/layoutModel';
 import { markCutTabs } from './cutTabs';
 import { panelIcon } from './panelIcons';
+import { keepLesson } from '@/workspace/lessons';
 import { renderTab } from './panels';
 import { PanelBadge } from './PanelBadge';
 import { Popouts, titleOf } from './popouts';
@@ -148,7 +149,9 @@ export function Dock({ model, width }: DockProps) {
     const { projectId } = useProjectStore.getState();
     keepSoon(() => {
       keepLayout(width, changed);
-      if (projectId) keepOpen(projectId, changed);
+      if (!projectId) return;
+      keepOpen(projectId, changed);
+      keepLesson(projectId, changed);
     });
   };
 

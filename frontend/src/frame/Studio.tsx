@@ -36,6 +36,7 @@ import { CommandPalette } from '@/workspace/CommandPalette';
 import { Dock } from './Dock';
 import classes from './frame.module.css';
 import { loadLayout } from '@/workspace/layoutModel';
+import { openLesson } from '@/workspace/lessons';
 import { RestoredNotice } from './RestoredNotice';
 import { StatusBar } from './StatusBar';
 import {
@@ -129,6 +130,7 @@ function Workbench({ projectId }: StudioProps) {
     const fresh = loadLayout(width, hasWebGl());
     useTabs.setState({ model: fresh, width });
     reopen(projectId, useProjectStore.getState().mainTree);
+    openLesson(projectId);
     followFront(fresh);
   }, [model, modelWidth, width, projectId]);
 

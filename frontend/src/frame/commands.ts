@@ -1,5 +1,6 @@
 import {
   IconAdjustments,
+  IconBook2,
   IconCamera,
   IconCode,
   IconDeviceFloppy,
@@ -37,6 +38,7 @@ import { focusInspector } from '@/workspace/focus';
 import { openAnotherCamera } from '@/workspace/cameraViews';
 import { WINDOWED, type PanelId } from '@/workspace/layoutModel';
 import { popOut } from './popouts';
+import { showLesson } from '@/workspace/lessons';
 import { openTab, showPanel, togglePanel } from '@/workspace/tabs';
 
 /** Moves the keyboard focus to the tree that was edited last. */
@@ -192,6 +194,13 @@ const rows: UserCommand[] = [
     shortcut: '$mod+Shift+KeyX',
     inTextFields: true,
     run: () => togglePanel('xml'),
+  },
+  {
+    id: 'view.lesson',
+    group: 'view',
+    labelKey: 'frame:command.lesson',
+    icon: IconBook2,
+    run: showLesson,
   },
   {
     id: 'view.shortcuts',

@@ -11,6 +11,7 @@ import {
   IconFolder,
   IconHistory,
   IconListTree,
+  IconSchool,
   IconSearch,
   IconTerminal2,
   IconTimeline,
@@ -36,6 +37,7 @@ export const PANEL_ICONS: Readonly<Record<PanelId, Icon>> = {
   timeline: IconTimeline,
   topics: IconBroadcast,
   history: IconHistory,
+  lesson: IconSchool,
   xml: IconCode,
 };
 

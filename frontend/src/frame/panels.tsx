@@ -3,6 +3,7 @@ import type { TabNode } from 'flexlayout-react';
 import { BlackboardPanel } from '@/features/blackboard/BlackboardPanel';
 import { Canvas } from '@/features/canvas/Canvas';
 import { ConsolePanel } from '@/features/console/ConsolePanel';
+import { LessonPanel } from '@/features/lesson/LessonPanel';
 import { Inspector } from '@/features/inspector/Inspector';
 import { Library } from '@/features/library/Library';
 import { Outline } from '@/features/outline/Outline';
@@ -68,6 +69,7 @@ const panels: Record<PanelId, (node: TabNode) => ReactNode> = {
       <RevisionsPanel />
     </Suspense>
   ),
+  lesson: () => <LessonPanel />,
   xml: () => (
     <Suspense fallback={<Waiting reason="loadingEditor" />}>
       <XmlPanel />

@@ -30,7 +30,11 @@ export type FinishReason = "root_finished" | "action_raised" | "terminated" | "p
 /** A command without arguments. */
 export type Empty = Record<string, never>;
 
-/** A universe of the project: its YAML text and the assets that it names; errors name `file`. */
+/**
+ * A universe of the project: its YAML text, and the assets that it names.
+ *
+ * `file` is its name in errors.
+ */
 export interface UniverseDocument {
   document: string;
   assets_zip_base64?: string;
@@ -40,8 +44,8 @@ export interface UniverseDocument {
 /**
  * Starts world and robots, paused. `universe` is a built-in id or a document.
  *
- * `none` starts no world: the application runs against an outside ROS graph of this machine, in the domain
- * `domain_id`; null is the `ROS_DOMAIN_ID` with which the server was started.
+ * `none` starts no world: the application joins an outside ROS graph of this machine, in the domain
+ * `domain_id`. If that is null, it is the `ROS_DOMAIN_ID` of the server's environment.
  */
 export interface LaunchUniverse {
   universe: string | UniverseDocument;
@@ -59,23 +63,31 @@ export interface RunApplication {
   on_error?: OnError;
 }
 
-/** Climbs all missing rungs of the ladder up to `application_running`. */
+/** Climbs all rungs of the ladder up to `application_running`. */
 export interface Run {
   universe: LaunchUniverse;
   application: RunApplication;
 }
 
-/** Ticks a second of simulated time, from the next tick on. */
+/** Sets the number of ticks for each second of simulated time, from the next tick on. */
 export interface SetTickRate {
   tick_hz: number;
 }
 
-/** Simulated seconds a second of real time, 0.1 to 10; 0 runs as fast as the machine can. */
+/**
+ * Sets the simulated seconds for each second of real time, 0.1 to 10.
+ *
+ * With 0 it runs as fast as the machine can.
+ */
 export interface SetSpeed {
   speed: number;
 }
 
-/** Writes an entry; `scope` is the path of a subtree, "" the root. Only while paused. */
+/**
+ * Writes an entry of the blackboard; `scope` is the path of a SubTree, "" for the root.
+ *
+ * Only while paused.
+ */
 export interface SetBlackboard {
   scope: string;
   key: string;
@@ -88,13 +100,13 @@ export interface Teleop {
   angular: number;
 }
 
-/** Puts a body somewhere: pose [x, y, z, roll, pitch, yaw] in m and rad. Only while paused. */
+/** Moves a body to a pose [x, y, z, roll, pitch, yaw] in m and rad. Only while paused. */
 export interface MoveBody {
   id: string;
   pose: [number, number, number, number, number, number];
 }
 
-/** Camera of the server's own view: eye and target in m, world frame. */
+/** Camera of the server's view of the world: eye and target in m, world frame. */
 export interface CameraPose {
   eye: [number, number, number];
   target: [number, number, number];
@@ -121,7 +133,9 @@ export interface Unsubscribe {
 }
 
 /**
- * Sends the latest message of a topic as `topic_message`, at most `max_hz`; 0 ends it.
+ * Sends the latest message of a topic as `topic_message`, at most `max_hz` times a second.
+ *
+ * 0 ends the echo.
  *
  * If several clients echo a topic, all receive it at the highest of their rates.
  */
@@ -133,7 +147,7 @@ export interface EchoTopic {
 /**
  * Publishes one message; `message` holds the fields of `type` (`std_msgs/msg/String`) as JSON.
  *
- * Missing fields keep their defaults. `"inf"`, `"-inf"` and `"nan"` stand for the numbers that JSON lacks.
+ * Missing fields get their defaults. `"inf"`, `"-inf"` and `"nan"` stand for the numbers that JSON lacks.
  */
 export interface PublishTopic {
   topic: string;
@@ -146,7 +160,7 @@ export interface DescribeType {
   type: string;
 }
 
-/** Restarts a node of the project's launch files; `id` as in `launch_nodes`. */
+/** Restarts a launch node of the project; `id` is its id in the event `launch_nodes`. */
 export interface RestartNode {
   id: string;
 }
@@ -161,7 +175,7 @@ export interface ClientMessage {
 /** The command was done. */
 export type Ack = Record<string, never>;
 
-/** The command was refused or failed; nothing else changed. */
+/** The command was refused or failed; it changed nothing. */
 export interface Error {
   code: string;
   message: string;
@@ -169,14 +183,14 @@ export interface Error {
 }
 
 /**
- * First message on a connection, sent again when the client's role or what the world can do changes.
+ * First message on a connection, sent again when the client's role or the properties of the world change.
  *
  * `renderer` and `tf` describe the running world: "" and false before it is ready.
  *
  * `client_id` names this client when it opens the stream socket.
  *
- * With the variables of `ros_environment` a ROS program on the session's host joins its graph; empty if the
- * session is isolated.
+ * A ROS program on the session's host joins the session's graph with the variables of `ros_environment`;
+ * they are empty if the session is isolated.
  */
 export interface Introspection {
   protocol: string;
@@ -191,20 +205,24 @@ export interface Introspection {
   ros_environment: Record<string, string>;
 }
 
-/** The state of the ladder changed; `reason` is for users, empty if a command asked for it. */
+/**
+ * The session entered another state of the ladder.
+ *
+ * `reason` is for users, and empty if a command caused it.
+ */
 export interface StateChanged {
   state: State;
   reason: string;
 }
 
-/** Progress of a long step: fraction 0 to 1 of this rung, and a sentence. */
+/** Progress of a long step: the fraction of this rung, 0 to 1, and a sentence. */
 export interface Progress {
   rung: Rung;
   fraction: number;
   message: string;
 }
 
-/** One node of the running tree. `node_id` is the diagram's id, `tree_id` its diagram. */
+/** One node of the running tree. `node_id` is its id in the diagram, `tree_id` the id of that diagram. */
 export interface TreeNode {
   uid: number;
   parent: number;
@@ -222,9 +240,10 @@ export interface Tree {
 }
 
 /**
- * The changes of one tick, or of a halt after it: then `n` is that of the tick.
+ * The changes of one tick, or of a halt after it; a halt has the number `n` of that tick.
  *
- * `past` replaces that of the message before: nodes that are idle again, with their last status in the tick.
+ * `past` holds the nodes that are idle again, with their last status in the tick; it replaces the `past` of
+ * the previous message.
  */
 export interface Tick {
   n: number;
@@ -234,7 +253,7 @@ export interface Tick {
   past: [number, NodeStatus][];
 }
 
-/** One changed entry; large values are sent as a preview (text), with `preview` set. */
+/** One changed entry; a large value is sent as a preview (text), and `preview` is then true. */
 export interface BlackboardEntry {
   scope: string;
   key: string;
@@ -244,7 +263,7 @@ export interface BlackboardEntry {
   removed: boolean;
 }
 
-/** Entries that changed since the last such message. */
+/** Entries that changed since the previous message of this kind. */
 export interface Blackboard {
   entries: BlackboardEntry[];
 }
@@ -260,7 +279,7 @@ export interface Log {
   launch_node: string;
 }
 
-/** A failure: an exception in an action, or a process that died or hangs. */
+/** A run-time error: an exception in an action, or a process that ended or hangs. */
 export interface Fault {
   kind: FaultKind;
   message: string;
@@ -273,7 +292,7 @@ export interface Fault {
   traceback: string;
 }
 
-/** The run ended; if the root returned its status, the node is the lowest one that decided it. */
+/** The run ended. If the root returned a status, the node is the lowest one that decided it. */
 export interface Finished {
   status: NodeStatus;
   reason: FinishReason;
@@ -300,8 +319,8 @@ export interface Sim {
  * One ROS topic: its rate over the last two seconds, and the nodes at both of its ends.
  *
  * `hz` and `bytes_per_s` are null without a measurement: images and point clouds are measured only while a
- * client echoes them, and the first `list_topics` after a while starts the measurement. `types` has more
- * than `type` if a robot accepts several types on its command topic.
+ * client echoes them, and the first `list_topics` after a while starts the measurement. `types` holds all
+ * types of the topic; several only if a robot accepts several types on its command topic.
  */
 export interface TopicInfo {
   name: string;
@@ -343,8 +362,8 @@ export interface TypeDescription {
 /**
  * Two ends of a topic do not match, so no message arrives; reported once while both exist.
  *
- * `publisher` and `subscriber` are nodes; `reason` is the difference: message type or quality of service.
- * `hint` says how to fix it.
+ * `publisher` and `subscriber` are names of ROS nodes. `reason` is the difference: message type or quality
+ * of service. `hint` says how to fix it.
  */
 export interface TopicMismatch {
   topic: string;
@@ -358,7 +377,7 @@ export interface TopicMismatch {
 /**
  * A process of the project's launch files; `file` and `line` are its place there.
  *
- * `end` says how it ended (exit code or signal), or why it could not be started.
+ * `end` is the exit code or the signal with which it ended, or the reason why it could not be started.
  */
 export interface LaunchNode {
   id: string;
@@ -377,7 +396,7 @@ export interface LaunchNodes {
   nodes: LaunchNode[];
 }
 
-/** Full state for a client that joins late; deltas follow. */
+/** The full state for a client that joins late; later events change it. */
 export interface Snapshot {
   state: State;
   tree: Tree | null;
@@ -408,13 +427,13 @@ export interface ServerMessage {
  * A visual shape in its object's frame.
  *
  * Args:
- *     shape: its kind. `size` in m is [x, y, z] for a box, [radius, length] for a cylinder or a
+ *     shape: the kind of shape; its `size` in m is [x, y, z] for a box, [radius, length] for a cylinder or a
  *         capsule along z, [radius] for a sphere, [x, y] for a plane, [sx, sy, sz] (scale) for a mesh.
  *     pose: [x, y, z, qx, qy, qz, qw] in the object's frame.
  *     color: [r, g, b, a], each 0 to 1, sRGB.
  *     mesh: key in `Scene.meshes` for a mesh, else "".
  *     texture: key in `Scene.textures`, or "" for none; the colour tints it.
- *     ceiling: whether it is a ceiling or the upper part of a wall, which only robots' cameras see.
+ *     ceiling: whether the shape is a ceiling or the upper part of a wall, which only robots' cameras see.
  */
 export interface Shape {
   shape: "box" | "capsule" | "cylinder" | "mesh" | "plane" | "sphere";
@@ -426,7 +445,7 @@ export interface Shape {
   ceiling?: boolean;
 }
 
-/** One rigid piece (a body, or a link of a robot) with its pose [x, y, z, qx, qy, qz, qw]. */
+/** One rigid object: a body, or a link of a robot; `pose` is [x, y, z, qx, qy, qz, qw]. */
 export interface SceneObject {
   id: number;
   body: string;
@@ -437,9 +456,11 @@ export interface SceneObject {
 }
 
 /**
- * Triangles: positions and normals as little-endian float32 (3 a vertex), indices as uint32.
+ * The triangles of a mesh.
  *
- * `uvs` are the texture coordinates of the file, if any: two float32 a vertex; v points up.
+ * Positions and normals are little-endian float32 (3 for each vertex), indices are uint32.
+ *
+ * `uvs` are the texture coordinates of the file, if it has any: two float32 for each vertex; v points up.
  */
 export interface Mesh {
   positions: Uint8Array;
@@ -449,9 +470,10 @@ export interface Mesh {
 }
 
 /**
- * A repeated image: a JPEG file, and the width and height of one repetition in m.
+ * An image that is repeated: a JPEG file, and the width and height of one repetition in m.
  *
- * `executor/render/mapping.py` maps it to shapes; on a mesh with `uvs` these do, and the size is unused.
+ * `executor/render/mapping.py` maps it to shapes; a mesh with `uvs` uses these coordinates, and the size is
+ * not used.
  */
 export interface Texture {
   jpeg: Uint8Array;
@@ -489,10 +511,10 @@ export interface Scene {
 }
 
 /**
- * Poses that changed: `ids` little-endian uint16, and 16 bytes of `poses` an id.
+ * The poses that changed: `ids` as little-endian uint16, and in `poses` 16 bytes for each id.
  *
- * Of these, bytes 0-8 are x, y, z as int24 in 0.1 mm; byte 9 is the index of the omitted one of qx, qy, qz,
- * qw (the largest, made positive); bytes 10-15 are the others as int16 in 1/(32767 * sqrt(2)).
+ * Of these 16 bytes, bytes 0-8 are x, y, z as int24 in 0.1 mm; byte 9 is the index of the omitted one of qx,
+ * qy, qz, qw (the largest, made positive); bytes 10-15 are the others as int16 in 1/(32767 * sqrt(2)).
  * Little-endian.
  */
 export interface Poses {
@@ -502,7 +524,7 @@ export interface Poses {
   poses: Uint8Array;
 }
 
-/** One LIDAR scan: ranges float32 in m, counter-clockwise; pose of the sensor in the world. */
+/** One LIDAR scan: ranges as float32 in m, counter-clockwise, and the pose of the sensor in the world. */
 export interface Scan {
   type: "scan";
   t: number;
@@ -515,9 +537,9 @@ export interface Scan {
 }
 
 /**
- * One image of a robot's camera.
+ * One JPEG image of a robot's camera.
  *
- * `sensor` is the sensor's name, and `robot/sensor` for every robot but the first.
+ * `sensor` is the name of the sensor; for robots other than the first it is `robot/sensor`.
  */
 export interface Camera {
   type: "camera";
@@ -528,7 +550,7 @@ export interface Camera {
   jpeg: Uint8Array;
 }
 
-/** The world as the server draws it. */
+/** One JPEG frame of the stream `view`: the world, drawn by the server. */
 export interface View {
   type: "view";
   t: number;

@@ -24,7 +24,8 @@ export type PanelId =
   | 'timeline'
   | 'topics'
   | 'history'
-  | 'xml';
+  | 'xml'
+  | 'lesson';
 
 /** Panels that are newer than stored layouts, each with the panel beside which it is added. */
 const NEW_PANELS: readonly (readonly [PanelId, PanelId])[] = [
@@ -100,6 +101,18 @@ const global: NonNullable<IJsonModel['global']> = {
   tabSetMinWidth: 120,
 };
 
+/** The weights of the documents and of what is opened beside them: a lesson is narrower than XML. */
+const WEIGHTS: Partial<Record<PanelId, readonly [number, number]>> = { lesson: [60, 40] };
+
+function addBesideEditors(model: Model, tab: IJsonTabNode): void {
+  model.doAction(Actions.addTab(tab, EDITORS, DockLocation.RIGHT, -1, true));
+  const weights = WEIGHTS[tab.id as PanelId];
+  const beside = model.getNodeById(tab.id ?? '')?.getParent();
+  if (!weights || !beside) return;
+  model.doAction(Actions.updateNodeAttributes(EDITORS, { weight: weights[0] }));
+  model.doAction(Actions.updateNodeAttributes(beside.getId(), { weight: weights[1] }));
+}
+
 /** Opens or closes an optional panel, such as the XML beside the canvas. */
 export function toggleBeside(model: Model, width: FrameWidth, id: PanelId): void {
   if (model.getNodeById(id)) {
@@ -109,7 +122,7 @@ export function toggleBeside(model: Model, width: FrameWidth, id: PanelId): void
   const tab = { ...panel(id), enableClose: true };
   const below = width === 'narrow' ? model.getNodeById('viewer3d')?.getParent() : undefined;
   if (below) model.doAction(Actions.addTab(tab, below.getId(), DockLocation.CENTER, -1, true));
-  else model.doAction(Actions.addTab(tab, EDITORS, DockLocation.RIGHT, -1, true));
+  else addBesideEditors(model, tab);
 }
 
 function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
@@ -181,11 +194,24 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
   };
 }
 
-/** The layout without open documents: these belong to a project, the layout to the user. */
+interface KeptNode {
+  readonly id?: string;
+  readonly config?: { readonly document?: boolean };
+  readonly children?: readonly KeptNode[];
+}
+
+/** Documents and the lesson belong to a project, the layout to the user. */
+const isOfProject = ({ id, config }: KeptNode): boolean => config?.document === true || id === 'lesson';
+
+/** Whether a node shows nothing but a lesson: no empty set of tabs remains where it was. */
+const isForLesson = ({ children = [] }: KeptNode): boolean =>
+  children.length > 0 && children.every(({ id }) => id === 'lesson');
+
+/** The layout without what belongs to a project. */
 function withoutDocuments(json: IJsonModel): IJsonModel {
   const text = JSON.stringify(json, (key, value: unknown) => {
     if (key !== 'children' || !Array.isArray(value)) return value;
-    return value.filter((child: { config?: { document?: boolean } }) => !child.config?.document);
+    return value.filter((child: KeptNode) => !isOfProject(child) && !isForLesson(child));
   });
   const copy = JSON.parse(text) as IJsonModel;
   resetSelection(copy.layout as LayoutNode);

@@ -6,8 +6,10 @@ const files = import.meta.glob<Record<string, unknown>>(
   { eager: true, import: 'default' },
 );
 
-// The texts of an open project: with them, the first page would be a tenth larger.
-for (const [language, features] of Object.entries(resourcesFrom(files))) {
+/** The texts of an open project: with them, the first page would be a tenth larger. */
+export const editorTexts = resourcesFrom(files);
+
+for (const [language, features] of Object.entries(editorTexts)) {
   for (const [feature, texts] of Object.entries(features)) {
     i18next.addResourceBundle(language, feature, texts);
   }

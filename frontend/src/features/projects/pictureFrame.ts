@@ -1,7 +1,7 @@
 import type { Box } from '@/model/layout';
 
 export interface PictureFrame extends Box {
-  /** The side on which the tree goes on. */
+  /** The side on which the tree continues. */
   readonly cropped: 'bottom' | 'right' | null;
 }
 

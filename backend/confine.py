@@ -1,9 +1,9 @@
-"""System calls that our own programs in containers give up: `python -m backend.confine web PROGRAM…`.
+"""Makes a server program in a container give up system calls: `python -m backend.confine web PROGRAM…`.
 
 Sessions have a seccomp profile that Docker applies (`backend/sessions/keeper/seccomp.json`). The containers
-of the compose file cannot use one: docker-compose 1.29 looks for a profile's file where it was called,
-Compose v2 beside the compose file, and Docker's own profile of 20.10 admits AF_VSOCK and io_uring. So these
-programs give up the calls that they never need; the kernel enforces this for their children too.
+of the compose file cannot use one: docker-compose 1.29 looks for the file of a profile in the current folder,
+Compose v2 beside the compose file. And the default profile of Docker 20.10 admits AF_VSOCK and io_uring. So
+these programs give up the calls that they never need; the kernel enforces this for their children too.
 """
 
 from __future__ import annotations
@@ -59,11 +59,11 @@ def confine(role: str) -> None:
     """Gives up irrevocably the system calls that a program of this role never needs.
 
     Args:
-        role: `gate` starts nothing and calls nobody, `keeper` starts no program and calls unix sockets alone,
-            `web` gives up `NEVER` and the families of sockets that lead out of its network.
+        role: `gate` starts no program and opens no connection; `keeper` starts no program and connects only
+            to unix sockets; `web` gives up `NEVER`, and the socket families that lead out of its network.
 
     Raises:
-        OSError: the kernel or the machine's architecture has no such filter.
+        OSError: the kernel or the machine's architecture does not support the filter.
     """
     machine = platform.machine()
     if machine not in ARCHITECTURES:
@@ -77,7 +77,7 @@ def confine(role: str) -> None:
 
 
 def _filter(machine: str, refused: tuple[int, ...], families: tuple[int, ...]) -> bytes:
-    """The program that the kernel runs at each call, of `struct sock_filter`."""
+    """Returns the kernel's filter program for system calls, as an array of `struct sock_filter`."""
     steps = [(LOAD, 0, 0, ARCHITECTURE_AT), (IS_EQUAL, 1, 0, ARCHITECTURES[machine]), (RETURN, 0, 0, REFUSE)]
     steps += [(LOAD, 0, 0, NUMBER_AT), (IS_AT_LEAST, 0, 1, X32), (RETURN, 0, 0, REFUSE)]
     for number in refused:

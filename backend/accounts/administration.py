@@ -1,4 +1,4 @@
-"""The administrator's pages: users with their limits and disk use, groups, invitations, audit log, mail."""
+"""The administration pages: users with their limits and disk use, groups, invitations, audit log, mail."""
 
 from __future__ import annotations
 
@@ -28,7 +28,10 @@ if TYPE_CHECKING:
 
 
 class Site(admin.AdminSite):
-    """Django's administration; administrators sign in as all users do, second factor included."""
+    """Django's administration site.
+
+    Administrators sign in like all other users, including the second factor.
+    """
 
     site_header = "BT Studio – administration"
     site_title = "BT Studio"
@@ -72,7 +75,7 @@ site.login = secure_admin_login(site.login)  # type: ignore[method-assign]
 
 
 class Audited(admin.ModelAdmin):  # type: ignore[type-arg]
-    """Writes changes by administrators to the audit log."""
+    """Base class that writes an administrator's changes to the audit log."""
 
     def log_addition(self, request: HttpRequest, obj: Any, message: Any) -> Any:
         """Writes to the audit log after an object was added."""
@@ -99,7 +102,7 @@ class Audited(admin.ModelAdmin):  # type: ignore[type-arg]
 
 
 class ReadOnly(admin.ModelAdmin):  # type: ignore[type-arg]
-    """Shows objects without any permission to change them."""
+    """Base class that shows objects without any permission to change them."""
 
     def has_add_permission(self, request: HttpRequest, obj: Any = None) -> bool:
         return False
@@ -127,13 +130,13 @@ class Users(Audited, UserAdmin):  # type: ignore[type-arg]
     readonly_fields = ("last_login", "date_joined")
 
     def get_queryset(self, request: HttpRequest) -> QuerySet[User]:
-        """Adds the number of projects and the stored bytes of each user."""
+        """Returns the users, each with the number of projects and the stored bytes."""
         kept = Q(projects__deleted_at=None)
         rows: QuerySet[User] = super().get_queryset(request)
         return rows.annotate(kept=Count("projects", filter=kept), used=Sum("projects__size", filter=kept))
 
     def delete_model(self, request: HttpRequest, obj: User) -> None:
-        """Deletes a user as the users' own page does: their robots end, too."""
+        """Deletes a user in the same way as the user's own page: running robots of the user end too."""
         delete_account(obj)
 
     def delete_queryset(self, request: HttpRequest, queryset: QuerySet[User]) -> None:
@@ -147,7 +150,7 @@ class Users(Audited, UserAdmin):  # type: ignore[type-arg]
     ) -> tuple[list[str], dict[str, int], set[str], list[str]]:
         """Shows how many projects are deleted with each user, in place of a list of all their files.
 
-        Sessions and invitations of the user are deleted too, although nobody may delete them alone.
+        Sessions and invitations of the user are deleted too, although they cannot be deleted separately.
         """
         rows = list(objs)
         lines = [f"{row.username}, with all projects ({row.projects.count()})" for row in rows]
@@ -180,19 +183,22 @@ class Users(Audited, UserAdmin):  # type: ignore[type-arg]
 
     @admin.display(description="room", ordering="used")
     def room_used(self, row: Any) -> str:
-        """Returns the bytes of the current files."""
+        """Returns the size of the user's current files as text."""
         return str(filesizeformat(row.used or 0))
 
     @admin.action(description="Make a link that sets a new password")
     def make_password_link(self, request: HttpRequest, rows: QuerySet[User]) -> None:
-        """Makes a link for people without e-mail; it works once, for three days."""
+        """Makes a link that sets a new password, for users without e-mail.
+
+        The link works once, for three days.
+        """
         for user in rows:
             note("password.link", actor=_actor(request), subject=user.username, subject_id=user.pk)
             messages.info(request, f"{user.username}: {passwords.link(user)}")
 
     @admin.action(description="Deactivate (projects are kept)")
     def deactivate(self, request: HttpRequest, rows: QuerySet[User]) -> None:
-        """Ends all rights of these accounts immediately."""
+        """Deactivates accounts; all their rights end immediately."""
         for user in rows.exclude(pk=request.user.pk or 0):
             user.is_active = False
             user.save(update_fields=["is_active"])

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from backend.accounts.models import User
 
 client_address: ContextVar[str | None] = ContextVar("client_address", default=None)
-"""The address of the client whose request is answered; the guard sets it."""
+"""The address of the client whose request is being answered; the guard sets it."""
 
 
 def note(
@@ -34,10 +34,10 @@ def note(
 
     Args:
         action: `noun.verb`, such as `project.delete`.
-        actor: the user who did it; of guests and failed sign-ins at most the name is stored.
+        actor: the user who did it; None for guests and failed sign-ins, of which at most the name is stored.
         actor_name: the name that a failed sign-in gave.
         subject: the name of the changed object at that time.
-        subject_id: its key.
+        subject_id: the key of the changed object.
         detail: additional facts; nothing secret.
     """
     if not environment().is_team:

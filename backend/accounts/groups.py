@@ -21,17 +21,17 @@ if TYPE_CHECKING:
 
 
 def groups_of(user: User) -> QuerySet[Group]:
-    """Returns the groups that the user made or is in."""
+    """Returns the groups that the user made, and those of which the user is a member."""
     mine = Q(owner=user) | Q(pk__in=GroupMember.objects.filter(user=user).values("group"))
     return Group.objects.filter(mine).select_related("owner").order_by("name", "id")
 
 
 def group(group_id: UUID, *, user: User, own: bool = False) -> Group:
-    """Returns a group of the user; with `own`, only to its maker or an administrator.
+    """Returns a group of the user. With `own`, the user must have made it, or be an administrator.
 
     Raises:
-        NotFoundError: there is none, or none that this user is in.
-        TeacherRequiredError: the user is in it, but did not make it.
+        NotFoundError: the group does not exist, or the user neither made it nor is a member.
+        TeacherRequiredError: the user is a member, but did not make the group.
     """
     rows = Group.objects.select_related("owner") if user.is_superuser else groups_of(user)
     found = rows.filter(pk=group_id).first()
@@ -75,10 +75,10 @@ def delete(group_id: UUID, *, acting_user: User) -> None:
 
 @transaction.atomic
 def remove_member(group_id: UUID, name: str, *, acting_user: User) -> None:
-    """Removes someone from the group; everyone may leave it.
+    """Removes a member from the group. Every member may leave it.
 
     Raises:
-        NotFoundError: nobody of this name is in it.
+        NotFoundError: the group has no member of this name.
     """
     leaving = name == acting_user.username
     found = group(group_id, user=acting_user, own=not leaving)

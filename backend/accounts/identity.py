@@ -1,4 +1,4 @@
-"""Finds the user of a request by the browser's session; for the API and for sockets alike."""
+"""Finds the user of a request, or of a socket, by the browser's session."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 LINKS: Final = "links"
-"""The session's key of the opened read-only links: ids of links by ids of projects."""
+"""The key in the session for opened read-only links: the ids of the links by the ids of their projects."""
 MOST_SEEN: Final = 4096
 
 seen_users: Final[LRUCache[str, int]] = LRUCache(MOST_SEEN)
@@ -33,7 +33,7 @@ _lock: Final = Lock()
 
 
 def identify(cookies: Mapping[str, str]) -> User | None:
-    """Returns the local user, the user who is signed in, a guest with a link, or None.
+    """Returns the user of a request: the local user, the signed-in user, a guest with a link, or None.
 
     Session and user are read from the database at each request, so that a revoked right ends immediately. The
     process caches only the user id of each session, to read both in one query.
@@ -51,7 +51,7 @@ def identify(cookies: Mapping[str, str]) -> User | None:
 
 
 def _read(key: str) -> User | None:
-    """Returns the user of a session as Django does, in two queries."""
+    """Returns the user of a session in the same way as Django, with two queries; None if there is none."""
     request = HttpRequest()
     request.session = _store()(key)
     links = _links(request.session)
@@ -63,7 +63,10 @@ def _read(key: str) -> User | None:
 
 
 def _read_at_once(key: str, user_id: int | None) -> User | None:
-    """Does the same in one query, if the session still belongs to this user; otherwise calls `_read`."""
+    """Returns the user of a session with one query, if the session still belongs to `user_id`.
+
+    Otherwise calls `_read`.
+    """
     if user_id is None:
         return None
     now = connection.ops.adapt_datetimefield_value(timezone.now())
@@ -96,14 +99,17 @@ def _store() -> Any:
 
 
 def last_seen(cookies: Mapping[str, str]) -> int | None:
-    """Returns the id of the user whom these cookies last identified in this process; it grants no right."""
+    """Returns the id of the user whom these cookies last identified in this process, or None.
+
+    The id grants no right.
+    """
     with _lock:
         return seen_users.get(cookies.get(settings.SESSION_COOKIE_NAME, ""))
 
 
 @lru_cache(maxsize=1)
 def the_local_user() -> User:
-    """Returns the one user on localhost. Nobody can change it, so it is read once."""
+    """Returns the only user on localhost. The user never changes, and so is read once."""
     return local_user()
 
 

@@ -32,7 +32,7 @@ def may_invite(user: User) -> bool:
 
 @transaction.atomic
 def invite(*, acting_user: User, group: Group | None, days: int, max_uses: int) -> Invitation:
-    """Makes a link for `max_uses` people that works for `days` days.
+    """Makes a link that `max_uses` people can use for `days` days.
 
     Raises:
         TeacherRequiredError: the user may not invite people.
@@ -54,10 +54,10 @@ def invite(*, acting_user: User, group: Group | None, days: int, max_uses: int) 
 
 @transaction.atomic
 def revoke(invitation_id: UUID, *, acting_user: User) -> None:
-    """Revokes an invitation; accounts that were made with it stay.
+    """Revokes an invitation. Accounts that were made with it stay.
 
     Raises:
-        NotFoundError: this user made no such invitation.
+        NotFoundError: the user has not made such an invitation.
     """
     rows = Invitation.objects.select_for_update().filter(id=invitation_id, revoked_at=None)
     if not acting_user.is_superuser:
@@ -71,7 +71,10 @@ def revoke(invitation_id: UUID, *, acting_user: User) -> None:
 
 
 def usable(identity: UUID | None) -> Invitation | None:
-    """Returns the invitation if it is not expired, used up or revoked, and its author is active."""
+    """Returns an invitation if it can be used, otherwise None.
+
+    It must not be expired, used up or revoked, and its author must be active.
+    """
     if identity is None:
         return None
     return (
@@ -88,12 +91,12 @@ def usable(identity: UUID | None) -> Invitation | None:
 
 
 def of_token(token: str) -> Invitation | None:
-    """Returns the valid invitation that a link names."""
+    """Returns the invitation that the token of a link names, if it is valid; otherwise None."""
     return usable(links.identity_of("join", token))
 
 
 def of_browser(request: HttpRequest) -> Invitation | None:
-    """Returns the valid invitation that this browser opened last."""
+    """Returns the invitation that this browser opened last, if it is valid; otherwise None."""
     token = request.session.get(SESSION_KEY)
     return of_token(token) if isinstance(token, str) else None
 
@@ -102,7 +105,8 @@ def of_browser(request: HttpRequest) -> Invitation | None:
 def accept(token: str, *, acting_user: User, new_account: bool) -> Group | None:
     """Counts the invitation as used and adds the user to its group; returns the group.
 
-    A member of the group does not use it up.
+    If the user already is a member of the group, the invitation is not counted as used. Returns None for an
+    invitation without a group.
     """
     identity = links.identity_of("join", token)
     if identity is None:

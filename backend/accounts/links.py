@@ -1,6 +1,6 @@
 """Links that grant a right, signed with the server's key.
 
-A copy of the database alone opens nothing.
+A copy of the database is not enough to make such a link.
 """
 
 from __future__ import annotations

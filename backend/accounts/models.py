@@ -16,7 +16,7 @@ MAX_GROUP_NAME = 80
 class User(AbstractUser):
     """A person who owns projects.
 
-    `links` is not a column: it has the read-only links that were opened in this browser, with or without an
+    `links` is not a column: it holds the read-only links that this browser opened, with or without an
     account. A guest is a user that is not stored.
     """
 
@@ -39,7 +39,7 @@ class User(AbstractUser):
 
 
 class Group(models.Model):
-    """People with whom projects are shared together, such as a class."""
+    """A group of people with whom projects are shared, such as a class."""
 
     id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
     name = models.CharField(max_length=MAX_GROUP_NAME)

@@ -1,6 +1,7 @@
 """Permissions that are checked before every view: an account, and limits on expensive calls.
 
-What someone may do with a project is decided where projects are found (`backend.projects.storage.access`).
+The rights of a user in a project are checked when the project is looked up
+(`backend.projects.storage.access`).
 """
 
 from __future__ import annotations
@@ -48,14 +49,16 @@ class TeacherRequiredError(StudioError):
 
 
 class MayAsk(BasePermission):
-    """Users may call all views; guests may read projects, and views that are `open_to_guests`.
+    """Users may call all views.
+
+    Guests may call views that read projects, and views that are `open_to_guests`.
 
     Guests may use the methods that read. If the view also has `guests_post`, they may use POST: such a
-    request changes nothing and has a body only because it is long.
+    request changes nothing, and uses POST only because it is long.
     """
 
     def has_permission(self, request: Request, view: APIView) -> bool:
-        """Returns True, or raises the error for the user."""
+        """Returns True if the request is permitted, otherwise raises the error for the user."""
         user = request.user
         if not isinstance(user, User):
             raise SignInRequiredError("Nobody is signed in.", hint="Sign in, then try again.")
@@ -70,7 +73,7 @@ class MayAsk(BasePermission):
 
 
 class ExpensiveCalls(SimpleRateThrottle):
-    """Limits the calls a minute of views that are `expensive`, on servers with accounts only."""
+    """Limits the calls per minute of views that are `expensive`, on servers with accounts."""
 
     scope = "expensive"
 
@@ -79,25 +82,25 @@ class ExpensiveCalls(SimpleRateThrottle):
         return f"{environment().expensive_calls_per_minute}/min"
 
     def allow_request(self, request: Request, view: APIView) -> bool:
-        """Whether the user has a call left."""
+        """Whether the user has a call left in this minute."""
         methods: Any = getattr(view, "expensive", ())
         if not environment().is_team or request.method not in methods:
             return True
         return super().allow_request(request, view)
 
     def get_cache_key(self, request: Request, view: APIView) -> str | None:
-        """Returns the key of the count: one a user; of guests, one a session."""
+        """Returns the key of the count: one for each user; for guests, one for each session."""
         session = request.COOKIES.get(settings.SESSION_COOKIE_NAME, "")
         return f"expensive-{request.user.pk or hashlib.sha256(session.encode()).hexdigest()}"
 
 
 class ExpensiveCallsOfGuests(ExpensiveCalls):
-    """Limits all guests behind one address together, since each can open many sessions."""
+    """Limits the calls of all guests with one address together, since each guest can open many sessions."""
 
     def get_rate(self) -> str:
         """Returns ten times the rate of a user, enough for a class."""
         return f"{10 * environment().expensive_calls_per_minute}/min"
 
     def get_cache_key(self, request: Request, view: APIView) -> str | None:
-        """Returns None for users, whom this does not limit."""
+        """Returns the key of the address for a guest; None for a user, to whom this limit does not apply."""
         return None if request.user.pk else f"guests-{network_of(client_address.get())}"

@@ -1,8 +1,9 @@
-"""Announces that a user's rights may have become fewer, so that open sockets check them again.
+"""Announces that a user may have lost rights, so that open sockets check them again.
 
-A websocket is checked when it opens. A user who is later removed from a project, signs out or is deactivated
-must not receive more. So every open socket follows these notices, and repeats the usual check of rights.
-Notices may be lost, and the command line cannot send them; therefore sockets also check every `RECHECK_S`.
+A websocket is checked when it opens. A user who later is removed from a project, signs out, or is deactivated
+must receive no more messages. So every open socket follows these notices, and repeats the usual check of
+rights. Notices may be lost, and the command line cannot send them; therefore sockets also check every
+`RECHECK_S`.
 """
 
 from __future__ import annotations
@@ -24,14 +25,17 @@ if TYPE_CHECKING:
 GROUP: Final = "rights"
 RECHECK_S: Final = 60.0
 SETTLE_S: Final = 0.3
-"""Seconds between a notice and the check. At a sign-out the notice comes before the session is deleted."""
+"""Seconds between a notice and the check.
+
+When a user signs out, the notice comes before the session is deleted.
+"""
 
 lessened = Signal()
-"""The signal of fewer rights, sent after the commit with `user_id` and `project_id`, one of which is None."""
+"""Sent after a commit that may have removed rights, with `user_id` and `project_id`; one of them is None."""
 
 
 def lessen(*, user_id: int | None = None, project_id: UUID | None = None) -> None:
-    """Sends a notice for one user, or for everybody in one project, after the transaction."""
+    """Sends a notice for one user, or for all users of one project, after the transaction."""
     if environment().is_team:
         # Robust: a notice that cannot be sent must not make the committed write look as if it had failed.
         transaction.on_commit(lambda: _tell(user_id, project_id), robust=True)
@@ -44,7 +48,10 @@ def _tell(user_id: int | None, project_id: UUID | None) -> None:
 
 @asynccontextmanager
 async def notices() -> AsyncIterator[Callable[[], Awaitable[dict[str, Any]]]]:
-    """Yields a function that waits for the next notice, whose `user_id` is None if it may concern all."""
+    """Yields a function that waits for the next notice.
+
+    If the notice may concern all users, its `user_id` is None.
+    """
     layer = get_channel_layer()
     channel = await layer.new_channel()
     await layer.group_add(GROUP, channel)

@@ -5,4 +5,4 @@ from __future__ import annotations
 from django.dispatch import Signal
 
 account_leaves = Signal()
-"""Sent with `user` before an account is deleted."""
+"""Sent before an account is deleted, with `user`."""

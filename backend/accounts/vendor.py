@@ -7,7 +7,7 @@ from django.conf import settings
 
 
 class Account(AccountConfig):  # type: ignore[misc]
-    """Requires its middleware only on servers with accounts."""
+    """The configuration of allauth, whose middleware is required only on servers with accounts."""
 
     def ready(self) -> None:
         """Sets allauth up on servers with accounts."""

@@ -35,7 +35,7 @@ class LastAdministratorError(StudioError):
 
 
 def local_user() -> User:
-    """Returns the one implicit user of a server on localhost; creates it at the first call."""
+    """Returns the only user of a server on localhost; creates the user at the first call."""
     user = User.objects.filter(username=LOCAL_USER_NAME).first()
     if user is None:
         user, made = User.objects.get_or_create(username=LOCAL_USER_NAME)
@@ -46,12 +46,12 @@ def local_user() -> User:
 
 
 def user_named(name: str) -> User | None:
-    """Returns the account, active or not, with this name or e-mail address."""
+    """Returns the account with this name or e-mail address, active or not; None if there is none."""
     return User.objects.filter(Q(username=name) | Q(email__iexact=name or "-")).first()
 
 
 def an_administrator() -> User | None:
-    """Returns an active administrator, preferably one with a password."""
+    """Returns an active administrator, preferably one with a password; None if there is none."""
     found = list(User.objects.filter(is_superuser=True, is_active=True).order_by("pk"))
     return next((user for user in found if user.has_usable_password()), next(iter(found), None))
 
@@ -60,7 +60,7 @@ def an_administrator() -> User | None:
 def create_account(
     name: str, *, email: str, password: str, is_admin: bool = False, is_teacher: bool = False
 ) -> User:
-    """Makes an account for someone; its address counts as verified.
+    """Makes an account for another person; the address counts as verified.
 
     Raises:
         InvalidInputError: the name, the address or the password is invalid.
@@ -90,7 +90,9 @@ def create_account(
 
 @transaction.atomic
 def delete_account(user: User) -> None:
-    """Removes a user with everything they own; their revisions of others' projects stay, without a name.
+    """Removes a user with everything that they own.
+
+    Their revisions of other users' projects stay, without a name.
 
     Raises:
         LastAdministratorError: the user is the last administrator.

@@ -1,4 +1,4 @@
-"""Django's entry of this app."""
+"""The configuration of this Django app."""
 
 from django.apps import AppConfig
 

@@ -1,7 +1,7 @@
 """The library of behaviours: subtrees with ports, each with the trees and actions that it needs.
 
-They are files in `behaviours/`: `library.json` says what there is; `trees/`, `actions/` are what is inserted.
-Which files a behaviour needs follows from its tree, so that nothing can be forgotten.
+The files are in `behaviours/`: `library.json` lists the behaviours; `trees/` and `actions/` hold the files
+that are inserted. The files that a behaviour needs are found from its tree, so none can be forgotten.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ SUBTREE: Final = "SubTree"
 
 @dataclass(frozen=True, slots=True)
 class Behaviour:
-    """A behaviour of the library; `summary` and `doc` are by language."""
+    """A behaviour of the library; `summary` and `doc` hold a text for each language."""
 
     id: str
     version: str

@@ -1,4 +1,4 @@
-"""Reads of the catalogue: nodes, universes and robots, from files of the other packages."""
+"""Reads the catalogue of nodes, universes and robots from files of the other packages."""
 
 from __future__ import annotations
 
@@ -47,31 +47,31 @@ def robots() -> list[dict[str, str]]:
 
 
 def universe_preview(universe_id: str) -> Path | None:
-    """Returns the path of the picture of a built-in universe, if there is one."""
+    """Returns the path of the picture of a built-in universe, or None."""
     known = {entry["id"] for entry in universes()}
     return UNIVERSES / "previews" / f"{universe_id}.webp" if universe_id in known else None
 
 
 def universe_text(universe_id: str) -> Path | None:
-    """Returns the path of the document of a built-in universe, if there is one."""
+    """Returns the path of the document of a built-in universe, or None."""
     known = {entry["id"] for entry in universes()}
     return UNIVERSES / f"{universe_id}.yaml" if universe_id in known else None
 
 
 def robot_config(robot_id: str) -> Path | None:
-    """Returns the path of the `robot.yaml` of a built-in robot, if there is one."""
+    """Returns the path of the `robot.yaml` of a built-in robot, or None."""
     known = {entry["id"] for entry in robots()}
     return ROBOTS / robot_id / "robot.yaml" if robot_id in known else None
 
 
 def robot_urdf(robot_id: str) -> Path | None:
-    """Returns the path of the URDF of a built-in robot, if there is one."""
+    """Returns the path of the URDF of a built-in robot, or None."""
     known = {entry["id"] for entry in robots()}
     return ROBOTS / robot_id / f"{robot_id}.urdf" if robot_id in known else None
 
 
 def robot_preview(robot_id: str) -> Path | None:
-    """Returns the path of the picture of a built-in robot, if there is one."""
+    """Returns the path of the picture of a built-in robot, or None."""
     known = {entry["id"] for entry in robots()}
     return ROBOTS / robot_id / "preview.webp" if robot_id in known else None
 

@@ -26,7 +26,7 @@ class NamedSerializer(serializers.Serializer[Any]):
 
 
 class EntrySerializer(NamedSerializer):
-    """A universe or a robot; `preview` is the address of its picture, WebP of 480 by 270 pixels, or empty."""
+    """A universe or a robot. `preview` is the address of its picture, a WebP of 480 × 270 pixels, or ""."""
 
     preview = serializers.CharField(allow_blank=True)
 
@@ -55,7 +55,7 @@ class TemplateListSerializer(serializers.Serializer[Any]):
 
 
 class BehaviourSerializer(serializers.Serializer[Any]):
-    """A behaviour to reuse: a subtree with ports; `summary` and `doc` are by language."""
+    """A behaviour to reuse: a subtree with ports. `summary` and `doc` hold a text for each language."""
 
     id = serializers.CharField(help_text="Also the name of its tree.")
     version = serializers.CharField()

@@ -53,7 +53,7 @@ class Universes(ResourceViewSet):
     )
     @action(detail=True)
     def preview(self, request: Request, universe_id: str) -> HttpResponse:
-        """Returns a picture of 480 by 270 pixels."""
+        """Returns a picture of the universe, 480 × 270 pixels."""
         return _picture(queries.universe_preview(universe_id), f"universe {universe_id!r}")
 
     @extend_schema(
@@ -63,7 +63,7 @@ class Universes(ResourceViewSet):
     )
     @action(detail=True)
     def text(self, request: Request, universe_id: str) -> HttpResponse:
-        """Returns its YAML, from which a project can make its own universe."""
+        """Returns the YAML of the universe, which a project can copy and change."""
         path = queries.universe_text(universe_id)
         return _text(path, "application/yaml", f"There is no universe {universe_id!r}.")
 
@@ -86,7 +86,7 @@ class Robots(ResourceViewSet):
     )
     @action(detail=True)
     def preview(self, request: Request, robot_id: str) -> HttpResponse:
-        """Returns a picture of 480 by 270 pixels."""
+        """Returns a picture of the robot, 480 × 270 pixels."""
         return _picture(queries.robot_preview(robot_id), f"robot {robot_id!r}")
 
     @extend_schema(
@@ -96,7 +96,7 @@ class Robots(ResourceViewSet):
     )
     @action(detail=True)
     def config(self, request: Request, robot_id: str) -> HttpResponse:
-        """Returns its `robot.yaml`, from which a project can make its own robot."""
+        """Returns the `robot.yaml` of the robot, which a project can copy and change."""
         return _text(queries.robot_config(robot_id), "application/yaml", f"There is no robot {robot_id!r}.")
 
     @extend_schema(
@@ -106,7 +106,7 @@ class Robots(ResourceViewSet):
     )
     @action(detail=True)
     def urdf(self, request: Request, robot_id: str) -> HttpResponse:
-        """Returns its URDF, with which the browser draws the robot."""
+        """Returns the URDF of the robot, which the browser needs to draw it."""
         return _text(queries.robot_urdf(robot_id), "text/xml", f"There is no robot {robot_id!r}.")
 
 

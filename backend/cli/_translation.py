@@ -1,4 +1,4 @@
-"""Functions for the commands that translate: they open files and print diagnostics."""
+"""Functions for the commands that translate: open projects and print diagnostics."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def open_project(
 
 
 def _stored_files(name: str) -> Mapping[str, bytes] | None:
-    """Returns the files of a stored project, or None where nothing is stored under that name."""
+    """Returns the files of the stored project with this name, or None if there is none."""
     import os
 
     import django
@@ -53,7 +53,7 @@ def _stored_files(name: str) -> Mapping[str, bytes] | None:
 
 
 def fail(diagnostics: Iterable[Diagnostic], *, as_json: bool) -> CliError:
-    """Returns the error that ends a command because of diagnostics."""
+    """Returns the error that ends a command because of its diagnostics."""
     found = list(diagnostics)
     if as_json:
         print_json({"diagnostics": [item.to_json() for item in found]})
@@ -73,10 +73,10 @@ def print_json(document: dict[str, Any]) -> None:
 
 
 def write_file(path: Path, data: bytes) -> None:
-    """Writes a file whole or not at all.
+    """Writes a file completely or not at all.
 
     Raises:
-        CliError: If it cannot be written.
+        CliError: If the file cannot be written.
     """
     temporary = path.with_name(f".{path.name}.part")
     try:

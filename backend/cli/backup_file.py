@@ -1,8 +1,9 @@
-"""All data of a server in one file, which any database of the same version can read.
+"""Writes all data of a server to one file, and reads it into any database of the same version.
 
-A backup is a zip: `manifest.json`, and one `tables/<model>.jsonl` for each table, a row a line. It is read
-in one transaction, so that it is the state of one moment, also while people work. It omits data that have a
-meaning only while a server runs: sign-ins, executors, a drain, leases, answers kept for repeated requests.
+A backup is a zip: `manifest.json`, and one `tables/<model>.jsonl` for each table, with one row in each line.
+The database is read in one transaction, so the backup is the state of one moment, also while people work.
+Data that have a meaning only while a server runs are omitted: sign-ins, executors, a drain, leases, stored
+answers for repeated requests.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ MAX_LINE_BYTES: Final = 512 * 1024 * 1024
 
 
 class BackupError(Exception):
-    """The backup cannot be read, or not into this database; the text says why and what to do."""
+    """The backup cannot be read, or not into this database; the text tells the reason and what to do."""
 
 
 def write_backup(target: IO[bytes]) -> dict[str, int]:
@@ -77,10 +78,12 @@ def write_backup(target: IO[bytes]) -> dict[str, int]:
 
 
 def read_backup(source: IO[bytes]) -> dict[str, int]:
-    """Takes a backup into an empty database, whole or not at all; returns the number of rows of each table.
+    """Reads a backup into an empty database, completely or not at all.
+
+    Returns the number of rows of each table.
 
     Raises:
-        BackupError: it is damaged, of another version, or the database is not empty.
+        BackupError: the backup is damaged or of another version, or the database is not empty.
     """
     try:
         with zipfile.ZipFile(source) as archive:
@@ -93,14 +96,14 @@ def read_backup(source: IO[bytes]) -> dict[str, int]:
 
 
 class _ExactEncoder(DjangoJSONEncoder):
-    """Keeps the microseconds, which Django's own leaves out."""
+    """Encodes times with their microseconds, which Django's encoder leaves out."""
 
     def default(self, o: Any) -> Any:
         return o.isoformat() if isinstance(o, datetime) else super().default(o)
 
 
 class _snapshot(transaction.Atomic):  # noqa: N801 - used as a function
-    """One transaction that sees the state of one moment."""
+    """A transaction that reads the state of one moment."""
 
     def __init__(self) -> None:
         super().__init__(using=None, savepoint=True, durable=False)
@@ -113,7 +116,7 @@ class _snapshot(transaction.Atomic):  # noqa: N801 - used as a function
 
 
 def _models() -> list[type[Model]]:
-    """The tables of a backup, in an order in which they can be filled."""
+    """Returns the tables of a backup, in an order in which they can be filled."""
     models = [model for model in apps.get_models() if model._meta.label_lower not in LEFT_OUT]
     ordered: list[type[Model]] = serializers.sort_dependencies([(None, models)], allow_cycles=True)
     return ordered

@@ -46,7 +46,7 @@ def conformance(
 
 
 def _run(path: Path, *, as_json: bool, shown: int) -> Counter[str]:
-    """Runs one file; counts the cases that passed, those that failed, and each deviation."""
+    """Runs one file; returns the numbers of passed cases, of failed cases, and of each deviation."""
     import json
     from collections import Counter
 

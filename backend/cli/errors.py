@@ -10,7 +10,7 @@ BAD_ARGUMENTS = 2
 
 
 class CliError(Exception):
-    """A command failed; `lines` are for stderr, one problem each."""
+    """A command failed; `lines` are printed on stderr, one for each problem."""
 
     def __init__(self, *lines: str, status: int = WORK_FAILED) -> None:
         super().__init__("\n".join(lines))

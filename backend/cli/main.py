@@ -45,7 +45,7 @@ VERBS: Final[dict[str, Verb]] = {
 
 
 class VerbGroup(TyperGroup):
-    """Finds a command's module by name, so that `check` does not load ROS and `run` not Django."""
+    """Finds a command's module by the command's name: `check` does not load ROS, `run` not Django."""
 
     def list_commands(self, ctx: Context) -> list[str]:
         """Returns the commands, in the order of the table."""

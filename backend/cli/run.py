@@ -92,9 +92,9 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
 
 
 def _fix_hashes() -> None:
-    """Starts the command again with `PYTHONHASHSEED=0`, which Python reads at its start only.
+    """Starts the command again with `PYTHONHASHSEED=0`, which Python reads only at its start.
 
-    Texts hash differently in each process otherwise, so that sets of texts come in another order.
+    Otherwise the hashes of texts differ in each process, and so does the order of sets of texts.
     """
     is_command = Path(sys.argv[0]).name in {"bt-studio", "main.py"}
     if is_command and os.environ.get("PYTHONHASHSEED") != "0":
@@ -151,7 +151,7 @@ def _in_real_time(project: Project, options: HeadlessOptions) -> Report:
 
 
 def _progress(text: str) -> None:
-    """Rewrites the progress line, where somebody looks at it."""
+    """Rewrites the progress line, if the output is a terminal."""
     if sys.stderr.isatty():
         sys.stderr.write(f"\r\x1b[K{text}")
         sys.stderr.flush()

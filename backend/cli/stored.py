@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
 @contextmanager
 def stored_projects() -> Iterator[None]:
-    """Opens the data folder (`BT_STUDIO_DATA_DIR`) and turns the errors of projects into lines.
+    """Opens the data folder (`BT_STUDIO_DATA_DIR`). Errors of projects become errors of the command line.
 
-    A server may run at the same time: the database sees to it that both write in turn.
+    A server may run at the same time: the database makes both write in turn.
     """
     os.environ.setdefault("DJANGO_SETTINGS_MODULE", "backend.config.settings")
     from backend.config.environment import InvalidEnvironmentError, environment

@@ -149,7 +149,7 @@ class Environment(TeamSettings):
     def may_be_several(self) -> bool:
         """Whether several servers may share one data folder, one database and one host.
 
-        Two servers cannot share an SQLite file, nor the child processes of one of them.
+        Two servers can share neither an SQLite file nor the child processes of one of them.
         """
         return self.is_team and self.is_postgresql and self.launcher == "docker"
 
@@ -160,7 +160,7 @@ class Environment(TeamSettings):
 
 
 def sentence(error: ValidationError) -> str:
-    """Returns one line that names the invalid variables and the reasons."""
+    """Returns one line that names the invalid variables, each with the reason."""
     parts = []
     for problem in error.errors():
         cause = problem.get("ctx", {}).get("error")
@@ -174,7 +174,7 @@ def sentence(error: ValidationError) -> str:
 
 
 def _shown(field: str, value: object) -> str:
-    """Returns the wrong value as text for the message, or nothing if it is a secret."""
+    """Returns the wrong value as text for the message; "" if the value is secret."""
     known = Environment.model_fields.get(field)
     return "" if known is not None and known.annotation is SecretStr else f" (it is {value!r})"
 

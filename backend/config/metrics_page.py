@@ -1,8 +1,8 @@
 """The page `/metrics`: sums over all workers and current numbers, in Prometheus' text format.
 
-The multiprocess mode of `prometheus_client` is not used, since it keeps files for each process that ever ran.
-Our workers share memory that outlives a worker and is released with the server (`numbers.py`). Only the
-registry, the metric families and the text format of the library are used.
+The multiprocess mode of `prometheus_client` is not used, since it keeps files of every process that ever ran.
+The workers share memory instead, which outlives a worker and is released with the server (`numbers.py`). Only
+the registry, the metric families and the text format of the library are used.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Counted:
 
 
 class Current:
-    """Collects the current numbers of sessions and of waiting jobs."""
+    """Collects the current numbers of sessions and waiting jobs."""
 
     def collect(self) -> Iterator[Metric]:
         yield _gauges("bt_studio_sessions", "Executors by state.", counts())

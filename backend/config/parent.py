@@ -1,8 +1,8 @@
-"""The parent of several web workers and their pool: it holds the port, and replaces workers that end or hang.
+"""The parent of several web workers and their pool: holds the port, and replaces workers that end or hang.
 
-It answers no requests and does no user's work, so it hardly ever crashes. Workers are new processes and not
-forks, since a fork of a process with threads is unsafe. They inherit the listening socket, so a connection
-that arrives while one of them is replaced waits for another.
+The parent answers no requests and does no work for users, so it hardly ever crashes. Workers are new
+processes and not forks, since a fork of a process with threads is unsafe. They inherit the listening socket,
+so a connection that arrives while a worker is replaced is accepted by another worker.
 """
 
 from __future__ import annotations
@@ -35,11 +35,11 @@ TICK_S: Final = 1.0
 HUNG_S: Final = 60.0
 """Seconds for which a worker's event loop, or all of its request threads, may make no progress."""
 SHORT_LIFE_S: Final = 10.0
-"""Seconds. A worker that ends sooner is restarted after a pause."""
+"""Seconds; a worker that ends sooner after its start is restarted after a pause."""
 FIRST_PAUSE_S: Final = 0.5
 LONGEST_PAUSE_S: Final = 30.0
 FUTILE: Final = 5
-"""The number of failed starts in a row, of every worker, after which the server ends."""
+"""The number of failed starts in a row of all workers after which the server ends."""
 POOL_PAGE: Final = "pool.numbers"
 STOP_S: Final = 20.0
 """Seconds that workers may take to end after the signal."""
@@ -94,7 +94,10 @@ class Child:
         self._since_s, self._beat, self._is_given_up = now_s, (0.0, 0.0), False
 
     def ended(self, now_s: float) -> int | None:
-        """Returns the exit status, once after the worker has ended, and schedules its restart."""
+        """Returns the exit status once after the worker has ended, and schedules its restart.
+
+        Otherwise None.
+        """
         if self._process is None or (status := self._process.poll()) is None:
             return None
         has_lived = self.has_started and now_s - self._since_s >= SHORT_LIFE_S
@@ -124,7 +127,7 @@ class Child:
                 self._process.send_signal(number)
 
     def close_input(self) -> None:
-        """Closes the worker's standard input, by which it learns that the parent ends."""
+        """Closes the worker's standard input, which tells the worker that the parent ends."""
         if self._process is not None and self._process.stdin is not None:
             self._process.stdin.close()
 
@@ -151,7 +154,7 @@ def _pause_s(failures: int) -> float:
 
 
 class Parent:
-    """Keeps a number of workers running until it receives a signal to end."""
+    """Keeps several workers running until it receives a signal to end."""
 
     def __init__(self, listener: socket.socket, count: int, *, on_ready: Callable[[], None]) -> None:
         self._listener, self._count, self._on_ready = listener, count, on_ready
@@ -197,7 +200,7 @@ class Parent:
         self._told = number
 
     def _look(self, now_s: float, passed_s: float) -> None:
-        """Does one round: notes ended children, kills those that hang, starts those that are due."""
+        """Does one round: notes ended workers, kills workers that hang, and starts those that are due."""
         for worker in (self._pool, *self._workers):
             if worker.hangs(passed_s):
                 log.error("the %s hangs and is replaced", worker.name)
@@ -261,7 +264,7 @@ class _Alarm:
         self._theirs.close()
 
     def wait(self, seconds: float) -> None:
-        """Returns at the next signal, or after a timeout."""
+        """Waits for the next signal, or until the timeout."""
         if self._selector.select(seconds):
             with suppress(BlockingIOError):
                 while self._ours.recv(4096):

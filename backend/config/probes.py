@@ -1,15 +1,15 @@
 """Answers probes of orchestrators and monitors (alive, ready, metrics) before the guard; logs all requests.
 
 * `/health/live`: this process answers, and its request threads made progress within a minute. The time is
-  long, since under an attack a restart by the orchestrator would do the attacker's work.
+long, since a restart during an attack would help the attacker.
 * `/health/ready`: the process and its database answer, and a request thread was free within ten seconds.
 * `/metrics`: Prometheus' text, for programs on this machine, or those that send `BT_STUDIO_METRICS_TOKEN`.
 
-If a server has several workers (`parent.py`), each of them answers for all: the server is alive and ready
-while one of them is, and its counters are the sum of theirs.
+If a server has several workers (`parent.py`), each worker answers for all: the server is alive and ready
+while one worker is, and its counters are the sums over all workers.
 
-The `Host` of a probe must be an address, a known name of the server, or missing. So a page of another site
-whose name was rebound to this server learns nothing.
+The `Host` of a probe must be an IP address, a known name of the server, or missing. So a page of another site
+learns nothing, even if its name was rebound to this server.
 """
 
 from __future__ import annotations
@@ -49,9 +49,9 @@ METRICS: Final = "/metrics"
 
 
 NOT_READY_S: Final = 10.0
-"""Seconds without a free request thread, after which the server is not ready."""
+"""Seconds for which no request thread is free, after which the server counts as not ready."""
 NOT_LIVE_S: Final = 60.0
-"""Seconds without the end of any request, after which the server is not alive."""
+"""Seconds in which no request ends, after which the server counts as not alive."""
 
 
 def probed(application: ASGI3Application, threads: Threads) -> ASGI3Application:
@@ -161,7 +161,7 @@ def _may_measure(scope: HTTPScope, headers: Mapping[str, str]) -> bool:
 
 
 def trouble() -> str:
-    """Returns the reason why the database cannot be used; empty if it can."""
+    """Returns the reason why the database cannot be used; "" if it can."""
     from django.db import Error, connection  # noqa: PLC0415 - Django must be set up first
 
     try:

@@ -37,7 +37,10 @@ def document() -> dict[str, Any]:
 
 @require_safe
 def docs(request: HttpRequest) -> HttpResponse:
-    """Shows the document as a page to browse and try, without the internet; anonymous users sign in first."""
+    """Shows the document as a page to browse and try; it works without the internet.
+
+    Anonymous users must sign in first.
+    """
     if identify(request.COOKIES) is None:
         return HttpResponseRedirect(f"{settings.LOGIN_URL}?{urlencode({'next': request.path})}")
     return render(request, "config/api_docs.html")

@@ -1,4 +1,4 @@
-"""Runs the web server: prepares the data folder, takes the port, serves until a signal to stop."""
+"""Runs the web server: prepares the data folder, binds the port, and serves until a signal to end."""
 
 from __future__ import annotations
 
@@ -36,21 +36,21 @@ GARBAGE_EVERY_S: Final = 24 * 3600
 LOOK_FOR_GARBAGE_S: Final = 600
 DATABASE_PATIENCE_S: Final = 60.0
 SWITCH_S: Final = 0.0005
-"""Seconds after which a computing thread lets another one run.
+"""Seconds for which a thread computes before another one may run.
 
-A request releases the interpreter's lock at each query and must get it back. With Python's default of 5 ms,
-two busy threads delay each query by about 10 ms.
+A request releases the interpreter's lock at each query, and must then acquire it again. With Python's default
+of 5 ms, two busy threads delay each query by about 10 ms.
 """
 MIGRATION_LOCK: Final = 0x62742D73747564
 
 
 class ServeError(Exception):
-    """The server cannot start; the text tells the user why and what to do."""
+    """The server cannot start; the text tells the user the reason and what to do."""
 
 
 @contextmanager
 def ended_by_interrupt() -> Iterator[None]:
-    """Makes Ctrl+C end the process itself, as SIGTERM does, while it starts.
+    """Makes Ctrl+C end the process immediately while the server starts, as SIGTERM does.
 
     Python drops a `KeyboardInterrupt` that is raised in the callback of a weak reference. Imports run many
     such callbacks, so without this the server could continue.
@@ -66,14 +66,14 @@ def ended_by_interrupt() -> Iterator[None]:
 
 @contextmanager
 def data_folder(folder: Path, *, is_shared: bool = False) -> Iterator[None]:
-    """Makes the folder with its secret key, and locks it against servers that cannot share it.
+    """Makes the data folder with its secret key, and locks it against servers that cannot share it.
 
     Args:
         folder: the data folder.
         is_shared: whether other servers may use it at the same time, as those on one PostgreSQL do.
 
     Raises:
-        ServeError: it cannot be written, or another server has locked it.
+        ServeError: the folder cannot be written, or another server has locked it.
     """
     make_data_folder(folder)
     lock = (folder / "serve.lock").open("a+", encoding="utf-8")
@@ -96,10 +96,10 @@ def data_folder(folder: Path, *, is_shared: bool = False) -> Iterator[None]:
 
 
 def make_data_folder(folder: Path) -> None:
-    """Makes the folder with its secret key, for its owner alone.
+    """Makes the data folder with its secret key; only its owner can read it.
 
     Raises:
-        ServeError: it cannot be written.
+        ServeError: the folder cannot be written.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True, mode=0o700)
@@ -109,7 +109,10 @@ def make_data_folder(folder: Path) -> None:
 
 
 def _make_secret_key(path: Path) -> None:
-    """Makes the key if there is none. The file appears atomically, since another server may read it."""
+    """Makes the secret key if it does not exist.
+
+    The file appears atomically, since another server may read it.
+    """
     if path.exists():
         return
     partial = path.with_name(f"{path.name}.{secrets.token_hex(8)}")
@@ -127,7 +130,7 @@ def bind(host: str, port: int) -> socket.socket:
     """Binds the port before the slow parts of the start.
 
     Raises:
-        ServeError: it is in use, or not permitted.
+        ServeError: the port is in use, or not permitted.
     """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     listener = socket.socket(family, socket.SOCK_STREAM)
@@ -159,10 +162,10 @@ def migrate() -> None:
 
 
 def await_database(url: str, patience_s: float = DATABASE_PATIENCE_S) -> None:
-    """Waits for a PostgreSQL that starts at the same time.
+    """Waits for a PostgreSQL server that may still be starting.
 
     Raises:
-        ServeError: it does not start, or refuses the connection.
+        ServeError: PostgreSQL does not start, or refuses the connection.
     """
     import psycopg  # noqa: PLC0415 - localhost does without
 
@@ -208,11 +211,12 @@ def run(
     """Serves until SIGINT or SIGTERM; then ends every session and returns.
 
     Args:
-        listener: the socket.
-        on_ready: called once requests are answered.
+        listener: the listening socket.
+        on_ready: called when requests are answered.
         log_level: the least severe line that is printed.
         accepts_at_once: the number of connections that the event loop accepts before it does other work. It
-            is small for workers that share the socket: otherwise the first to wake would take all.
+            is small for workers that share the socket: otherwise the first worker to wake would accept all
+            connections.
     """
     set_up(log_level, environment().log_style)
     sys.setswitchinterval(SWITCH_S)
@@ -279,7 +283,10 @@ def warm_up() -> None:
 
 
 def write_ready_file(path: Path, url: str, port: int) -> None:
-    """Writes the server's address for a program that waits: atomically, and readable only by the owner."""
+    """Writes the server's address to a file for a program that waits for it.
+
+    The file appears atomically, and only its owner can read it.
+    """
     partial = path.with_name(path.name + ".partial")
     descriptor = os.open(partial, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
     with os.fdopen(descriptor, "w", encoding="utf-8") as file:

@@ -1,4 +1,4 @@
-"""Django's settings, derived from `environment`; importing this writes nothing."""
+"""Django's settings, derived from `environment`. Importing this module writes nothing."""
 
 from __future__ import annotations
 
@@ -14,7 +14,10 @@ ENVIRONMENT = environment()
 
 
 def _secret_key() -> str:
-    """Returns the key of the environment, or that of the data folder (made by `serve`), or a random one."""
+    """Returns the secret key.
+
+    It is that of the environment, that of the data folder (made by `serve`), or a random one.
+    """
     if given := ENVIRONMENT.secret_key.get_secret_value():
         return given
     try:

@@ -18,13 +18,16 @@ if TYPE_CHECKING:
 
 
 class FrontEndFiles(WhiteNoiseMiddleware):  # type: ignore[misc]
-    """WhiteNoise with files in memory: its file iterator would block the event loop."""
+    """Serves the front end with WhiteNoise, from memory.
+
+    The file iterator of WhiteNoise would block the event loop.
+    """
 
     def __init__(self, get_response: Callable[[HttpRequest], HttpResponse]) -> None:
         super().__init__(get_response, settings)
 
     def __call__(self, request: HttpRequest) -> HttpResponse:
-        """Serves a file if there is one; skips paths that never name files."""
+        """Serves a file if it exists. Paths that never name files are skipped."""
         is_api = request.path_info.startswith("/api/")
         answer: HttpResponse = self.get_response(request) if is_api else super().__call__(request)
         return answer
@@ -51,7 +54,7 @@ class FrontEndFiles(WhiteNoiseMiddleware):  # type: ignore[misc]
 
 @require_safe
 def page(request: HttpRequest, project_id: object = None) -> HttpResponse:
-    """Returns the page for every path that the front end handles."""
+    """Returns the front end's page, for every path that the front end handles."""
     index = settings.ENVIRONMENT.frontend_dir / "index.html"
     try:
         content = index.read_bytes()
@@ -64,7 +67,10 @@ def page(request: HttpRequest, project_id: object = None) -> HttpResponse:
 
 @require_safe
 def signed_in_page(request: HttpRequest, project_id: object = None) -> HttpResponse:
-    """Returns the page for signed-in users and guests with a link; redirects others to the sign-in."""
+    """Returns the front end's page to signed-in users and to guests with a link.
+
+    Redirects others to the sign-in.
+    """
     user = identify(request.COOKIES)
     if user is None or (user.is_guest and request.path_info == "/"):
         following = urlencode({"next": request.get_full_path()}) if request.path_info != "/" else ""

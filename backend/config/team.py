@@ -1,4 +1,4 @@
-"""Settings of servers with accounts, and a check that none is missing."""
+"""Settings of servers with accounts; checks that no required setting is missing."""
 
 from __future__ import annotations
 
@@ -12,7 +12,10 @@ from pydantic_settings import BaseSettings
 
 MIN_SECRET_KEY = 32
 CONNECTION_S = 600
-"""Seconds for which a connection to PostgreSQL is kept; its process there returns memory only at its end."""
+"""Seconds for which a connection to PostgreSQL is kept.
+
+Its PostgreSQL process frees its memory only at its end.
+"""
 DEFAULT_PORTS = {"smtp": 25, "smtp+starttls": 587, "smtps": 465}
 
 
@@ -25,7 +28,7 @@ class MissingSettingError(ValueError):
 
 
 class TeamSettings(BaseSettings):
-    """The mode (local or team), and the services of a team's server."""
+    """The mode (local or team), and the services that a team server uses."""
 
     mode: Literal["local", "team"] = Field(
         default="local",
@@ -174,7 +177,7 @@ class TeamSettings(BaseSettings):
 
     @property
     def is_https(self) -> bool:
-        """Whether users connect by TLS, so that cookies must be secure."""
+        """Whether users connect by TLS, so that cookies need the attribute `Secure`."""
         return self.public_url.startswith("https://")
 
     @property
@@ -184,7 +187,7 @@ class TeamSettings(BaseSettings):
 
 
 def database(url: str, data_dir: Path) -> dict[str, Any]:
-    """Returns Django's settings of the database that `url` names, or of SQLite in the data folder."""
+    """Returns Django's settings of the database: the one that `url` names, or SQLite in the data folder."""
     parts = urlsplit(url)
     if parts.scheme.startswith("postgres"):
         return postgresql(url)

@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 
 STDIN: Final = 0
 ORPHAN_S: Final = 10.0
-"""Seconds that a worker may take to end after its parent has ended."""
+"""Seconds for which a worker may continue after its parent has ended."""
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Serves until a signal to end arrives, or the parent has gone."""
+    """Serves until a signal to end arrives, or until the parent has ended."""
     parser = argparse.ArgumentParser(prog="python -m backend.config.web_worker", description=__doc__)
     parser.add_argument("--fd", type=int, required=True, help="the socket that listens")
     parser.add_argument("--folder", type=Path, required=True, help="what all workers of the parent share")
@@ -42,7 +42,7 @@ class Inherited(socket.socket):
     """A listening socket whose backlog the parent has set."""
 
     def listen(self, *_: object) -> None:
-        """Does nothing: the event loop would reduce the backlog to its own number of accepts."""
+        """Does nothing; otherwise the event loop would reduce the backlog."""
 
 
 def _ready() -> None:
@@ -51,7 +51,10 @@ def _ready() -> None:
 
 
 def _end_with_parent(folder: Path) -> None:
-    """Ends this worker with its parent: the pipe, which stays empty, closes even if the parent was killed."""
+    """Ends this worker when its parent ends.
+
+    A pipe to the parent, which stays empty, closes even if the parent was killed.
+    """
     while os.read(STDIN, 1):
         pass
     shutil.rmtree(folder, ignore_errors=True)  # a killed parent could not do it

@@ -11,16 +11,16 @@ if TYPE_CHECKING:
     from backend.config.environment import Environment
 
 CONNECTIONS: Final = 10
-"""Connections to the database that one worker may hold: for request and launch threads, and for sockets."""
+"""Connections to the database that one worker may hold: for request threads, launch threads and sockets."""
 SPARE: Final = 10
 """Connections for the parent, a backup, the command line and a console."""
 
 
 def judge_workers(settings: Environment) -> None:
-    """Refuses several workers where only one is possible.
+    """Raises an error if several workers are configured, but only one is possible.
 
     Raises:
-        ServeError: several workers are not possible; the text says why, and what to do.
+        ServeError: several workers are not possible; the text tells the reason and what to do.
     """
     if settings.workers <= 1 or settings.may_be_several:
         return
@@ -42,7 +42,7 @@ def judge_workers(settings: Environment) -> None:
 
 
 def workers_of(settings: Environment) -> int:
-    """Returns the number of workers: the configured one, or what the machine and the database have room for.
+    """Returns the number of workers: the configured one, or as many as the machine and the database permit.
 
     Raises:
         ServeError: the database does not allow as many connections as needed.

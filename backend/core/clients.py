@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 FORWARDED: Final = ("x-forwarded-for", "forwarded", "x-real-ip", "x-forwarded-proto")
-"""Headers that proxies add. Any client can send them, too, so they are no proof of a proxy."""
+"""Headers that proxies add. Any client can send them too, so they do not prove that there is a proxy."""
 _UNBELIEVED: Final = (
     "Requests come through a reverse proxy (they have the header %s), but BT_STUDIO_PROXY_HOPS is 0: all "
     "users seem to come from one address, the proxy's. Set it to the number of proxies in front."
@@ -42,7 +42,10 @@ def address_of(connection: str | None, headers: Mapping[str, str]) -> str | None
 
 
 def network_of(address: str | None) -> str:
-    """Returns the network that counts as one address: for IPv6 the /64, all of which one machine can use."""
+    """Returns the network that counts as one address.
+
+    For IPv6 it is the /64, since one machine can use all of it.
+    """
     if not address:
         return "?"
     found = ip_address(address)
@@ -52,12 +55,12 @@ def network_of(address: str | None) -> str:
 
 
 def stranger(address: str | None) -> str:
-    """Returns the owner of the resources that unidentified clients use: one owner per address."""
+    """Returns the owner of the resources that unidentified clients use: one owner for each address."""
     return f"address {network_of(address)}"
 
 
 def is_on_this_machine(connection: str | None, headers: Mapping[str, str]) -> bool:
-    """Whether a program on this machine sent the request for itself, not a local proxy for somebody else."""
+    """Whether a program on this machine sent the request for itself, not as a proxy for another client."""
     if any(name in headers for name in FORWARDED):
         return False
     try:

@@ -1,4 +1,6 @@
-"""Books the event-loop time of each connection. Reading pauses for owners who exceed their share.
+"""Charges the event-loop time of each connection to its owner.
+
+Reading pauses for owners who exceed their share.
 
 Heads, frames and refused connections need no request thread, but they take time of the event loop, for which
 all connections wait.
@@ -32,7 +34,8 @@ class ConnectionCosts:
         address: the address of the other end.
 
     Attributes:
-        owner: the owner who pays: the address until the user is known; nobody if it is a proxy's address.
+        owner: the owner who pays: the address until the user is known. If the address is that of a proxy, no
+            owner pays.
     """
 
     def __init__(self, address: str | None) -> None:
@@ -43,7 +46,10 @@ class ConnectionCosts:
 
     @contextmanager
     def booked(self) -> Iterator[None]:
-        """Books the processor time of a block. The clock is that of the thread, so waiting costs nothing."""
+        """Charges the processor time of the block to the owner.
+
+        The clock is that of the thread, so waiting costs nothing.
+        """
         began_s = time.thread_time()
         try:
             yield
@@ -51,7 +57,7 @@ class ConnectionCosts:
             self.spend(time.thread_time() - began_s)
 
     def spend(self, used_s: float) -> None:
-        """Books processor time."""
+        """Charges processor time to the owner."""
         if self._is_on and self.owner is not None:
             budgets.spend(self.owner, used_s)
 
@@ -60,7 +66,7 @@ class ConnectionCosts:
         return budgets.rest_s(self.owner) if self._is_on and self.owner is not None else 0.0
 
     def hold(self, size: int) -> bool:
-        """Counts bytes of an incomplete message; returns False if its owner holds too many of them."""
+        """Counts bytes of an incomplete message; returns False if the owner holds too many of them."""
         if not self._is_on or self.owner is None:
             return True
         self._held += size
@@ -68,7 +74,7 @@ class ConnectionCosts:
         return _unfinished[self.owner] <= MOST_UNFINISHED
 
     def release(self) -> None:
-        """Releases the counted bytes: the message is complete, or will never be."""
+        """Releases the counted bytes, since the message is complete or will never be complete."""
         if self.owner is None or not self._held:
             return
         _unfinished[self.owner] -= self._held
@@ -77,13 +83,16 @@ class ConnectionCosts:
             del _unfinished[self.owner]
 
     def belong_to(self, owner: str) -> None:
-        """Sets the owner for whom later costs are booked."""
+        """Sets the owner to whom later costs are charged."""
         self.release()
         self.owner = owner
 
 
 def known(scope: Any, owner: str) -> None:
-    """Sets the owner for whom later costs of this request's or socket's connection are booked."""
+    """Sets the owner to whom later costs of a connection are charged.
+
+    `scope` is that of its request or socket.
+    """
     costs = scope.get(COSTS)
     if costs is not None:
         costs.belong_to(owner)

@@ -15,8 +15,8 @@ PART: Final = 1024 * 1024
 class FileAnswer(StreamingHttpResponse):
     """A response that sends a whole file.
 
-    Our handler takes the file, sends it and closes it. Other handlers, such as the test client, read the
-    response as a stream. If nobody took the file, closing the response closes it.
+    `ThreadedHandler` takes the file, sends it and closes it. Other handlers, such as the test client, read
+    the response as a stream. If no handler took the file, closing the response closes it.
     """
 
     def __init__(self, file: IO[bytes], **options: Any) -> None:
@@ -33,7 +33,7 @@ class FileAnswer(StreamingHttpResponse):
         return file
 
     def close(self) -> None:
-        """Closes the response, and the file if nobody took it."""
+        """Closes the response, and also the file if no handler took it."""
         super().close()
         if self._file is not None:
             self._file.close()

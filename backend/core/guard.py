@@ -1,11 +1,11 @@
 """Decides which requests and sockets the server accepts; does no I/O.
 
-Three rules apply on localhost, the first two on a server with accounts. They are the same for pages, the API
+On localhost three rules apply, on a server with accounts the first two. They are the same for pages, the API
 and sockets:
 
 * The `Host` is a name of this server, so that a foreign page cannot reach it by DNS rebinding (421).
-* An `Origin`, if there is one, is that same host, by http or https as users open it (403). Sockets must have
-  one, because browsers let every page open them; programs that send the token need none.
+* The `Origin`, if there is one, is the same host, by http or https as users open it (403). Sockets need an
+`Origin`, because browsers let every page open them; programs that send the token do not.
 * The request has the token, or the cookie that the browser got in exchange for the token (403).
 
 The token is new at each start. The cookie's value is derived from it, so that a stolen cookie does not reveal
@@ -35,7 +35,7 @@ LINK_HINT: Final = (
 
 @dataclass(frozen=True, slots=True)
 class Facts:
-    """The facts of a request, or of the opening of a socket, by which the guard decides."""
+    """The facts about a request, or about the opening of a socket, by which the guard decides."""
 
     method: str
     host: str
@@ -59,21 +59,24 @@ class Refusal:
 
 @dataclass(frozen=True, slots=True)
 class Keys:
-    """The token of this start, and the cookie that is derived from it."""
+    """The token of this start of the server, and the cookie value that is derived from it."""
 
     token: str
 
     @property
     def cookie_value(self) -> str:
-        """Returns the value that a browser's cookie must have."""
+        """The value that a browser's cookie must have."""
         return hmac.new(self.token.encode(), b"bt-studio cookie", hashlib.sha256).hexdigest()
 
     def is_token(self, candidate: str | None) -> bool:
-        """Whether this is the token. Takes constant time, so that timing reveals nothing."""
+        """Whether the candidate is the token.
+
+        The comparison takes constant time, so that timing reveals nothing.
+        """
         return candidate is not None and hmac.compare_digest(candidate.encode(), self.token.encode())
 
     def is_cookie(self, candidate: str | None) -> bool:
-        """Whether this is the cookie's value. Takes constant time, as above."""
+        """Whether the candidate is the cookie's value. The comparison takes constant time."""
         return candidate is not None and hmac.compare_digest(candidate.encode(), self.cookie_value.encode())
 
 
@@ -98,7 +101,7 @@ def cookie_name(host: str) -> str:
 def judge(
     facts: Facts, keys: Keys, *, extra_hosts: tuple[str, ...] = (), accounts: bool = False
 ) -> Refusal | None:
-    """Returns why the request is refused, or None when it may pass.
+    """Returns the reason to refuse the request, or None if it is accepted.
 
     With `accounts` there is no token to check; the session identifies the user later.
     """
@@ -120,7 +123,7 @@ def judge(
 
 
 def judge_host(host: str, extra_hosts: tuple[str, ...]) -> Refusal | None:
-    """Returns why a host is refused, or None if it is a name of this server."""
+    """Returns the reason to refuse a host, or None if it is a name of this server."""
     if host_name(host) in LOOPBACK_HOSTS or host_name(host) in extra_hosts:
         return None
     return Refusal(
@@ -159,9 +162,11 @@ def known_hosts() -> tuple[str, ...]:
 
 
 def schemes_of(host: str, connection: str) -> tuple[str, ...]:
-    """Returns the schemes by which pages of this host may be opened; `connection` is that of this request.
+    """Returns the schemes by which pages of this host may be opened.
 
-    If users open the server by https, a page that was loaded by plain http is not accepted as ours: anybody
+    `connection` is the scheme of this request.
+
+    If users open the server by https, a page that was loaded by plain http is not accepted, since any machine
     on the network may have changed it.
     """
     settings = environment()
@@ -174,5 +179,5 @@ def schemes_of(host: str, connection: str) -> tuple[str, ...]:
 
 
 def check(facts: Facts) -> Refusal | None:
-    """Calls `judge` with the settings of this server."""
+    """Decides about a request with the settings of this server; returns the reason to refuse it, or None."""
     return judge(facts, keys(), extra_hosts=known_hosts(), accounts=environment().is_team)

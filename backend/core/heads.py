@@ -1,7 +1,9 @@
-"""Limits the time and the size of a request's head: the cost of a connection before its request is known.
+"""Limits the time and the size of a request's head.
 
-uvicorn waits without limit for a head that arrives byte by byte, and keeps all of it in memory. Reading
-pauses on connections of an owner who exceeded their share of the event loop.
+The head is the cost of a connection before its request is known.
+
+uvicorn itself waits without limit for a head that arrives byte by byte, and keeps all of it in memory.
+Reading pauses on connections of an owner who exceeded their share of the event loop.
 """
 
 from __future__ import annotations
@@ -24,8 +26,11 @@ HEAD_S: Final = 15.0
 """Seconds from the start of a connection, or of its next request, to the end of the head."""
 HEAD_BYTES: Final = 64 * 1024
 READ_HEAD_BYTES: Final = 8 * 1024
-"""Bytes that are read at a time until the head is complete. Each header line costs one Python call, and
-thousands of them fit into the 256 KiB that asyncio reads by default."""
+"""Bytes of one read, until the head is complete.
+
+Each header line costs one Python call, and thousands of them fit into the 256 KiB that asyncio reads by
+default.
+"""
 READ_BODY_BYTES: Final = 256 * 1024
 
 
@@ -57,7 +62,7 @@ class PatientProtocol(HttpToolsProtocol):
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
-        """Processes received bytes and books their processor time."""
+        """Processes received bytes, and charges their processor time to the owner."""
         with self._costs.booked():
             self._received(data)
         self._rest_if_due()
@@ -75,11 +80,14 @@ class PatientProtocol(HttpToolsProtocol):
             self.transport.resume_reading()
 
     def _is_ours(self) -> bool:
-        """Whether the connection is open, and no websocket has taken it over."""
+        """Whether this protocol still owns the connection: it is open, and no websocket has taken it over."""
         return not self.transport.is_closing() and self.transport.get_protocol() is self
 
     def _received(self, data: bytes) -> None:
-        """Counts bytes outside of bodies. Between requests a client could send empty lines without end."""
+        """Counts bytes outside of bodies.
+
+        Otherwise a client could send empty lines without end between requests.
+        """
         before = self._in_head or self._is_idle()
         super().data_received(data)
         if not self._is_ours():

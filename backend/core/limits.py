@@ -1,4 +1,4 @@
-"""The translator's table of limits, read from its file, since importing the translator is slow."""
+"""The translator's table of limits, read from its file because importing the translator is slow."""
 
 from __future__ import annotations
 

@@ -11,7 +11,10 @@ from django.db import connection
 
 
 def transaction_lock(name: str, *, shared: bool = False) -> None:
-    """Waits until no other transaction holds the lock; shared holders do not exclude each other."""
+    """Waits until no other transaction holds the lock, and takes it.
+
+    Several transactions can hold it `shared`.
+    """
     if connection.vendor != "postgresql":
         return
     function = "pg_advisory_xact_lock_shared" if shared else "pg_advisory_xact_lock"
@@ -20,5 +23,5 @@ def transaction_lock(name: str, *, shared: bool = False) -> None:
 
 
 def lock_number(name: str) -> int:
-    """Returns the key of the lock for PostgreSQL's advisory locks, which are numbered."""
+    """Returns the number of a lock; PostgreSQL identifies advisory locks by numbers."""
     return int.from_bytes(hashlib.sha256(name.encode()).digest()[:8], signed=True)

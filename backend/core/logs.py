@@ -1,4 +1,4 @@
-"""Formats log lines: as text for a terminal, or as one JSON object a line for log collectors."""
+"""Formats log lines: as text for a terminal, or as one JSON object in each line for log collectors."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 MOST_ALIKE: Final = 20
-"""Warnings of one kind in a period that are written: no client must be able to fill the disk with them."""
+"""Number of warnings of one kind that are written in a period. No client may fill the disk with them."""
 PERIOD_S: Final = 60.0
 NOISY: Final = ("websockets", "uvicorn.error", "asyncio")
 
 
 class JsonFormatter(logging.Formatter):
-    """`{time, level, logger, message, …}`; `facts` of a record become fields of the line."""
+    """Formats a record as `{time, level, logger, message, …}`; the `facts` of the record become fields."""
 
     def format(self, record: logging.LogRecord) -> str:
         """Returns one line, even if the text contains line breaks."""
@@ -51,11 +51,11 @@ class TextFormatter(logging.Formatter):
 class Flood(logging.Filter):
     """Drops warnings of a kind that come too often.
 
-    The first one of the next period says how many were dropped. The kind of a warning is its format string.
-    Errors are never dropped.
+    The first warning of the next period tells how many were dropped. The kind of a warning is its format
+    string. Errors are never dropped.
 
     Args:
-        clock: monotonic time in seconds.
+        clock: returns a monotonic time in seconds.
     """
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
@@ -66,7 +66,7 @@ class Flood(logging.Filter):
         self._dropped: dict[tuple[str, str], int] = {}
 
     def filter(self, record: logging.LogRecord) -> bool:
-        """Returns whether the line is written."""
+        """Returns whether the record is written."""
         if record.levelno > logging.WARNING:
             return True
         now_s = self._clock()

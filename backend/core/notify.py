@@ -16,7 +16,7 @@ log = logging.getLogger(__name__)
 
 
 class _Teller:
-    """Sends notices in the event loop of the server, where the sockets wait for them."""
+    """Sends notices in the event loop of the server, in which the sockets wait for them."""
 
     def __init__(self) -> None:
         self._loop: asyncio.AbstractEventLoop | None = None

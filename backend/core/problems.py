@@ -5,8 +5,8 @@
     ├─ NotFoundError            404
     └─ (see `errors.py` of projects and sessions)
 
-Views raise them. `exception_handler` turns them into answers, as well as DRF's own errors and those of a
-database that cannot be reached or is full. Every other error becomes a 500.
+Views raise these errors. `exception_handler` converts them to answers, and does the same for errors of DRF,
+and of a database that cannot be reached or is full. Every other error becomes a 500.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class StudioError(Exception):
 
     Args:
         detail: one sentence that says what happened.
-        hint: what to do now.
+        hint: one sentence that says what the user can do now.
         field: the part of the request that is wrong, as a dotted path.
         extra: additional members of the problem document.
     """
@@ -46,7 +46,7 @@ class StudioError(Exception):
     code: ClassVar[str] = "bad_request"
     title: ClassVar[str] = "The request cannot be carried out"
     retry_after_s: ClassVar[int] = 0
-    """Seconds after which the client may try again; 0 if that does not help."""
+    """Seconds after which the client may try again; 0 if a repetition does not help."""
 
     def __init__(self, detail: str, *, hint: str = "", field: str = "", **extra: Any) -> None:
         super().__init__(detail)
@@ -105,7 +105,10 @@ def problem_response(document: dict[str, Any], headers: dict[str, str] | None = 
 
 
 def exception_handler(error: Exception, context: dict[str, Any]) -> Response | None:
-    """Converts an error of a view (DRF's hook): known ones to a problem document, others to a logged 500."""
+    """Converts an error of a view to an answer, as DRF's hook.
+
+    Known errors become a problem document, others a logged 500.
+    """
     headers: dict[str, str] = {}
     if isinstance(error, StudioError):
         document = error.document()

@@ -20,7 +20,7 @@ def headers_of(scope: HTTPScope | WebSocketScope) -> dict[str, str]:
 
 
 def cookies_of(header: str) -> dict[str, str]:
-    """Returns the cookies of a `Cookie` header; none if it is malformed."""
+    """Returns the cookies of a `Cookie` header; an empty dict if it is malformed."""
     try:
         return {name: morsel.value for name, morsel in SimpleCookie(header).items()}
     except CookieError:
@@ -28,7 +28,7 @@ def cookies_of(header: str) -> dict[str, str]:
 
 
 def scheme_of(scope: HTTPScope | WebSocketScope, headers: Mapping[str, str]) -> str:
-    """Returns `http` or `https`: what a trusted proxy reports, otherwise that of the connection."""
+    """Returns `http` or `https`: the scheme that a trusted proxy reports, or that of the connection."""
     told = headers.get("x-forwarded-proto", "") if environment().proxy_hops else ""
     scheme = told or scope.get("scheme", "http")
     return "https" if scheme in {"https", "wss"} else "http"

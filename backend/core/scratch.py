@@ -1,6 +1,6 @@
-"""Temporary files of requests. Their total size is limited, and they never fill the disk.
+"""Temporary files of requests. Their total size is limited, so that they never fill the disk.
 
-They have no names, so that none remains after a crash. Each worker of a server gets an equal part of the
+The files have no names, so none remains after a crash. Each worker of a server gets an equal part of the
 limit; keys apply to all workers.
 """
 
@@ -40,7 +40,7 @@ class NoRoomError(StudioError):
 
 
 class AlreadyThereError(StudioError):
-    """The user already has a file of this key, of which each user may have one at a time."""
+    """The user already has a temporary file with this key; each user may have one at a time."""
 
     status = 429
     code = "throttled"
@@ -58,7 +58,7 @@ class Scratch:
 
     @property
     def used(self) -> int:
-        """Returns the number of bytes in use."""
+        """The number of bytes in use."""
         with self._lock:
             return self._used
 
@@ -66,13 +66,13 @@ class Scratch:
         """Makes a new file.
 
         Args:
-            expected: its size in bytes, as far as known. They are not reserved, or a slow sender would keep
-                others out.
+            expected: the size in bytes, as far as known. The bytes are not reserved, since a slow sender
+                would then keep others out.
             key: an optional key; only one file of a key exists at a time.
 
         Raises:
             NoRoomError: the limit is reached.
-            AlreadyThereError: there is a file of this key.
+            AlreadyThereError: a file with this key exists already.
             OSError: the disk is full, or almost full (ENOSPC).
         """
         self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
@@ -96,7 +96,7 @@ class Scratch:
             self._used += size
 
     def give_back(self, size: int, place: Place | None) -> None:
-        """Subtracts bytes from the count, and frees the place of the key."""
+        """Subtracts bytes from the count, and releases the place of the key."""
         with self._lock:
             self._used -= size
             if place is not None:
@@ -154,7 +154,7 @@ class ScratchUploads(FileUploadHandler):
         self.file = scratch().file()
 
     def receive_data_chunk(self, raw_data: bytes, start: int) -> None:
-        """Writes the next part."""
+        """Writes the next part of the file."""
         view = memoryview(raw_data)
         try:
             while view:
@@ -169,6 +169,6 @@ class ScratchUploads(FileUploadHandler):
         return UploadedFile(self.file, self.file_name, self.content_type, file_size, self.charset)
 
     def upload_interrupted(self) -> None:
-        """Closes the incomplete file: the client is gone."""
+        """Closes the incomplete file, since the client has disconnected."""
         if hasattr(self, "file"):
             self.file.close()

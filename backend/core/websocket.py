@@ -16,31 +16,31 @@ if TYPE_CHECKING:
     from websockets.http11 import Request
 
 READ_BYTES: Final = 4 << 10
-"""Bytes that are read at a time from an accepted client."""
+"""Bytes of one read from an accepted client."""
 READ_LITTLE_BYTES: Final = 1 << 10
-"""The same for a client who is not accepted yet, or who may not send."""
+"""Bytes of one read from a client who is not accepted yet, or who may not send."""
 LARGEST_MESSAGE: Final = 64 << 20
 SMALL_BYTES: Final = 4 << 10
 """The largest message, in bytes, from a client who is not accepted yet, or who may not send."""
 MOST_BYTES: Final = "bt_studio.most_bytes"
 """The key of the largest message in bytes, in the ASGI message that accepts a socket."""
 IDLE_FRAMES: Final = 100
-"""Frames a second without content that a client may send: pings, pongs, and tiny parts of a message."""
+"""Frames without content that a client may send in a second: pings, pongs, and tiny parts of a message."""
 TINY: Final = 256
 POLICY_VIOLATION: Final = 1008
 TOO_BIG: Final = 1009
 
 
 def read_at_most(transport: Any, size: int) -> None:
-    """Limits how many bytes asyncio reads at a time; its default is 256 KiB."""
+    """Limits how many bytes asyncio reads in one step; its default is 256 KiB."""
     transport.max_size = size
 
 
 class PatientSocket(WebSocketsSansIOProtocol):
     """uvicorn's websocket with small reads, pauses for owners over their share, and a limit of empty frames.
 
-    All frames of one read are parsed at once. The 256 KiB that asyncio reads by default can contain thousands
-    of them, and all other sockets would wait meanwhile.
+    All frames of one read are parsed in one step. The 256 KiB that asyncio reads by default can contain
+    thousands of them, and all other sockets would wait meanwhile.
     """
 
     _is_resting = False
@@ -54,7 +54,10 @@ class PatientSocket(WebSocketsSansIOProtocol):
 
     @property
     def read_paused(self) -> bool:
-        """The flag of uvicorn: it resumes reading when the application took a message, but not in a pause."""
+        """The flag of uvicorn by which reading is paused.
+
+        uvicorn resumes reading when the application took a message, but not during a pause.
+        """
         return self._has_backlog and not self._is_resting
 
     @read_paused.setter
@@ -75,7 +78,7 @@ class PatientSocket(WebSocketsSansIOProtocol):
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
-        """Processes received bytes and books their processor time; called by asyncio."""
+        """Processes received bytes, and charges their processor time to the owner; called by asyncio."""
         if not self._costs.hold(len(data)) and self.handshake_complete and not self.close_sent:
             self.conn.fail(TOO_BIG, "too many large messages at once")
             self.handle_parser_exception()
@@ -106,7 +109,10 @@ class PatientSocket(WebSocketsSansIOProtocol):
         super().send_receive_event_to_app()
 
     async def send(self, message: ASGISendEvent) -> None:
-        """Sends a message of the application; the one that accepts the socket sets its largest message."""
+        """Sends a message of the application.
+
+        The message that accepts the socket sets its largest message.
+        """
         if message["type"] == "websocket.accept":
             most: Any = message.get(MOST_BYTES, self.config.ws_max_size)
             self.conn.max_message_size = most
@@ -115,7 +121,10 @@ class PatientSocket(WebSocketsSansIOProtocol):
         await super().send(message)
 
     def handle_ping(self) -> None:
-        """Answers with a pong, unless the client does not read: unread pongs would pile up without limit."""
+        """Answers a ping with a pong, unless the client does not read.
+
+        Unread pongs would accumulate without limit.
+        """
         if not self._is_too_idle():
             if self.writable.is_set():
                 super().handle_ping()
@@ -123,12 +132,12 @@ class PatientSocket(WebSocketsSansIOProtocol):
                 self.conn.data_to_send()
 
     def handle_pong(self, event: Frame) -> None:
-        """Counts the frame: clients can send pongs that nobody requested."""
+        """Counts the frame, since clients can send pongs that were not requested."""
         if not self._is_too_idle():
             super().handle_pong(event)
 
     def handle_cont(self, event: Frame) -> None:
-        """Counts parts of a message that are smaller than its size requires."""
+        """Counts parts of a message that are unnecessarily small."""
         if len(event.data) >= TINY or event.fin or not self._is_too_idle():
             super().handle_cont(event)
 

@@ -1,4 +1,4 @@
-"""Reads the bodies of requests: checks the headers first, limits size and speed, and writes files in threads.
+"""Reads the bodies of requests: checks headers first, limits size and speed, and writes files in threads.
 
 Unidentified clients may send at most a megabyte. An *upload* is the body of one of the few routes that accept
 an archive. It may be as large as the user's quota allows, and is written directly to a file.
@@ -38,14 +38,14 @@ UNKNOWN_BYTES: Final = 1024 * 1024
 GUEST_BYTES: Final = 8 * 1024 * 1024
 """The largest body, in bytes, of a guest with a read-only link: two texts of a tree, to view it as XML."""
 IN_MEMORY: Final = 4 * 1024 * 1024
-"""Bytes; larger bodies are kept in a file."""
+"""Bytes; larger bodies are stored in a file."""
 PART: Final = 1024 * 1024
-"""Bytes that are written to a file at once."""
+"""Bytes that are written to a file in one step."""
 PATIENCE_S: Final = 30.0
 SLOWEST: Final = 8 * 1024
-"""Bytes a second. After the first `PATIENCE_S`, slower bodies are refused."""
+"""Bytes per second; slower bodies are refused after the first `PATIENCE_S`."""
 LARGE_AT_ONCE: Final = 4
-"""Bodies above `UNKNOWN_BYTES` that one user, or all guests together, may send at a time."""
+"""Bodies above `UNKNOWN_BYTES` that one user, or all guests together, may send at the same time."""
 UPLOADS_AT_ONCE: Final = 1
 RETRY_S: Final = 5
 BODY: Final = "bt_studio.body"
@@ -57,7 +57,7 @@ class Body(NamedTuple):
 
     file: IO[bytes]
     is_whole: bool = True
-    """Whether all of it was read. The body of a request that the guard refuses is not read."""
+    """Whether the whole body was read. The body of a request that the guard refuses is not read."""
 
 
 class Refused(NamedTuple):
@@ -85,7 +85,8 @@ class Upload:
 
     Attributes:
         path: the path of the route.
-        room: returns the number of bytes that a user may send there; raises a StudioError if it is none.
+        room: returns the number of bytes that a user may send; raises a StudioError if the user may send
+            none.
         kind: the content type of streamed bodies; other types, such as forms, are not streamed.
     """
 
@@ -94,7 +95,7 @@ class Upload:
     kind: str = "application/octet-stream"
 
     def takes(self, scope: HTTPScope, kind: str) -> bool:
-        """Whether a request is such an upload."""
+        """Whether a request is an upload for this route."""
         return scope["method"] == "POST" and scope["path"] == self.path and kind.startswith(self.kind)
 
 
@@ -105,10 +106,10 @@ def body_of(request: Any) -> IO[bytes]:
 
 
 class Bodies:
-    """Reads bodies.
+    """Reads the bodies of requests.
 
     Args:
-        asking: threads with a connection to the database.
+        asking: the threads with a connection to the database.
         upload: the route for archives, if there is one.
         scratch: the temporary files for large bodies.
     """
@@ -121,7 +122,7 @@ class Bodies:
     async def read(
         self, scope: HTTPScope, receive: ASGIReceiveCallable, owner: str | None = None
     ) -> AsyncIterator[Body]:
-        """Reads one body, which exists until the block ends. Threads work on behalf of `owner`.
+        """Reads one body, and yields it; it exists until the block ends. Threads work on behalf of `owner`.
 
         Raises:
             BodyRefusedError: the body is refused, before or while it is read.
@@ -192,7 +193,7 @@ class _Reading:
         return int(text) if text.isascii() and text.isdigit() else None
 
     async def _admit(self, declared: int) -> None:
-        """Checks the headers."""
+        """Checks the headers, and refuses the body if it is too large."""
         upload = self._bodies.upload
         user = None
         if upload is not None and upload.takes(self._scope, self._headers.get("content-type", "")):
@@ -222,7 +223,7 @@ class _Reading:
             raise _too_large(self._most, hint=hint)
 
     async def _sender(self) -> User | None:
-        """Returns the sender of this body."""
+        """Returns the user who sends this body, or None."""
         cookies = cookies_of(self._headers.get("cookie", ""))
         user: User | None = await self._ask(partial(identify, cookies))
         return user
@@ -282,7 +283,7 @@ class _Reading:
 
 
 def write_all(file: IO[bytes], data: bytes | bytearray) -> None:
-    """Writes all of the data: one call of an unbuffered file may write a part."""
+    """Writes all of the data, since one call of an unbuffered file may write only a part."""
     view = memoryview(data)
     while view:
         view = view[file.write(view) :]

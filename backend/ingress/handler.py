@@ -1,7 +1,7 @@
 """Runs Django for HTTP; one thread of a fixed pool handles each request from beginning to end.
 
-Django's own ASGI handler makes a thread for each request and switches between it and the event loop several
-times, although no view here is asynchronous. This took longer than most views.
+Django's ASGI handler makes a thread for each request, and switches several times between the thread and the
+event loop, although no view of this server is asynchronous. That took longer than most views.
 """
 
 from __future__ import annotations
@@ -43,34 +43,34 @@ if TYPE_CHECKING:
     from backend.ingress.bodies import Refused, Upload
 
 THREADS: Final = {"local": 8, "team": 8}
-"""Request threads, by mode; each has a connection to the database."""
+"""Number of request threads, by mode; each has a connection to the database."""
 THREADS_OF_SEVERAL: Final = 4
-"""Request threads of each of several workers."""
+"""Number of request threads of each worker, if there are several workers."""
 OWNERS_SHARE: Final = 4
-"""One owner (a user, or all others behind one address) may use one thread in four, if there are accounts."""
+"""One owner (a user, or all others with one address) may use one thread in four, if there are accounts."""
 HASHING: Final = ("/accounts/", "/admin/")
-"""Paths that receive passwords. Hashing one takes a third of a second of processor time."""
+"""Paths that receive passwords; hashing a password takes a third of a second of processor time."""
 MOST_WAITING: Final = 600
 RETRY_S: Final = 30
 LOOP_S: Final = 0.0005
 """Event-loop time in seconds for one request, as measured."""
 LINGER_S: Final = 10.0
 LINGER_BYTES: Final = 64 * 1024 * 1024
-"""Seconds and bytes for which a refused body is still read and discarded."""
+"""`LINGER_S` and `LINGER_BYTES`: seconds and bytes for which a refused body is still read and discarded."""
 
 
 class Answer(NamedTuple):
-    """A response that no longer needs its thread."""
+    """A response that no longer needs a thread."""
 
     status: int
     headers: list[tuple[bytes, bytes]]
     body: bytes
     file: IO[bytes] | None = None
-    """The body, if it is too large for memory."""
+    """The body, if it is too large for the memory."""
 
 
 class Unfinished(NamedTuple):
-    """A response that needs no thread until a worker has done its work."""
+    """A response that waits for a worker, and needs no thread until then."""
 
     request: HttpRequest
     response: Deferred
@@ -81,7 +81,7 @@ class ThreadedHandler(ASGIHandler):
 
     Args:
         upload: the route for archives, if there is one.
-        hashing: the number of passwords that are hashed at once; the default depends on the machine.
+        hashing: the number of passwords that are hashed at the same time; the default depends on the machine.
     """
 
     def __init__(self, upload: Upload | None = None, *, hashing: int | None = None) -> None:
@@ -133,9 +133,9 @@ class ThreadedHandler(ASGIHandler):
 
     @asynccontextmanager
     async def _turn(self, scope: HTTPScope) -> AsyncIterator[bool]:
-        """Limits how many passwords are hashed at once; yields whether this request is one of them.
+        """Limits how many passwords are hashed at the same time; yields whether this request hashes one.
 
-        It waits without holding a thread, so that sign-ins do not delay other requests.
+        The wait holds no thread, so that sign-ins do not delay other requests.
         """
         if scope["method"] != "POST" or not scope["path"].startswith(HASHING):
             yield False
@@ -176,7 +176,7 @@ class ThreadedHandler(ASGIHandler):
         return self._taken(request, self.get_response(request))
 
     def _complete(self, unfinished: Unfinished) -> Answer | Unfinished:
-        """Completes a deferred response, including the part of the middleware that follows the view."""
+        """Completes a deferred response, with the middleware that follows the view."""
         request, deferred = unfinished
         signals.request_started.send(sender=type(self), scope=getattr(request, "scope", None))
         return self._taken(request, ConditionalGetMiddleware(lambda _: deferred.complete())(request))
@@ -193,13 +193,13 @@ class ThreadedHandler(ASGIHandler):
 
 
 def _timed(work: Callable[[], Answer | Unfinished]) -> tuple[Answer | Unfinished, float]:
-    """Returns the result, and the processor time that it took in seconds."""
+    """Runs the work; returns its result, and the processor time that it took in seconds."""
     began_s = time.thread_time()
     return work(), time.thread_time() - began_s
 
 
 async def _ended(work: Future[Any]) -> None:
-    """Waits until the work succeeded or failed; others may wait for it, too."""
+    """Waits until the work has succeeded or failed; several callers may wait for the same work."""
     waiting = asyncio.wrap_future(work)
     await asyncio.wait([waiting])
     waiting.exception()  # marks it as retrieved; the caller reads that of `work`
@@ -213,7 +213,7 @@ def _closed(response: Any) -> Answer:
 
 
 def _tell_length(scope: HTTPScope, body: IO[bytes]) -> None:
-    """Sets the length of a body that came in chunks: without a length, Django's parsers read no body."""
+    """Sets the length of a body that was sent in chunks. Without a length, Django's parsers read no body."""
     if any(name == b"transfer-encoding" for name, _ in scope["headers"]):
         kept = [row for row in scope["headers"] if row[0] not in {b"transfer-encoding", b"content-length"}]
         size = body.seek(0, os.SEEK_END)

@@ -48,7 +48,10 @@ HEADERS: Final[dict[str, str]] = {
 
 
 def page_policy() -> str:
-    """Returns the policy of pages with forms: sign-in may redirect to the provider's page."""
+    """Returns the content security policy of pages with forms.
+
+    Sign-in may redirect to the provider's page.
+    """
     issuer = environment().oidc_issuer
     origin = "/".join(issuer.split("/")[:3])
     return CONTENT_SECURITY_POLICY.replace("form-action 'self'", f"form-action 'self' {origin}".rstrip())
@@ -106,7 +109,10 @@ class Guard(Middleware):
     """Passes on requests that `guard.judge` allows; exchanges the token for the cookie."""
 
     def before(self, request: HttpRequest) -> HttpResponseBase | None:
-        """Answers refused requests and the link with the token."""
+        """Answers a request that is refused, or that opens the link with the token.
+
+        Otherwise returns None.
+        """
         headers = {name: request.META[key] for name, key in FORWARDED_META.items() if key in request.META}
         client_address.set(address_of(request.META.get("REMOTE_ADDR"), headers))
         proxies.see(headers)
@@ -151,7 +157,7 @@ def exchange(request: HttpRequest, host: str) -> HttpResponse:
 
 
 def refuse(request: HttpRequest, refusal: guard.Refusal) -> HttpResponse:
-    """Answers a browser in HTML, a program with a problem document."""
+    """Returns the answer to a refused request: HTML for a browser, a problem document for a program."""
     document = problem(refusal.status, refusal.code, detail=refusal.detail, hint=refusal.hint)
     if "text/html" not in request.META.get("HTTP_ACCEPT", "") or request.path_info.startswith("/api/"):
         return problem_response(document)

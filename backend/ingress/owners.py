@@ -1,8 +1,8 @@
 """Owners: the users or addresses to whom the shared resources of requests and sockets are charged.
 
-The owner is needed before the request is read, so the database is not queried. A user is recognized if this
-process has read their session before. All others behind one address count as one owner, whatever cookies they
-send.
+The owner must be known before the request is read, so the database is not queried. A user is recognized if
+this process has read their session before. All others behind one address count as one owner, whatever cookies
+they send.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def user_owner(user_id: int) -> str:
-    """Returns the name of a user as an owner."""
+    """Returns the name of the owner for a user."""
     return f"user {user_id}"
 
 

@@ -1,7 +1,7 @@
 """Checks every websocket and passes it to its app.
 
 Apps register their sockets in `routes` of `backend.config.asgi`. A route has a pattern of the path, a
-coroutine that serves the accepted socket, and a check of the right that its user needs as long as the socket
+coroutine that serves the accepted socket, and a check of the user's right, which is repeated while the socket
 is open.
 """
 
@@ -36,19 +36,19 @@ if TYPE_CHECKING:
 
 PROTOCOL: Final = "bt-studio.v1"
 ID: Final = r"([0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12})"
-"""The pattern of the id of a project or a session in a path."""
+"""The pattern of a project's or session's id in a path."""
 POLICY_VIOLATION: Final = 1008
 SIGNED_OUT: Final = 4401
 FORBIDDEN: Final = 4404
 _REASON_BYTES: Final = 120  # a close frame holds 123
 OF_A_USER: Final = 100
-"""Sockets that one user may have open: each page has up to four."""
+"""The number of sockets that one user may have open; each page has up to four."""
 OF_AN_ADDRESS: Final = 500
-"""Sockets that all guests and unidentified clients behind one address may have open."""
+"""The number of sockets that all guests and unidentified clients with one address may have open."""
 HANDSHAKE_S: Final = 0.002
 """Event-loop time in seconds to open a socket, as measured."""
 AT_THE_DOOR: Final = 2
-"""Sockets of one owner whose users are looked up at a time; the others wait."""
+"""The number of sockets of one owner whose users are looked up at the same time; the others wait."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +61,7 @@ class Closed:
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """The request of a socket: its address as its route matched it, the user, and the query string."""
+    """The request of a socket: the matched path, the user, and the query string."""
 
     address: re.Match[str]
     user: User
@@ -72,10 +72,10 @@ Handler = Callable[[Call, "ASGIReceiveCallable", "ASGISendCallable"], Awaitable[
 
 
 class Route(NamedTuple):
-    """The app that serves a socket, and the right that its user needs.
+    """The function that serves a socket, and the right that the user needs.
 
     `may` receives the id in the path and the user; it raises a StudioError if the user lacks the right. The
-    largest message of a user has `most_bytes`; guests may send hardly anything.
+    largest message of a user has `most_bytes`; that of a guest is much smaller.
     """
 
     handler: Handler
@@ -84,7 +84,7 @@ class Route(NamedTuple):
 
 
 class Crowd:
-    """Limits the open sockets of each owner, and how many of them open at a time."""
+    """Limits the open sockets of each owner, and the number of them that are being opened."""
 
     def __init__(self) -> None:
         self.sockets: Counter[str] = Counter()
@@ -92,7 +92,10 @@ class Crowd:
 
     @contextlib.asynccontextmanager
     async def place(self, owner: str) -> AsyncIterator[asyncio.Semaphore | None]:
-        """Counts a socket while it is open; yields the owner's semaphore, or None if they have too many."""
+        """Counts a socket while it is open.
+
+        Yields the owner's semaphore, or None if the owner has too many sockets.
+        """
         most = OF_AN_ADDRESS if owner.startswith("address") else OF_A_USER
         if self.sockets[owner] >= most and environment().is_team:
             yield None
@@ -110,7 +113,7 @@ _crowd: Final = Crowd()
 
 
 def refusal(scope: WebSocketScope) -> guard.Refusal | None:
-    """Returns why the socket is refused, by the same rules as for pages, or None."""
+    """Returns the reason to refuse the socket, by the same rules as for pages; None if it is accepted."""
     return guard.check(facts_of(scope))
 
 
@@ -168,7 +171,7 @@ async def _serve(  # noqa: PLR0913, PLR0917 - a socket
 async def _while_allowed(
     route: Route, call: Call, scope: WebSocketScope, receive: ASGIReceiveCallable, send: ASGISendCallable
 ) -> Closed | None:
-    """Serves until the socket ends, or its user loses the right to it."""
+    """Serves until the socket ends, or until its user loses the right to it."""
     serving = asyncio.ensure_future(route.handler(call, receive, send))
     watching = asyncio.create_task(_until_forbidden(route, call, scope))
     try:

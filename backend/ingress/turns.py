@@ -1,4 +1,4 @@
-"""Delays the requests of owners who exceeded their share; they then start one after the other."""
+"""Delays the requests of owners who exceeded their share; these requests then start one after the other."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Turns:
-    """Decides when requests may start. On a server with one user, all start immediately.
+    """Decides when requests may start. On a server with one user, all requests start immediately.
 
     Args:
         budgets: the processor time that owners have used.
@@ -28,7 +28,7 @@ class Turns:
 
     @asynccontextmanager
     async def turn(self, owner: str) -> AsyncIterator[None]:
-        """Waits until the owner may continue; an owner over their share has one request at a time."""
+        """Waits until the owner may continue. An owner who exceeded their share has one request at a time."""
         if not environment().is_team or (owner not in self._queues and not self._budgets.rest_s(owner)):
             yield
             return
@@ -45,12 +45,12 @@ class Turns:
                 del self._queues[owner]
 
     async def rest(self, owner: str) -> None:
-        """Waits as long as the owner must; other owners continue."""
+        """Waits for as long as the owner must wait; other owners continue."""
         if environment().is_team and (rest_s := self._budgets.rest_s(owner)):
             await asyncio.sleep(rest_s)
 
     def spend(self, owner: str, used_s: float) -> None:
-        """Books processor time, in seconds."""
+        """Charges processor time, in seconds, to an owner."""
         if environment().is_team:
             self._budgets.spend(owner, used_s)
 

@@ -1,1 +1,1 @@
-"""Support for editing Python: a language server for each open page, and ruff."""
+"""Support for editing Python: a language server for each open page, and the linter ruff."""

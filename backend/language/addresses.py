@@ -1,7 +1,7 @@
 """Translates addresses of files in messages: `file:///project/…` for the page, real paths for the server.
 
-The page must not learn where its files are on this machine, nor name any other file: addresses that leave the
-project are refused. Addresses of the server outside the project (a library's source) become
+The page must neither learn where its files are on this machine nor name any other file: addresses that leave
+the project are refused. Addresses of the server outside the project (a library's source) become
 `file:///library/…`, which the page shows but cannot open.
 """
 
@@ -37,7 +37,7 @@ class Addresses:
         """Translates a message of the page for the server.
 
         Raises:
-            ForeignAddressError: it names a file outside the project, or is nested beyond reason.
+            ForeignAddressError: the message names a file outside the project, or is nested too deeply.
         """
         return _mapped(message, self._real, 0)
 

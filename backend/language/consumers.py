@@ -1,8 +1,8 @@
 """The socket between an open page and its language server.
 
-Each page has its own server, since two tabs on one project have different unsaved texts; they read the same
-folder. The relay keeps the page inside its project: it translates addresses, passes on the messages that an
-editor needs, and answers all others itself.
+Each page has its own language server, since two tabs on one project have different unsaved texts. The servers
+read the same folder. The relay restricts the page to its project: it translates addresses, passes on the
+messages that an editor needs, and answers all others itself.
 
 Close codes: 4404 no such project; 4408 idle (the page reconnects when it needs the server again); 4413 out of
 memory, 4500 the server ended (the page reconnects after pauses); 4429 too many; 4503 not offered here.
@@ -109,7 +109,10 @@ class Relay:
         self._last_heard_s = time.monotonic()
 
     async def run(self, following: Following) -> Closed | None:
-        """Relays until a side ends; returns the close message for the page, None when the page has gone."""
+        """Relays until either side ends.
+
+        Returns the close message for the page, or None if the page has left.
+        """
         tasks = [
             asyncio.create_task(each)
             for each in (self._from_page(), self._from_server(), self._watch(), self._follow(following))

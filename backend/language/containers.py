@@ -34,7 +34,7 @@ class ContainerServer:
 
     @property
     def root(self) -> str:
-        """Returns the project's folder inside of the container."""
+        """The project's folder inside the container."""
         return f"{self._home}/files"
 
     async def begin(self, contents: Mapping[str, bytes], library: str, python: str) -> None:
@@ -66,7 +66,7 @@ class ContainerServer:
         await self._send(data)
 
     async def read(self) -> bytes:
-        """Returns the next bytes; stores reports of the memory in use."""
+        """Returns the next bytes of the language server; stores its reports of the memory in use."""
         try:
             while isinstance(message := await self._connection.recv(), str):
                 self._memory_bytes = int(json.loads(message)["memory_bytes"])
@@ -75,7 +75,7 @@ class ContainerServer:
         return message
 
     def memory_bytes(self) -> int:
-        """Returns the last reported size, at most a second old."""
+        """Returns the last reported memory in bytes; the report is at most a second old."""
         return self._memory_bytes
 
     async def stop(self) -> None:
@@ -83,7 +83,7 @@ class ContainerServer:
         await self._connection.close()
 
     async def forget(self) -> None:
-        """Does nothing: no files are kept."""
+        """Does nothing, since no files are kept."""
 
 
 class ContainerLauncher:

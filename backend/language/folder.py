@@ -2,9 +2,9 @@
 
 The layout:
 
-<data>/language/projects/<id>/ty.toml          our configuration; that of a project is never used
-<data>/language/projects/<id>/files/…          its Python files, and nothing else
-<data>/language/library-<key>/…                what every project can import: the engine, ROS messages
+<data>/language/projects/<id>/ty.toml          BT Studio's configuration; that of a project is not used
+<data>/language/projects/<id>/files/…          the project's Python files, and nothing else
+<data>/language/library-<key>/…                importable by every project: the engine, ROS messages
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _lock: Final = Lock()
 
 @dataclass(frozen=True, slots=True)
 class Sync:
-    """The changes on the disk, by path in the project."""
+    """The changes that a synchronisation made on the disk, by path in the project."""
 
     created: tuple[str, ...]
     changed: tuple[str, ...]
@@ -99,7 +99,7 @@ def library() -> Path:
 
 
 def _library_key(site_packages: Path) -> str:
-    """Returns a key that changes with the interpreter, the installed packages, and the maker of the stubs."""
+    """Returns a key that changes with the interpreter, the installed packages and the stub generator."""
     installed = sorted(entry.name for entry in os.scandir(site_packages) if entry.name.endswith("-info"))
     how = b"".join(Path(path).read_bytes() for path in (message_stubs.__file__, rclpy_types.__file__))
     return hashlib.sha256(repr((sys.prefix, str(REPOSITORY), installed)).encode() + how).hexdigest()[:16]
@@ -117,7 +117,7 @@ def _make_library(site_packages: Path, folder: Path) -> None:
 
 
 def _write(path: Path, data: bytes) -> None:
-    """Writes a file atomically: a reader sees the old bytes or the new ones."""
+    """Writes a file atomically, so that a reader sees either the old or the new bytes."""
     partial = path.with_name(f".{path.name}.{uuid4().hex}.partial")
     partial.write_bytes(data)
     partial.replace(path)

@@ -1,6 +1,8 @@
-"""The packages that a project's Python can import, for a language server: engine, rclpy, stubs of messages.
+"""Makes the folder of the packages that a project's Python can import.
 
-On localhost the folder is made beside the data (`folder.py`); for containers it is made with their image:
+They are the engine, Python packages of ROS, and stubs of messages.
+
+On localhost the folder is made in the data folder (`folder.py`); for containers it is made with their image:
 `python -m backend.language.library SITE_PACKAGES REPOSITORY FOLDER`.
 """
 
@@ -28,7 +30,10 @@ _TREE_TOOLS: Final = "from tree_gardener.tree_tools import *\n"
 
 
 def make_library(site_packages: Path, repository: Path, folder: Path) -> None:
-    """Makes the folder of the library."""
+    """Makes the folder.
+
+    It gets links to the engine and to Python packages of ROS, type stubs, and an annotated rclpy.
+    """
     folder.mkdir(parents=True)
     message_stubs.write_message_stubs(site_packages, folder)
     rclpy_types.write_annotated(site_packages, folder)
@@ -41,7 +46,10 @@ def make_library(site_packages: Path, repository: Path, folder: Path) -> None:
 
 
 def configuration(files: str, library: str, python: str) -> str:
-    """Returns the language server's `ty.toml`: where the project is, and what it can import."""
+    """Returns the `ty.toml` of the language server.
+
+    It names the places of the project and of the packages that it can import.
+    """
     environment = {
         "python": python,
         # Other actions are imported as `actions.<Name>` or by their bare name, as in the engine's loader.

@@ -34,7 +34,7 @@ _MESSAGE: Final = re.compile(r"^(\w+)/(\w+)$")
 
 
 class Interface(NamedTuple):
-    """One generated class: its fields with ROS types, its constants, and its nested classes."""
+    """One generated class: its fields with their ROS types, its constants, and its nested classes."""
 
     name: str
     fields: dict[str, str]
@@ -62,7 +62,7 @@ def write_message_stubs(site_packages: Path, target: Path) -> list[str]:
 
 
 def stub_of(folder: Path) -> str:
-    """Returns the stub of one folder of generated modules; empty if there are none."""
+    """Returns the stub of one folder of generated modules; "" if the folder has none."""
     interfaces = [each for path in sorted(folder.glob("_*.py")) for each in interfaces_of(path)]
     if not interfaces:
         return ""
@@ -74,7 +74,7 @@ def stub_of(folder: Path) -> str:
 
 
 def interfaces_of(path: Path) -> Iterator[Interface]:
-    """Returns the classes of a generated module, in the order of the file."""
+    """Yields the classes of a generated module, in the order of the file."""
     if path.name == "__init__.py":
         return
     constants: dict[str, object] = {}
@@ -130,7 +130,7 @@ def _class(interface: Interface, package: str, kind: str, used: set[str]) -> str
 
 
 def _python_type(ros: str, package: str, used: set[str]) -> tuple[str, str]:
-    """Returns the types of a field when it is read, and when it is assigned."""
+    """Returns the type of a field for reading, and its type for assignment."""
     if sequence := _SEQUENCE.match(ros) or _ARRAY.match(ros):
         inner = _python_type(sequence[1], package, used)[0]
         return f"list[{inner}]", f"Iterable[{inner}]"

@@ -75,7 +75,7 @@ def for_page(message: Any) -> tuple[Message | None, Message | None]:
 
 
 def _without_hints(message: Message) -> Message:
-    """Removes hints from findings: an unused argument that `terminate` is required to have is no error."""
+    """Removes hints from findings, such as those about an unused argument that `terminate` must have."""
     params: Any = message.get("params")
     found = params.get("diagnostics") if isinstance(params, dict) else None
     if not isinstance(found, list):
@@ -85,7 +85,7 @@ def _without_hints(message: Message) -> Message:
 
 
 def _cleaned(value: Any) -> Any:
-    """Removes paths of this machine from texts for the user."""
+    """Removes paths of this machine from texts that are shown to users."""
     if isinstance(value, dict):
         return {
             key: _text(each) if key in {"value", "message", "documentation"} else _cleaned(each)

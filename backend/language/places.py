@@ -21,7 +21,7 @@ def launcher() -> Launcher:
     """Returns the launcher of language servers.
 
     Raises:
-        UnavailableError: there is none on this server.
+        UnavailableError: this server offers no language servers.
     """
     if environment().launcher == "docker":
         return ContainerLauncher()
@@ -34,7 +34,7 @@ def checker(user: User) -> ruff.Run:
     """Returns the function that runs ruff.
 
     Raises:
-        CheckerUnavailableError: there is none on this server.
+        CheckerUnavailableError: this server offers no checker.
     """
     if environment().launcher == "docker":
         return partial(tools.run_ruff, user)

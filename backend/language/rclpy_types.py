@@ -30,7 +30,7 @@ RETURNED: Final[Mapping[str, Mapping[str, str]]] = {
     "task.py": {"Future.cancelled": "bool", "Future.done": "bool"},
     "timer.py": {"Timer.is_canceled": "bool", "Timer.is_ready": "bool"},
 }
-"""The methods of each file with their return types, found in their source and its callers."""
+"""The return types of methods, by file and method; they were found in the sources and their callers."""
 _IMPORTS: Final = {
     "Future": "from rclpy.task import Future\n",
     "RcutilsLogger": "from rclpy.impl.rcutils_logger import RcutilsLogger\n",
@@ -39,7 +39,10 @@ _END_OF_SIGNATURE: Final = re.compile(r"\)\s*:")
 
 
 def write_annotated(site_packages: Path, folder: Path) -> None:
-    """Writes the Python of rclpy to a folder, with return types; nothing where it is not installed."""
+    """Writes the Python sources of rclpy with return types to a folder.
+
+    Does nothing if rclpy is not installed.
+    """
     source = site_packages / PACKAGE
     for path in sorted(source.rglob("*.py")):
         name = path.relative_to(source).as_posix()
@@ -51,7 +54,7 @@ def write_annotated(site_packages: Path, folder: Path) -> None:
 
 
 def annotated(source: str, returned: Mapping[str, str]) -> str:
-    """Returns the source with return types of these methods; those that have one keep theirs."""
+    """Returns the source with these return types; methods that declare a return type keep it."""
     lines = source.splitlines(keepends=True)
     names = set()
     for method in _methods(source):

@@ -1,7 +1,7 @@
-"""Formatting and findings of ruff: bounded, without the user's configuration, on text alone.
+"""Formats and checks texts with ruff, without the user's configuration and with limits.
 
-On localhost ruff is a child of the web server; elsewhere it runs in the user's container (`places.py`). It is
-stopped after some seconds.
+On localhost ruff is a child of the web server; elsewhere it runs in the user's container (`places.py`). A run
+is stopped after some seconds.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def format_source(source: str, filename: str, run: Run) -> str:
     """Returns the source as `ruff format` writes it.
 
     Raises:
-        PythonRefusedError: it does not parse, is too long, or takes too long.
+        PythonRefusedError: the source cannot be parsed, is too long, or takes too long.
     """
     status, output = _run(run, ["format", "--line-length", str(LINE_LENGTH)], source, filename)
     if status != 0:
@@ -47,7 +47,7 @@ def format_source(source: str, filename: str, run: Run) -> str:
 def findings(source: str, filename: str, run: Run) -> list[dict[str, Any]]:
     """Returns ruff's findings in the source, each with the edits that fix it.
 
-    Lines count from 1; columns from 1, in code points.
+    Lines and columns count from 1; columns are in code points.
     """
     options = ["--output-format", "json", "--select", RULES, "--ignore", IGNORED]
     _, output = _run(run, ["check", "--exit-zero", "--no-fix", *options], source, filename)
@@ -97,7 +97,7 @@ def _run(run: Run, arguments: list[str], source: str, filename: str) -> tuple[in
 
 
 def run_beside(arguments: list[str], source: str) -> tuple[int | None, str]:
-    """Runs ruff as a child process."""
+    """Runs ruff as a child process; returns its status (None after a timeout) and its output."""
     try:
         done = subprocess.run(
             [str(Path(sys.executable).with_name("ruff")), *arguments],

@@ -19,7 +19,7 @@ class FormattedSerializer(serializers.Serializer[dict[str, str]]):
 
 
 class PlaceSerializer(serializers.Serializer[dict[str, int]]):
-    """A place in a text; both count from 1, columns in code points."""
+    """A place in a text: line and column count from 1, columns in code points."""
 
     line = serializers.IntegerField()
     column = serializers.IntegerField()

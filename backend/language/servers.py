@@ -2,7 +2,7 @@
 
 On servers that run sessions in containers, language servers also run there (`containers.py`), since their
 users must be isolated from each other. A server with accounts but without containers offers no language
-servers, and reports so.
+servers; users then get a message.
 """
 
 from __future__ import annotations
@@ -33,23 +33,23 @@ _CHUNK_BYTES: Final = 64 * 1024
 
 
 class Server(Protocol):
-    """A running language server: bytes in, bytes out, and the files that it reads."""
+    """A running language server: bytes in, bytes out, and a folder of files that it reads."""
 
     @property
     def root(self) -> str:
-        """Returns the absolute path of the project's files in the server's view."""
+        """The absolute path of the project's files as the server sees it."""
 
     async def sync(self, contents: Mapping[str, bytes]) -> Sync:
         """Makes the server's folder contain exactly the Python files among these files."""
 
     async def write(self, data: bytes) -> None:
-        """Sends bytes to the server; returns when it accepts them."""
+        """Sends bytes to the server; waits until the server accepts them."""
 
     async def read(self) -> bytes:
-        """Returns the next bytes; empty at the end."""
+        """Waits for the next bytes of the server, and returns them; empty at the end."""
 
     def memory_bytes(self) -> int:
-        """Returns the memory that the server uses now; 0 when it has ended."""
+        """Returns the memory that the server uses now, in bytes; 0 if it has ended."""
 
     async def stop(self) -> None:
         """Ends the server; may be called twice."""
@@ -65,7 +65,8 @@ class Launcher(Protocol):
         """Starts a language server on the files of a project, for one of its users.
 
         Raises:
-            UnavailableError: this server offers none, or it cannot be started.
+            UnavailableError: the web server offers no language servers, or the language server cannot be
+                started.
         """
 
 
@@ -93,7 +94,7 @@ class ProcessServer:
         return await self._process.stdout.read(_CHUNK_BYTES)
 
     def memory_bytes(self) -> int:
-        """Returns the resident memory."""
+        """Returns the resident memory in bytes."""
         try:
             return int(psutil.Process(self._process.pid).memory_info().rss)
         except psutil.Error:

@@ -1,7 +1,7 @@
-"""Connects the web server to a user's tools: a container per user that reads files for the editor.
+"""Connects the web server to a user's tools. Each user has a container that reads files for the editor.
 
 The container runs `executor.tools`; the launcher of the sessions starts it. Its id and token are derived from
-the user, so that every web server finds the same container and nothing needs to be stored.
+the user, so that every web server finds the same container, and nothing must be stored.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def token(made_id: str) -> str:
 
 
 def _path(made_id: str, *, is_known_good: bool) -> str:
-    """Returns the address of the tools; calls the launcher unless the known address is still good."""
+    """Returns the address of the tools. Calls the launcher, unless the known address can still be used."""
     if not is_known_good or made_id not in paths:
         limit_s = environment().session_start_timeout_s
         paths[made_id] = launcher().open_tools(made_id, token(made_id), timeout_s=limit_s)
@@ -90,7 +90,7 @@ async def open_editor(user: User) -> ClientConnection:
 
 
 def run_ruff(user: User, arguments: list[str], source: str) -> tuple[int | None, str]:
-    """Runs ruff in a user's tools; returns status and output. The status is None after a timeout.
+    """Runs ruff in a user's tools; returns its status (None after a timeout) and its output.
 
     Raises:
         CheckerUnavailableError: the tools cannot be started, or do not answer.

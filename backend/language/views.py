@@ -32,7 +32,7 @@ class Format(APIView):
         tags=["language"],
     )
     def post(self, request: Request) -> Deferred:
-        """Formats a source; answers 422 if it does not parse."""
+        """Formats a source. The answer is 422 if it is not valid Python."""
         given = parsed(s.SourceSerializer, request.data)
         work = partial(ruff.format_source, **given, run=checker(user_of(request)))
         return _answered(self, request, "source", work)
@@ -55,6 +55,6 @@ class Lint(APIView):
 
 
 def _answered(view: APIView, request: Request, name: str, work: Callable[[], Any]) -> Deferred:
-    """Returns a deferred answer with the result of ruff, so that no request thread waits for it."""
+    """Returns a deferred answer with the result of ruff; no request thread waits for it."""
     asked = checkers.ask(f"user {user_of(request).pk}", work)
     return Deferred(view, request, asked, lambda done: Response({name: done.result()}))

@@ -19,7 +19,7 @@ class Projects(ReadOnly):
     fields = ("id", "name", "owner", "room", "revision", "created_at", "updated_at")
 
     def room(self, row: Project) -> str:
-        """Returns the size of the current files."""
+        """Returns the size of the current files as text."""
         return str(filesizeformat(row.size))
 
 

@@ -1,4 +1,4 @@
-"""Django's entry of this app."""
+"""The configuration of this Django app."""
 
 from django.apps import AppConfig
 
@@ -10,7 +10,7 @@ class ProjectsConfig(AppConfig):
     label = "projects"
 
     def ready(self) -> None:
-        """Connects the notices to users who lose a role, so that their sockets close."""
+        """Connects notices to users who lose a role, so that their sockets are closed."""
         from backend.projects.sharing.demotions import watch_roles  # noqa: PLC0415 - models must be loaded
 
         watch_roles()

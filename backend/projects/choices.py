@@ -6,7 +6,7 @@ from enum import IntEnum
 
 
 class Role(IntEnum):
-    """The rights of a user in a project; each role includes the ones below it."""
+    """The role of a user in a project; each role includes the rights of the lower ones."""
 
     NONE = 0
     VIEWER = 1
@@ -15,7 +15,7 @@ class Role(IntEnum):
 
     @property
     def label(self) -> str:
-        """Returns the name in the API and in the administration."""
+        """The name of the role in the API and in the administration."""
         return self.name.lower()
 
 

@@ -6,7 +6,7 @@ from backend.core.problems import StudioError
 
 
 class RevisionConflictError(StudioError):
-    """A file was changed by someone else since the revision that the write is based on."""
+    """Another user changed a file since the revision on which the write is based."""
 
     status = 409
     code = "revision_conflict"
@@ -62,7 +62,7 @@ class IdempotencyError(StudioError):
 
 
 def matches(if_match: str, etag: str, sentence: str, revision: int | None = None) -> None:
-    """Raises PreconditionFailedError with this sentence when an `If-Match` header names another ETag."""
+    """Raises PreconditionFailedError with this sentence if the `If-Match` header names another ETag."""
     if not if_match or if_match.strip() == "*":
         return
     if etag not in {tag.strip().removeprefix("W/") for tag in if_match.split(",")}:

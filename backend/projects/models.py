@@ -1,9 +1,9 @@
-"""Projects as immutable revisions. Nothing outside this app touches the tables; only `storage.writes` writes.
+"""Projects as immutable revisions. No other app uses the tables; only `storage.writes` writes them.
 
-A change set is one user action. It is number n of its project, and a file's revision is the number of
-the change set that last touched it; so numbers only grow, and a client that knows revision b of a
-project has seen a file when the file's revision is at most b. Contents are blobs named by their hash,
-stored once. The table of current files answers "open this project" in one query.
+A change set is one user action; the change sets of a project are numbered. The revision of a file is the
+number of the change set that last changed it. Numbers only grow, so a client that knows revision b of a
+project knows every file whose revision is at most b. Contents are stored once, as blobs that are named by
+their hash. With the table of current files, a project is opened with one query.
 """
 
 from __future__ import annotations
@@ -34,7 +34,10 @@ class Blob(models.Model):
 
 
 class Project(models.Model):
-    """A project; name, description, main tree and universe repeat its `project.json` for lists."""
+    """A project.
+
+    For lists, the row repeats the name, description, main tree and universe of `project.json`.
+    """
 
     id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
     owner = models.ForeignKey(settings.AUTH_USER_MODEL, on_delete=models.CASCADE, related_name="projects")
@@ -67,7 +70,7 @@ class Project(models.Model):
 
 
 class Membership(models.Model):
-    """A project shared with one person; the owner has no row."""
+    """The share of a project with one person; the owner has no row."""
 
     project = models.ForeignKey(Project, on_delete=models.CASCADE, related_name="memberships")
     user = models.ForeignKey(settings.AUTH_USER_MODEL, on_delete=models.CASCADE, related_name="memberships")
@@ -79,7 +82,7 @@ class Membership(models.Model):
 
 
 class GroupShare(models.Model):
-    """A project shared with everybody in a group."""
+    """The share of a project with all members of a group."""
 
     project = models.ForeignKey(Project, on_delete=models.CASCADE, related_name="group_shares")
     group = models.ForeignKey(Group, on_delete=models.CASCADE, related_name="shares")
@@ -116,7 +119,7 @@ class ChangeSet(models.Model):
 
 
 class FileRevision(models.Model):
-    """The result of a change set for one file; no blob means that it removed the file."""
+    """The result of a change set for one file; without a blob, the file was removed."""
 
     change = models.ForeignKey(ChangeSet, on_delete=models.CASCADE, related_name="files")
     path = models.CharField(max_length=MAX_PATH_LENGTH)
@@ -128,7 +131,10 @@ class FileRevision(models.Model):
 
 
 class CurrentFile(models.Model):
-    """The newest revision of a file; `path_key` is equal for paths that some disk would confuse."""
+    """The newest revision of a file.
+
+    `path_key` is equal for paths that some file systems cannot distinguish.
+    """
 
     project = models.ForeignKey(Project, on_delete=models.CASCADE, related_name="files")
     path = models.CharField(max_length=MAX_PATH_LENGTH)
@@ -142,7 +148,7 @@ class CurrentFile(models.Model):
 
 
 class Draft(models.Model):
-    """Text that one user typed into one file and did not save; never part of a revision."""
+    """Text that a user has typed into a file and not saved; it is never part of a revision."""
 
     project = models.ForeignKey(Project, on_delete=models.CASCADE, related_name="drafts")
     author = models.ForeignKey(settings.AUTH_USER_MODEL, on_delete=models.CASCADE)
@@ -156,7 +162,7 @@ class Draft(models.Model):
 
 
 class IdempotencyKey(models.Model):
-    """The answer to a request that a client may repeat without repeating its effect."""
+    """The stored answer to a request. A client may repeat the request without repeating its effect."""
 
     author = models.ForeignKey(settings.AUTH_USER_MODEL, on_delete=models.CASCADE)
     key = models.CharField(max_length=100)

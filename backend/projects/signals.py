@@ -1,4 +1,4 @@
-"""Signals of projects for other apps."""
+"""Signals that projects send to other apps."""
 
 from __future__ import annotations
 

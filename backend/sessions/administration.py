@@ -1,4 +1,4 @@
-"""The administrator's page of sessions: who runs which project, and a button to end it."""
+"""The administration page of sessions: who runs which project, and a button that ends a session."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Sessions(ReadOnly):
-    """All executors, the newest first."""
+    """All executors of the server, the newest first."""
 
     list_display = ("created_at", "user", "project", "state", "launcher", "ros_domain_id", "ended_at")
     list_filter = ("state",)
@@ -32,12 +32,12 @@ class Sessions(ReadOnly):
     change_list_template = "admin/sessions.html"
 
     def get_urls(self) -> list[Any]:
-        """Adds the button that prevents robots from starting."""
+        """Adds the address of the button that prevents robots from starting."""
         button = path("drain/", self.admin_site.admin_view(self.drain), name="drain")
         return [button, *super().get_urls()]
 
     def changelist_view(self, request: HttpRequest, extra_context: dict[str, Any] | None = None) -> Any:
-        """Adds the number of running sessions, and whether more may start."""
+        """Shows the list with the number of running sessions, and whether more may start."""
         more = {"drain": drain.current(), "counts": queries.counts()}
         return super().changelist_view(request, more | (extra_context or {}))
 

@@ -1,17 +1,17 @@
-"""Django's entry of this app."""
+"""The configuration of this Django app."""
 
 from django.apps import AppConfig
 
 
 class SessionsConfig(AppConfig):
-    """Executor sessions; the label differs from that of Django's own sessions."""
+    """The configuration of the app of executor sessions; its label differs from that of Django's sessions."""
 
     name = "backend.sessions"
     label = "executor_sessions"
     verbose_name = "Sessions"
 
     def ready(self) -> None:
-        """Connects the end of sessions to the deletion of projects and accounts."""
+        """Connects the deletion of projects and accounts to the end of their sessions."""
         from backend.accounts.rights import lessened  # noqa: PLC0415
         from backend.accounts.signals_out import account_leaves  # noqa: PLC0415
         from backend.projects.signals import project_deleted  # noqa: PLC0415 - models must be loaded

@@ -6,9 +6,9 @@ from django.db import models
 
 
 class SessionState(models.TextChoices):
-    """`queued` until a place is free; `starting` becomes `ready` or `failed`.
+    """The state of a session: `queued` until a place is free, then `starting`, then `ready` or `failed`.
 
-    `ready` becomes `ended`, or `failed` when the process dies.
+    A `ready` session becomes `ended`, or `failed` if its process dies.
     """
 
     QUEUED = "queued"

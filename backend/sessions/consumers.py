@@ -1,9 +1,9 @@
-"""The two sockets of a session, relayed verbatim between browser and manager.
+"""Relays the two sockets of a session unchanged between the browser and the manager.
 
-Messages are neither parsed nor queued: each direction takes one message and passes it on before it takes the
-next, so that a slow browser slows its manager's socket down, and the manager, which knows what a message
-supersedes, sends it less. Frames never touch the channel layer. No socket can occupy the event loop, however
-much it sends.
+Messages are neither parsed nor queued: in each direction one message is received and passed on before the
+next one. So a slow browser slows down the socket of its manager. The manager knows which messages newer ones
+replace, and then sends fewer. Frames never touch the channel layer. No socket can occupy the event loop, even
+if it sends much.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ LONGEST_PING: Final = 100
 MESSAGES_IN_TURN: Final = 4
 MESSAGE_S: Final = 0.00015
 BYTE_S: Final = 2e-9
-"""Of the event loop's time, for a message of an executor and for each of its bytes: so much was measured."""
+"""Event-loop time in seconds for an executor's message (`MESSAGE_S`) and for each of its bytes."""
 POLL_S: Final = 0.03
 QUEUE_POLL_S: Final = 1.0
 # A container with many processes ends seconds after its sockets, and later on a busy host.
@@ -57,7 +57,7 @@ EXECUTOR_SILENT: Final = 4504
 
 
 def may_use(session_id: UUID, user: User) -> None:
-    """Raises a StudioError when the user may no longer run the session's project."""
+    """Raises a StudioError if the user may no longer run the session's project."""
     writes.require_right(queries.session(session_id, user=user))
 
 
@@ -76,7 +76,10 @@ async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
     receive: ASGIReceiveCallable,
     send: ASGISendCallable,
 ) -> Closed | None:
-    """Relays until a side ends; returns the close message for the browser, None when the browser has gone."""
+    """Relays until either side ends.
+
+    Returns the close message for the browser, or None if the browser has left.
+    """
     is_control = channel == "control"
     try:
         session = await _when_ready(session_id, user, send if is_control else None)
@@ -103,7 +106,10 @@ async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
 
 
 def _noting(session_id: UUID, receive: ASGIReceiveCallable) -> ASGIReceiveCallable:
-    """Notes that the session is used whenever its browser says something, pings aside."""
+    """Returns a `receive` that also notes that the session is used.
+
+    Each message of the browser counts, except pings.
+    """
 
     async def receive_and_note() -> Any:
         message: Any = await receive()
@@ -115,12 +121,12 @@ def _noting(session_id: UUID, receive: ASGIReceiveCallable) -> ASGIReceiveCallab
 
 
 def _is_ping(text: str) -> bool:
-    """Whether a page only asks whether its session hangs, as each does by itself."""
+    """Whether a page only asks if its session hangs; pages do this without a user."""
     return len(text) <= LONGEST_PING and PING.search(text) is not None
 
 
 async def _explained(session: Session, closed: Closed) -> Closed:
-    """Adds why a lost executor was lost; its process ends a moment after its sockets do."""
+    """Adds the reason why an executor was lost; its process ends a moment after its sockets."""
     for _ in range(LOST_POLLS if closed.code == EXECUTOR_FAILED else 1):
         session = await sync_to_async(writes.refresh)(session)
         if session.state != SessionState.READY:
@@ -130,13 +136,19 @@ async def _explained(session: Session, closed: Closed) -> Closed:
 
 
 def _ended(session: Session) -> Closed:
-    """The code that closes a page's socket at the end of its session; a silent executor has its own."""
+    """Returns the code and reason that close a page's socket at the end of its session.
+
+    A silent executor has a special code.
+    """
     code = EXECUTOR_SILENT if session.error == why() else EXECUTOR_FAILED
     return Closed(code, session.error or "The session has ended.")
 
 
 async def _when_ready(session_id: UUID, user: User, send: ASGISendCallable | None) -> Session:
-    """Returns the session when it neither waits nor starts; a waiting browser receives its place."""
+    """Waits until the session neither waits nor starts, and returns it.
+
+    A waiting browser is sent its position.
+    """
     find = sync_to_async(lambda: queries.session(session_id, user=user))
     told: int | None = None
     # Another web server may be starting it: so this polls the database and waits for no local event.
@@ -183,7 +195,7 @@ async def _browser_to_manager(receive: ASGIReceiveCallable, manager: ClientConne
 
 
 async def _manager_to_browser(manager: ClientConnection, send: ASGISendCallable, owner: str) -> Closed | None:
-    """Hands on what the executor says: at the pace of the browser, and no faster than its user's share."""
+    """Passes on messages of the executor. It follows the pace of the browser, and the share of its user."""
     turns = _Turns()
     try:
         while True:
@@ -202,7 +214,10 @@ async def _manager_to_browser(manager: ClientConnection, send: ASGISendCallable,
 
 
 class _Turns:
-    """Yields to other sockets after some messages: to take a message that is there waits for nothing."""
+    """Yields to other sockets after some messages.
+
+    Receiving a message that has already arrived does not wait.
+    """
 
     def __init__(self) -> None:
         self._messages = 0

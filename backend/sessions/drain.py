@@ -26,18 +26,18 @@ MAX_MESSAGE: Final = 300
 
 
 def current() -> Drain | None:
-    """Returns the drain with its message, or None."""
+    """Returns the drain with its message, or None if there is no drain."""
     return Drain.objects.filter(pk=ONLY).first() if environment().is_team else None
 
 
 def text() -> str:
-    """Returns the notice to users; empty without a drain."""
+    """Returns the notice to users; "" without a drain."""
     found = current()
     return f"{SENTENCE} {found.message}".strip() if found is not None else ""
 
 
 def require_open() -> None:
-    """Raises DrainingError during a drain."""
+    """Raises a DrainingError during a drain."""
     found = current()
     if found is not None:
         raise DrainingError(
@@ -62,7 +62,10 @@ def lift(*, acting_user: User | None) -> None:
 
 
 def wait_for_the_last(seconds: float, say: Callable[[str], object]) -> int:
-    """Waits until no robot runs, or for a timeout; prints each change of their number and returns it."""
+    """Waits until no robot runs, or until the timeout.
+
+    Prints each change of their number, and returns the last number.
+    """
     deadline, told = time.monotonic() + seconds, -1
     while True:
         counts = queries.counts()

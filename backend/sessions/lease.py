@@ -1,12 +1,13 @@
 """Leases: one web server does periodic work for all while it renews its lease, a row of the database.
 
-A row and not a lock of the database: a lock is held as long as its connection, and a server that hangs, is
-frozen with its machine, or has lost the network may keep that for hours. The row runs out by the clock of the
-database, which is the same for all. A holder that was late does for a while what its successor does, too:
-every chore is right when two do it at once; the lease only saves the work.
+The lease is a row and not a lock of the database: a lock is held as long as its connection lasts, and a
+server that hangs, is frozen with its machine, or has lost the network may keep its connection for hours. The
+row expires by the clock of the database, which is the same for all servers. If a holder is late, it may do
+the same work as its successor for a while. Every task is correct even if two servers do it at the same time;
+the lease only saves work.
 
-Where a server is alone with its database, or its executors are children that only it can look after, it has
-every lease at once.
+A server that is the only one of its database, or whose executors are its own child processes, always has
+every lease.
 """
 
 from __future__ import annotations
@@ -29,9 +30,9 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 CARE: Final = "care"
-"""The sessions: who has it looks after all of them, every few seconds."""
+"""The name of the lease for the maintenance of all sessions, every few seconds."""
 GARBAGE: Final = "garbage"
-"""What nobody can reach any more, once a day."""
+"""The name of the lease for removing data that can no longer be reached, once a day."""
 LONGEST_CHORE_S: Final = 1800.0
 
 _TAKE: Final = """
@@ -43,7 +44,7 @@ _TAKE: Final = """
 
 
 class Holder:
-    """One web server, or one of its workers, as stored in the database."""
+    """One web server, or one of its workers, as a holder of leases in the database."""
 
     def __init__(self) -> None:
         self.name = f"{socket.gethostname()[:40]} {os.getpid()} {token_hex(8)}"
@@ -54,7 +55,7 @@ class Holder:
 
     @contextmanager
     def chore(self, name: str, every_s: float) -> Iterator[bool]:
-        """Yields whether this server must do a periodic task now, which only one of all servers does.
+        """Yields whether this server must do a periodic task now; only one of all servers does it.
 
         If the task fails or the server ends, the next caller tries it again.
         """
@@ -81,7 +82,7 @@ class Holder:
 
 
 def is_alone() -> bool:
-    """Whether no other server can do this server's work."""
+    """Whether no other server can do the work of this one."""
     return connection.vendor != "postgresql" or not launcher().survives_server
 
 

@@ -1,6 +1,6 @@
-"""Maintains sessions every few seconds: marks the dead, ends the idle, starts the waiting.
+"""Maintains sessions every few seconds: marks dead sessions, ends idle ones, and starts waiting ones.
 
-`backend.sessions.watch` handles those that are alive and do not answer.
+`backend.sessions.watch` handles sessions that are alive and do not answer.
 
 Of several web servers, and of several workers of one, the one that has the lease does so for all
 (`lease.py`). Each of the steps is right when another did it a moment before. What a server alone knows, the
@@ -41,13 +41,13 @@ log = logging.getLogger(__name__)
 
 EVERY_S: Final = 5.0
 LEASE_S: Final = 3 * EVERY_S
-"""After so long without a sign of life from the server with the lease, another one takes over."""
+"""Seconds without a sign of life from the holder of the lease after which another server takes it."""
 ROUNDS_TO_ORPHANS: Final = 12
 WARNING: Final = timedelta(minutes=5)
 
 
 class Attendance:
-    """The viewers of each session on this server, and the time of their last message."""
+    """The browsers of each session on this server, and the time of their last message."""
 
     def __init__(self) -> None:
         self._used: dict[UUID, float] = {}
@@ -73,24 +73,24 @@ class Attendance:
         self._warned.discard(session_id)
 
     def take_used(self) -> dict[UUID, float]:
-        """Returns for each session that was used since the last call the seconds since its last use."""
+        """Returns the seconds since the last use of each session that was used since the last call."""
         used, self._used = self._used, {}
         now = time.monotonic()
         return {session_id: now - at for session_id, at in used.items()}
 
     async def tell(self, text: str) -> None:
-        """Writes a line about the server into every console, once for each text."""
+        """Writes a line about the server into the console of every browser, once for each text."""
         for send in [send for browsers in self._browsers.values() for send in browsers]:
             if text and self._told.get(send) != text:
                 await say(send, "log", {"source": "manager", "level": "warning", "text": text})
             self._told[send] = text
 
     def keep_warned(self, soon: Container[UUID]) -> None:
-        """Forgets the warning of sessions that were used again, here or on another server."""
+        """Keeps the mark of a warning only for these sessions, since all others were used again."""
         self._warned = {session_id for session_id in self._warned if session_id in soon}
 
     async def warn(self, session_id: UUID, text: str) -> None:
-        """Writes a line into the console of every viewer, once until the session is used again."""
+        """Writes a line into the console of each browser of a session, once until it is used again."""
         if session_id in self._warned:
             return
         self._warned.add(session_id)
@@ -112,7 +112,7 @@ async def say(send: ASGISendCallable, command: str, data: Mapping[str, object]) 
 
 
 def begin() -> None:
-    """Ends what a killed server left, unless other servers do so; called before the first request."""
+    """Ends what a killed server left, unless other servers do that; called before the first request."""
     if is_alone():
         writes.end_orphans()
 
@@ -149,7 +149,7 @@ async def _one_round(*, is_for_orphans: bool) -> None:
 
 
 def _give_back() -> None:
-    """Another server need not wait for the lease of one that ends."""
+    """Releases the lease of a server that ends, so that another server need not wait for its expiry."""
     try:
         holder.give_back(CARE)
     except Error as error:
@@ -157,10 +157,10 @@ def _give_back() -> None:
 
 
 def note_used(used: Mapping[UUID, float]) -> None:
-    """Stores when sessions were last used on this server, unless another server noted a later time.
+    """Stores when each session was last used on this server, unless another server stored a later time.
 
     Args:
-        used: the seconds since the last use of each.
+        used: the seconds since the last use, by session.
     """
     now = timezone.now()
     for session_id, seconds in used.items():
@@ -184,7 +184,7 @@ def ready_sessions() -> list[Session]:
 
 
 def end_idle() -> None:
-    """Ends sessions that nobody used for too long."""
+    """Ends sessions that have not been used for too long."""
     for session, left in _unused():
         if left <= timedelta(0):
             log.info("session %s is idle and is ended", session.id)
@@ -198,7 +198,7 @@ def ending_soon() -> dict[UUID, int]:
 
 
 def _unused() -> list[tuple[Session, timedelta]]:
-    """Sessions that have been unused for long, and for how much longer they may be."""
+    """Returns the sessions that have not been used for long, and the time left until each is ended."""
     limit = timedelta(minutes=environment().session_idle_minutes)
     if not limit:
         return []

@@ -16,7 +16,10 @@ QUEUED_MESSAGES: Final = 2
 
 
 def manager_socket(session: Session, target: str) -> connect:
-    """Opens a socket to the manager at `host:port`, or at `unix:` with the path of its socket."""
+    """Opens a socket to the manager of a session.
+
+    Its address is `host:port`, or `unix:` with the path of a unix socket.
+    """
     options: dict[str, Any] = {
         "additional_headers": {"Authorization": f"Bearer {writes.manager_token(session)}"},
         "compression": None,

@@ -22,7 +22,7 @@ class Drain(models.Model):
 
 
 class Lease(models.Model):
-    """The web server that does a task for all servers, and until when (`lease.py`)."""
+    """The web server that does a task for all servers, and the time until which it does it (`lease.py`)."""
 
     name = models.CharField(max_length=40, primary_key=True)
     owner = models.CharField(max_length=100)

@@ -25,7 +25,7 @@ def session(session_id: UUID, *, user: User) -> Session:
 
 
 def live_session(project_id: UUID, *, user: User) -> Session | None:
-    """Returns the session that runs this project for this user, if there is one."""
+    """Returns the session that runs this project for this user, or None."""
     return Session.objects.filter(project_id=project_id, user=user, state__in=LIVE_STATES).first()
 
 

@@ -29,7 +29,7 @@ class SessionSerializer(serializers.Serializer[Any]):
 
 
 def presented(session: Session) -> dict[str, Any]:
-    """Returns a session in the form of the API."""
+    """Returns a session in the form for the API."""
     return {
         "id": str(session.id),
         "project_id": str(session.project_id),

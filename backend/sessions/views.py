@@ -25,7 +25,7 @@ class ProjectSession(APIView):
 
     @extend_schema(operation_id="start_session", request=None, responses=SessionSerializer, tags=["sessions"])
     def post(self, request: Request, project_id: UUID) -> Response:
-        """Starts an executor for the project, or returns the one that runs."""
+        """Starts an executor for the project, or returns the session that already runs."""
         return Response(presented(writes.start_session(project_id, acting_user=user_of(request))))
 
 
@@ -34,7 +34,7 @@ class OneSession(APIView):
 
     @extend_schema(operation_id="get_session", responses=SessionSerializer, tags=["sessions"])
     def get(self, request: Request, session_id: UUID) -> Response:
-        """Returns the session: whether it starts, runs, failed or has ended."""
+        """Returns the session, with its state: whether it starts, runs, failed or has ended."""
         return Response(presented(writes.refresh(queries.session(session_id, user=user_of(request)))))
 
     @extend_schema(operation_id="end_session", responses={204: None}, tags=["sessions"])

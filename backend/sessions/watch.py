@@ -1,11 +1,12 @@
 """Watches executors: each is pinged every second, and ended if it is silent for too long.
 
-The web server that maintains the sessions (`maintenance.py`) watches all of them, and each server watches
-those that its own pages look at. The first server that gives one up ends it, and the others find it ended. So
-a session that no page looks at does not stay frozen, nor one whose server has gone.
+The web server that maintains the sessions (`maintenance.py`) watches all of them, and each server watches the
+sessions of its own open pages. The first server that finds a session silent for too long ends it, and the
+others see that it has ended. So a session without open pages is watched too, and so is a session whose server
+has ended.
 
-Silence is counted in what this server itself was awake: after a second in which it had no processor, or was
-stopped, the answer is probably there and only not yet read.
+Silence is counted only while this server itself runs: after a second in which it had no processor or was
+stopped, the answer has probably arrived and is only not read yet.
 """
 
 from __future__ import annotations
@@ -35,12 +36,12 @@ NOTED_S: Final = 3.0
 
 
 def longest_s() -> float:
-    """Returns the time that a manager may be silent."""
+    """Returns the time, in seconds, for which a manager may be silent."""
     return environment().session_silence_s
 
 
 def why() -> str:
-    """Returns the reason for failing a session whose manager was silent."""
+    """Returns the text that explains the end of a session whose manager was silent."""
     return f"The executor did not answer for {longest_s():g} s, so it was ended."
 
 
@@ -57,22 +58,22 @@ class Silence:
         self.seconds, self._was_heard, self._is_reached = 0.0, True, True
 
     def not_reached(self) -> None:
-        """Notes that nothing listens at the manager's address.
+        """Notes that no process listens at the manager's address.
 
-        A manager that answered before has closed its socket and hangs at its end. One that never answered
-        cannot be reached from this server, which says nothing about its state.
+        If the manager answered before, it has closed its socket and hangs at its end. If it never answered,
+        it cannot be reached from this server, and its state is unknown.
         """
         self._is_reached = self._was_heard
         self.seconds = self.seconds if self._was_heard else 0.0
 
     def passed(self, seconds: float) -> None:
-        """Counts time without an answer; a delay of this server itself does not count."""
+        """Counts time without an answer; delays of this server itself do not count."""
         if self._is_reached:
             self.seconds += min(seconds, PING_EVERY_S)
 
 
 async def until_silent(session: Session) -> None:
-    """Returns when the session's manager has not answered for too long."""
+    """Waits until the session's manager has not answered for too long."""
     silence = Silence()
     asking = asyncio.create_task(_ask(session, silence))
     loop = asyncio.get_running_loop()
@@ -108,7 +109,7 @@ async def _ask(session: Session, silence: Silence) -> None:
 
 
 class Watchmen:
-    """The tasks that watch sessions on this server."""
+    """The tasks that watch the sessions of this server."""
 
     def __init__(self) -> None:
         self._tasks: dict[UUID, asyncio.Task[None]] = {}
@@ -127,13 +128,13 @@ class Watchmen:
                 del self._looked_at[session.id]
 
     def look_after(self, session: Session) -> None:
-        """Starts to watch a ready session, unless it is watched already."""
+        """Starts to watch a ready session, unless it is already watched."""
         task = self._tasks.get(session.id)
         if task is None or task.done():
             self._tasks[session.id] = asyncio.create_task(_look_after(session))
 
     def keep_to(self, sessions: Iterable[Session], *, all_of_them: bool = True) -> None:
-        """Stops watching all sessions except these and those with a page on this server."""
+        """Stops watching all sessions except these, and except those with an open page on this server."""
         ready = {each.id: each for each in sessions if all_of_them or each.id in self._looked_at}
         for session_id in self._tasks.keys() - ready.keys():
             self._tasks.pop(session_id).cancel()

@@ -1,4 +1,4 @@
-"""All writes to sessions. Launching is slow, so a separate thread does it and stores the outcome."""
+"""All writes to sessions. A launch is slow, so a separate thread does it and stores the result."""
 
 from __future__ import annotations
 
@@ -44,14 +44,14 @@ DOMAIN_ATTEMPTS: Final = 3
 # A hanging executor does not end on request.
 HUNG_STOP_TIMEOUT_S: Final = 1.0
 PLACES: Final = "places of sessions"
-"""The lock of those who count the places and take one."""
+"""The name of the lock for counting the places of sessions and taking one."""
 _launches: Final[dict[UUID, Future[None]]] = {}
 _launches_lock: Final = Lock()
 
 
 @lru_cache(maxsize=1)
 def launcher() -> Launcher:
-    """Returns the launcher of this server; it lives as long as the process."""
+    """Returns the launcher of this server, which lives as long as the process."""
     settings = environment()
     if settings.launcher == "docker":
         return DockerLauncher(settings.keeper_folder)
@@ -60,22 +60,22 @@ def launcher() -> Launcher:
 
 @lru_cache(maxsize=1)
 def workers() -> ThreadPoolExecutor:
-    """The threads in which executors start and end; they live as long as the process."""
+    """Returns the threads in which executors start and end; they live as long as the process."""
     return ThreadPoolExecutor(max_workers=4, thread_name_prefix="session")
 
 
 def manager_token(session: Session) -> str:
-    """Returns the secret between relay and manager; it is derived, and so not stored."""
+    """Returns the secret that relay and manager share; it is derived from the session, and so not stored."""
     return hmac.new(
         settings.SECRET_KEY.encode(), f"manager {session.id}".encode(), hashlib.sha256
     ).hexdigest()
 
 
 def start_session(project_id: UUID, *, acting_user: User) -> Session:
-    """Starts an executor for the project, or returns the one that runs; it may wait, or still be starting.
+    """Starts an executor for the project, or returns the session that already runs, waits or starts.
 
     Raises:
-        HostFullError: there is no free ROS domain.
+        HostFullError: no ROS domain is free.
         DrainingError: the server is about to be upgraded.
     """
     project = projects.project(project_id, user=acting_user, need=Need.RUN)
@@ -110,7 +110,7 @@ def start_session(project_id: UUID, *, acting_user: User) -> Session:
 
 
 def places_left(states: Iterable[SessionState] = RUNNING_STATES) -> int:
-    """Returns how many more executors may run; sessions in `states` count as running."""
+    """Returns the number of executors that may still start; sessions in `states` count as running."""
     limit = environment().max_sessions
     taken = Session.objects.filter(state__in=list(states)).count() if limit else 0
     return limit - taken if limit else len(ROS_DOMAINS)
@@ -119,7 +119,7 @@ def places_left(states: Iterable[SessionState] = RUNNING_STATES) -> int:
 def start_queued() -> int:
     """Starts waiting sessions, the oldest first, while there are places; returns their number.
 
-    Several web servers may do so at once: each session is taken by one of them.
+    Several web servers may call it at the same time: each session is started by one of them.
     """
     if drain.current() is not None:
         return 0
@@ -133,7 +133,10 @@ def start_queued() -> int:
 
 
 def _takes_place(session: Session) -> bool:
-    """Gives a place to a session that waits; False when there is none, or another server was faster."""
+    """Gives a place to a waiting session.
+
+    Returns False if no place is free, or if another server was faster.
+    """
     with suppress(IntegrityError, HostFullError), transaction.atomic():
         transaction_lock(PLACES)
         if places_left() > 0:
@@ -148,7 +151,7 @@ def _submit(session: Session) -> None:
 
 
 def refresh(session: Session) -> Session:
-    """Stores that a session's executor has died."""
+    """Checks the session's executor, and stores if it has died; returns the session."""
     if session.state == SessionState.READY:
         status = launcher().poll(session.launcher_state)
         if status is not None:
@@ -164,7 +167,7 @@ def refresh(session: Session) -> Session:
 
 
 def end_session(session: Session, why: str = "") -> Session:
-    """Ends the executor and everything that it started; may be called twice."""
+    """Ends the executor and everything that it started; may be called twice. Returns the session."""
     with _launches_lock:
         launch = _launches.pop(session.id, None)
     if launch is not None and not launch.cancel():
@@ -185,8 +188,8 @@ def end_session(session: Session, why: str = "") -> Session:
 def _await_launch(session: Session) -> None:
     """Waits until the web server that starts this session's executor has ended it again, or has itself ended.
 
-    It sees that the session has ended when the executor is there. While it works it holds a lock of the
-    database, which goes with its connection.
+    That server sees the end of the session when the executor has started, and ends the executor. During the
+    launch it holds a lock of the database, which is released with its connection.
     """
     # Inside the caller's transaction, others do not see the end of the session yet.
     if connection.vendor == "postgresql" and not connection.in_atomic_block:
@@ -234,7 +237,7 @@ def end_sessions_of_user(sender: object, *, user: User, **_: object) -> None:
 
 
 def require_right(session: Session) -> None:
-    """Raises a StudioError when a session's user may no longer run its project.
+    """Checks that the user of a session may still run its project.
 
     Raises:
         NotFoundError: the account is closed, or has no role in the project any more.
@@ -261,9 +264,9 @@ def end_sessions_without_right(
 
 
 def end_all_sessions() -> None:
-    """Ends every session that must not outlive the server, at its end.
+    """Ends, at the end of the server, every session that must not outlive it.
 
-    For a team, sessions in containers continue; on a user's own IDE nothing does.
+    On a team server, sessions in containers continue; on localhost all sessions end.
     """
     if launcher().survives_server and environment().is_team:
         return
@@ -280,12 +283,12 @@ def _end_and_disconnect(session: Session, why: str = "") -> None:
 
 
 def end_orphans() -> None:
-    """Ends what a server that was killed left behind; called before the first session starts.
+    """Ends executors and sessions that a killed server left; called before the first session starts.
 
-    Of several servers, the one that looks after sessions does so every minute.
+    Of several servers, the one that maintains the sessions calls it every minute.
 
-    Where executors outlive the server, those that run continue. This ends executors that the database
-    does not know as running, and sessions whose start neither this server nor the one before it finished.
+    If executors outlive the server, running sessions continue. Then this function ends only executors that
+    the database does not know as running, and sessions whose start was never finished.
     """
     timeout_s = environment().session_stop_timeout_s
     survives = launcher().survives_server
@@ -307,7 +310,7 @@ def end_orphans() -> None:
 
 
 def _is_overdue(session: Session) -> bool:
-    """Whether nobody can still be starting it; another web server may be."""
+    """Whether the start of a session has lasted so long that no web server can still be working on it."""
     longest = timedelta(seconds=2 * environment().session_start_timeout_s)
     return timezone.now() - session.created_at > longest
 
@@ -347,7 +350,10 @@ def _launch(session: Session) -> None:
 
 
 def _begins(session: Session) -> bool:
-    """Locks the launch until this thread's connection closes; False when the session was ended before."""
+    """Locks the launch until this thread's connection closes.
+
+    Returns False if the session has ended before.
+    """
     if connection.vendor == "postgresql":
         with connection.cursor() as cursor:
             cursor.execute("SELECT pg_advisory_lock(%s)", [lock_number(_launch_lock(session.id))])
@@ -360,7 +366,7 @@ def _look_again(session: Session) -> None:
 
 
 def _moved(session: Session, before: SessionState, **fields: Any) -> bool:
-    """Changes a session that is still in the state `before`; False when somebody has ended it meanwhile."""
+    """Changes a session that is in the state `before`; returns False if its state has changed meanwhile."""
     if Session.objects.filter(id=session.id, state=before).update(**fields) == 0:
         return False
     for name, value in fields.items():

@@ -1,9 +1,10 @@
 """Sets up a fresh clone: `python3.11 backend/setup {run|test}`.
 
-Runs on the bare standard library, before anything is installed; Python 3.7 and later can parse it, to report
-the wrong version. A step is skipped when its result is still current, so that a second start costs a few
-hundred milliseconds. Everything lands in the clone: `.venv`, `frontend/node_modules`, `frontend/dist`, `var`.
-The one exception are the Debian packages that the tests need; only root can install them, with a message.
+It needs only the standard library, since it runs before anything is installed. Python 3.7 and later can parse
+it, so that it can report a wrong version. A step is skipped when its result is still current, so that a
+second start costs a few hundred milliseconds. Everything is written into the clone: `.venv`,
+`frontend/node_modules`, `frontend/dist`, `var`. The only exception are the Debian packages that the tests
+need, which are installed if the user is root.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ TEST_PACKAGES = ("chromium", "libegl1", "libgl1-mesa-dri", "postgresql", "redis-
 
 
 class Step(NamedTuple):
-    """One step of set-up; repeated when its inputs have changed or its result is missing."""
+    """One step of the set-up. It is repeated if its inputs have changed or its result is missing."""
 
     name: str
     sentence: str
@@ -81,7 +82,7 @@ def say(sentence: str) -> None:
 
 
 def check_machine() -> None:
-    """Checks the platform: PyBullet and ROS 2 have wheels for one platform only."""
+    """Checks the platform, since PyBullet and ROS 2 have wheels for one platform only."""
     if sys.platform != "linux" or platform.machine() not in ("x86_64", "AMD64"):
         stop(
             "BT Studio runs on Linux x86-64 with CPython 3.11; "
@@ -96,7 +97,7 @@ def check_machine() -> None:
 
 
 def check_node() -> None:
-    """Checks Node.js, which builds the front end."""
+    """Checks that Node.js is available, which builds the front end."""
     remedy = "install Node 20.19 or newer with npm (see nodejs.org) so that `node` and `npm` are found."
     if shutil.which("node") is None or shutil.which("npm") is None:
         stop(f"Node.js is missing; {remedy}")
@@ -131,7 +132,10 @@ def make_venv() -> None:
 
 
 def packages_step(goal: str) -> Step:
-    """Returns the step that installs the Python packages of the lock; the tests' lock includes the other."""
+    """Returns the step that installs the locked Python packages.
+
+    The lock of the tests includes that of `run`.
+    """
     run_lock, test_lock, build_lock = (
         ROOT / name for name in ("requirements.lock", "requirements-dev.lock", "requirements-build.lock")
     )
@@ -174,7 +178,7 @@ def own_package_step() -> Step:
 
 
 def bytecode_step() -> Step:
-    """Returns the step that compiles our modules, so that processes start in half the time."""
+    """Returns the step that compiles the modules to bytecode, so that processes start in half the time."""
     packages = [ROOT / name for name in ("backend", "executor", "translator", "tree_gardener")]
     compile_all = [str(PYTHON), "-m", "compileall", "-q", "-j", "0", *map(str, packages)]
     return Step(
@@ -227,7 +231,7 @@ def front_end_step() -> Step:
 def interfaces_step() -> Step:
     """Returns the step that builds ROS 2's message packages without wheels.
 
-    Without a compiler they are left out, and each start tries again.
+    Without a compiler these packages are left out, and each start tries again.
     """
     ros = ROOT / "executor" / "ros"
     programs = [ros / f"{name}.py" for name in INTERFACE_PROGRAMS]
@@ -244,7 +248,7 @@ def interfaces_step() -> Step:
 
 
 def take(step: Step) -> None:
-    """Runs a step, unless its result is current."""
+    """Runs a step, unless its result is up to date."""
     stamp = stamp_file(step.name)
     digest = digest_of(step.sources)
     if step.product.exists() and stamp.exists() and stamp.read_text() == digest:
@@ -283,7 +287,7 @@ def run(command: list[str], cwd: Path = ROOT) -> None:
 
 
 def ensure_debian_packages() -> None:
-    """Installs Chromium, EGL, PostgreSQL and Redis for the tests, if this is root."""
+    """Installs Chromium, EGL, PostgreSQL and Redis for the tests, if the user is root."""
     missing = [name for name, present in test_programs() if not present]
     if not missing:
         return
@@ -298,7 +302,7 @@ def ensure_debian_packages() -> None:
 
 
 def test_programs() -> list[tuple[str, bool]]:
-    """Returns the Debian packages, and whether their programs exist."""
+    """Returns the Debian packages, each with whether its program exists."""
     libraries = output_of(["ldconfig", "-p"]) or ""
     drivers = [*Path("/usr/lib").glob("*/dri/swrast_dri.so"), *Path("/usr/lib").glob("*/libgallium*.so")]
     present = (

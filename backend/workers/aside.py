@@ -1,7 +1,7 @@
-"""Threads for work that is not for the pool of processes, so that no request thread waits for it.
+"""Threads for work that does not suit the pool of processes, so that no request thread waits for it.
 
 The pool is for work that computes in Python. Unpacking a zip needs more memory than a worker may have, and
-zlib releases the interpreter lock. A formatter in a container only has to be awaited.
+zlib releases the interpreter lock. For a formatter in a container, a thread only has to wait.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class Aside:
     Args:
         name: the prefix of the threads' names.
         threads: the number of threads; they start with the first work.
-        per_owner: the number of threads that may work for one owner at a time.
+        per_owner: the number of threads that may work for one owner at the same time.
         waiting: the number of calls that may wait.
     """
 

@@ -24,7 +24,7 @@ class Deferred(HttpResponse):
     Args:
         view: the view, whose handlers also convert errors of the work.
         request: the request.
-        work: the future of the work.
+        work: the future with the result of the work.
         finish: makes the answer from the result, in a request thread; it may return another Deferred.
     """
 
@@ -73,7 +73,7 @@ class Waiting:
         self._get_response = get_response
 
     def __call__(self, request: HttpRequest) -> HttpResponseBase:
-        """Django's entry."""
+        """Calls the view and completes its answer; called by Django."""
         response = self._get_response(request)
         if not getattr(request, "handler_waits", False):
             while isinstance(response, Deferred):

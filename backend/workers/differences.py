@@ -16,8 +16,8 @@ def diff(older: Mapping[str, str | None], newer: Mapping[str, str | None]) -> li
     """Returns one entry for each path of either state, in order.
 
     Args:
-        older: files that differ, by path; None stands for a file that is no text.
-        newer: the same files later.
+        older: files that differ, by path; None stands for a file that is not text.
+        newer: the same files in the newer state.
     """
     return [
         {"path": path, "change": _kind(path, older, newer), "diff": _text(path, older, newer)}

@@ -18,7 +18,7 @@ MAX_BYTES: Final = 1 << 30
 
 
 class FrameError(Exception):
-    """The other end is gone, or sent an invalid message."""
+    """The other end has closed the connection, or sent an invalid message."""
 
 
 def pack(message: Any) -> bytes:
@@ -31,7 +31,7 @@ def send(connection: socket.socket, packed: bytes) -> None:
 
     Raises:
         TimeoutError: the socket timed out.
-        FrameError: the other end is gone.
+        FrameError: the other end has closed the connection.
     """
     try:
         connection.sendall(PREFIX.pack(len(packed)))
@@ -43,11 +43,11 @@ def send(connection: socket.socket, packed: bytes) -> None:
 
 
 def receive(connection: socket.socket) -> bytearray:
-    """Returns the next message, still packed.
+    """Waits for the next message, and returns it in packed form.
 
     Raises:
         TimeoutError: the socket timed out.
-        FrameError: the other end is gone, or sends too large a message.
+        FrameError: the other end has closed the connection, or sent a message that is too large.
     """
     (length,) = PREFIX.unpack(_exactly(connection, PREFIX.size))
     if length > MAX_BYTES:

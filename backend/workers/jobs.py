@@ -1,6 +1,6 @@
 """The jobs of a worker: pure functions of files and texts, without Django.
 
-A refusal of the translator is a normal answer: `{"refused": [diagnostic, …]}`.
+If the translator refuses the input, the answer is normal: `{"refused": [diagnostic, …]}`.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Answer = dict[str, Any]
 
 
 def warm_up() -> None:
-    """Imports the modules of the first job."""
+    """Imports the modules that the first job needs."""
     import translator  # noqa: F401, PLC0415 - the web server, too, imports this module
 
 
@@ -49,10 +49,10 @@ def xml(files: Files, *, self_contained: bool) -> Answer:
 
 
 def app(files: Files, *, universe: str, built_in: bytes | None) -> Answer:
-    """Returns the message by which the browser makes the executor run the project.
+    """Returns the data of the command with which the browser runs the project in the executor.
 
     Args:
-        files: the project.
+        files: the files of the project.
         universe: the name of the universe; "" for the project's own choice.
         built_in: the document of the built-in universe of that name, if the project has none.
     """
@@ -93,7 +93,7 @@ def _universe(files: Files, name: str, built_in: bytes | None) -> str | dict[str
 
 
 def app_zip(files: Files) -> Answer:
-    """Returns the dockerized app."""
+    """Returns the app for the manager as a zip."""
     import translator  # noqa: PLC0415
 
     return {"zip": translator.to_app_zip(translator.load(files))}
@@ -138,14 +138,14 @@ def inspect(source: str, *, filename: str) -> Answer:
 
 
 def write_tree(diagram: str, *, base: str, ids: Sequence[str]) -> Answer:
-    """Returns a diagram as XML; with an earlier text, only the differences change in it."""
+    """Returns a diagram as XML. With an earlier text, only the parts that differ are changed in it."""
     from translator.tree_text import write_tree_text  # noqa: PLC0415
 
     return _text(write_tree_text(_tree(diagram), base=base, ids=ids))
 
 
 def read_tree(xml: str, *, diagram: str) -> Answer:
-    """Returns the diagram of an edited text; `diagram` is its earlier state.
+    """Returns the diagram of an edited XML text; `diagram` is the earlier state of the diagram.
 
     An incomplete text is a normal case: the answer has no diagram, but findings with the reasons.
     """
@@ -163,7 +163,7 @@ def read_tree(xml: str, *, diagram: str) -> Answer:
 
 
 def pack(files: Files) -> Answer:
-    """Returns files as a zip; the same files give the same bytes."""
+    """Returns files as a zip; equal files give equal bytes."""
     return {"zip": zips.pack(files)}
 
 

@@ -20,18 +20,24 @@ if TYPE_CHECKING:
     from concurrent.futures import Future
 
 SMALL_WORKERS: Final = {"local": 1, "team": 2}
-"""Processes for small work, by mode."""
+"""Number of processes for small work, by mode."""
 LARGE_WORKERS: Final = {"local": 1, "team": max(2, os.cpu_count() or 1)}
-"""Processes for large work, by mode."""
+"""Number of processes for large work, by mode."""
 PER_OWNER: Final = 1
-"""Jobs of one owner that may be at work in each of the two pools."""
+"""Number of jobs of one owner that may be in progress in each of the two pools."""
 NICENESS: Final = 10
-"""The niceness of processes for large work: requests and small work come first."""
+"""The niceness of processes for large work, so that requests and small work have priority."""
 TOO_LONG_KEPT_S: Final = 60.0
-"""Seconds for which a large job that took too long is refused. Small ones may be retried immediately."""
+"""Seconds for which a large job that took too long is refused again.
+
+Small jobs may be repeated immediately.
+"""
 SMALL_WAITING: Final = 16
 LARGE_WAITING: Final = 4
-"""Large jobs that may wait for each process. Small ones take milliseconds, so many of them may wait."""
+"""Number of large jobs that may wait for each process.
+
+Small jobs take milliseconds, so many of them may wait.
+"""
 MEMORY_BYTES: Final = 1 << 30
 SMALL_BYTES: Final = 256 << 10
 """The largest arguments of a small job, in bytes; a project of some hundred nodes takes about 50 KB."""

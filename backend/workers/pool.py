@@ -39,12 +39,12 @@ class Limits:
     """The limits of a pool.
 
     Attributes:
-        workers: processes, each started when it is first needed.
-        per_owner: jobs of one owner that may be at work at a time.
-        waiting: jobs of all owners that may wait.
+        workers: the number of processes; each is started when it is first needed.
+        per_owner: the number of jobs of one owner that may be in progress at the same time.
+        waiting: the number of jobs of all owners that may wait.
         deadline_s: seconds that one job may take.
         memory_bytes: bytes that one worker may allocate.
-        niceness: the niceness of its processes, as for `nice`.
+        niceness: the niceness of the processes, as for `nice`.
         too_long_kept_s: seconds for which an equal job is refused after one that took too long.
     """
 
@@ -81,17 +81,17 @@ class Pool:
 
     @property
     def waiting(self) -> int:
-        """Returns the number of jobs that wait for a worker."""
+        """The number of jobs that wait for a worker."""
         with self._changed:
             return len(self._queue)
 
     def ask(self, owner: str, job: str, **arguments: Any) -> Future[Any]:
-        """Passes a job to a worker; equal jobs run once, for all callers.
+        """Passes a job to a worker; equal jobs run once, and all callers receive the result.
 
         Args:
             owner: the user of the job; owners take turns.
             job: a name of `jobs.JOBS`.
-            arguments: its arguments: text, numbers, bytes, lists and dicts of them.
+            arguments: the arguments of the job: text, numbers, bytes, and lists and dicts of these.
 
         Returns:
             a future of the result; it may raise `TookTooLongError` or `WorkFailedError`.
@@ -130,7 +130,7 @@ class Pool:
         return future
 
     def close(self) -> None:
-        """Ends all workers; jobs that wait or are at work fail."""
+        """Ends all workers; jobs that wait or are in progress fail."""
         with self._changed:
             self._is_closed = True
             workers, self._workers = self._workers, []
@@ -144,7 +144,7 @@ class Pool:
         atexit.unregister(self.close)
 
     def next(self) -> tuple[str, _Job] | None:
-        """Waits for the next job; returns None when the pool is closed."""
+        """Waits for the next job, and returns it with its owner; None when the pool is closed."""
         with self._changed:
             self._idle += 1
             try:
@@ -157,7 +157,7 @@ class Pool:
                 self._idle -= 1
 
     def done(self, owner: str, job: _Job, answer: bytearray | Exception) -> None:
-        """Passes the result of a job to all callers."""
+        """Passes the result of a job to all callers, and releases the place of its owner."""
         result, error = _opened(answer)
         with self._changed:
             self._queue.done(owner)
@@ -229,7 +229,10 @@ class _Worker:
         self._end()
 
     def _next(self) -> tuple[str, _Job] | None:
-        """Returns the next job. Starts the process before the job comes, since a start takes a second."""
+        """Returns the next job, or None at the end.
+
+        The process is started before, since a start takes a second.
+        """
         with suppress(OSError):  # the job's own attempt reports it
             self._connected(self._pool.limits)
         return self._pool.next()
@@ -274,7 +277,7 @@ class _Worker:
         return ours
 
     def _end(self) -> str:
-        """Ends the process; returns how it ended."""
+        """Ends the process; returns a text that tells how it ended."""
         connection, self._connection = self._connection, None
         process, self._process = self._process, None
         if connection is not None:

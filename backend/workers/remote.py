@@ -43,13 +43,15 @@ class RemotePool:
 
     @property
     def waiting(self) -> int:
-        """Returns the number of waiting jobs of all web workers; 0 while the pool does not answer."""
+        """The number of waiting jobs of all web workers; 0 while the pool does not answer."""
         with suppress(BusyError, FutureTimeoutError):
             return int(self._ask({}).result(PATIENCE_S))
         return 0
 
     def ask(self, owner: str, job: str, **arguments: Any) -> Future[Any]:
-        """Passes a job to the pool, like `Pool.ask`, but if too many jobs wait, the future raises the error.
+        """Passes a job to the pool, like `Pool.ask`.
+
+        If too many jobs wait, the error is raised by the future.
 
         Raises:
             BusyError: the pool is restarting.
@@ -82,7 +84,7 @@ class _Line:
         threading.Thread(target=self._read, name="pool", daemon=True).start()
 
     def ask(self, message: dict[str, Any]) -> Future[Any]:
-        """Sends a job; the future gets the answer, or an error."""
+        """Sends a job; returns a future that receives the result or an error."""
         future: Future[Any] = Future()
         number = next(self._numbers)
         packed = frames.pack(message | {"number": number})

@@ -42,7 +42,7 @@ BACKLOG: Final = 64
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Works until the parent ends."""
+    """Serves jobs until the parent ends."""
     parser = argparse.ArgumentParser(prog="python -m backend.workers.service", description=__doc__)
     parser.add_argument("--socket", type=Path, required=True, help="where web workers ask")
     parser.add_argument("--page", type=Path, required=True, help="where it reports that it is alive")
@@ -57,7 +57,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def beat(pool: Lanes | Pool, page: memoryview[float]) -> None:
-    """Reports periodically that the pool answers. `waiting` takes the locks of `ask`: it hangs with them."""
+    """Reports periodically that the pool answers.
+
+    It reads `waiting`, which takes the locks of `ask`; so the reports stop if `ask` hangs.
+    """
     while True:
         _ = pool.waiting
         page[BEAT] = time.monotonic()
@@ -123,7 +126,7 @@ def _answer(number: int, done: Future[Any]) -> bytes:
 
 
 def _told(error: BaseException) -> dict[str, Any]:
-    """Returns an error as a message; the other side raises our own errors again."""
+    """Returns an error as a message; the other side raises BT Studio's own errors again."""
     if isinstance(error, StudioError):
         return {"error": error.code, "detail": error.detail, "hint": error.hint}
     log.error("a job failed", exc_info=error)

@@ -1,6 +1,6 @@
 """A worker process, `python -m backend.workers.worker --fd N`: runs one job after the other.
 
-It keeps no state but caches, has no access to the database or to secrets, and ends with the web server.
+It keeps no state except caches, has no access to the database or to secrets, and ends with the web server.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Works until the pool closes the socket."""
+    """Does jobs until the pool closes the socket."""
     parser = argparse.ArgumentParser(prog="python -m backend.workers.worker", description=__doc__)
     parser.add_argument("--fd", type=int, required=True)
     parser.add_argument("--memory-bytes", type=int, required=True)

@@ -12,13 +12,16 @@ if TYPE_CHECKING:
 
 _DATE: Final = (1980, 1, 1, 0, 0, 0)
 LARGE: Final = 1024 * 1024
-"""Bytes. Larger files are packed fast instead of small: the largest project takes 3 s instead of 12 s."""
+"""Bytes.
+
+Larger files are compressed with a fast method, so that the largest project takes 3 s instead of 12 s.
+"""
 SAMPLE: Final = 64 * 1024
 FAST: Final = 1
 
 
 def pack(files: Mapping[str, bytes]) -> bytes:
-    """Returns the zip; the same files give the same bytes. Files of tools are left out."""
+    """Returns the files as a zip; equal files give equal bytes. Files of tools are left out."""
     from translator.foreign import without_tools  # noqa: PLC0415 - keeps the start of the server short
 
     buffer = io.BytesIO()
@@ -32,5 +35,8 @@ def pack(files: Mapping[str, bytes]) -> bytes:
 
 
 def _shrinks(data: bytes) -> bool:
-    """Whether compression is worth its time, judged by the file's beginning; pictures hardly shrink."""
+    """Whether compression is worth its time, judged by the beginning of the file.
+
+    Pictures hardly become smaller.
+    """
     return len(data) <= LARGE or len(zlib.compress(data[:SAMPLE], FAST)) < SAMPLE * 0.95

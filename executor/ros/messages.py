@@ -211,7 +211,7 @@ def optical_frame(camera: Camera) -> str:
 def _data(pixels: NDArray[Any]) -> array.array[int]:
     """Returns the pixels as an array of the type that rclpy uses unchanged.
 
-    Rclpy copies `bytes` item by item.
+    rclpy copies `bytes` item by item.
     """
     data = array.array("B")
     data.frombytes(np.ascontiguousarray(pixels).reshape(-1).view(np.uint8).data)  # its bytes, copied once

@@ -145,7 +145,7 @@ def reuse_in_another_project(hand: Hand) -> None:
     hand.press("Control+c")
     hand.click(studio.page.get_by_role("link", name=re.compile("project", re.IGNORECASE)).first)
     hand.click("new-from-empty")
-    hand.click(studio.at("canvas").locator("[data-type=Sequence]"))
+    expect(studio.at("canvas")).to_be_focused()
     hand.press("Control+v")
     expect(studio.at("canvas").locator("[data-type=CheckObstacle]")).to_be_visible()
 

@@ -78,6 +78,20 @@ def drag(studio: Studio, start: Locator, x: float, y: float, *, is_marked: bool 
     mouse.up()
 
 
+def paste(studio: Studio, text: str) -> None:
+    """Presses Ctrl+V with this text on the clipboard."""
+    studio.at("canvas").evaluate(
+        """(canvas, text) => {
+            const clipboardData = new DataTransfer();
+            clipboardData.setData('text/plain', text);
+            const how = {clipboardData, bubbles: true, cancelable: true};
+            canvas.focus();
+            canvas.dispatchEvent(new ClipboardEvent('paste', how));
+        }""",
+        text,
+    )
+
+
 def focused(studio: Studio, test_id: str) -> None:
     expect(studio.at(test_id)).to_be_focused()
 
@@ -329,7 +343,7 @@ def a_piece_goes_to_another_project(studio: Studio) -> None:
     page.goto(studio.server.origin)
     page.get_by_test_id("new-from-empty").click()
     canvas = page.get_by_test_id("canvas")
-    canvas.locator("[data-type=Sequence]").click()
+    expect(canvas).to_be_focused()
     page.keyboard.press("Control+v")
     check = canvas.locator("[data-type=CheckObstacle]")
     expect(check).to_have_attribute("data-problem", "error")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 from playwright.sync_api import expect
 
-from tests.e2e.canvas_by_hand import block, focused, middle, place, rest, selected, takes_back, wrap
+from tests.e2e.canvas_by_hand import block, focused, middle, paste, place, rest, selected, takes_back, wrap
 from tests.e2e.server import wait_until
 
 if TYPE_CHECKING:
@@ -301,8 +301,7 @@ def an_empty_tree_teaches(studio: Studio) -> None:
     page.get_by_role("dialog").get_by_role("textbox").fill("Dock")
     keys.press("Enter")
     dock = page.locator("[data-testid=canvas][data-tree=Dock]")
-    expect(dock).to_contain_text("This tree is empty")
-    dock.get_by_role("button", name="Add the first block").click()
+    dock.get_by_role("button", name="Type or drop the first block").click()
     studio.writing()
     keys.type("Sequence")
     keys.press("Enter")
@@ -336,20 +335,6 @@ def two_thousand_blocks_are_pasted(studio: Studio) -> None:
     paste(studio, "no tree at all")
     expect(studio.page.get_by_text("no blocks", exact=False)).to_be_visible()
     studio.saved()
-
-
-def paste(studio: Studio, text: str) -> None:
-    """Presses Ctrl+V with this text on the clipboard."""
-    studio.at("canvas").evaluate(
-        """(canvas, text) => {
-            const clipboardData = new DataTransfer();
-            clipboardData.setData('text/plain', text);
-            const how = {clipboardData, bubbles: true, cancelable: true};
-            canvas.focus();
-            canvas.dispatchEvent(new ClipboardEvent('paste', how));
-        }""",
-        text,
-    )
 
 
 def is_selected(studio: Studio, node: str) -> bool:

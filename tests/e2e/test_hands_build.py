@@ -59,8 +59,7 @@ def test_by_keyboard_alone(shared_studio: Studio) -> None:
     keys.press("Enter")
     focused(studio, "canvas")
 
-    keys.press("Home")
-    quick(studio, "Control+m", "ReactiveSequence")
+    quick(studio, "Tab", "ReactiveSequence")
     quick(studio, "Tab", "ReactiveFallback")
     quick(studio, "Tab", "Inverter")
     quick(studio, "Tab", "CheckObstacle")
@@ -180,12 +179,13 @@ def dialogues_by_keys(studio: Studio) -> None:
 def test_by_mouse(shared_studio: Studio) -> None:
     studio = shared_studio
     studio.at("new-from-empty").click()
-    expect(block(studio, "Sequence")).to_be_visible()
+    expect(studio.at("ghost-block")).to_be_visible()
     for action in ACTIONS:
         new_action(studio, action)
     studio.at("file-trees/MainTree.json").click()
     expect(studio.at("canvas")).to_be_visible()
 
+    studio.at("palette-Sequence").drag_to(studio.at("ghost-block"))
     block(studio, "Sequence").click()
     studio.page.get_by_role("button", name="Change type").click()
     studio.at("quick-add").get_by_text("ReactiveSequence", exact=True).click()

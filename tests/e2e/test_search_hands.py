@@ -1,4 +1,4 @@
-"""Search and replacement in the whole project, by mouse and keys."""
+"""Search, replacement and renaming of keys in the whole project, by mouse and keys."""
 
 from __future__ import annotations
 
@@ -83,4 +83,40 @@ def a_replacement_is_shown_made_and_taken_back(studio: Studio) -> None:
     studio.saved()
     studio.page.get_by_role("button", name="Undo", exact=True).last.click()
     expect(code.first).to_be_visible()
+    studio.saved()
+
+
+def test_a_key_is_renamed_everywhere(shared_studio: Studio) -> None:
+    """A port's key, from the inspector: each place is shown, then changed, and taken back in one step."""
+    studio = shared_studio
+    page = studio.page
+    studio.new_from("laser_bump_and_go")
+    for type_, port in (("Forward", "lin_speed"), ("Turn", "ang_speed")):
+        block(studio, type_).click()
+        head = studio.at("inspector").locator("div").filter(has_text=port).last
+        head.get_by_role("button", name="Use a blackboard key").first.click()
+        studio.at(f"port-{port}").fill("{speed}")
+        page.keyboard.press("Escape")
+    page.get_by_role("button", name="Rename this key everywhere…").click()
+    dialog = page.get_by_role("dialog")
+    expect(studio.at("rename-key-new")).to_be_focused()
+    page.keyboard.type("a b")
+    expect(dialog).to_contain_text("cannot be a key")
+    studio.at("rename-key-new").fill("cruise")
+    plan = studio.at("rename-key-plan")
+    expect(plan.locator("ins")).to_have_text(["{cruise}", "{cruise}"])
+    expect(plan).to_contain_text("Turn · port ang_speed")
+    studio.picture("rename-key")
+    page.keyboard.press("Enter")
+    expect(dialog).to_have_count(0)
+    expect(studio.at("port-ang_speed")).to_have_value("{cruise}")
+    expect(block(studio, "Forward")).to_contain_text("cruise")
+    page.get_by_role("button", name="Undo", exact=True).last.click()
+    expect(studio.at("port-ang_speed")).to_have_value("{speed}")
+    studio.command("Rename a key")
+    studio.at("rename-key-old").click()
+    expect(page.get_by_role("option", name="speed — MainTree")).to_be_visible()
+    page.keyboard.press("Escape")
+    page.keyboard.press("Escape")
+    expect(dialog).to_have_count(0)
     studio.saved()

@@ -40,11 +40,11 @@ def _reader(serializer: type[serializers.Serializer[Any]]) -> serializers.Serial
 
 
 def user_of(request: Request) -> User:
-    """Returns the user of the request; the permission classes guarantee that there is one."""
+    """Returns the user of the request. The permission classes guarantee that a user exists."""
     assert isinstance(request.user, User)  # noqa: S101 - for the type checker
     return request.user
 
 
 def if_match(request: Request) -> str:
-    """Returns the `If-Match` header, which names the base of a write; empty without one."""
+    """Returns the `If-Match` header, which names the base of a write; "" if the header is missing."""
     return request.headers.get("If-Match", "")

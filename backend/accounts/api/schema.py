@@ -1,4 +1,4 @@
-"""Describes authentication in the OpenAPI document."""
+"""Describes the authentication of the API in the OpenAPI document."""
 
 from __future__ import annotations
 

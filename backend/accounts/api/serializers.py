@@ -27,13 +27,13 @@ class NamedSerializer(serializers.Serializer[Any]):
 
 
 class DeleteMeSerializer(serializers.Serializer[Any]):
-    """The user's own name, typed again."""
+    """The name of the user, typed again as a confirmation."""
 
     username = serializers.CharField(max_length=150)
 
 
 class InviteSerializer(serializers.Serializer[Any]):
-    """The lifetime of an invitation, and the number of accounts that it may make."""
+    """The lifetime of an invitation, and the number of accounts that may be made with it."""
 
     days = serializers.IntegerField(min_value=1, max_value=365, default=14)
     max_uses = serializers.IntegerField(min_value=1, max_value=10_000, default=30)

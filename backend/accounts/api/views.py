@@ -62,7 +62,7 @@ class Groups(ResourceViewSet):
 
     @extend_schema(operation_id="list_groups", responses=s.GroupListSerializer, tags=["accounts"])
     def list(self, request: Request) -> Response:
-        """Lists the groups that the user made or is in."""
+        """Lists the groups that the user made, and those of which the user is a member."""
         user = user_of(request)
         return Response({"items": [groups.presented(row, user=user) for row in groups.groups_of(user)]})
 
@@ -74,7 +74,7 @@ class Groups(ResourceViewSet):
     )
     @transaction.atomic  # includes the reads for the answer
     def create(self, request: Request) -> Response:
-        """Makes a group; for teachers."""
+        """Makes a group. Only teachers and administrators may make groups."""
         asked = parsed(s.NamedSerializer, request.data)
         user = user_of(request)
         made = groups.create(asked["name"], acting_user=user)
@@ -109,7 +109,7 @@ class Groups(ResourceViewSet):
     @extend_schema(operation_id="remove_group_member", responses={204: None}, tags=["accounts"])
     @action(detail=True, methods=["delete"], url_path="members/<str:username>")
     def remove_member(self, request: Request, group_id: UUID, username: str) -> Response:
-        """Removes someone from the group; everyone may leave it."""
+        """Removes a member from the group. Every member may leave it."""
         groups.remove_member(group_id, username, acting_user=user_of(request))
         return Response(status=204)
 
@@ -137,6 +137,6 @@ class OneInvitation(APIView):
 
     @extend_schema(operation_id="revoke_invitation", responses={204: None}, tags=["accounts"])
     def delete(self, request: Request, invitation_id: UUID) -> Response:
-        """Revokes the link; users who joined by it stay."""
+        """Revokes the link. Users who joined with it stay."""
         invitations.revoke(invitation_id, acting_user=user_of(request))
         return Response(status=204)

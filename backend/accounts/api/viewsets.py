@@ -21,7 +21,7 @@ class ResourceViewSet(ViewSet):
     """All operations on one kind of resource.
 
     `@action` can change an attribute for its own operation only if the class has that attribute. The
-    permission and throttle classes in `backend.accounts.permissions` read the three below.
+    permission and throttle classes in `backend.accounts.permissions` read the three attributes of this class.
     """
 
     schema = ResourceSchema()

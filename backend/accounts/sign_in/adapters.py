@@ -1,4 +1,4 @@
-"""Answers allauth's questions: who may sign up, the address of a client, and the targets of links."""
+"""Adapts allauth to this server: who may sign up, the address of a client, and the targets of links."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def domain_is_allowed(email: str) -> bool:
-    """Whether `BT_STUDIO_ALLOWED_EMAIL_DOMAINS` lets this address sign up."""
+    """Whether `BT_STUDIO_ALLOWED_EMAIL_DOMAINS` permits this address to sign up."""
     domains = environment().allowed_email_domains
     return not domains or email.rpartition("@")[2].lower() in domains
 
@@ -45,7 +45,10 @@ class AccountAdapter(DefaultAccountAdapter):  # type: ignore[misc]
         return client_address.get() or "0.0.0.0"  # noqa: S104 - no address to listen on
 
     def pre_authenticate(self, request: HttpRequest, **credentials: Any) -> None:
-        """Refuses after too many wrong passwords; allauth's own counts would also lock out other users."""
+        """Refuses a sign-in after too many wrong passwords.
+
+        The counts of allauth itself would also lock out other users.
+        """
         self._attempt = Attempt(self._bounds(request, credentials))
         if not self._attempt.is_allowed:
             raise self.validation_error("too_many_login_attempts")
@@ -82,7 +85,7 @@ class AccountAdapter(DefaultAccountAdapter):  # type: ignore[misc]
         super().authentication_failed(request, **credentials)
 
     def send_mail(self, template_prefix: str, email: str, context: dict[str, Any]) -> None:
-        """Shows in the page that no mail is sent if there is no mail server."""
+        """Sends a mail; if there is no mail server, shows in the page that no mail is sent."""
         if not environment().smtp_url.get_secret_value():
             return
         super().send_mail(template_prefix, email, context)

@@ -1,8 +1,8 @@
 """Counts wrong passwords, to slow down attackers without locking out the users.
 
-A browser in which someone signed in before is *known* to that account, by a signed cookie, and has its own
-count: its user can sign in, however often others fail. For other browsers, failures are counted by account
-and address together; by account alone, against many machines that guess one password; and by address alone,
+A browser in which a user has signed in is *known* to that account, by a signed cookie. It has a count of its
+own, so its user can sign in even if others fail often. For other browsers, failures are counted three times:
+by account and address together; by account, against many machines that guess one password; and by address,
 against one machine that tries a password on many accounts. The last limit is so large that the typing errors
 of a class behind one address do not reach it.
 """
@@ -27,13 +27,13 @@ if TYPE_CHECKING:
 
 KNOWN_DAYS: Final = 180
 KNOWN_ACCOUNTS: Final = 12
-"""The largest number of accounts to which one browser is known, such as one in a laboratory."""
+"""The largest number of accounts to which one browser is known, as in a laboratory."""
 COOKIE: Final = "bt_studio_browser"
 MINUTE_S: Final = 60
 
 
 class Bound(NamedTuple):
-    """A limit of failures in a period of seconds."""
+    """A limit of failures in a period; the period is in seconds."""
 
     key: str
     most: int
@@ -42,11 +42,11 @@ class Bound(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Browser:
-    """A browser in which someone signed in before.
+    """A browser in which a user has signed in.
 
     Attributes:
         identity: a random id, made at the first sign-in.
-        accounts: keys of the accounts, the latest last.
+        accounts: the keys of the accounts, in order of sign-in.
     """
 
     identity: str
@@ -59,7 +59,10 @@ class Browser:
 
 
 def bounds(account: int | str, address: str | None, browser: Browser | None) -> tuple[Bound, ...]:
-    """Returns the limits of the next attempt to sign in; the key is the account, or the typed name."""
+    """Returns the limits of the next attempt to sign in.
+
+    `account` is the key of the account, or the typed name.
+    """
     if browser is not None and account in browser.accounts:
         return (Bound(f"browser {browser.identity} {account}", 10, 5 * MINUTE_S),)
     place = network_of(address)
@@ -89,14 +92,14 @@ class Attempt:
             self.take_back()
 
     def take_back(self) -> None:
-        """Removes the attempt from the counts: it succeeded, or was refused before the check."""
+        """Removes the attempt from the counts, since it succeeded or was refused before the check."""
         for key in self._counted:
             _more(key, -1)
         self._counted = []
 
 
 def forget(limits: Iterable[Bound]) -> None:
-    """Resets the count of an account that has a new password."""
+    """Resets the counts of an account that has a new password."""
     cache.delete_many([_cache_key(limit.key) for limit in limits])
 
 
@@ -123,7 +126,7 @@ def _cookie_name() -> str:
 
 
 def browser_of(request: HttpRequest) -> Browser | None:
-    """Returns the browser that sent a request, if someone signed in there before."""
+    """Returns the browser that sent a request, if a user has signed in there; otherwise None."""
     try:
         found: Any = _signer().unsign_object(
             request.COOKIES.get(_cookie_name(), ""), max_age=KNOWN_DAYS * 24 * 3600

@@ -17,12 +17,12 @@ PAGES: Final = ("/accounts/", "/admin/", "/join/", "/shared/")
 
 
 class OnPages:
-    """Base of Django's middleware that skips every path without forms."""
+    """Base class of Django middleware that skips all paths without forms."""
 
     get_response: Any
 
     def __call__(self, request: HttpRequest) -> Any:
-        """Django's entry, in the sync and in the async chain."""
+        """Handles a request; Django calls it in the synchronous and the asynchronous chain."""
         if request.path_info.startswith(PAGES):
             return super().__call__(request)  # type: ignore[misc]
         return self.get_response(request)
@@ -33,7 +33,7 @@ class PageSession(OnPages, SessionMiddleware):
 
 
 class PageLocale(OnPages, LocaleMiddleware):
-    """The language that the browser requests, on pages with forms."""
+    """Sets the language that the browser requests, on pages with forms."""
 
 
 class PageCsrf(OnPages, CsrfViewMiddleware):
@@ -47,7 +47,7 @@ class PageCsrf(OnPages, CsrfViewMiddleware):
 
 
 class PageUser(OnPages, AuthenticationMiddleware):
-    """Sets the user who is signed in."""
+    """Sets the signed-in user on pages with forms."""
 
 
 class PageMessages(OnPages, MessageMiddleware):

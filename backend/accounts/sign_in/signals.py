@@ -1,4 +1,7 @@
-"""Receivers for sign-in, sign-up and changes of credentials: the audit log, invitations."""
+"""Receivers of signals about sign-in, sign-up and credentials.
+
+They write the audit log and use up invitations.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +35,7 @@ def on_sign_out(request: Any, user: User | None, **_: object) -> None:
 
 
 def on_user_saved(instance: User, *, created: bool, **_: object) -> None:
-    """Signs out a user everywhere who was deactivated or has a new password."""
+    """Signs out a user everywhere, after the user was deactivated or got a new password."""
     if not created:
         lessen(user_id=instance.pk)
 
@@ -43,7 +46,7 @@ def on_left_group(instance: GroupMember, **_: object) -> None:
 
 
 def on_sign_up(request: Any, user: User, **_: object) -> None:
-    """Uses up the invitation with which a new account was created."""
+    """Counts the invitation with which a new account was created as used."""
     note("account.create", actor=user)
     token = request.session.pop(invitations.SESSION_KEY, None)
     if isinstance(token, str):

@@ -16,23 +16,27 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 SHARE: Final = 0.15
-"""Fraction of one processor for each owner who has used up their burst."""
+"""Share of one processor for each owner who has used up their burst."""
 BURST_S: Final = 0.3
-"""Seconds of processor time that may be used at once; opening a page takes a tenth of it."""
+"""Seconds of processor time that may be used in advance; opening a page takes a tenth of it."""
 LONGEST_REST_S: Final = 2.0
 OTHERS_S: Final = 2.0
-"""Seconds. An owner waits only if another owner was active in this time, so that nobody waits for an idle
-server."""
+"""Seconds.
+
+An owner waits only if another owner was active in this time, so that no owner waits for an idle server.
+"""
 MOST_OWNERS: Final = 10_000
 
 
 class Budgets:
-    """The processor time that owners have used, and how long each must wait. Used by the event loop's thread.
+    """Stores the processor time that owners have used, and computes how long each must wait.
+
+    Only the event loop's thread uses it.
 
     Args:
         share: fraction of a processor for one owner.
         burst_s: seconds of processor time that may be used in advance.
-        clock: monotonic time in seconds.
+        clock: returns a monotonic time in seconds.
     """
 
     def __init__(
@@ -48,7 +52,9 @@ class Budgets:
         self._other_s = float("-inf")
 
     def spend(self, owner: str, used_s: float) -> float:
-        """Books processor time, and returns the seconds that this owner's next piece of work must wait.
+        """Charges processor time to an owner.
+
+        Returns the seconds that the owner's next piece of work must wait.
 
         Each piece delays the next one further, so that many connections of one owner do not all continue at
         the same moment.
@@ -66,7 +72,7 @@ class Budgets:
         return self.rest_s(owner)
 
     def rest_s(self, owner: str) -> float:
-        """Returns the seconds that this owner's next piece of work must wait; 0.0 for most owners."""
+        """Returns the seconds that the owner's next piece of work must wait; 0.0 for most owners."""
         now_s = self._clock()
         other_s = self._other_s if owner == self._latest else self._latest_s
         if now_s - other_s > OTHERS_S:

@@ -1,4 +1,4 @@
-"""A fair queue for workers: owners take turns, and each has a limited number of items at work."""
+"""A fair queue for workers: owners take turns, and each has a limited number of items in progress."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ Item = TypeVar("Item")
 
 
 class QueueFullError(Exception):
-    """The queue is full, for everybody or for this owner."""
+    """The queue is full, for all owners or for this one."""
 
 
 class FairQueue(Generic[Item]):
@@ -18,7 +18,7 @@ class FairQueue(Generic[Item]):
     Args:
         room: the number of items of all owners that may wait. One owner may have half of them, and so cannot
             fill the queue alone.
-        per_owner: the number of items of one owner that may be at work at a time.
+        per_owner: the number of items of one owner that may be in progress at the same time.
     """
 
     def __init__(self, *, room: int, per_owner: int) -> None:
@@ -42,9 +42,9 @@ class FairQueue(Generic[Item]):
         self._waiting.setdefault(owner, deque()).append(item)
 
     def take(self) -> tuple[str, Item] | None:
-        """Removes the next item and counts it as at work; returns it with its owner.
+        """Removes the next item, counts it as in progress, and returns it with its owner.
 
-        Returns None if each owner that waits already has as many items at work as allowed.
+        Returns None if the queue is empty, or if every waiting owner is at its limit.
         """
         for owner in self._waiting:
             if self._at_work[owner] < self._per_owner:
@@ -60,7 +60,7 @@ class FairQueue(Generic[Item]):
         return owner, item
 
     def done(self, owner: str) -> None:
-        """Notes that one item of this owner is no longer at work."""
+        """Notes that one item of this owner is no longer in progress."""
         self._at_work[owner] -= 1
         if not self._at_work[owner]:
             del self._at_work[owner]

@@ -16,7 +16,7 @@ BUCKETS_S: Final = (0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.
 
 
 class Counter:
-    """A counter with one label; each value of the label has its own count."""
+    """A counter with one label; it has a separate count for each value of the label."""
 
     def __init__(self, name: str, help_text: str, label: str, values: tuple[str, ...]) -> None:
         self.name, self.help_text, self.label = name, help_text, label
@@ -54,7 +54,10 @@ class Histogram:
             numbers.add(self._sum_s, seconds)
 
     def buckets(self) -> list[tuple[str, float]]:
-        """Returns the bounds with the counts of all workers; counts are cumulative, as Prometheus expects."""
+        """Returns the bounds of the buckets with the counts of all workers.
+
+        Counts are cumulative, as Prometheus expects.
+        """
         found, count = [], 0.0
         for index, bound in enumerate([*map(str, BUCKETS_S), "+Inf"]):
             count += numbers.total(self._first + index)

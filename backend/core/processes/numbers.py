@@ -1,8 +1,8 @@
 """Numbers of this process in shared memory, which its siblings and its parent can read at any time.
 
-A worker counts directly in its page, a file that all workers map. So a sum from one worker is never older
-than an earlier one from another. The counts of a killed worker are not lost: its replacement continues them.
-An aligned number is written atomically, so readers need no lock.
+A worker counts directly in its page, a file that all workers map. So a sum that one worker reads is never
+older than a sum that another worker read before. The counts of a killed worker are not lost: its replacement
+continues them. An aligned number is written atomically, so readers need no lock.
 """
 
 from __future__ import annotations
@@ -15,22 +15,25 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 ROOM: Final = 256
-"""Numbers in a page."""
+"""Number of numbers in a page."""
 _BYTES: Final = 8
 # The parent reads these numbers, so their places are fixed and do not depend on the order of imports.
 STARTED: Final = 0
-"""The place of a flag: 1 once the worker answers."""
+"""The place of a flag in the page: 1 when the worker answers."""
 BEAT: Final = 1
 """The place of the time, in seconds, at which the event loop last ran."""
 FULL: Final = 2
-"""The place of the seconds for which, at that time, no request thread had been free."""
+"""The place of the seconds for which no request thread was free. They are of the time of `BEAT`."""
 STUCK: Final = 3
-"""The place of the seconds for which, at that time, no request thread had finished a request."""
+"""The place of the seconds for which no request thread had finished a request.
+
+They are of the time of `BEAT`.
+"""
 _FIRST_FREE: Final = 4
 
 
 class Numbers:
-    """The page of this process, and those of its siblings."""
+    """The page of numbers of this process, and those of its siblings."""
 
     def __init__(self) -> None:
         self._own = memoryview(bytearray(_BYTES * ROOM)).cast("d")
@@ -49,7 +52,7 @@ class Numbers:
         return first
 
     def share(self, pages: Sequence[Path], own: int) -> None:
-        """Counts in one of these pages from now on. Must be called before anything is counted."""
+        """Makes this process count in one of these pages. Call it before anything is counted."""
         self._all = [read_page(page) for page in pages]
         self._own = self._all[own]
 
@@ -67,7 +70,7 @@ class Numbers:
 
     @property
     def pages(self) -> Sequence[memoryview[float]]:
-        """Returns the pages of all siblings, including that of this process."""
+        """The pages of all siblings, including that of this process."""
         return self._all
 
 

@@ -1,8 +1,8 @@
-"""The state that several web workers of one parent share: numbers, and places of which there are few.
+"""The state that several web workers of one parent share: numbers, and a limited number of places.
 
 While the parent (`parent.py`) serves, it keeps a folder. The folder has a page of numbers for each worker,
-and an empty file for each place. The holder of a place holds the lock of its file, which the kernel releases
-when a worker is killed. A server without a parent keeps places in its own memory.
+and an empty file for each place. A worker that holds a place holds the lock of the place's file, which the
+kernel releases when a worker is killed. A server without a parent keeps places in its own memory.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ class _Siblings:
 
 
 class Place:
-    """A place that this process holds until it gives it back."""
+    """A place that this process holds until it releases it."""
 
     def __init__(self, name: str, taken: Counter[str] | None, descriptor: int = -1) -> None:
         self._name, self._taken, self._descriptor = name, taken, descriptor
@@ -108,7 +108,10 @@ def answering() -> None:
 
 
 async def beat_for_ever(threads: Threads) -> None:
-    """Reports periodically to parent and siblings that the event loop runs, and how busy the threads are."""
+    """Reports periodically that the event loop runs, and how busy the threads are.
+
+    The parent and the siblings read it.
+    """
     while True:
         numbers.put(FULL, threads.full_for_s())
         numbers.put(STUCK, threads.stuck_for_s())
@@ -117,10 +120,10 @@ async def beat_for_ever(threads: Threads) -> None:
 
 
 def least_s(place: int, own_s: float) -> float:
-    """Returns the shortest time in seconds for which any worker has been full, or stuck.
+    """Returns the shortest time in seconds for which a worker has been full (or stuck), over all workers.
 
-    The time since a worker's last report is added to what it reported. Workers that have not started are left
-    out.
+    The time since a worker's last report is added to the reported value. Workers that have not started are
+    left out.
 
     Args:
         place: FULL or STUCK.

@@ -1,8 +1,8 @@
-"""A fixed pool of threads. Of the idle threads, the one that worked last gets the next call.
+"""A fixed pool of threads, in which the idle thread that worked last gets the next call.
 
-Its caches are still warm: its connection to the database, and the PostgreSQL process with the prepared
-statements. In `ThreadPoolExecutor` threads take turns, so that each starts cold. Owners do take turns, and
-each has a limited number of threads, so that the others find a free one.
+The caches of this thread are still warm: its connection to the database, and the PostgreSQL process with
+prepared statements. In `ThreadPoolExecutor` the threads take turns, so each of them starts cold. Owners do
+take turns, and each has a limited number of threads, so that the others find a free one.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     """A function that does the work, and returns the function that reports its end."""
 
 PATIENCE_S: Final = 5.0
-"""Seconds that the end of the program waits for each thread that still works."""
+"""Seconds for which the end of the program waits for each thread that still works."""
 
 
 class _Task(NamedTuple):
@@ -43,7 +43,7 @@ class Threads:
     Args:
         number: the number of threads.
         name: the prefix of their names.
-        per_owner: the number of threads that may work for one owner at a time; without it, all of them.
+        per_owner: the number of threads that may work for one owner at the same time; None means all threads.
     """
 
     def __init__(self, number: int, name: str, *, per_owner: int | None = None) -> None:
@@ -61,7 +61,7 @@ class Threads:
     def run(
         self, loop: asyncio.AbstractEventLoop, work: Callable[[], Any], owner: str | None = None
     ) -> asyncio.Future[Any]:
-        """Calls the function as soon as a thread is free; returns a future of the loop.
+        """Makes a thread call the function as soon as one is free; returns a future of the loop.
 
         Args:
             loop: the loop of the coroutine that waits.
@@ -134,7 +134,10 @@ class Threads:
                 tell()
 
     def _next(self, inbox: Inbox, done: str) -> _Task | None:
-        """Returns the next call that may begin. If there is none, counts this thread as idle."""
+        """Returns the next call that may begin.
+
+        If there is none, counts this thread as idle and returns None.
+        """
         with self._lock:
             self._progress_s = time.monotonic()
             self._waiting.done(done)

@@ -1,4 +1,7 @@
-"""Content negotiation: endpoints have one representation, so `Accept` is ignored and never causes a 406."""
+"""Content negotiation.
+
+Each endpoint has one representation, so `Accept` is ignored and never causes a 406.
+"""
 
 from __future__ import annotations
 
@@ -24,6 +27,6 @@ class IgnoreClientNegotiation(BaseContentNegotiation):
     def select_renderer(
         self, request: Request, renderers: Iterable[BaseRenderer], format_suffix: str | None = None
     ) -> tuple[BaseRenderer, str]:
-        """Returns the endpoint's first renderer."""
+        """Returns the first renderer of the endpoint."""
         renderer = next(iter(renderers))
         return renderer, str(renderer.media_type)

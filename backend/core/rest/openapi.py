@@ -26,7 +26,7 @@ class ProblemSerializer(serializers.Serializer[Any]):
 def problem_of(
     serializer: type[serializers.Serializer[Any]], description: str, *, status: int = 409
 ) -> dict[tuple[int, str], Any]:
-    """Returns an entry for an operation's `responses`: a problem document with additional members."""
+    """Returns an entry for the `responses` of an operation: a problem document with additional members."""
     return {(status, MEDIA_TYPE): OpenApiResponse(serializer, description=description)}
 
 

@@ -51,5 +51,5 @@ def _refuse_constant(name: str) -> None:
 
 
 def _refuse_unstorable(value: Any) -> None:
-    """Raises ValueError for text that UTF-8 cannot encode or that PostgreSQL cannot store."""
+    """Raises a ValueError for text that UTF-8 cannot encode, or that PostgreSQL cannot store."""
     json.dumps(value, ensure_ascii=False).encode("utf-8")

@@ -37,9 +37,12 @@ def may_write(project_id: UUID, user: User) -> None:
 
 
 async def serve_notices(call: Call, receive: ASGIReceiveCallable, send: ASGISendCallable) -> Closed | None:
-    """Sends `{"type": "revision", "revision", "author", "message"}`: the newest at once, then each.
+    """Sends `{"type": "revision", "revision", "author", "message"}`.
 
-    Between them may come `{"type": "server", "text"}`: a notice to all users; an empty one ends it.
+    The newest revision is sent immediately, then each new one.
+
+    The messages `{"type": "server", "text"}` between them are notices to all users; an empty text ends the
+    notice.
     """
     project_id = UUID(call.address[1])
     async with notices_of(project_id) as following:
@@ -73,7 +76,10 @@ async def _tell(send: ASGISendCallable, notice: dict[str, Any]) -> None:
 
 
 async def _until_left(receive: ASGIReceiveCallable) -> Closed | None:
-    """Returns when the page has gone, or says something: pages have nothing to say here."""
+    """Waits until the page leaves (None) or sends a message.
+
+    A message is refused, since pages send none on this socket.
+    """
     if (await receive())["type"] == "websocket.disconnect":
         return None
     return Closed(POLICY_VIOLATION, "Nothing is said on this socket.")

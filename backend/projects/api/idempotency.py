@@ -1,4 +1,4 @@
-"""`Idempotency-Key`: a repeated request takes effect once and gets its first answer again."""
+"""`Idempotency-Key`: a repeated request takes effect once, and receives its first answer again."""
 
 from __future__ import annotations
 
@@ -29,7 +29,10 @@ PART = 1024 * 1024
 
 
 def once(request: Request, user: User, effect: Callable[[], Response]) -> Response:
-    """Calls `effect`, unless the request's key has been seen; effect and key are one transaction."""
+    """Returns the stored answer if the request's key is known.
+
+    Otherwise calls `effect` and stores its answer, in one transaction.
+    """
     key = request.headers.get(HEADER, "")
     if not key:
         return effect()

@@ -1,6 +1,6 @@
-"""Notifies everyone who has a project open of a new revision; the changes are fetched, not sent.
+"""Notifies all pages that have a project open of a new revision. Pages fetch the changes; they are not sent.
 
-A notice is small and may be lost (a full channel drops it): the number in the next one says the same.
+A notice is small and may be lost (a full channel drops it); the next notice has a higher number.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ KIND: Final = "revision"
 
 
 def watch_revisions() -> None:
-    """Connects the notices: each committed change set is announced."""
+    """Connects the notices to the signal of a committed change set."""
     revision_made.connect(_announce_later, dispatch_uid="announce_revision")
 
 
@@ -41,13 +41,13 @@ def _announce_later(sender: object, *, change: ChangeSet, **_: object) -> None:
 
 
 def group_of(project_id: UUID) -> str:
-    """Returns the channel layer's group of everyone who has the project open."""
+    """Returns the channel layer's group of all pages that have the project open."""
     return f"project.{project_id}"
 
 
 @asynccontextmanager
 async def notices_of(project_id: UUID) -> AsyncIterator[Callable[[], Awaitable[dict[str, Any]]]]:
-    """Gives a function that waits for the next notice."""
+    """Yields a function that waits for the next notice about a project."""
     layer = get_channel_layer()
     channel = await layer.new_channel()
     await layer.group_add(group_of(project_id), channel)

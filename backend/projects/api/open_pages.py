@@ -27,7 +27,7 @@ class Pages:
         self._told.pop(send, None)
 
     async def tell(self, text: str) -> None:
-        """Sends a text to each page that did not receive it last; an empty one ends the notice."""
+        """Sends a text to each page to which it was not the last text; an empty text ends the notice."""
         for send in [send for send, told in self._told.items() if told != text]:
             self._told[send] = text
             notice = json.dumps({"type": "server", "text": text})

@@ -22,7 +22,7 @@ MAX_LINKS = 50
 @never_cache
 @require_safe
 def shared(request: HttpRequest, token: str) -> HttpResponse:
-    """Remembers the link in this browser's session and redirects to the project."""
+    """Stores the link in this browser's session, and redirects to the project."""
     identity = links.identity_of("shared", token)
     found = open_links([identity]).first() if identity else None
     if found is None:

@@ -16,10 +16,15 @@ if TYPE_CHECKING:
     from backend.projects.storage.queries import StoredFile
 
 
+<<<<<<< HEAD
 def summary(
     project: Project, root_diagram: dict[str, Any] | None, conditions: Sequence[str]
 ) -> dict[str, Any]:
     """Returns a project in the form of a list."""
+=======
+def summary(project: Project, root_diagram: dict[str, Any] | None) -> dict[str, Any]:
+    """Returns a project in the form for lists."""
+>>>>>>> main
     return {
         "id": str(project.id),
         "name": project.name,
@@ -62,7 +67,7 @@ def file_info(existing: Existing) -> dict[str, Any]:
 
 
 class Opened(NamedTuple):
-    """An opened project, before it is checked."""
+    """The data of an opened project, before it is checked."""
 
     rows: dict[str, Any]
     contents: dict[str, bytes]

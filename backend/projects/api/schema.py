@@ -11,17 +11,20 @@ from backend.projects.api.serializers import ConflictSerializer, DiagnosticSeria
 
 
 class ConflictProblemSerializer(ProblemSerializer):
-    """A stale base; both versions of each file are in `conflicts`."""
+    """A conflict: a stale base. `conflicts` holds both versions of each file."""
 
     revision = serializers.IntegerField(required=False)
     conflicts = ConflictSerializer(many=True, required=False)
 
 
 class CheckProblemSerializer(ProblemSerializer):
-    """A project or file with errors, or one that cannot be read; `diagnostics` say where."""
+    """A project or file that has errors or cannot be read.
+
+    `diagnostics` holds the errors with their places.
+    """
 
     diagnostics = DiagnosticSerializer(many=True, required=False)
 
 
 NOT_SOUND: Final = problem_of(CheckProblemSerializer, "The project has errors.", status=422)
-"""For the `responses` of operations that translate a project."""
+"""The entry in `responses` of operations that translate a project."""

@@ -30,43 +30,43 @@ class ObjectField(serializers.JSONField):
 
 
 class TextField(serializers.CharField):
-    """Unchanged text: not trimmed; numbers and booleans are refused."""
+    """Text that is kept unchanged: it is not trimmed. Numbers and booleans are refused."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**{"trim_whitespace": False, "allow_blank": True, **kwargs})
 
     def to_internal_value(self, data: Any) -> str:
-        """Refuses what is not text."""
+        """Returns the text; refuses any other value."""
         if not isinstance(data, str):
             raise serializers.ValidationError("This must be text.")
         return super().to_internal_value(data)
 
 
 class StrictIntegerField(serializers.IntegerField):
-    """A number; text that looks like one is refused."""
+    """An integer; text that looks like a number is refused."""
 
     def to_internal_value(self, data: Any) -> int:
-        """Refuses text and booleans."""
+        """Returns the integer; refuses text and booleans."""
         if isinstance(data, bool) or not isinstance(data, int):
             raise serializers.ValidationError("This must be a whole number.")
         return super().to_internal_value(data)
 
 
 class StrictBooleanField(serializers.BooleanField):
-    """True or false; words for them are refused."""
+    """True or false; words for these values are refused."""
 
     def to_internal_value(self, data: Any) -> bool:
-        """Refuses everything else."""
+        """Returns the boolean; refuses any other value."""
         if not isinstance(data, bool):
             raise serializers.ValidationError("This must be true or false.")
         return data
 
 
 class StrictSerializer(serializers.Serializer[Any]):
-    """Refuses fields that it does not know: a misspelt one is never dropped in silence."""
+    """Refuses unknown fields, so that a misspelt field is never ignored."""
 
     def to_internal_value(self, data: Any) -> Any:
-        """Names the unknown field."""
+        """Returns the checked values; an error names each unknown field."""
         if isinstance(data, dict) and (unknown := set(data) - set(self.fields)):
             raise serializers.ValidationError({str(min(unknown))[:100]: "There is no such field."})
         return super().to_internal_value(data)
@@ -100,7 +100,7 @@ class PortSerializer(serializers.Serializer[Any]):
 
 
 class ChildrenSerializer(serializers.Serializer[Any]):
-    """The numbers of children that a kind of node may have; null as the largest allows any."""
+    """The numbers of children that a kind of node may have; `null` as the largest means any number."""
 
     min = serializers.IntegerField()
     max = serializers.IntegerField(allow_null=True)
@@ -125,7 +125,7 @@ CHECKED: Final = "false: the project could not be checked, so that its actions a
 
 
 class ReportSerializer(serializers.Serializer[Any]):
-    """The findings of the translator in a project."""
+    """The findings of the translator about a project."""
 
     diagnostics = DiagnosticSerializer(many=True)
     actions = ActionSerializer(many=True)
@@ -133,7 +133,7 @@ class ReportSerializer(serializers.Serializer[Any]):
 
 
 class FileSerializer(serializers.Serializer[Any]):
-    """A file as it is now; `content` is null when it is not text."""
+    """A current file; `content` is null if the file is not text."""
 
     path = serializers.CharField()
     revision = serializers.IntegerField()
@@ -178,7 +178,7 @@ class ProjectSummarySerializer(serializers.Serializer[Any]):
 
 
 class ProjectListSerializer(serializers.Serializer[Any]):
-    """A page of projects; `next_offset` is null on the last."""
+    """A page of projects; `next_offset` is null on the last page."""
 
     items = ProjectSummarySerializer(many=True)
     total = serializers.IntegerField()
@@ -219,13 +219,13 @@ class CreateProjectSerializer(StrictSerializer):
 
 
 class DuplicateProjectSerializer(StrictSerializer):
-    """The name of the copy; without one it gets a number."""
+    """The name of the copy. Without a name, the copy gets the same name with a number."""
 
     name = TextField(required=False, default="", max_length=MAX_NAME_LENGTH)
 
 
 class EditProjectSerializer(StrictSerializer):
-    """Fields of project.json to change; `settings` replaces it as a whole."""
+    """Fields of `project.json` to change; `settings` replaces all settings."""
 
     base_revision = StrictIntegerField(min_value=1, max_value=MAX_REVISION)
     name = TextField(required=False, max_length=MAX_NAME_LENGTH)
@@ -246,7 +246,7 @@ class FileChangeSerializer(StrictSerializer):
     rename_to = TextField(required=False, default="", max_length=MAX_PATH_LENGTH)
 
     def validate(self, attrs: dict[str, Any]) -> dict[str, Any]:
-        """Decodes the content."""
+        """Returns the change with its decoded content."""
         if "content" in attrs and "content_base64" in attrs:
             raise serializers.ValidationError({"content": "Give content or content_base64, not both."})
         attrs["bytes"] = _content(attrs)
@@ -265,7 +265,7 @@ def _content(attrs: dict[str, Any]) -> Content | None:
 
 
 class ChangesSerializer(StrictSerializer):
-    """One user action on several files, done as a whole or not at all."""
+    """One user action on several files; it is carried out completely or not at all."""
 
     message = TextField(required=False, default="", max_length=500)
     files = FileChangeSerializer(many=True, allow_empty=False)
@@ -290,7 +290,7 @@ class ChangesDoneSerializer(serializers.Serializer[Any]):
 
 
 class TheirsSerializer(serializers.Serializer[Any]):
-    """The version on the server."""
+    """The version of the file on the server."""
 
     revision = serializers.IntegerField()
     content = serializers.CharField(allow_null=True)
@@ -298,13 +298,13 @@ class TheirsSerializer(serializers.Serializer[Any]):
 
 
 class MineSerializer(serializers.Serializer[Any]):
-    """The version of the request."""
+    """The version of the file in the request."""
 
     content = serializers.CharField(allow_null=True)
 
 
 class ConflictSerializer(serializers.Serializer[Any]):
-    """Both versions of a file; `theirs` is null when the file is gone."""
+    """Both versions of a file; `theirs` is null if the file was removed."""
 
     path = serializers.CharField()
     base_revision = serializers.IntegerField()
@@ -320,7 +320,7 @@ class OverlayFileSerializer(StrictSerializer):
 
 
 class CheckSerializer(StrictSerializer):
-    """Files that differ from what is stored, for a check before saving."""
+    """Files that differ from the stored ones, for a check before saving."""
 
     files = OverlayFileSerializer(many=True, required=False, default=list)
 
@@ -367,13 +367,13 @@ class RevisionListQuerySerializer(serializers.Serializer[Any]):
 
 
 class LabelSerializer(StrictSerializer):
-    """A name for a revision; an empty one removes it."""
+    """A name for a revision; an empty name removes the label."""
 
     label = TextField(max_length=100)  # type: ignore[assignment]
 
 
 class RestoreRevisionSerializer(StrictSerializer):
-    """The files to restore; all, if none are named."""
+    """The files to restore; without any, all files are restored."""
 
     paths = serializers.ListField(
         child=TextField(max_length=MAX_PATH_LENGTH),
@@ -384,7 +384,7 @@ class RestoreRevisionSerializer(StrictSerializer):
 
 
 class FileDiffSerializer(serializers.Serializer[Any]):
-    """One file that differs; `diff` is null if a side is not text."""
+    """A file that differs; `diff` is null if one of the versions is not text."""
 
     path = serializers.CharField()
     change = serializers.ChoiceField(choices=["added", "removed", "changed"])
@@ -400,13 +400,13 @@ class DiffSerializer(serializers.Serializer[Any]):
 
 
 class DiffQuerySerializer(serializers.Serializer[Any]):
-    """The revision to compare with; by default the one before."""
+    """The revision to compare with; by default the previous one."""
 
     against = serializers.IntegerField(required=False, min_value=0, max_value=MAX_REVISION)
 
 
 class DraftSerializer(serializers.Serializer[Any]):
-    """A draft: text that this user typed and did not save."""
+    """A draft: text that this user has typed and not saved."""
 
     path = serializers.CharField()
     base_revision = serializers.IntegerField()
@@ -421,7 +421,7 @@ class DraftListSerializer(serializers.Serializer[Any]):
 
 
 class SaveDraftSerializer(StrictSerializer):
-    """A draft to keep."""
+    """A draft to store."""
 
     base_revision = StrictIntegerField(min_value=0, max_value=MAX_REVISION)
     content = TextField()
@@ -454,5 +454,5 @@ class AppSerializer(serializers.Serializer[Any]):
         }
     )
     def get_universe(self, app: dict[str, Any]) -> Any:
-        """Describes the universe as an id, or as a document with its assets."""
+        """Returns the universe: its id, or a document with its assets."""
         return app["universe"]

@@ -34,10 +34,10 @@ if TYPE_CHECKING:
 def opened(
     view: APIView, request: Request, write: Callable[[], Project], *, status: int = 200
 ) -> HttpResponseBase:
-    """Writes a project once for the request's key, and answers with the project and its problems.
+    """Writes a project once for each `Idempotency-Key`, and answers with the project and its problems.
 
-    The data of the answer are read in the same transaction: a failure after the commit must not make a stored
-    write look as if it had failed.
+    The data of the answer are read in the same transaction. Otherwise an error after the commit would make a
+    stored write look like a failed one.
     """
     contents: dict[str, bytes] = {}
 
@@ -55,7 +55,7 @@ def opened(
 
 
 def _stored(request: Request, project_id: UUID | str) -> dict[str, bytes]:
-    """The files of a project that an earlier request with the same key wrote."""
+    """Returns the current files of a project, for the answer to a repeated request."""
     return queries.contents(queries.project(UUID(str(project_id)), user=user_of(request), need=Need.READ))
 
 
@@ -141,7 +141,7 @@ class Projects(ResourceViewSet):
         operation_id="delete_project", parameters=[IF_MATCH], responses={204: None}, tags=["projects"]
     )
     def destroy(self, request: Request, project_id: UUID) -> Response:
-        """Deletes a project; `restore` brings it back."""
+        """Deletes a project. `restore` restores it."""
         writes.delete_project(project_id, acting_user=user_of(request), if_match=if_match(request))
         return Response(status=204)
 
@@ -154,7 +154,7 @@ class Projects(ResourceViewSet):
     )
     @action(detail=True, methods=["post"])
     def restore(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """Brings a deleted project back, under another name where its own was taken since."""
+        """Restores a deleted project. It gets another name if its own name has been taken since."""
         user, tag = user_of(request), if_match(request)
         return opened(
             self, request, lambda: writes.restore_project(project_id, acting_user=user, if_match=tag)
@@ -203,7 +203,7 @@ class Projects(ResourceViewSet):
     )
     @action(detail=True, methods=["post"], expensive=("POST",))
     def duplicate(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """Makes a new project of the current files."""
+        """Makes a new project from the current files of this one."""
         name = parsed(s.DuplicateProjectSerializer, request.data)["name"]
         user = user_of(request)
         return opened(
@@ -223,7 +223,7 @@ class Projects(ResourceViewSet):
     )
     @action(detail=True, methods=["post"])
     def changes(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """Writes, renames and deletes files in one step, all or nothing."""
+        """Writes, renames and deletes files in one step, completely or not at all."""
         asked = parsed(s.ChangesSerializer, request.data)
         user = user_of(request)
         saved: list[Project] = []
@@ -255,7 +255,7 @@ class Projects(ResourceViewSet):
     )
     @action(detail=True, methods=["post"])
     def check(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """Checks the project with these unsaved files."""
+        """Checks the project as it would be with these unsaved files."""
         asked = parsed(s.CheckSerializer, request.data)
         files = queries.contents(queries.project(project_id, user=user_of(request), need=Need.READ))
         for overlay in asked["files"]:
@@ -270,7 +270,10 @@ class Projects(ResourceViewSet):
     )
     @action(detail=True)
     def app(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """Returns the project in the form that the executor runs; 422 with `diagnostics` if it has errors."""
+        """Returns the project in the form that the executor runs.
+
+        The answer is 422 with `diagnostics` if the project has errors.
+        """
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         universe = request.query_params.get("universe") or ""
         files = queries.contents(project)

@@ -40,12 +40,12 @@ if TYPE_CHECKING:
 
 
 def download(data: bytes | str, content_type: str, filename: str) -> HttpResponse:
-    """Returns bytes that the browser saves and never shows: stored content must not run as a page."""
+    """Returns bytes that the browser saves and never displays; stored content must not run as a page."""
     return HttpResponse(data, headers={"Content-Type": content_type} | saved_as(filename))
 
 
 def saved_as(filename: str) -> dict[str, str]:
-    """Returns the headers that make the browser save a file instead of showing it."""
+    """Returns the headers that make the browser save a file instead of displaying it."""
     return {
         "Content-Disposition": f"attachment; filename*=UTF-8''{quote(filename, safe='')}",
         "Content-Security-Policy": "default-src 'none'; sandbox",
@@ -53,7 +53,7 @@ def saved_as(filename: str) -> dict[str, str]:
 
 
 def flag(request: Request, name: str) -> bool:
-    """Returns a boolean of the query."""
+    """Returns a boolean parameter of the query."""
     wish = request.query_params.get(name, "false").lower()
     if wish not in {"", "0", "1", "true", "false"}:
         raise InvalidInputError(f"{name} is true or false.", field=name)
@@ -102,7 +102,7 @@ class UploadSerializer(serializers.Serializer[dict[str, object]]):
 
 
 class RawFile(BaseParser):
-    """A file as the whole body; it is already in a temporary file."""
+    """Parses a request whose whole body is a file. The file is already a temporary file."""
 
     media_type = "application/octet-stream"
 
@@ -138,7 +138,10 @@ class ProjectFiles(ResourceViewSet):
     )
     @action(detail=True)
     def xml(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """Returns the tree as BT.CPP v4 XML; 422 with `diagnostics` if the project has errors."""
+        """Returns the tree as BT.CPP v4 XML.
+
+        The answer is 422 with `diagnostics` if the project has errors.
+        """
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         return checking.answered(
             self,
@@ -156,7 +159,7 @@ class ProjectFiles(ResourceViewSet):
     )
     @action(detail=True, expensive=("GET",))
     def export(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """Returns the current files as a zip; the same revision gives the same bytes."""
+        """Returns the current files as a zip. The same revision gives the same bytes."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         files = queries.contents(project)
         return checking.answered(self, request, "pack", partial(zipped, project.name), files=files)
@@ -172,7 +175,10 @@ class ProjectFiles(ResourceViewSet):
     )
     @action(detail=True, expensive=("GET",))
     def package(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """Returns the ROS 2 package as a zip; 422 with `diagnostics` if the project has errors."""
+        """Returns the ROS 2 package as a zip.
+
+        The answer is 422 with `diagnostics` if the project has errors.
+        """
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         files = queries.contents(project)
         if flag(request, "dockerized"):
@@ -188,7 +194,7 @@ class ProjectFiles(ResourceViewSet):
     )
     @action(detail=True, url_path="package/preview")
     def package_preview(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """Lists the files of the ROS 2 package before it is downloaded."""
+        """Lists the files of the ROS 2 package, without making a download."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         name = request.query_params.get("name") or None
         files = queries.contents(project)
@@ -215,9 +221,10 @@ class ProjectFiles(ResourceViewSet):
         expensive=("POST",),
     )
     def import_project(self, request: Request) -> HttpResponseBase:
-        """Makes a project of our zip, of a JdeRobot or Groot2 project, or of BT.CPP XML.
+        """Makes a project from a BT Studio zip, a JdeRobot or Groot2 project, or BT.CPP XML.
 
-        The file may be the body itself, and then as large as the user has room; a form has a request's bound.
+        The body is the file, or a form with the file. A body may be as large as the user's quota permits; a
+        form may be as large as any other request.
         """
         user = user_of(request)
         data, name = _uploaded(request)
@@ -245,7 +252,7 @@ class ProjectFiles(ResourceViewSet):
 
 
 def _uploaded(request: Request) -> tuple[IO[bytes], str]:
-    """The file that came, and its name."""
+    """Returns the uploaded file and its name."""
     forms = request.FILES
     if not request.content_type.startswith("multipart/"):
         body = body_of(request)

@@ -1,7 +1,7 @@
-"""The 2024 endpoints of JdeRobot BT Studio under `/tree_api/`, answered by the same functions as our own.
+"""The endpoints of JdeRobot BT Studio of 2024 under `/tree_api/`, with the functions of the REST API.
 
-Calls that change state were GET there; here they are POST. The graph of such a project is its main
-diagram in our format, and its files are the actions.
+Calls that change state were GET in the original; here they are POST. The graph of a project is its main
+diagram in BT Studio's format, and its files are the actions.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ Parameters = dict[str, str]
 
 
 class Later(NamedTuple):
-    """An answer that a worker makes."""
+    """An answer whose content a worker makes."""
 
     job: str
     make: Callable[[dict[str, Any]], HttpResponse]
@@ -57,7 +57,7 @@ def create_project(user: User, asked: Parameters) -> Response:
 
 
 def delete_project(user: User, asked: Parameters) -> Response:
-    """Deletes a project; our own API can restore it."""
+    """Deletes a project. The REST API can restore it."""
     writes.delete_project(_project(user, asked).id, acting_user=user)
     return Response(DONE)
 
@@ -101,13 +101,13 @@ def get_file(user: User, asked: Parameters) -> Response:
 
 
 def create_file(user: User, asked: Parameters) -> Response:
-    """Creates an action; answers with a conflict if it exists."""
+    """Creates an action. The answer is a conflict if the action exists."""
     _write(user, _project(user, asked), _action_path(asked), asked.get("content", ""), base=0)
     return Response(DONE, status=201)
 
 
 def save_file(user: User, asked: Parameters) -> Response:
-    """Replaces the source of an action; this API has no revisions, so the last writer wins."""
+    """Replaces the source of an action. This API has no revisions, so the last write wins."""
     project = _project(user, asked)
     queries.current_file(project, _action_path(asked))
     _write(user, project, _action_path(asked), _need(asked, "content"))
@@ -159,7 +159,7 @@ def _write(user: User, project: Project, file: str, content: str, *, base: int |
 
 
 class Reading(APIView):
-    """An endpoint that reads: GET, as in the original."""
+    """An endpoint that reads. Its method is GET, as in the original."""
 
     handler: Handler | None = None
 
@@ -170,7 +170,7 @@ class Reading(APIView):
 
 
 class Writing(APIView):
-    """An endpoint that changes state: POST only, unlike the original."""
+    """An endpoint that changes state. Its method is POST, unlike in the original."""
 
     handler: Handler | None = None
     parser_classes = (StrictJSONParser, FormParser, MultiPartParser)

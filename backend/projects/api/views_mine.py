@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 class UsageSerializer(serializers.Serializer[Any]):
-    """The space that is used, and its limits."""
+    """The space that the user's projects take, with its limits."""
 
     projects = serializers.IntegerField()
     max_projects = serializers.IntegerField()
@@ -41,7 +41,7 @@ class Mine(ResourceViewSet):
     @extend_schema(operation_id="get_my_usage", responses=UsageSerializer, tags=["accounts"])
     @action(detail=False)
     def usage(self, request: Request) -> Response:
-        """Returns the number and the bytes of projects, with their limits."""
+        """Returns the number and the bytes of the user's projects, with the limits."""
         return Response(usage.usage(user_of(request)))
 
     @extend_schema(
@@ -51,7 +51,7 @@ class Mine(ResourceViewSet):
     )
     @action(detail=False, expensive=("GET",))
     def data(self, request: Request) -> HttpResponseBase:
-        """Returns the account, its log and its projects, as one zip."""
+        """Returns the user's account, audit log and projects as one zip."""
         user = user_of(request)
         note("account.export", actor=user)
         headers = {"Content-Type": "application/zip"} | saved_as(f"{user.username}.zip")
@@ -67,7 +67,7 @@ class Mine(ResourceViewSet):
     def delete_data(self, request: Request) -> Response:
         """Deletes the account with all its projects irreversibly.
 
-        The body is `{"username": the user's own name}`.
+        The body is `{"username": …}` with the user's name, as a confirmation.
         """
         user = user_of(request)
         if not environment().is_team:

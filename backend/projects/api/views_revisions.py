@@ -42,7 +42,7 @@ class Revisions(ResourceViewSet):
         tags=["revisions"],
     )
     def list(self, request: Request, project_id: UUID) -> Response:
-        """Lists the change sets, the newest first; all, or those that changed one file."""
+        """Lists the revisions, the newest first: all, or those that changed one file."""
         asked = parsed(s.RevisionListQuerySerializer, request.query_params.dict())
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         limit = asked["limit"]
@@ -60,7 +60,7 @@ class Revisions(ResourceViewSet):
     )
     @transaction.atomic  # includes the reads for the answer
     def partial_update(self, request: Request, project_id: UUID, number: int) -> Response:
-        """Gives a revision a name, or removes it."""
+        """Sets the label of a revision, or removes it."""
         asked = parsed(s.LabelSerializer, request.data)
         row = writes.label_revision(
             project_id, number, asked["label"], acting_user=user_of(request), if_match=if_match(request)
@@ -86,7 +86,7 @@ class Revisions(ResourceViewSet):
     )
     @action(detail=True)
     def diff(self, request: Request, project_id: UUID, number: int) -> HttpResponseBase:
-        """Compares a revision with the one before, or with `against` (0 is the empty project)."""
+        """Compares a revision with the previous one, or with `against` (0 is the empty project)."""
         asked = parsed(s.DiffQuerySerializer, request.query_params.dict())
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         newer = queries.files_at(project, number)
@@ -111,7 +111,7 @@ class Revisions(ResourceViewSet):
     )
     @action(detail=True, methods=["post"])
     def restore(self, request: Request, project_id: UUID, number: int) -> HttpResponseBase:
-        """Makes a new revision in which files are as they were in this one."""
+        """Makes a new revision in which files have the content that they had in this one."""
         asked = parsed(s.RestoreRevisionSerializer, request.data)
         paths = [names.file_path(path, field="paths") for path in asked["paths"]]
         user, tag = user_of(request), if_match(request)
@@ -123,7 +123,7 @@ class Revisions(ResourceViewSet):
 
 
 class Drafts(ResourceViewSet):
-    """Drafts: text that was typed and not saved."""
+    """Drafts: text that a user has typed and not saved."""
 
     lookup_url_kwarg = "path"
     lookup_value_converter = "path"
@@ -143,7 +143,7 @@ class Drafts(ResourceViewSet):
         tags=["drafts"],
     )
     def update(self, request: Request, project_id: UUID, path: str) -> Response:
-        """Stores a draft; saving the file removes it."""
+        """Stores a draft. Saving the file removes the draft."""
         asked = parsed(s.SaveDraftSerializer, request.data)
         row = draft_writes.save_draft(
             project_id, path, acting_user=user_of(request), if_match=if_match(request), **asked

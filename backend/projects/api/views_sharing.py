@@ -1,4 +1,4 @@
-"""Views of sharing; every answer is the complete list of people, groups and links."""
+"""Views about sharing. Every answer is the complete list of people, groups and links."""
 
 from __future__ import annotations
 
@@ -92,11 +92,11 @@ def _answer(project: Project, status: int = 200) -> Response:
 
 
 class Shares(ResourceViewSet):
-    """The people, groups and links that a project is shared with."""
+    """The people, groups and links with which a project is shared."""
 
     @extend_schema(operation_id="get_shares", responses=SharesSerializer, tags=["sharing"])
     def list(self, request: Request, project_id: UUID) -> Response:
-        """Lists people, groups and links; for the owner."""
+        """Lists the people, groups and links. Only the owner may see them."""
         return _answer(queries.project(project_id, user=user_of(request), need=Need.MANAGE))
 
     @extend_schema(
@@ -108,7 +108,7 @@ class Shares(ResourceViewSet):
     )
     @transaction.atomic  # includes the reads for the answer
     def create(self, request: Request, project_id: UUID) -> Response:
-        """Gives a person a role, or changes it."""
+        """Gives a person a role in the project, or changes the role."""
         asked = parsed(SharePersonSerializer, request.data)
         role = Role[asked["role"].upper()]
         user, tag = user_of(request), if_match(request)
@@ -121,7 +121,7 @@ class Shares(ResourceViewSet):
     )
     @action(detail=False, methods=["delete"], url_path="people/<str:username>")
     def unshare_with_person(self, request: Request, project_id: UUID, username: str) -> Response:
-        """Removes the role of a person; users can remove their own."""
+        """Removes the role of a person. Users can remove their own role."""
         user, tag = user_of(request), if_match(request)
         memberships.unshare_with_person(project_id, username, acting_user=user, if_match=tag)
         return Response(status=204)
@@ -136,7 +136,7 @@ class Shares(ResourceViewSet):
     @action(detail=False, methods=["put"], url_path="groups/<uuid:group_id>")
     @transaction.atomic  # includes the reads for the answer
     def share_with_group(self, request: Request, project_id: UUID, group_id: UUID) -> Response:
-        """Gives all members of a group a role."""
+        """Gives a role to all members of a group."""
         role = Role[parsed(SharedRoleSerializer, request.data)["role"].upper()]
         user, tag = user_of(request), if_match(request)
         return _answer(

@@ -23,7 +23,7 @@ MAX_TEXT = LIMITS["tree_text_characters"]
 
 
 class WriteTreeSerializer(s.StrictSerializer):
-    """A diagram to convert to XML."""
+    """A diagram that is to be converted to XML."""
 
     diagram = s.TextField(max_length=MAX_TEXT, help_text="Diagram JSON, as in trees/<TreeID>.json.")
     base = s.TextField(
@@ -46,7 +46,7 @@ class ReadTreeSerializer(s.StrictSerializer):
 
 
 class NodeRangeSerializer(serializers.Serializer[Any]):
-    """The range of a node in the text; offsets in UTF-16 code units, lines end with one unit."""
+    """The range of a node in the text. Offsets are in UTF-16 code units, and each line ends with one unit."""
 
     node = serializers.CharField()
     start = serializers.IntegerField()
@@ -80,7 +80,7 @@ class Trees(ResourceViewSet):
     # Users who may read a project may also read its trees as text: with POST, since a diagram is long.
     @action(detail=False, methods=["post"], open_to_guests=True, guests_post=True)
     def xml(self, request: Request) -> HttpResponseBase:
-        """Converts one diagram to BT.CPP v4 XML; comments and blanks of an earlier text are kept."""
+        """Converts one diagram to BT.CPP v4 XML. Comments and blanks of an earlier text are kept."""
         asked = parsed(WriteTreeSerializer, request.data)
         return checking.answered(self, request, "write_tree", Response, **asked)
 
@@ -92,6 +92,9 @@ class Trees(ResourceViewSet):
     )
     @action(detail=False, methods=["post"])
     def diagram(self, request: Request) -> HttpResponseBase:
-        """Reads the XML of one tree; nodes keep their ids. `diagnostics` say why it cannot be read."""
+        """Converts the XML of one tree to a diagram. Nodes keep their ids.
+
+        If the XML cannot be read, `diagnostics` holds the reasons.
+        """
         asked = parsed(ReadTreeSerializer, request.data)
         return checking.answered(self, request, "read_tree", Response, **asked)

@@ -25,12 +25,13 @@ _JUNK: Final = ("__MACOSX/", "__pycache__/")
 def unpack(data: IO[bytes]) -> dict[str, bytes]:
     """Returns the files of an untrusted zip, by their paths in the new project.
 
-    Sizes in headers are not trusted: reading stops at the quota. One folder around everything is removed.
+    Sizes in headers are not trusted: reading stops at the quota. If all files are in one folder, that folder
+    is removed.
 
     Raises:
-        ArchiveError: it is no zip, or has entries that are no plain files.
-        InvalidInputError: an entry's path is not acceptable, for one that climbs out of the project.
-        QuotaExceededError: it holds more than a project may.
+        ArchiveError: the data are not a zip, or have entries that are not plain files.
+        InvalidInputError: the path of an entry is invalid, for example because it leaves the project.
+        QuotaExceededError: the zip holds more than a project may.
     """
     try:
         with zipfile.ZipFile(data) as archive:
@@ -105,9 +106,9 @@ class Upload(NamedTuple):
     """An imported project.
 
     Attributes:
-        files: contents by path.
-        is_ours: whether it is a project of ours; the translator opens others.
-        name: name of the new project, if the content does not define it.
+        files: the contents by path.
+        is_ours: whether the upload is a project of BT Studio; the translator opens others.
+        name: the name of the new project, if the content has none.
     """
 
     files: dict[str, bytes]
@@ -125,10 +126,10 @@ def _named(name: PurePosixPath) -> str:
 
 
 def read_upload(data: IO[bytes], filename: str) -> Upload:
-    """Returns the files of an upload: our zip, JdeRobot's, Groot2's, or one XML.
+    """Returns the files of an upload: a zip of BT Studio, JdeRobot or Groot2, or one XML file.
 
     Raises:
-        ArchiveError, InvalidInputError, QuotaExceededError: as `unpack`.
+        ArchiveError, InvalidInputError, QuotaExceededError: for the same reasons as `unpack`.
     """
     name = PurePosixPath(filename)
     if name.suffix.lower() in XML_SUFFIXES:

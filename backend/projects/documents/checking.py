@@ -1,4 +1,4 @@
-"""Hands jobs about projects to the pool of processes, and answers requests with the results."""
+"""Passes jobs about projects to the pool of processes, and answers requests with the results."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def answered(
     """Answers a request with the response that `make` returns for the result of a job.
 
     Raises:
-        BusyError: too much work waits already.
+        BusyError: too many jobs wait already.
     """
     work = pool().ask(_owner(request), job, **arguments)
     return Deferred(view, request, work, lambda done: make(_accepted(done.result())))
@@ -43,7 +43,7 @@ def answered(
 def reported(
     view: APIView, request: Request, response: Response, read: Callable[[], Mapping[str, bytes]]
 ) -> Deferred:
-    """Adds the translator's findings about the files that `read` returns to a response; never fails.
+    """Adds the translator's findings about files to a response, and never fails; `read` returns the files.
 
     The files are already saved: a failed check must not look like a failed save.
     """
@@ -77,7 +77,7 @@ def _report(done: Future[Any]) -> dict[str, Any]:
 
 
 def _owner(request: Request) -> str:
-    """For whom the pool works: users have their share, guests share one an address."""
+    """Returns the owner of the work in the pool: the user, or for guests their address."""
     user = user_of(request)
     return f"user {user.pk}" if user.pk else f"address {client_address.get()}"
 
@@ -101,7 +101,10 @@ def refuse(diagnostics: list[dict[str, Any]]) -> NoReturn:
 
 
 def built_in_universe(files: Mapping[str, bytes], name: str) -> bytes | None:
-    """Returns the document of a built-in universe, if the project has robots that may be placed in it."""
+    """Returns the document of a built-in universe, if the project has robots that may be placed in it.
+
+    Otherwise None.
+    """
     path = UNIVERSES / f"{name}.yaml"
     has_robots = any(path.startswith("robots/") for path in files)
     return path.read_bytes() if has_robots and path in UNIVERSES.glob("*.yaml") else None

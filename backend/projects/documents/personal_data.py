@@ -1,7 +1,7 @@
 """The download of all data of one user.
 
-It is a zip with `account.json`, and each of the user's projects as the zip of an export. It is made in a
-file, one project after the other: neither memory nor a thread holds all of it.
+It is a zip with `account.json`, and each of the user's projects as the zip of an export. The zip is made in a
+file, one project after the other, so that it is never completely in memory and occupies no thread.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 
 def write_archive(user: User, file: IO[bytes]) -> None:
-    """Writes the zip; waits for each part."""
+    """Writes the zip to the file; waits until each project is packed."""
     packing = _Packing(user, file)
     while (project := packing.next()) is not None:
         packing.add(project, zips.pack(queries.contents(project)))
@@ -47,8 +47,8 @@ def answer_with_archive(
     """Answers with the zip; workers pack the projects without blocking a thread.
 
     Raises:
-        AlreadyThereError: one is being made for this user.
-        NoRoomError, BusyError: too many large files are on their way, or too much work waits.
+        AlreadyThereError: a zip is already being made for this user.
+        NoRoomError, BusyError: too many large files are being sent, or too many jobs wait.
     """
     file = scratch().file(key=f"data of {user.pk}")
     try:
@@ -104,7 +104,7 @@ class _Packing:
         self._left: deque[UUID] = deque(rows.values_list("id", flat=True))
 
     def next(self) -> Project | None:
-        """Returns the next project; skips those that were removed meanwhile."""
+        """Returns the next project, or None at the end; skips projects that were removed meanwhile."""
         while self._left:
             project = Project.objects.filter(id=self._left.popleft()).first()
             if project is not None:

@@ -20,7 +20,7 @@ _IGNORED: Final = frozenset({"__pycache__", ".git", ".ruff_cache", ".mypy_cache"
 
 @dataclass(frozen=True, slots=True)
 class Template:
-    """A template as the start page shows it."""
+    """A template in the form in which the start page shows it."""
 
     id: str
     name: str
@@ -31,7 +31,7 @@ class Template:
 
 
 def templates() -> list[Template]:
-    """Returns the empty project first, then the examples by name."""
+    """Returns the templates: the empty project first, then the examples by name."""
     folder = environment().templates_dir
     found = (
         sorted(path.name for path in folder.iterdir() if (path / MANIFEST).is_file())
@@ -83,8 +83,8 @@ def _empty_project() -> dict[str, bytes]:
         "format": "bt-studio/diagram",
         "version": 1,
         "id": "MainTree",
-        "root": "n1",
-        "nodes": {"n1": {"type": "Sequence", "children": []}},
+        "root": None,
+        "nodes": {},
         "drafts": [],
         "layout": "vertical",
     }

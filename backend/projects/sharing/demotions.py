@@ -1,4 +1,4 @@
-"""Sends notices when a user's role in a project ends or becomes lower, whatever the cause."""
+"""Sends notices when a user's role in a project ends or becomes lower, for any reason."""
 
 from __future__ import annotations
 

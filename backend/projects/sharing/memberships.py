@@ -1,4 +1,4 @@
-"""Writes to the members of a project, by its owner alone."""
+"""Writes to the members of a project; only the owner may make them."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ CHANGED = "Someone changed meanwhile with whom this project is shared."
 
 
 def shares(project: Project) -> dict[str, Any]:
-    """Returns the people, groups and links that a project is shared with."""
+    """Returns the people, groups and links with which a project is shared."""
     people = Membership.objects.filter(project=project).select_related("user").order_by("user__username")
     classes = GroupShare.objects.filter(project=project).select_related("group").order_by("group__name")
     ids = ShareLink.objects.filter(project=project, revoked_at=None).values_list("id", flat=True)
@@ -59,7 +59,7 @@ def etag(document: dict[str, Any]) -> str:
 
 
 def owned(project_id: UUID, user: User, if_match: str) -> Project:
-    """Returns the project, locked, if the user is its owner; `if_match` is the ETag of `shares`."""
+    """Returns the project and locks it, if the user is its owner. `if_match` is the ETag of `shares`."""
     project = queries.project(project_id, user=user, need=Need.MANAGE, lock=True)
     if if_match:
         matches(if_match, etag(shares(project)), CHANGED)
@@ -74,7 +74,7 @@ def share_with_person(
 
     Raises:
         NotFoundError: there is no such account.
-        InvalidInputError: it is the owner's own.
+        InvalidInputError: the account is that of the owner.
     """
     project = owned(project_id, acting_user, if_match)
     person = user_named(name)
@@ -95,10 +95,10 @@ def share_with_person(
 
 @transaction.atomic
 def unshare_with_person(project_id: UUID, name: str, *, acting_user: User, if_match: str = "") -> Project:
-    """Removes the role of a person; users can remove their own.
+    """Removes the role of a person. Users can remove their own role.
 
     Raises:
-        NotFoundError: the project is not shared with them.
+        NotFoundError: the project is not shared with the person.
     """
     if name == acting_user.username:
         project = queries.project(project_id, user=acting_user, need=Need.COPY, lock=True)
@@ -139,7 +139,10 @@ def unshare_with_group(project_id: UUID, group_id: UUID, *, acting_user: User, i
 
 @transaction.atomic
 def make_link(project_id: UUID, *, acting_user: User, days: int | None, if_match: str = "") -> Project:
-    """Makes a link with which anyone can read the project, without limit or for some days."""
+    """Makes a link with which anyone can read the project.
+
+    It is valid for some days, or without limit if `days` is None.
+    """
     project = owned(project_id, acting_user, if_match)
     now = timezone.now()
     made = ShareLink.objects.create(

@@ -28,9 +28,12 @@ if TYPE_CHECKING:
 
 @transaction.atomic
 def transfer_project(project_id: UUID, name: str, *, acting_user: User, if_match: str = "") -> Project:
-    """Makes one of a project's editors its owner; only editors, so that the new owner knows the project.
+    """Makes an editor of a project its owner.
 
-    The project counts towards the new owner's quota, and gets a number if they have one of the same name.
+    The person must be an editor, so that the new owner knows the project.
+
+    The project counts towards the new owner's quota. Its name gets a number if the new owner has a project of
+    the same name.
 
     Raises:
         InvalidInputError: the person is not an editor of the project.

@@ -1,8 +1,8 @@
 """Decides who may access a project, for every endpoint and socket.
 
-A `Project` is only returned through `gate`, and the caller names the purpose. A user's role is the highest
-of: owner; the role with which the project is shared with them or with one of their groups; viewer, if they
-opened a read-only link.
+A `Project` is returned only through `gate`, and the caller names the purpose. A user has the highest of these
+roles: owner; the role with which the project is shared with the user or with one of the user's groups;
+viewer, if the user opened a read-only link.
 
 | need | role | for example |
 | --- | --- | --- |
@@ -11,7 +11,7 @@ opened a read-only link.
 | `WRITE` | editor | save, rename, settings, drafts, restore a revision, label |
 | `MANAGE` | owner | archive, delete, restore, share |
 
-A user without a role gets 404, as if the project did not exist; one whose role is too low gets 403
+A user without a role gets 404, as if the project did not exist; a user whose role is too low gets 403
 `role_too_low`.
 """
 
@@ -40,7 +40,7 @@ NOT_FOUND: Final = "There is no such project."
 
 
 class Need(Enum):
-    """The purpose of an access. It defines the lowest role, and whether an account is required."""
+    """The purpose of an access. It determines the lowest role, and whether an account is required."""
 
     READ = (Role.VIEWER, False)
     COPY = (Role.VIEWER, True)
@@ -60,7 +60,7 @@ class Need(Enum):
 
 
 class RoleTooLowError(StudioError):
-    """The user may see the project, but their role does not suffice for this."""
+    """The user may see the project, but their role does not permit the operation."""
 
     status = 403
     code = "role_too_low"
@@ -68,11 +68,11 @@ class RoleTooLowError(StudioError):
 
 
 def gate(project: Project | None, *, user: User, need: Need) -> Project:
-    """Returns the project, whose role `with_role` set, if the role suffices.
+    """Returns the project if the user's role suffices; `with_role` or `find_role` must have set the role.
 
     Raises:
-        NotFoundError: there is none, or the user may not know of it.
-        RoleTooLowError: the user may see it, but the role does not suffice.
+        NotFoundError: the project does not exist, or the user may not know of it.
+        RoleTooLowError: the user may see the project, but the role does not suffice.
     """
     role = Role(getattr(project, "rank", Role.NONE)) if project is not None else Role.NONE
     if project is None or role == Role.NONE:
@@ -98,7 +98,7 @@ def _article(role: Role) -> str:
 
 
 def find_role(project: Project, user: User) -> None:
-    """Sets the user's role on a project as `with_role` does; needs no query for their own projects."""
+    """Sets the user's role on a project as `with_role` does. A user's own project needs no query."""
     if project.owner_id == user.pk:
         project.owner, project.rank = user, Role.OWNER.value  # type: ignore[attr-defined]
         return
@@ -111,7 +111,8 @@ def find_role(project: Project, user: User) -> None:
 def find_roles(projects: Iterable[Project], user: User) -> None:
     """Sets the user's role on the projects, with one query for those of other owners.
 
-    Building the SQL of `with_role` takes longer than the rest of a list, and most lists hold own projects.
+    Building the SQL of `with_role` takes longer than the rest of a list, and most lists hold only the user's
+    own projects.
     """
     others = {}
     for project in projects:
@@ -170,7 +171,7 @@ def open_links(ids: Iterable[UUID]) -> QuerySet[ShareLink]:
 
 
 def visible(rows: QuerySet[Project], user: User) -> QuerySet[Project]:
-    """Returns the projects that the user owns or that are shared with them, without those of links."""
+    """Returns the user's own projects and those shared with the user, without those of read-only links."""
     mine = Q(owner=user)
     shared = Q(pk__in=Membership.objects.filter(user=user).values("project")) | Q(
         pk__in=GroupShare.objects.filter(group__member_rows__user=user).values("project")

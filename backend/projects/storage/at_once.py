@@ -1,7 +1,9 @@
-"""The fast path of a save on PostgreSQL: one statement locks and reads the project, one writes everything.
+"""The fast path of a save on PostgreSQL.
 
-Django's ORM needs eight statements for the same (`rows.locked`, `rows.store`; tests compare both). It builds
-the SQL again at each use, and each statement costs a round trip.
+One statement locks and reads the project, another one writes all rows.
+
+Django's ORM needs eight statements for the same (`rows.locked`, `rows.store`; tests compare both). The ORM
+builds the SQL again at each use, and each statement costs a round trip.
 """
 
 from __future__ import annotations
@@ -23,11 +25,11 @@ if TYPE_CHECKING:
     from backend.projects.storage.rows import Writing
 
 BLOBS: Final = "blobs"
-"""The name of the lock that keeps the garbage collection away from blobs that a save is about to use."""
+"""The name of the lock that keeps the garbage collection from removing blobs that a save is about to use."""
 FILES: Final = 20
-"""The largest number of files in one statement; larger changes use the ORM.
+"""The largest number of files in one statement; changes of more files use the ORM.
 
-Each number of files makes another statement for PostgreSQL to plan.
+For each number of files, PostgreSQL plans another statement.
 """
 
 _CHANGE: Final = ("project", "number", "author", "message", "label", "created_at")
@@ -43,7 +45,7 @@ _OTHERS: Final = "bytes_of_others"
 
 
 def is_here() -> bool:
-    """Whether the database is PostgreSQL, for which the statements are written."""
+    """Whether the database is PostgreSQL, which these statements require."""
     return connection.vendor == "postgresql"
 
 
@@ -53,7 +55,7 @@ def has_room(writing: Writing) -> bool:
 
 
 def locked(project_id: UUID) -> Project | None:
-    """Returns a project that is not deleted, and takes its lock and that of the blobs.
+    """Returns a project that is not deleted, or None; takes the locks of the project and of the blobs.
 
     The statement also reads what `taken_by_others` returns.
     """
@@ -61,7 +63,10 @@ def locked(project_id: UUID) -> Project | None:
 
 
 def taken_by_others(project: Project) -> int | None:
-    """Returns the bytes of the owner's other projects if `locked` read this project, else None."""
+    """Returns the bytes of the owner's other projects, if `locked` has read them for this project.
+
+    Otherwise None.
+    """
     return vars(project).get(_OTHERS)
 
 
@@ -115,7 +120,7 @@ def _field(model: type[Model], name: str) -> Field[Any, Any]:
 
 @lru_cache(maxsize=256)
 def _sql(blobs: int, revisions: int, files: int, drafts: int) -> str:
-    """Returns the statement for these numbers of rows.
+    """Returns the SQL statement that writes these numbers of rows.
 
     PostgreSQL runs all parts of a statement on one snapshot, so none may depend on rows that another part
     writes.
@@ -138,7 +143,10 @@ def _sql(blobs: int, revisions: int, files: int, drafts: int) -> str:
 
 
 def _insert(model: type[Model], names: Sequence[str], rows: int, *, of: str = "") -> str:
-    """Returns the part that inserts `rows` rows; with `of`, their first column is the key from that part."""
+    """Returns the `INSERT` clause for `rows` rows.
+
+    With `of`, the first column of each row is the `id` that the clause `of` selects.
+    """
     columns = ", ".join([f"{of}_id"] * bool(of) + [str(_field(model, name).column) for name in names])
     row = _places(len(names), f"(SELECT id FROM {of})" if of else "")  # noqa: S608 - as above
     return f"INSERT INTO {_table(model)} ({columns}) VALUES {', '.join([row] * rows)}"  # noqa: S608 - as above

@@ -1,7 +1,7 @@
 """Limits of the trees of a project. A project that already exceeds a limit may shrink but must not grow.
 
-Parsing diagrams at each save would be slow. So nodes are counted only if the size in bytes, and then the
-number of occurrences of a mark that each node contains, allow too many.
+Parsing diagrams at each save would be slow. So nodes are counted exactly only if two estimates permit too
+many nodes: the size in bytes, and the number of occurrences of a mark that each node contains.
 """
 
 from __future__ import annotations
@@ -67,14 +67,14 @@ def _require(number: int, before: int, limit: str, what: str) -> None:
 
 
 class _Contents:
-    """The bytes of diagrams, and the number of their nodes."""
+    """The bytes of diagrams, and their numbers of nodes."""
 
     def __init__(self, written: Mapping[str, bytes]) -> None:
         self._written = written
         self._nodes: dict[str, int] = {}
 
     def may_exceed(self, trees: Sequence[_Tree], most: int) -> bool:
-        """Whether the trees could have more nodes than `most`, as estimated without parsing them."""
+        """Whether the trees could have more than `most` nodes, by an estimate that needs no parsing."""
         if sum(tree.size for tree in trees) <= most * NODE_BYTES:
             return False
         return sum(self._data(tree).count(MARK) for tree in trees) > most

@@ -1,7 +1,7 @@
 """Caches recently used contents and lists of files, so that a save does not fetch them again.
 
-The key of a content is its hash, so an entry is never out of date. The key of a list of files is the
-project's revision and its time, which the project's row contains.
+The key of a content is its hash, so an entry is never out of date. The key of a list of files is the revision
+of the project and its time, both of which are in the project's row.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ LARGEST: Final = 256 * 1024
 ROOM: Final = 48 * 1024 * 1024
 """Bytes of all contents that this process caches."""
 FILES: Final = 40_000
-"""Files in all lists that this process caches; more than one project may have."""
+"""Number of files in all lists that this process caches; it is larger than that of one project."""
 
 
 class _List(NamedTuple):
@@ -62,7 +62,10 @@ def contents(wanted: Iterable[str]) -> dict[str, bytes]:
 
 
 def put_files(project: Project, files: Mapping[str, Existing]) -> None:
-    """Caches the files of the current revision of a locked project, or of the one that a save just made."""
+    """Caches the files of a locked project.
+
+    They are those of its current revision, or of the one that a save has just made.
+    """
     if len(files) <= FILES:
         with _lock:
             kept_lists[project.pk] = _List(project.revision, project.updated_at, files)

@@ -1,8 +1,8 @@
 """Computes the effect of a change set on a project's files; does no I/O.
 
 For each file a client sends the revision on which its edit is based: the file's own revision, or that of the
-whole project when the file was read. Revisions only grow, so both show whether the file has changed since. 0
-means that the file must not exist yet.
+whole project when the file was read. Revisions only grow, so both show whether the file has changed since.
+The revision 0 means that the file must not exist yet.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Content:
-    """Bytes with their hash, by which they are stored."""
+    """Bytes with the hash by which they are stored."""
 
     data: bytes = field(repr=False)
     sha256: str = ""
@@ -45,7 +45,7 @@ class FileChange:
 
 @dataclass(frozen=True, slots=True)
 class Existing:
-    """A file as it is now."""
+    """A file in its current state."""
 
     path: str
     revision: int
@@ -55,7 +55,7 @@ class Existing:
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """A file after the change. Without `content`, its bytes are those of the blob `sha256`."""
+    """A file after the change. If `content` is None, its bytes are those of the blob `sha256`."""
 
     path: str
     sha256: str
@@ -66,7 +66,7 @@ class Written:
 
 @dataclass(frozen=True, slots=True)
 class Conflict:
-    """A file whose base revision is stale; `theirs` is the current file, or None if it is gone."""
+    """A file whose base revision is stale; `theirs` is the current file, or None if the file was removed."""
 
     change: FileChange
     path: str
@@ -95,7 +95,7 @@ def plan(current: Mapping[str, Existing], wanted: Sequence[FileChange]) -> Plan:
         wanted: the changes; paths are already checked by `names.file_path`.
 
     Raises:
-        InvalidInputError: the request contradicts itself or gives two files one name.
+        InvalidInputError: the request is contradictory, or gives two files the same name.
     """
     _refuse_duplicates(wanted)
     by_key = {names.key(existing.path): existing for existing in current.values()}
@@ -143,7 +143,7 @@ def _conflict(
 
 
 def _is_same(change: FileChange, existing: Existing) -> bool:
-    """Whether the file already has the requested state, so that a repeated save is no conflict."""
+    """Whether the file already has the requested state. A repeated save then does not count as a conflict."""
     return change.content is not None and not change.rename_to and change.content.sha256 == existing.sha256
 
 
@@ -166,7 +166,7 @@ def _refuse_duplicates(wanted: Sequence[FileChange]) -> None:
 
 
 def _refuse_collisions(current: Mapping[str, Existing], result: Plan) -> None:
-    """Refuses two paths that some file systems cannot tell apart, and a file with the path of a folder."""
+    """Refuses two paths that some file systems cannot distinguish, and a file with the path of a folder."""
     paths = [path for path in current if path not in set(result.removed)]
     paths += [w.path for w in result.written if w.path not in current or w.path in result.removed]
     owners: dict[str, str] = {}

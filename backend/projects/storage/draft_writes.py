@@ -26,11 +26,11 @@ CHANGED = "The draft has changed, in another tab perhaps."
 def save_draft(  # noqa: PLR0913 - a draft's columns
     project_id: UUID, path: str, *, acting_user: User, base_revision: int, content: str, if_match: str = ""
 ) -> Draft:
-    """Stores the unsaved text of a user; it replaces the user's earlier draft of the file.
+    """Stores the unsaved text of a user, and replaces the user's earlier draft of the file.
 
     Raises:
         PreconditionFailedError: `if_match` is not the ETag of the existing draft.
-        QuotaExceededError: it is larger than a file may be.
+        QuotaExceededError: the text is larger than a file may be.
     """
     project = queries.project(project_id, user=acting_user, need=Need.WRITE, lock=True)
     path = names.writable_path(path)
@@ -46,7 +46,7 @@ def save_draft(  # noqa: PLR0913 - a draft's columns
 
 @transaction.atomic
 def discard_draft(project_id: UUID, path: str, *, acting_user: User, if_match: str = "") -> None:
-    """Deletes a draft, if there is one."""
+    """Deletes a draft, if it exists."""
     project = queries.project(project_id, user=acting_user, need=Need.WRITE)
     rows = Draft.objects.filter(project=project, author=acting_user, path=names.file_path(path))
     matches(if_match, queries.draft_etag(rows.first()) if if_match else "", CHANGED)

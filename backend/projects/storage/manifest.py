@@ -31,7 +31,7 @@ def read(raw: bytes) -> Manifest:
     """Reads a `project.json`.
 
     Raises:
-        InvalidInputError: it is not a JSON object, or one of these fields is not a text, or is too long.
+        InvalidInputError: the file is not a JSON object, or one of these fields is not a text or is too long.
     """
     try:
         document = json.loads(raw.decode("utf-8-sig"), parse_constant=_refuse)

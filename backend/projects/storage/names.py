@@ -35,7 +35,7 @@ def project_name(name: str, *, field: str = "name") -> str:
     """Returns the name of a project in the form that is stored.
 
     Raises:
-        InvalidInputError: it is not a valid name of a project.
+        InvalidInputError: the name is not valid for a project.
     """
     clean = unicodedata.normalize("NFC", name).strip()
     if not clean:
@@ -57,7 +57,7 @@ def file_path(path: str, *, field: str = "path") -> str:
     """Returns the path in the form that is stored: relative, with `/`, in NFC.
 
     Raises:
-        InvalidInputError: it is not a valid path of a file in a project.
+        InvalidInputError: the path is not valid for a file of a project.
     """
     clean = unicodedata.normalize("NFC", path)
     if not clean:
@@ -81,7 +81,7 @@ def writable_path(path: str, *, field: str = "path") -> str:
     """Returns the path of a file to write, in the form that is stored.
 
     Raises:
-        InvalidInputError: it is not a valid path, or is inside of a folder of a tool.
+        InvalidInputError: the path is invalid, or is inside of a folder of a tool.
     """
     clean = file_path(path, field=field)
     if is_of_tool(clean):
@@ -95,7 +95,7 @@ def writable_path(path: str, *, field: str = "path") -> str:
 
 
 def is_of_tool(path: str) -> bool:
-    """Whether a file belongs to a tool, such as `.git/config`; the translator has the rule."""
+    """Whether a file belongs to a tool, such as `.git/config`; the translator defines the rule."""
     from translator.foreign import is_of_tool as rule  # noqa: PLC0415 - keeps the start of the server short
 
     return rule(path)

@@ -1,4 +1,4 @@
-"""All reads of projects. The number of queries of each does not grow with the project."""
+"""All functions that read projects. The number of queries of each does not grow with the project."""
 
 from __future__ import annotations
 
@@ -27,7 +27,10 @@ if TYPE_CHECKING:
     from backend.projects.storage.changes import Existing
 
 LARGEST_DRAWN: Final = 256 * 1024
-"""The largest main tree, in bytes, on a project's card. Larger ones would make the list take seconds."""
+"""The largest main tree, in bytes, that is drawn on a project's card.
+
+Larger trees would make the list take seconds.
+"""
 
 Sort = Literal["name", "-name", "updated_at", "-updated_at", "created_at", "-created_at"]
 Shelf = Literal["current", "archived", "deleted"]
@@ -50,7 +53,7 @@ class StoredFile:
 
 
 def as_text(data: bytes) -> str | None:
-    """Returns the bytes as text, or None if they are not UTF-8 or contain NUL."""
+    """Returns the bytes as text; None if they are not UTF-8 or contain NUL."""
     if b"\0" in data:
         return None
     try:
@@ -60,27 +63,38 @@ def as_text(data: bytes) -> str | None:
 
 
 def etag(project: Project) -> str:
-    """Returns the ETag of a project, which changes with every revision and all other data of the answer."""
+    """Returns the ETag of a project.
+
+    It changes with every revision, and with all other data of the answer.
+    """
     shelf = "archived" if project.archived_at else "current"
     return f'"{project.revision}-{shelf}-{project.role.label}-{__version__}"'
 
 
 def revision_etag(change: ChangeSet) -> str:
-    """Returns the ETag of a revision, which changes with its label; nothing else of it can change."""
+    """Returns the ETag of a revision.
+
+    It changes with the label, since nothing else of a revision can change.
+    """
     return f'"{change.number}-{hashlib.sha256(change.label.encode()).hexdigest()[:16]}"'
 
 
 def draft_etag(draft: Draft | None) -> str:
-    """Returns the ETag of a draft: it changes with every save. A draft that does not exist has one, too."""
+    """Returns the ETag of a draft.
+
+    It changes with every save; a draft that does not exist has an ETag too.
+    """
     return f'"{draft.updated_at.isoformat()}"' if draft is not None else '"none"'
 
 
 def project(project_id: UUID, *, user: User, need: Need, lock: bool = False) -> Project:
-    """Returns the project if this user's role suffices; `lock` locks it until the end of the transaction.
+    """Returns the project if the user's role suffices.
+
+    With `lock`, locks it until the end of the transaction.
 
     Raises:
-        NotFoundError: there is none, or the user may not know of it.
-        RoleTooLowError: the user may see it, but the role does not suffice.
+        NotFoundError: the project does not exist, or the user may not know of it.
+        RoleTooLowError: the user may see the project, but the role does not suffice.
     """
     found = rows.project(project_id, lock=lock)
     if found is not None:
@@ -97,7 +111,7 @@ def project_named(name: str, *, user: User) -> Project:
 
 
 def deleted_project(project_id: UUID, *, user: User) -> Project:
-    """Returns the owner's project, deleted or not, and locks it until the end of the transaction."""
+    """Returns the owner's project, deleted or not; locks it until the end of the transaction."""
     rows = Project.objects.select_related("owner").select_for_update(of=("self",)).filter(id=project_id)
     found = access.with_role(rows, user).first()
     if found is not None and found.deleted_at is not None and found.owner_id != user.pk:
@@ -108,7 +122,7 @@ def deleted_project(project_id: UUID, *, user: User) -> Project:
 def projects(
     *, user: User, search: str = "", sort: Sort = "-updated_at", shelf: Shelf = "current"
 ) -> QuerySet[Project]:
-    """Returns the projects that the user owns or shares whose name or description has each searched word."""
+    """Returns the user's own and shared projects whose name or description contains every searched word."""
     if shelf == "deleted":
         rows = Project.objects.filter(owner=user).exclude(deleted_at=None)
     else:
@@ -123,7 +137,7 @@ def projects(
 
 
 def page(rows: QuerySet[Project], start: int, end: int, *, user: User) -> tuple[list[Project], int]:
-    """Returns the projects from `start` to `end`, each with the user's role, and how many there are."""
+    """Returns the projects from `start` to `end`, each with the user's role, and the number of all."""
     found = list(rows[start:end])
     access.find_roles(found, user)
     for row in found:
@@ -164,14 +178,20 @@ def root_diagram(data: bytes) -> dict[str, Any] | None:
 
 
 def existing_files(project: Project) -> dict[str, Existing]:
-    """Returns the current files without bytes; for a project that a write returned, those that it left."""
+    """Returns the current files without their bytes.
+
+    For a project that a write returned, they are those after the write.
+    """
     if project.now is not None:
         return dict(project.now)
     return cache.files(project) or rows.existing(project)
 
 
 def current_files(project: Project, paths: Sequence[str] | None = None) -> dict[str, StoredFile]:
-    """Returns the current files (all, or these) with their bytes, ordered by path, in one or two queries."""
+    """Returns the current files with their bytes, ordered by path.
+
+    Without `paths` they are all files; one or two queries are needed.
+    """
     rows = CurrentFile.objects.filter(project=project)
     if paths is not None:
         rows = rows.filter(path__in=paths)
@@ -198,7 +218,7 @@ def change_set(project: Project, number: int) -> ChangeSet:
 def history(
     project: Project, *, path: str = "", before: int | None = None, limit: int = 100
 ) -> list[ChangeSet]:
-    """Returns change sets with their files, the newest first: all, or those that changed one path."""
+    """Returns change sets with their files, the newest first: all, or those that changed the file `path`."""
     rows = ChangeSet.objects.filter(project=project).select_related("author").prefetch_related("files")
     if path:
         rows = rows.filter(files__path=path)
@@ -231,7 +251,7 @@ def files_at(project: Project, number: int, paths: Sequence[str] | None = None) 
 def differing(
     older: Mapping[str, StoredFile], newer: Mapping[str, StoredFile]
 ) -> tuple[dict[str, str | None], dict[str, str | None]]:
-    """Returns the files that differ, as text, for each state; None stands for a file that is not text."""
+    """Returns the files that differ, for each state, as text; None stands for a file that is not text."""
     paths = [
         path
         for path in {*older, *newer}
@@ -253,7 +273,7 @@ def file_at(project: Project, number: int, path: str) -> StoredFile:
 
 
 def drafts(project: Project, *, user: User) -> list[Draft]:
-    """Returns the drafts of this user, which are unsaved texts."""
+    """Returns the drafts of this user in the project; drafts are unsaved texts."""
     return list(Draft.objects.filter(project=project, author=user).order_by("path"))
 
 

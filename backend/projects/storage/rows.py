@@ -1,7 +1,8 @@
 """Reads and writes the rows of a save.
 
-All statements here use the ORM. On PostgreSQL, a save uses two SQL statements instead (`at_once`), since the
-ORM would need eight and builds the SQL again at each use. Tests compare the results of both.
+All functions of this module can use the ORM. On PostgreSQL, a save uses two SQL statements instead
+(`at_once`), since the ORM would need eight, and builds the SQL again at each use. Tests compare the results
+of both ways.
 """
 
 from __future__ import annotations
@@ -30,19 +31,20 @@ class Writing(NamedTuple):
 
     change: ChangeSet
     blobs: Sequence[tuple[str, int, bytes]]
-    """Hash, size and bytes of contents."""
+    """Hash, size and bytes of each content."""
     revisions: Sequence[tuple[str, str | None, str]]
     """Path, blob and earlier path of each changed file."""
     files: Sequence[tuple[str, str, str]]
     """Path, key of the path, and blob of each current file."""
     drafts: Sequence[str]
-    """Paths of files whose drafts by the author are now saved, and so deleted."""
+    """Paths of files whose drafts by the author are now saved, and are therefore deleted."""
 
 
 def project(project_id: UUID, *, lock: bool = False) -> Project | None:
     """Returns a project that is not deleted, or None.
 
-    With `lock`, nobody else writes to it until the transaction ends, and no blob is garbage-collected.
+    With `lock`, no other transaction writes to the project until this one ends, and no blob is
+    garbage-collected.
     """
     if not lock:
         return Project.objects.filter(pk=project_id, deleted_at=None).first()
@@ -50,7 +52,7 @@ def project(project_id: UUID, *, lock: bool = False) -> Project | None:
 
 
 def locked(project_id: UUID) -> Project | None:
-    """Returns the project and takes its locks, by the ORM."""
+    """Returns the project by the ORM, and takes its locks; None if it does not exist."""
     transaction_lock(BLOBS, shared=True)
     return Project.objects.select_for_update().filter(pk=project_id, deleted_at=None).first()
 
@@ -76,13 +78,13 @@ def action_blobs(projects: Sequence[UUID], paths: Sequence[str]) -> dict[tuple[U
 
 
 def taken_by_others(project: Project) -> int:
-    """Returns the bytes that all other projects of the owner take."""
+    """Returns the bytes of all other projects of the owner."""
     known = at_once.taken_by_others(project)
     return summed_others(project) if known is None else known
 
 
 def summed_others(project: Project) -> int:
-    """Returns the same by the ORM."""
+    """Returns the bytes of all other projects of the owner, by the ORM."""
     others = Project.objects.filter(owner_id=project.owner_id, deleted_at=None).exclude(pk=project.pk)
     return int(others.aggregate(total=Sum("size"))["total"] or 0)
 
@@ -96,7 +98,7 @@ def write(writing: Writing) -> None:
 
 
 def store(writing: Writing) -> None:
-    """Does the same by the ORM, for SQLite and for changes of many files."""
+    """Stores a change set with its files by the ORM, for SQLite and for changes of many files."""
     change = writing.change
     forget_drafts(change.project, change.author_id, writing.drafts)
     change.save(force_insert=True)

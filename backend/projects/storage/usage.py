@@ -46,7 +46,7 @@ def room_for_archive(user: User) -> int:
 
 
 def usage(user: User) -> dict[str, int]:
-    """Returns the space that one user takes, and the quota."""
+    """Returns the number and bytes of a user's projects, and the quota."""
     limits = environment()
     rows = Project.objects.filter(owner=user, deleted_at=None)
     found = rows.aggregate(kept=Count("id"), used=Sum("size"))

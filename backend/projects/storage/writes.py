@@ -1,4 +1,4 @@
-"""All writes to projects. Each function is one transaction; views only parse requests and build answers."""
+"""All writes to projects. Each function is one transaction; views only parse requests and make answers."""
 
 from __future__ import annotations
 
@@ -41,15 +41,15 @@ def create_project(
     """Makes a project of these files.
 
     Args:
-        files: contents by path; `project.json` is added if it is missing.
+        files: the contents by path; `project.json` is added if it is missing.
         acting_user: the owner of the new project.
-        name: the name; without one, that of `project.json`, with a number if it is taken.
+        name: the name of the project; "" takes the name in `project.json`, with a number if that is taken.
         message: the message of the first change set.
 
     Raises:
-        NameTakenError: another project has the name `name`.
+        NameTakenError: another project of the user has the name `name`.
         InvalidInputError: a path or `project.json` is invalid.
-        QuotaExceededError: it is too large.
+        QuotaExceededError: the project is too large.
     """
     checked = {names.writable_path(path): data for path, data in files.items()}
     manifest = read(checked.get(MANIFEST, b"{}"))
@@ -135,7 +135,7 @@ def edit_settings(  # noqa: PLR0913 - the fields that a request may change
 def restore_revision(
     project_id: UUID, number: int, *, acting_user: User, paths: Sequence[str] = (), if_match: str = ""
 ) -> Project:
-    """Restores files (all, if none are named) of an old revision as a new revision."""
+    """Restores files of an old revision as a new revision: those of `paths`, or all if it is empty."""
     project = _locked(project_id, acting_user)
     require_match(project, if_match)
     then = queries.files_at(project, number)
@@ -159,7 +159,7 @@ def restore_revision(
 
 
 def _keeping_name(change: FileChange, project: Project) -> FileChange:
-    """Keeps the current name in a restored `project.json`: the old name may be taken now."""
+    """Keeps the current name in a restored `project.json`, since the old name may be taken now."""
     if change.path != MANIFEST or change.content is None:
         return change
     document = dict(read(change.content.data).document) | {"name": project.name}
@@ -190,7 +190,7 @@ def duplicate_project(project_id: UUID, *, acting_user: User, name: str = "") ->
 
 @transaction.atomic
 def delete_project(project_id: UUID, *, acting_user: User, if_match: str = "") -> None:
-    """Marks a project as deleted; `restore_project` restores it until garbage is collected."""
+    """Marks a project as deleted; until its garbage is collected, `restore_project` can restore it."""
     project = _locked(project_id, acting_user, Need.MANAGE)
     require_match(project, if_match)
     project.deleted_at = timezone.now()
@@ -234,7 +234,7 @@ def _revive(project: Project, name: str, acting_user: User) -> None:
 
 @transaction.atomic
 def set_archived(project_id: UUID, *, acting_user: User, archived: bool, if_match: str = "") -> Project:
-    """Moves a project to the archive, or back."""
+    """Moves a project to the archive, or out of it."""
     project = _locked(project_id, acting_user, Need.MANAGE)
     require_match(project, if_match)
     project.archived_at = (project.archived_at or timezone.now()) if archived else None
@@ -244,7 +244,7 @@ def set_archived(project_id: UUID, *, acting_user: User, archived: bool, if_matc
 
 @transaction.atomic
 def collect_garbage(*, now: datetime | None = None) -> int:
-    """Removes data that nobody can reach any more; returns the number of removed blobs."""
+    """Removes data that can no longer be reached; returns the number of removed blobs."""
     now = now or timezone.now()
     limits = environment()
     # A save may be about to use a blob to which no row refers yet.
@@ -257,7 +257,7 @@ def collect_garbage(*, now: datetime | None = None) -> int:
 
 
 def require_match(project: Project, if_match: str) -> None:
-    """Raises PreconditionFailedError if the `If-Match` header does not name the newest revision."""
+    """Raises a PreconditionFailedError if the `If-Match` header does not name the newest revision."""
     matches(if_match, queries.etag(project), f"The newest revision is {project.revision}.", project.revision)
 
 
@@ -406,7 +406,7 @@ def conflict_error(project: Project, conflicts: Sequence[Conflict]) -> RevisionC
 def _save_name(
     project: Project, *, force_insert: bool = False, update_fields: Sequence[str] | None = None
 ) -> None:
-    """Saves a project. The database checks the name, so that two requests cannot both take it."""
+    """Saves a project. The database checks the name, so that two requests cannot take the same name."""
     try:
         with transaction.atomic():
             project.save(force_insert=force_insert, update_fields=update_fields)

@@ -1,15 +1,15 @@
-"""The gate: passes sockets to containers without any network.
+"""The gate: passes sockets to containers that have no network.
 
-A session's container has no network, and nothing that it can write is shared with anyone. When it starts it
-connects to its door, a unix socket that it sees through a read-only mount, shows its token there, and is
-handed a socket that listens already, at a path that only the web server and the keeper see. From then on the
-web server and the session talk to each other alone; a restart of the gate, the keeper or the web server
-changes nothing.
+The container of a session has no network, and shares no folder that it can write. When it starts, it connects
+to its "door", a unix socket that it sees through a read-only mount, and sends its token. It receives a
+listening socket, whose path only the web server and the keeper see. From then on the web server and the
+session communicate directly; a restart of the gate, the keeper or the web server does not disturb them.
 
-The gate is a program and a container of its own, because every session may speak to it: it has no network,
-no Docker socket, no secrets, one thread, and bounds on everything. The standard library is all it uses:
+The gate is a separate program in its own container, because every session can send messages to it. It has no
+network, no Docker socket, no secrets and only one thread, and everything in it is limited. It uses only the
+standard library:
 
-    doors       `<32 random hex>/gate.sock`, a folder for each session, in a volume that nobody can list
+    doors       `<32 random hex>/gate.sock`, a folder for each session, in a volume that cannot be listed
     callers     connections that have not yet shown a token: their limits, and which are closed first
     server      the loop: opens doors for the keeper, and passes sockets to sessions
     client      the keeper's messages to the gate

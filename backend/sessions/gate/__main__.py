@@ -1,4 +1,4 @@
-"""`python -m backend.sessions.gate`: serves until a signal to end; sessions continue without it."""
+"""`python -m backend.sessions.gate`: serves until a signal to end; running sessions are not affected."""
 
 from __future__ import annotations
 

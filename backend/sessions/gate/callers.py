@@ -1,4 +1,4 @@
-"""Connections that have not yet shown a token: their limits, and which of them are closed first."""
+"""Connections that have not sent a token yet: their limits, and the order in which they are closed."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ if TYPE_CHECKING:
 
 @dataclass(eq=False, slots=True)
 class Caller:
-    """A connection.
+    """A connection to a door, or to the keeper's entrance.
 
     Attributes:
-        door: the name of the door where it came; empty for the keeper's own entrance.
-        deadline_s: the time by which its request must be complete.
+        door: the name of the door at which it arrived; "" for the keeper's entrance.
+        deadline_s: the time at which its request must be complete.
         heard: the bytes received so far.
-        descriptors: the descriptors received; closed if nobody takes them.
+        descriptors: the received file descriptors; closed if they are not used.
     """
 
     connection: socket.socket
@@ -29,7 +29,7 @@ class Caller:
 
 
 class Callers:
-    """Limits the callers at each door and in total; the oldest are closed first.
+    """Limits the connections at each door and in total; the oldest ones are closed first.
 
     Args:
         per_door: the limit at one door.
@@ -53,7 +53,7 @@ class Callers:
             yield from waiting
 
     def add(self, caller: Caller) -> list[Caller]:
-        """Admits a connection; returns the connections that the caller must close for it."""
+        """Admits a connection; returns the connections that must be closed for it."""
         waiting = self._by_door.setdefault(caller.door, {})
         gone = []
         if len(waiting) >= self._per_door:
@@ -67,7 +67,7 @@ class Callers:
         return gone
 
     def discard(self, caller: Caller) -> None:
-        """Forgets a connection, if it is known."""
+        """Removes a connection, if it is known."""
         waiting = self._by_door.get(caller.door, {})
         if caller not in waiting:
             return
@@ -77,12 +77,15 @@ class Callers:
             del self._by_door[caller.door]
 
     def first_to_go(self) -> Caller | None:
-        """Returns the oldest connection at the fullest door: a flood there does not affect others."""
+        """Returns the oldest connection at the door with the most connections.
+
+        So a flood at one door does not affect others.
+        """
         fullest = max(self._by_door.values(), key=len, default=None)
         return next(iter(fullest)) if fullest else None
 
     def overdue(self, now_s: float) -> list[Caller]:
-        """Returns the connections whose time is over."""
+        """Returns the connections whose deadline has passed."""
         return [caller for caller in self if caller.deadline_s <= now_s]
 
     def at(self, door: str) -> list[Caller]:

@@ -1,4 +1,4 @@
-"""The keeper's messages to the gate: a door is open for as long as a `Door` is."""
+"""The keeper's messages to the gate: a session's door is open while its `Door` object is open."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ RETRY_S: Final = 0.1
 
 
 class Door:
-    """One session's door.
+    """The door of one session: the unix socket at which the session fetches its listening socket.
 
-    A restarted gate knows no doors. The door is then opened again, with the same name, since the session has
+    A restarted gate knows no doors. The door is then opened again with the same name, since the session knows
     that name.
 
     Args:
-        control: where the gate listens for the keeper.
+        control: the path at which the gate listens for the keeper.
         listener: the socket for the session; the caller keeps it open until the door is closed.
     """
 
@@ -41,7 +41,7 @@ class Door:
 
     @property
     def path(self) -> str:
-        """Returns the path of the door in the folder of the doors."""
+        """The path of the door in the folder of the doors."""
         return f"{self.name}/{DOOR_SOCKET}"
 
     def __enter__(self) -> Self:
@@ -51,10 +51,10 @@ class Door:
         self.close()
 
     def open(self, timeout_s: float = OPEN_TIMEOUT_S) -> Self:
-        """Opens the door; waits for a gate that is starting.
+        """Opens the door; if the gate is starting, waits for it. Returns this object.
 
         Raises:
-            GateError: it does not answer, or refuses.
+            GateError: the gate does not answer, or refuses.
         """
         deadline_s = time.monotonic() + timeout_s
         while True:
@@ -71,7 +71,7 @@ class Door:
                 return self
 
     def wait(self, timeout_s: float) -> bool:
-        """Whether a session has fetched its socket before this time."""
+        """Waits until a session has fetched its socket; returns False if the time is over before."""
         deadline_s = time.monotonic() + timeout_s
         try:
             connection = self._connection or self._connect(timeout_s)
@@ -101,7 +101,7 @@ class Door:
         return connection
 
     def _hear(self, connection: socket.socket, timeout_s: float) -> bytes:
-        """One line of the gate."""
+        """Returns one line that the gate sends."""
         connection.settimeout(timeout_s)
         while b"\n" not in self._heard:
             data = connection.recv(MAX_LINE_BYTES)

@@ -1,7 +1,7 @@
 """The doors: `<32 random hex>/gate.sock`, a folder for each session that is starting.
 
-Every session sees the whole volume, since Docker before 25 cannot mount a part of one. The root may be
-entered but not read (0711), so that a door is found by those who were given its name and by nobody else.
+Every session sees the whole volume, since Docker before 25 cannot mount a part of one. The root of the volume
+may be entered but not listed (0711), so only a session that was given the name of a door can find it.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Doors:
     """The folders of the open doors.
 
     Raises:
-        GateError: the folder is not ours, or another gate uses it.
+        GateError: the folder belongs to another user, or another gate uses it.
     """
 
     def __init__(self, root: Path) -> None:
@@ -50,10 +50,10 @@ class Doors:
                 shutil.rmtree(left, ignore_errors=True)
 
     def make(self, name: str) -> socket.socket:
-        """Makes a door; returns the socket that listens there.
+        """Makes a door; returns the socket that listens at it.
 
         Raises:
-            OSError: the door exists already, or there is no space or descriptor for it.
+            OSError: the door exists already, or the disk space or the descriptors are exhausted.
         """
         folder = self._root / name
         folder.mkdir(mode=ENTER_ONLY)
@@ -71,7 +71,7 @@ class Doors:
         shutil.rmtree(self._root / name, ignore_errors=True)
 
     def close(self) -> None:
-        """Releases the folder for another gate."""
+        """Releases the folder, so that another gate can use it."""
         os.close(self._lock)
 
 

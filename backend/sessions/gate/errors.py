@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 class GateError(Exception):
-    """The gate cannot do what was asked, or does not answer."""
+    """The gate cannot carry out a request, or does not answer."""
 
     def __init__(self, code: str, detail: str, hint: str = "") -> None:
         super().__init__(f"{code}: {detail} {hint}".rstrip())

@@ -18,7 +18,7 @@ TIMEOUT_S: Final = 4.0
 
 
 def probe(control: Path, doors: Path, timeout_s: float = TIMEOUT_S) -> None:
-    """Returns when a socket was passed through the gate.
+    """Waits until a socket was passed through the gate.
 
     Raises:
         GateError: the gate does not answer or refuses.

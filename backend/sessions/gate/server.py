@@ -1,10 +1,11 @@
-"""The loop of the gate: one thread, which no connection can end.
+"""The loop of the gate: one thread, which no connection can block or end.
 
-The keeper's entrance takes one line of JSON and a listening socket: `{"door", "session", "token"}`. The
-answer is `open`, and `taken` when a session has fetched the socket; the door is open for as long as the
-keeper keeps its connection. Otherwise the answer is one of `REFUSALS`, and the connection is closed.
+At the entrance of the keeper, a request is one line of JSON, `{"door", "session", "token"}`, with a listening
+socket. The answer is `open`, and later `taken` when a session has fetched the socket. The door is open until
+the keeper closes its connection. Otherwise the answer is one of `REFUSALS`, and the connection is closed.
 
-A door takes one line of JSON: `{"session", "token"}`. The answer is `listen` with the socket, or `refused`.
+At a door, a request is one line of JSON, `{"session", "token"}`. The answer is `listen` with the socket, or
+`refused`.
 """
 
 from __future__ import annotations
@@ -52,14 +53,14 @@ IDLE_S: Final = 5.0
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """The limits of the gate. All doors and callers together take fewer than 1,024 descriptors.
+    """The limits of the gate. All doors and connections together need fewer than 1,024 descriptors.
 
     Attributes:
-        doors: sessions that start at the same time; each takes three descriptors.
-        per_door: connections at a door that have shown no token yet.
-        callers: the same at all doors.
-        hand_over_s: the time in which a connection must show its token.
-        age_s: the time in which a session must connect.
+        doors: sessions that start at the same time; each needs three descriptors.
+        per_door: connections at one door that have not sent a token yet.
+        callers: connections at all doors that have not sent a token yet.
+        hand_over_s: seconds in which a connection must send its token.
+        age_s: seconds in which a session must connect.
     """
 
     doors: int = 256
@@ -81,11 +82,11 @@ class _Door:
 
 
 class GateServer:
-    """Opens doors for the keeper and hands sockets to sessions.
+    """Opens doors for the keeper, and passes sockets to sessions.
 
     Args:
         doors: the folder of the doors.
-        control: the path of the keeper's entrance; only keeper and gate see its folder.
+        control: the path of the keeper's entrance, a socket in a folder that only keeper and gate see.
     """
 
     def __init__(
@@ -115,7 +116,7 @@ class GateServer:
         self._watch(self._control, partial(self._accept, self._control, ""))
 
     def serve(self) -> None:
-        """Serves until `end`."""
+        """Serves until `end` is called."""
         while not self._is_ended:
             self.step(0.5 if self._callers else IDLE_S)
         self._close()
@@ -127,7 +128,7 @@ class GateServer:
             self._waker.send(b"e")
 
     def step(self, timeout_s: float) -> None:
-        """Handles everything that is ready, then everything whose time is over."""
+        """Handles all connections that are ready, then those whose time is over."""
         for key, _ in self._selector.select(timeout_s):
             try:
                 key.data()
@@ -179,7 +180,10 @@ class GateServer:
         hear(caller)  # an honest caller has sent its request by now, and so is never closed for another one
 
     def _make_room(self, error: OSError) -> None:
-        """Called when a descriptor was to be had and was not."""
+        """Closes a connection after `accept` failed for lack of descriptors.
+
+        Without a connection to close, notes the lack.
+        """
         if error.errno not in EXHAUSTED:
             log.warning("accept: %s", error)
         victim = self._callers.first_to_go()
@@ -238,7 +242,7 @@ class GateServer:
             self._drop(caller, "no request")
 
     def _open(self, caller: Caller) -> bytes:
-        """Opens a door, if that can be; returns the answer."""
+        """Opens a door if possible; returns the answer."""
         said = _read(caller.heard, ("door", "session", "token"))
         if not said or not DOOR_NAME.fullmatch(said["door"]) or said["door"] in self._doors:
             return b"bad\n"
@@ -311,7 +315,7 @@ class GateServer:
 
 
 def _read(line: bytes, names: tuple[str, ...]) -> dict[str, str]:
-    """The request of a line; empty unless it has these names, and texts for them."""
+    """Returns the request in a line of JSON; empty unless it has exactly these names, each with a text."""
     try:
         said = json.loads(line)
     except (ValueError, RecursionError):

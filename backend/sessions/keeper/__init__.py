@@ -1,8 +1,8 @@
 """The keeper: the only program that talks to Docker; through it the web server can only start executors.
 
 It runs beside the web server, holds the Docker socket, and has no network. It receives ids and tokens of
-sessions, never images, mounts, commands or limits: those are its own. It uses only the standard library, so
-that the code with root's power over the host can be read in one sitting:
+sessions, never images, mounts, commands or limits: these are set by the keeper. The keeper uses only the
+standard library, so that the code with root rights on the host stays small enough to be reviewed:
 
     docker      the Docker Engine's API over its socket
     plan        what an executor's container may do, and its limits

@@ -1,4 +1,4 @@
-"""`python -m backend.sessions.keeper`: serves until a signal to end; executors continue without it."""
+"""`python -m backend.sessions.keeper`: serves until a signal to end; running executors are not affected."""
 
 from __future__ import annotations
 
@@ -81,7 +81,10 @@ def _serve(folder: Path) -> None:
 
 
 def _place(docker: Docker, gate_folder: Path) -> tuple[str, str]:
-    """The gate's volume (or folder), and the name of the stack, as Docker knows our own container."""
+    """Returns the gate's volume (or folder), and the name of the stack.
+
+    Docker's record of the keeper's own container has both.
+    """
     stack = os.environ.get("BT_STUDIO_STACK", "")
     own = docker.inspect(os.environ.get("HOSTNAME", "") or "-")
     if own is None:

@@ -31,12 +31,12 @@ class Docker:
         self._call("POST", f"/containers/{quote(container)}/start")
 
     def inspect(self, container: str) -> dict[str, Any] | None:
-        """Returns Docker's record of a container; None when there is none."""
+        """Returns Docker's record of a container; None if it does not exist."""
         found = self._call("GET", f"/containers/{quote(container)}/json", missing=True)
         return found if isinstance(found, dict) else None
 
     def list(self, labels: dict[str, str]) -> list[dict[str, Any]]:
-        """Lists all containers with these labels, also ended ones."""
+        """Returns all containers with these labels, including ended ones."""
         filters = json.dumps({"label": [f"{key}={value}" for key, value in labels.items()]})
         found = self._call("GET", "/containers/json?" + urlencode({"all": "1", "filters": filters}))
         return list(found)
@@ -48,7 +48,7 @@ class Docker:
         return int(stats.get("pids_stats", {}).get("current") or 0)
 
     def kill(self, container: str) -> None:
-        """Kills everything in a container immediately, if it runs."""
+        """Kills all processes in a container immediately, if it runs."""
         status, data = self._ask("POST", f"/containers/{quote(container)}/kill")
         if status >= 400 and status not in {NOT_FOUND, NOT_RUNNING}:
             raise KeeperError(502, "docker_failed", f"Docker refused: {data.decode(errors='replace')}.")
@@ -88,7 +88,7 @@ class Docker:
 
 
 def _without_headers(data: bytes) -> bytes:
-    """The text of a log, whose pieces have a header each: stream, three zeros, length."""
+    """Returns the text of a log without the header of each piece (stream, three zeros, length)."""
     text, at = b"", 0
     while at + LOG_HEADER_BYTES <= len(data):
         length = int.from_bytes(data[at + 4 : at + LOG_HEADER_BYTES], "big")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 class KeeperError(Exception):
-    """A request failed; `log` has the last lines of an executor that failed."""
+    """A request failed; `log` holds the last lines of an executor that failed."""
 
     def __init__(self, status: int, code: str, detail: str, log: str = "") -> None:
         super().__init__(detail)

@@ -1,4 +1,4 @@
-"""The keeper's side of the gate (`backend/sessions/gate`): where sessions listen, and their doors."""
+"""The keeper's side of the gate (`backend/sessions/gate`): paths of sockets, and doors of sessions."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ class Gate:
     """Requests sockets for sessions from the gate.
 
     Args:
-        control: where the gate listens for the keeper.
-        socket_folder: where the sockets of the sessions are; only the web server sees it.
-        patience_s: how long to wait for a gate that does not answer, since it may be restarting.
+        control: the path at which the gate listens for the keeper.
+        socket_folder: the folder with the sockets of the sessions, which no session sees.
+        patience_s: seconds to wait for a gate that does not answer, since it may be restarting.
     """
 
     def __init__(self, control: Path, socket_folder: Path, *, patience_s: float = OPEN_TIMEOUT_S) -> None:
@@ -31,12 +31,12 @@ class Gate:
         socket_folder.mkdir(parents=True, exist_ok=True)
 
     def path(self, session_id: str) -> Path:
-        """Returns the path where a session listens."""
+        """Returns the path of a session's socket."""
         return self._socket_folder / f"{session_id}.sock"
 
     @contextmanager
     def door(self, session_id: str, token: str) -> Iterator[Door]:
-        """Makes the socket of a session, and keeps its door open until it was fetched.
+        """Makes the socket of a session, and keeps the session's door open during the context.
 
         Raises:
             KeeperError: the gate does not answer, or refuses.

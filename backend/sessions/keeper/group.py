@@ -1,4 +1,7 @@
-"""Checks whether the keeper may use Docker's socket: it is not root, but in the socket's group."""
+"""Checks whether the keeper may use Docker's socket.
+
+The keeper is not root, but a member of the socket's group.
+"""
 
 from __future__ import annotations
 
@@ -12,10 +15,10 @@ GROUP_MAY: Final = stat.S_IRGRP | stat.S_IWGRP
 
 
 def check_socket(path: str) -> None:
-    """Returns when the socket can be used.
+    """Checks that the socket can be used.
 
     Raises:
-        KeeperError: it cannot; the text says what to set.
+        KeeperError: the socket cannot be used; the text says what to set.
     """
     try:
         found = os.stat(path)  # noqa: PTH116 - a path that Docker gives as text

@@ -1,4 +1,4 @@
-"""The rights of the containers of executors and tools; only the keeper's own settings decide them."""
+"""The rights of the containers of executors and tools; only the keeper's own settings determine them."""
 
 from __future__ import annotations
 
@@ -24,22 +24,22 @@ STACK_LABEL: Final = "org.bt-studio.stack"
 USER: Final = "10001:10001"
 PORT: Final = 7163
 CPU_SHARES: Final = 256
-"""Weight beside the server's own containers, which have 1024 each: answers come before robots."""
+"""The weight of a container; the server's containers have 1024 each, so answers come before robots."""
 MEBIBYTE: Final = 1024 * 1024
 PROFILE: Final = Path(__file__).with_name("seccomp.json")
 
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """The limits of one container; each is a variable, such as `BT_STUDIO_SESSION_<NAME>`.
+    """The limits of one container; each can be set by a variable `BT_STUDIO_SESSION_<NAME>`.
 
     Attributes:
         cpus: processor cores.
-        memory_mb: memory of all its processes and of its files, which are in memory.
+        memory_mb: memory of all processes, and of the files, which are in memory too.
         pids: processes and threads.
         disk_mb: files below `/tmp`.
-        shm_mb: shared memory, through which its ROS nodes exchange messages.
-        hours: how long it may run.
+        shm_mb: shared memory, through which ROS nodes exchange messages.
+        hours: the longest time for which the container may run.
     """
 
     cpus: float = 1.5
@@ -50,10 +50,10 @@ class Limits:
     hours: float = 12
 
     def overridden(self, environment: Mapping[str, str], prefix: str = PREFIX) -> Limits:
-        """Returns these limits, with those that the environment overrides.
+        """Returns these limits, with the changes that the environment makes.
 
         Raises:
-            ValueError: a variable is no positive number; the text names it.
+            ValueError: a variable is not a positive number; the text names it.
         """
         given = {}
         for field in fields(self):
@@ -74,12 +74,12 @@ TOOLS_LIMITS: Final = Limits(cpus=1, memory_mb=1536, pids=128, disk_mb=128, shm_
 
 @lru_cache(maxsize=1)
 def seccomp_profile() -> str:
-    """Returns the system calls that a container may make.
+    """Returns the profile (JSON) of the system calls that a container may make.
 
-    Those that Docker's own profile of 2025 allows a program without capabilities, but for what no robot
-    needs: asynchronous I/O in the kernel (`io_uring`, `io_setup`), tracing of others, 32-bit programs, and
-    sockets that are not of Unix, IP or netlink. Older Dockers allow `io_uring` and AF_VSOCK, which leads to
-    the host.
+    They are those that Docker's default profile of 2025 allows a program without capabilities, except for
+    calls that no robot needs: asynchronous I/O in the kernel (`io_uring`, `io_setup`), tracing of other
+    processes, 32-bit programs, and sockets of families other than Unix, IP and netlink. Older versions of
+    Docker allow `io_uring` and AF_VSOCK, which leads to the host.
     """
     profile = json.loads(PROFILE.read_text(encoding="utf-8"))
     return json.dumps(profile, separators=(",", ":"))
@@ -92,10 +92,10 @@ class Plan:
     Attributes:
         image: the executor's image.
         gate_source: the volume, or the folder of the host, with the gate's doors.
-        stack: distinguishes the containers of this keeper from those of another.
-        grace_s: how long a session lives without clients.
-        tools_grace_s: how long a user's tools stay when no editor is open.
-        processors: the numbers of the processors on which containers run; without any, Docker's choice.
+        stack: the name that distinguishes the containers of this keeper from those of another.
+        grace_s: seconds for which a session without clients lives.
+        tools_grace_s: seconds for which a user's tools stay while no editor is open.
+        processors: the numbers of the processors on which containers run; if empty, Docker chooses them.
     """
 
     image: str
@@ -116,7 +116,7 @@ class Plan:
         return f"{self.stack}-tools-{tools_id}"
 
     def container(self, session_id: str, token: str, domain_id: int, door: str) -> dict[str, Any]:
-        """Returns the container of a session for Docker's API; at `door` it receives its socket."""
+        """Returns the container of a session for Docker's API; the session receives its socket at `door`."""
         limits = self.limits
         command = [
             *("--host", "127.0.0.1", "--port", str(PORT), "--token-env", TOKEN_VARIABLE),
@@ -133,7 +133,7 @@ class Plan:
         return made | {"Cmd": command, "Env": made["Env"] + environment}
 
     def tools(self, tools_id: str, token: str, door: str) -> dict[str, Any]:
-        """Returns the container that reads one user's files for the editor."""
+        """Returns the container for Docker's API that reads the files of one user for the editor."""
         command = [
             *("--gate", f"{GATE_FOLDER}/{door}", "--session", tools_id),
             *("--token-env", TOKEN_VARIABLE, "--grace", str(self.tools_grace_s)),
@@ -142,7 +142,7 @@ class Plan:
         return made | {"Entrypoint": ["python", "-m", "executor.tools"], "Cmd": command}
 
     def _confined(self, token: str, limits: Limits, labels: dict[str, str]) -> dict[str, Any]:
-        """The settings of every container: no network, no privileges, nothing to write to but memory."""
+        """Returns the settings of every container: no network, no privileges, and only memory to write to."""
         memory = int(limits.memory_mb * MEBIBYTE)
         return {
             "Image": self.image,

@@ -1,4 +1,4 @@
-"""The processors on which containers with users' code run; the others stay free for the server."""
+"""The processors on which containers with users' code run; the others are reserved for the server."""
 
 from __future__ import annotations
 
@@ -10,19 +10,22 @@ if TYPE_CHECKING:
 
 VARIABLE: Final = "BT_STUDIO_RESERVED_CPUS"
 RESERVED_SHARE: Final = 4
-"""One processor in so many is reserved by default. A weight alone does not protect the server: a request
-wakes several processes in turn, and on busy processors each of them waits for the end of a time slice."""
+"""By default, one of so many processors is reserved for the server.
+
+A weight alone does not protect the server: a request wakes several processes in turn, and on busy processors
+each of them waits for the end of a time slice.
+"""
 
 
 def of_containers(environment: Mapping[str, str], available: Iterable[int] | None = None) -> tuple[int, ...]:
     """Returns the numbers of the processors for users' code, in ascending order.
 
     Args:
-        environment: may have `BT_STUDIO_RESERVED_CPUS`.
-        available: the processors of this machine; without it, those that this process may use.
+        environment: the variables; `BT_STUDIO_RESERVED_CPUS` may be one of them.
+        available: the processors of this machine; with None, those that this process may use.
 
     Raises:
-        ValueError: the variable is no number, or leaves no processor; the text names it.
+        ValueError: the variable is not a number, or reserves every processor; the text names it.
     """
     every = sorted(os.sched_getaffinity(0) if available is None else available)
     text = environment.get(VARIABLE, "").strip()

@@ -1,11 +1,9 @@
-"""The requests that the web server may make, over a unix socket that only it sees.
+"""The requests that the web server may make, over a unix socket that only the web server sees.
 
-GET    /health                  200 when Docker answers
-GET    /sessions                every executor
-POST   /sessions                {session, token, domain_id, timeout_s}: starts one
-GET    /sessions/<id>           whether it runs
-DELETE /sessions/<id>?timeout_s=5   ends it
-POST   /tools                   {tools, token, timeout_s}: where a user's tools listen; starts them if need be
+GET    /health                  200 when Docker answers GET    /sessions                every executor POST
+/sessions                {session, token, domain_id, timeout_s}: starts an executor GET    /sessions/<id>
+whether the executor runs DELETE /sessions/<id>?timeout_s=5   ends the executor POST   /tools
+{tools, token, timeout_s}: the path of a user's tools; starts them if necessary
 """
 
 from __future__ import annotations
@@ -35,14 +33,14 @@ TOKEN: Final = re.compile(r"[0-9A-Za-z_-]{32,128}")
 MAX_BODY_BYTES: Final = 4096
 MAX_TIMEOUT_S: Final = 300.0
 MAX_REQUESTS: Final = 128
-"""Each takes a thread and some four descriptors."""
+"""Number of requests at the same time; each needs a thread and about four descriptors."""
 
 
 class KeeperServer(socketserver.ThreadingUnixStreamServer):
-    """Listens at a path.
+    """Serves the keeper's requests at the path of a unix socket.
 
-    Requests are bounded, so that neither threads nor descriptors run out: a connection that says nothing has
-    30 s, and what comes when all places are taken is closed at once.
+    Requests are limited, so that neither threads nor descriptors run out: a silent connection is closed after
+    30 s, and a connection that arrives when all places are taken is closed immediately.
     """
 
     daemon_threads = True
@@ -171,7 +169,7 @@ class _Handler(BaseHTTPRequestHandler):
         self.wfile.write(data)
 
     def address_string(self) -> str:
-        """Returns an empty name: clients of a unix socket have no address."""
+        """Returns an empty name, since clients of a unix socket have no address."""
         return "web"
 
     def log_message(self, format: str, *args: Any) -> None:  # noqa: A002 - the base class's name
@@ -179,7 +177,7 @@ class _Handler(BaseHTTPRequestHandler):
 
 
 def _names(body: dict[str, Any], what: str) -> bool:
-    """Whether a body has an id, a token and a time that can be meant."""
+    """Whether a body has a valid id (in the field `what`), a valid token and a valid timeout."""
     made_id, token, timeout_s = body.get(what), body.get("token"), body.get("timeout_s", 30)
     return (
         isinstance(made_id, str)

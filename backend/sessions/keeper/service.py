@@ -1,4 +1,4 @@
-"""Starts, watches and ends the executors' containers. It stores nothing, but asks Docker each time."""
+"""Starts, watches and ends the containers of executors. It stores nothing, but asks Docker each time."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ LOG_LINES: Final = 20
 STOP_TIMEOUT_S: Final = 10.0
 KEPT_AFTER_END_S: Final = 3600.0
 KEPT_REASONS: Final = 200
-"""Of so many sessions it is known why they were ended, after their containers have gone."""
+"""Number of sessions for which the reason of their end is kept after their containers have been removed."""
 
 
 class Keeper:
     """The executors of one stack.
 
     Args:
-        max_sessions: how many may run at once.
+        max_sessions: the number of executors that may run at the same time.
     """
 
     def __init__(self, docker: Docker, gate: Gate, plan: Plan, *, max_sessions: int) -> None:
@@ -48,11 +48,11 @@ class Keeper:
         self._lock = threading.Lock()
 
     def start(self, session_id: str, token: str, domain_id: int, timeout_s: float) -> dict[str, Any]:
-        """Starts an executor, and returns where it listens.
+        """Starts an executor, and returns the path at which it listens.
 
         Raises:
-            KeeperError: the host is full, the session runs already, or its executor did not start.
-                Then nothing is left of it.
+            KeeperError: the host is full, the session runs already, or its executor did not start. In that
+                case its container is removed.
         """
         with self._lock:
             if session_id in self._starting or self._docker.inspect(self._plan.container_name(session_id)):
@@ -74,7 +74,7 @@ class Keeper:
         return {"socket": str(self._gate.path(session_id))}
 
     def look(self, session_id: str) -> dict[str, Any]:
-        """Returns whether an executor runs, and how it ended."""
+        """Returns whether an executor runs; if it has ended, also how."""
         found = self._docker.inspect(self._plan.container_name(session_id))
         if found is None:
             # A request during the clean-up of another one gets the same answer.
@@ -119,9 +119,9 @@ class Keeper:
             self._reasons.pop(next(iter(self._reasons)))
 
     def end_crowded(self) -> None:
-        """Kills containers that had the largest number of processes at this call and the last one.
+        """Kills containers that had all permitted processes at this call and at the previous one.
 
-        In such a storm of processes, the manager inside has no time to end it.
+        With so many processes, the manager in the container has no time to end them.
         """
         crowded = set()
         for one in self.list():
@@ -159,7 +159,10 @@ class Keeper:
                 log.warning("session %s: %s", one["session"], error.detail)
 
     def _is_unreachable(self, session_id: str) -> bool:
-        """Whether the socket is gone, as it is when the stack was given other volumes."""
+        """Whether the socket of a session no longer exists.
+
+        This happens if the stack was given other volumes.
+        """
         with self._lock:
             return session_id not in self._starting and not self._gate.path(session_id).exists()
 
@@ -180,12 +183,12 @@ def bring_up(  # noqa: PLR0913, PLR0917 - what a container is, and what it shows
     token: str,
     timeout_s: float,
 ) -> None:
-    """Starts a container, and returns when it has taken its socket from the gate.
+    """Starts a container, and waits until it has fetched its socket from the gate.
 
-    `configure` makes the container for a session that is given this door.
+    `configure` returns the container's settings for the path of a door.
 
     Raises:
-        KeeperError: it ended, or took too long; what is left of it is for the caller to clear.
+        KeeperError: the container ended, or took too long; the caller must remove it.
     """
     deadline = time.monotonic() + timeout_s
     with gate.door(gate_id, token) as door:
@@ -202,7 +205,7 @@ def bring_up(  # noqa: PLR0913, PLR0917 - what a container is, and what it shows
 
 
 def ended_at(state: dict[str, Any]) -> float:
-    """Returns when a container ended, in seconds since the epoch; Docker writes nanoseconds."""
+    """Returns the time at which a container ended, in seconds since the epoch; Docker writes nanoseconds."""
     text = str(state.get("FinishedAt", ""))[:19]
     try:
         return datetime.fromisoformat(text).replace(tzinfo=UTC).timestamp()

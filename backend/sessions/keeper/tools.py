@@ -1,7 +1,7 @@
 """The containers with users' tools: one for each user with an open editor, made at the first request.
 
-They hold no data. They end by themselves when no editor is open for a while, and a web server that finds the
-socket closed requests them again.
+The containers store no data. They end by themselves when no editor has been open for a while; a web server
+that finds the socket closed requests them again.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ STOP_TIMEOUT_S: Final = 2.0
 
 
 class ToolsKeeper:
-    """The tools of one stack.
+    """Manages the tools of one stack.
 
     Args:
-        max_tools: how many users may have them at once.
+        max_tools: the number of users that may have tools at the same time.
     """
 
     def __init__(self, docker: Docker, gate: Gate, plan: Plan, *, max_tools: int) -> None:
@@ -41,10 +41,11 @@ class ToolsKeeper:
         self._changed = threading.Condition()
 
     def open(self, tools_id: str, token: str, timeout_s: float) -> dict[str, Any]:
-        """Returns the path where a user's tools listen; starts them if they do not run.
+        """Returns the path at which a user's tools listen; starts them if they do not run.
 
         Raises:
-            KeeperError: the host is full, or they did not start. Then nothing is left of them.
+            KeeperError: the host is full, or the tools did not start. In that case their container is
+                removed.
         """
         name = self._plan.tools_name(tools_id)
         with self._changed:

@@ -30,7 +30,7 @@ def ask(
     """Makes one request; returns the status and the body of the answer.
 
     Raises:
-        OSError: nobody listens there, or the answer took too long.
+        OSError: no server listens at the path, or the answer took too long.
         http.client.HTTPException: the answer is not HTTP.
     """
     connection = UnixHTTPConnection(path, timeout_s)

@@ -1,8 +1,8 @@
 """The interface between sessions and the launchers that run their executors.
 
 A launcher starts one executor manager for a session, reports whether it runs, and ends it. It stores nothing:
-all that it needs to find an executor again is in the *state* that `start` returns. This is a JSON object that
-the caller stores and passes to the other methods, also after a restart of the web server.
+the *state* that `start` returns holds everything that is needed to find the executor again. The state is a
+JSON object that the caller stores and passes to the other methods, also after a restart of the web server.
 
     start(spec)      blocks until the manager listens; returns where, and the state. On failure it
                      raises LaunchError, and leaves nothing running.
@@ -36,7 +36,7 @@ _SURVIVORS_OWE: Final = ("running", "state_of")
 
 @dataclass(frozen=True, slots=True)
 class Spec:
-    """The parameters of an executor."""
+    """The parameters for the start of an executor."""
 
     session_id: str
     token: str = field(repr=False)
@@ -47,14 +47,14 @@ class Spec:
 
 @dataclass(frozen=True, slots=True)
 class Started:
-    """A manager that listens at `address` (host:port), and the state with which it is found again."""
+    """A manager that listens at `address` (host:port), and the state by which it is found again."""
 
     address: str
     state: dict[str, Any]
 
 
 class Launcher:
-    """The interface of launchers; the module describes what each method must do."""
+    """The interface of launchers; the module's docstring describes each method."""
 
     name: ClassVar[str] = ""
     survives_server: ClassVar[bool] = False
@@ -68,11 +68,11 @@ class Launcher:
             raise TypeError(f"The launcher {cls.__name__} does not define {lacking}.")
 
     def start(self, spec: Spec) -> Started:
-        """Starts an executor, and returns when its manager listens."""
+        """Starts an executor, and waits until its manager listens."""
         raise NotImplementedError
 
     def poll(self, state: State) -> int | None:
-        """Returns None while the executor runs, then its exit status."""
+        """Returns None while the executor runs, afterwards its exit status."""
         raise NotImplementedError
 
     def stop(self, state: State, *, timeout_s: float) -> None:
@@ -80,11 +80,11 @@ class Launcher:
         raise NotImplementedError
 
     def explain(self, state: State) -> str:
-        """Returns why an executor ended."""
+        """Returns the reason why an executor ended; "" if it is not known."""
         return ""
 
     def open_tools(self, tools_id: str, token: str, *, timeout_s: float) -> str:
-        """Starts a user's tools and returns the address where they listen."""
+        """Starts a user's tools, and returns the address at which they listen."""
         raise LaunchError("Without containers there are none for users' files.")
 
     def running(self) -> list[str]:

@@ -1,7 +1,7 @@
-"""Executors in containers of their own, which the keeper starts; they outlive the web server.
+"""Runs each executor in a container, which the keeper starts; executors outlive the web server.
 
-The web server never speaks to Docker. It tells the keeper (`backend/sessions/keeper`) the id and the token
-of a session and receives the unix socket at which its manager listens.
+The web server never uses Docker directly. It sends the id and the token of a session to the keeper
+(`backend/sessions/keeper`), and receives the path of the unix socket at which the manager listens.
 """
 
 from __future__ import annotations
@@ -27,7 +27,8 @@ class DockerLauncher(Launcher):
     """Starts and ends executors through the keeper.
 
     Args:
-        folder: shared with the keeper; holds its socket and those of the sessions.
+        folder: the folder that is shared with the keeper; it holds the sockets of the keeper and of the
+            sessions.
     """
 
     name = "docker"
@@ -37,7 +38,7 @@ class DockerLauncher(Launcher):
         self._socket = str(folder / "keeper.sock")
 
     def start(self, spec: Spec) -> Started:
-        """Starts a container; returns when its manager has taken its socket."""
+        """Starts a container, and waits until its manager has received its socket."""
         body = {
             "session": spec.session_id,
             "token": spec.token,
@@ -49,14 +50,14 @@ class DockerLauncher(Launcher):
         return Started(f"unix:{answer['socket']}", {"session": spec.session_id})
 
     def open_tools(self, tools_id: str, token: str, *, timeout_s: float) -> str:
-        """Returns the path where a user's tools listen, in a container that is started if necessary."""
+        """Returns the path at which a user's tools listen; starts their container if necessary."""
         body = {"tools": tools_id, "token": token, "timeout_s": timeout_s}
         status, answer = self._ask("POST", "/tools", body, timeout_s=timeout_s + MARGIN_S)
         _raise_for(status, answer)
         return str(answer["socket"])
 
     def poll(self, state: State) -> int | None:
-        """Returns the keeper's answer; executors count as running while the keeper does not answer."""
+        """Returns the keeper's answer. While the keeper does not answer, executors count as running."""
         status, answer = self._look(state)
         if status != 200 or answer.get("running"):
             return None
@@ -64,7 +65,7 @@ class DockerLauncher(Launcher):
         return UNKNOWN_EXIT if found is None else int(found)
 
     def explain(self, state: State) -> str:
-        """Returns why an executor ended, if more is known than its status."""
+        """Returns the reason why an executor ended, if more is known than its status; otherwise ""."""
         return str(self._look(state)[1].get("reason", ""))
 
     def stop(self, state: State, *, timeout_s: float) -> None:
@@ -87,7 +88,7 @@ class DockerLauncher(Launcher):
         return [one["session"] for one in sessions if one["running"]]
 
     def state_of(self, session_id: str) -> dict[str, Any]:
-        """Returns the state by which an executor is found when only the session's id is known."""
+        """Returns the state by which an executor is found, from the id of its session."""
         return {"session": session_id}
 
     def _look(self, state: State) -> tuple[int, dict[str, Any]]:

@@ -1,7 +1,7 @@
-"""Executors in child processes of the web server; they end with it.
+"""Runs executors in child processes of the web server; they end with the web server.
 
 The manager asks the kernel for a signal when its parent dies. That signal comes when the *thread*
-that forked ends, so one thread, which lives as long as the server, starts them all.
+that forked ends, so one thread, which lives as long as the server, starts all managers.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class ProcessLauncher(Launcher):
         self._lock = Lock()
 
     def start(self, spec: Spec) -> Started:
-        """Starts a manager and waits for the line on its ready pipe."""
+        """Starts a manager, and waits for the line that it writes to its ready pipe."""
         ready_read, ready_write = os.pipe()
         log = self._log_folder / f"{spec.session_id}.log"
         try:
@@ -66,7 +66,7 @@ class ProcessLauncher(Launcher):
         return Started(f"127.0.0.1:{port}", state)
 
     def poll(self, state: State) -> int | None:
-        """Returns the exit status of a child that has ended."""
+        """Returns the exit status of a child that has ended; None while it runs."""
         with self._lock:
             child = self._children.get(state["pid"])
         if child is not None:
@@ -74,7 +74,7 @@ class ProcessLauncher(Launcher):
         return None if _find(state) else UNKNOWN_EXIT
 
     def stop(self, state: State, *, timeout_s: float) -> None:
-        """Asks the manager to end, and kills the rest after a timeout."""
+        """Asks the manager to end, and kills its remaining processes after a timeout."""
         process = _find(state)
         with self._lock:
             child = self._children.get(state["pid"])
@@ -125,7 +125,10 @@ class ProcessLauncher(Launcher):
 
 
 def _environment(spec: Spec) -> dict[str, str]:
-    """Ours, without our secrets, and with what this session's ROS graph needs."""
+    """Returns the environment of an executor.
+
+    It is the web server's without secrets, with the session's ROS variables.
+    """
     kept = {name: value for name, value in os.environ.items() if not name.startswith("BT_STUDIO_")}
     return kept | {
         TOKEN_VARIABLE: spec.token,
@@ -136,7 +139,7 @@ def _environment(spec: Spec) -> dict[str, str]:
 
 
 def _await_port(ready: IO[bytes], timeout_s: float) -> int | None:
-    """The port from the ready line; None when the child ends or the time is up before."""
+    """Returns the port from the ready line; None if the child ends or the time is over before."""
     deadline = time.monotonic() + timeout_s
     line = b""
     while not line.endswith(b"\n"):
@@ -170,14 +173,17 @@ def _last_lines(log: Path) -> str:
 
 
 def _status_of(child: subprocess.Popen[bytes]) -> int | None:
-    """The exit status of a child whose ready pipe has closed: it is about to end, or it never will."""
+    """Returns the exit status of a child whose ready pipe is closed; None if the child does not end soon."""
     with contextlib.suppress(subprocess.TimeoutExpired):
         return child.wait(timeout=0.5)
     return None
 
 
 def _wait(process: psutil.Process, child: subprocess.Popen[bytes] | None, timeout_s: float) -> None:
-    """Waits for the end; only `Popen` may reap its child, or the exit status is lost."""
+    """Waits for the end of a process.
+
+    Only `Popen` may collect its child, otherwise the exit status is lost.
+    """
     with contextlib.suppress(psutil.Error, subprocess.TimeoutExpired):
         if child is not None:
             child.wait(timeout_s)
@@ -193,7 +199,10 @@ def _created(pid: int) -> float:
 
 
 def _find(state: State) -> psutil.Process | None:
-    """The process of this state; the time of its start tells it from a later one with its number."""
+    """Returns the process of this state, or None.
+
+    Its start time distinguishes it from a later process with the same number.
+    """
     try:
         process = psutil.Process(state["pid"])
         same = abs(process.create_time() - state["created"]) < 0.01

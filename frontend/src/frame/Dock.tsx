@@ -20,6 +20,7 @@ import { markCutTabs } from './cutTabs';
 import { panelIcon } from './panelIcons';
 import { keepLesson } from '@/workspace/lessons';
 import { renderTab } from './panels';
+import { cancelSplitters } from './cancelSplitters';
 import { PanelBadge } from './PanelBadge';
 import { Popouts, titleOf } from './popouts';
 import { cameraOf } from '@/workspace/cameraViews';
@@ -142,6 +143,7 @@ export function Dock({ model, width }: DockProps) {
   const keepSoon = useLater();
 
   const popouts = useMemo(() => new Popouts(model), [model]);
+  useEffect(() => cancelSplitters(document, model), [model]);
 
   const onModelChange = (changed: Model, _action: Action) => {
     followFront(changed);

@@ -19,6 +19,8 @@ import { RunProgress } from '@/features/run/RunProgress';
 import { registerRunCommands } from '@/features/run/commands';
 import { registerRateCommands } from '@/features/run/rates';
 import { useRunReactions } from '@/features/run/useRunReactions';
+import { registerKeyCommands } from '@/features/keys/commands';
+import { RenameKeyDialog } from '@/features/keys/RenameKeyDialog';
 import { registerSearchCommands } from '@/features/search/commands';
 import { registerTopicCommands } from '@/features/topics/commands';
 import { ConnectDialog } from '@/features/topics/ConnectDialog';
@@ -99,6 +101,7 @@ function Workbench({ projectId }: StudioProps) {
       registerCanvasCommands(),
       registerRunCommands(),
       registerRateCommands(),
+      registerKeyCommands(),
       registerSearchCommands(),
       registerTopicCommands(),
       registerFrameCommands(),
@@ -156,6 +159,7 @@ function Workbench({ projectId }: StudioProps) {
       <Shortcuts />
       <PublishDialog />
       <ConnectDialog />
+      <RenameKeyDialog />
       <RestoredNotice />
       <ImportReport projectId={projectId} />
     </div>

@@ -79,7 +79,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Returns its `robot.yaml`, from which a project can make its own robot. */
+        /** @description Returns the `robot.yaml` of the robot, which a project can copy and change. */
         get: operations["get_robot_config"];
         put?: never;
         post?: never;
@@ -96,7 +96,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Returns a picture of 480 by 270 pixels. */
+        /** @description Returns a picture of the robot, 480 × 270 pixels. */
         get: operations["get_robot_preview"];
         put?: never;
         post?: never;
@@ -113,7 +113,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Returns its URDF, with which the browser draws the robot. */
+        /** @description Returns the URDF of the robot, which the browser needs to draw it. */
         get: operations["get_robot_urdf"];
         put?: never;
         post?: never;
@@ -164,7 +164,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Returns a picture of 480 by 270 pixels. */
+        /** @description Returns a picture of the universe, 480 × 270 pixels. */
         get: operations["get_universe_preview"];
         put?: never;
         post?: never;
@@ -181,7 +181,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Returns its YAML, from which a project can make its own universe. */
+        /** @description Returns the YAML of the universe, which a project can copy and change. */
         get: operations["get_universe_text"];
         put?: never;
         post?: never;
@@ -198,10 +198,10 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Lists the groups that the user made or is in. */
+        /** @description Lists the groups that the user made, and those of which the user is a member. */
         get: operations["list_groups"];
         put?: never;
-        /** @description Makes a group; for teachers. */
+        /** @description Makes a group. Only teachers and administrators may make groups. */
         post: operations["create_group"];
         delete?: never;
         options?: never;
@@ -255,7 +255,7 @@ export interface paths {
         get?: never;
         put?: never;
         post?: never;
-        /** @description Removes someone from the group; everyone may leave it. */
+        /** @description Removes a member from the group. Every member may leave it. */
         delete: operations["remove_group_member"];
         options?: never;
         head?: never;
@@ -272,7 +272,7 @@ export interface paths {
         get?: never;
         put?: never;
         post?: never;
-        /** @description Revokes the link; users who joined by it stay. */
+        /** @description Revokes the link. Users who joined with it stay. */
         delete: operations["revoke_invitation"];
         options?: never;
         head?: never;
@@ -303,14 +303,14 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Returns the account, its log and its projects, as one zip. */
+        /** @description Returns the user's account, audit log and projects as one zip. */
         get: operations["export_my_data"];
         put?: never;
         post?: never;
         /**
          * @description Deletes the account with all its projects irreversibly.
          *
-         *     The body is `{"username": the user's own name}`.
+         *     The body is `{"username": …}` with the user's name, as a confirmation.
          */
         delete: operations["delete_my_account"];
         options?: never;
@@ -325,7 +325,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Returns the number and the bytes of projects, with their limits. */
+        /** @description Returns the number and the bytes of the user's projects, with the limits. */
         get: operations["get_my_usage"];
         put?: never;
         post?: never;
@@ -364,7 +364,7 @@ export interface paths {
         get: operations["get_project"];
         put?: never;
         post?: never;
-        /** @description Deletes a project; `restore` brings it back. */
+        /** @description Deletes a project. `restore` restores it. */
         delete: operations["delete_project"];
         options?: never;
         head?: never;
@@ -379,7 +379,11 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Returns the project in the form that the executor runs; 422 with `diagnostics` if it has errors. */
+        /**
+         * @description Returns the project in the form that the executor runs.
+         *
+         *     The answer is 422 with `diagnostics` if the project has errors.
+         */
         get: operations["get_app"];
         put?: never;
         post?: never;
@@ -415,7 +419,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Writes, renames and deletes files in one step, all or nothing. */
+        /** @description Writes, renames and deletes files in one step, completely or not at all. */
         post: operations["save_changes"];
         delete?: never;
         options?: never;
@@ -432,7 +436,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Checks the project with these unsaved files. */
+        /** @description Checks the project as it would be with these unsaved files. */
         post: operations["check_project"];
         delete?: never;
         options?: never;
@@ -465,7 +469,7 @@ export interface paths {
             cookie?: never;
         };
         get?: never;
-        /** @description Stores a draft; saving the file removes it. */
+        /** @description Stores a draft. Saving the file removes the draft. */
         put: operations["save_draft"];
         post?: never;
         /** @description Discards a draft. */
@@ -484,7 +488,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Makes a new project of the current files. */
+        /** @description Makes a new project from the current files of this one. */
         post: operations["duplicate_project"];
         delete?: never;
         options?: never;
@@ -499,7 +503,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Returns the current files as a zip; the same revision gives the same bytes. */
+        /** @description Returns the current files as a zip. The same revision gives the same bytes. */
         get: operations["export_project"];
         put?: never;
         post?: never;
@@ -533,7 +537,11 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Returns the ROS 2 package as a zip; 422 with `diagnostics` if the project has errors. */
+        /**
+         * @description Returns the ROS 2 package as a zip.
+         *
+         *     The answer is 422 with `diagnostics` if the project has errors.
+         */
         get: operations["get_package"];
         put?: never;
         post?: never;
@@ -550,7 +558,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Lists the files of the ROS 2 package before it is downloaded. */
+        /** @description Lists the files of the ROS 2 package, without making a download. */
         get: operations["preview_package"];
         put?: never;
         post?: never;
@@ -569,7 +577,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Brings a deleted project back, under another name where its own was taken since. */
+        /** @description Restores a deleted project. It gets another name if its own name has been taken since. */
         post: operations["restore_project"];
         delete?: never;
         options?: never;
@@ -584,7 +592,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Lists the change sets, the newest first; all, or those that changed one file. */
+        /** @description Lists the revisions, the newest first: all, or those that changed one file. */
         get: operations["list_revisions"];
         put?: never;
         post?: never;
@@ -607,7 +615,7 @@ export interface paths {
         delete?: never;
         options?: never;
         head?: never;
-        /** @description Gives a revision a name, or removes it. */
+        /** @description Sets the label of a revision, or removes it. */
         patch: operations["label_revision"];
         trace?: never;
     };
@@ -618,7 +626,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Compares a revision with the one before, or with `against` (0 is the empty project). */
+        /** @description Compares a revision with the previous one, or with `against` (0 is the empty project). */
         get: operations["diff_revision"];
         put?: never;
         post?: never;
@@ -654,7 +662,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Makes a new revision in which files are as they were in this one. */
+        /** @description Makes a new revision in which files have the content that they had in this one. */
         post: operations["restore_revision"];
         delete?: never;
         options?: never;
@@ -671,7 +679,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Starts an executor for the project, or returns the one that runs. */
+        /** @description Starts an executor for the project, or returns the session that already runs. */
         post: operations["start_session"];
         delete?: never;
         options?: never;
@@ -686,10 +694,10 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Lists people, groups and links; for the owner. */
+        /** @description Lists the people, groups and links. Only the owner may see them. */
         get: operations["get_shares"];
         put?: never;
-        /** @description Gives a person a role, or changes it. */
+        /** @description Gives a person a role in the project, or changes the role. */
         post: operations["share_with_person"];
         delete?: never;
         options?: never;
@@ -705,7 +713,7 @@ export interface paths {
             cookie?: never;
         };
         get?: never;
-        /** @description Gives all members of a group a role. */
+        /** @description Gives a role to all members of a group. */
         put: operations["share_with_group"];
         post?: never;
         /** @description Removes the role of a group. */
@@ -759,7 +767,7 @@ export interface paths {
         get?: never;
         put?: never;
         post?: never;
-        /** @description Removes the role of a person; users can remove their own. */
+        /** @description Removes the role of a person. Users can remove their own role. */
         delete: operations["unshare_with_person"];
         options?: never;
         head?: never;
@@ -807,7 +815,11 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Returns the tree as BT.CPP v4 XML; 422 with `diagnostics` if the project has errors. */
+        /**
+         * @description Returns the tree as BT.CPP v4 XML.
+         *
+         *     The answer is 422 with `diagnostics` if the project has errors.
+         */
         get: operations["get_xml"];
         put?: never;
         post?: never;
@@ -827,9 +839,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * @description Makes a project of our zip, of a JdeRobot or Groot2 project, or of BT.CPP XML.
+         * @description Makes a project from a BT Studio zip, a JdeRobot or Groot2 project, or BT.CPP XML.
          *
-         *     The file may be the body itself, and then as large as the user has room; a form has a request's bound.
+         *     The body is the file, or a form with the file. A body may be as large as the user's quota permits; a
+         *     form may be as large as any other request.
          */
         post: operations["import_project"];
         delete?: never;
@@ -847,7 +860,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Formats a source; answers 422 if it does not parse. */
+        /** @description Formats a source. The answer is 422 if it is not valid Python. */
         post: operations["format_python"];
         delete?: never;
         options?: never;
@@ -879,7 +892,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Returns the session: whether it starts, runs, failed or has ended. */
+        /** @description Returns the session, with its state: whether it starts, runs, failed or has ended. */
         get: operations["get_session"];
         put?: never;
         post?: never;
@@ -899,7 +912,11 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Reads the XML of one tree; nodes keep their ids. `diagnostics` say why it cannot be read. */
+        /**
+         * @description Converts the XML of one tree to a diagram. Nodes keep their ids.
+         *
+         *     If the XML cannot be read, `diagnostics` holds the reasons.
+         */
         post: operations["read_tree_xml"];
         delete?: never;
         options?: never;
@@ -916,7 +933,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Converts one diagram to BT.CPP v4 XML; comments and blanks of an earlier text are kept. */
+        /** @description Converts one diagram to BT.CPP v4 XML. Comments and blanks of an earlier text are kept. */
         post: operations["write_tree_xml"];
         delete?: never;
         options?: never;
@@ -958,7 +975,7 @@ export interface components {
             };
             robot: string | null;
         };
-        /** @description A behaviour to reuse: a subtree with ports; `summary` and `doc` are by language. */
+        /** @description A behaviour to reuse: a subtree with ports. `summary` and `doc` hold a text for each language. */
         Behaviour: {
             /** @description Also the name of its tree. */
             id: string;
@@ -995,13 +1012,17 @@ export interface components {
             /** @description false: the project could not be checked, so that its actions are not known. */
             checked: boolean;
         };
-        /** @description One user action on several files, done as a whole or not at all. */
+        /** @description One user action on several files; it is carried out completely or not at all. */
         ChangesRequest: {
             /** @default  */
             message?: string;
             files: components["schemas"]["FileChangeRequest"][];
         };
-        /** @description A project or file with errors, or one that cannot be read; `diagnostics` say where. */
+        /**
+         * @description A project or file that has errors or cannot be read.
+         *
+         *     `diagnostics` holds the errors with their places.
+         */
         CheckProblem: {
             type: string;
             title: string;
@@ -1016,23 +1037,23 @@ export interface components {
             field?: string;
             diagnostics?: components["schemas"]["Diagnostic"][];
         };
-        /** @description Files that differ from what is stored, for a check before saving. */
+        /** @description Files that differ from the stored ones, for a check before saving. */
         CheckRequest: {
             files?: components["schemas"]["OverlayFileRequest"][];
         };
-        /** @description The numbers of children that a kind of node may have; null as the largest allows any. */
+        /** @description The numbers of children that a kind of node may have; `null` as the largest means any number. */
         Children: {
             min: number;
             max: number | null;
         };
-        /** @description Both versions of a file; `theirs` is null when the file is gone. */
+        /** @description Both versions of a file; `theirs` is null if the file was removed. */
         Conflict: {
             path: string;
             base_revision: number;
             theirs: components["schemas"]["Theirs"] | null;
             mine: components["schemas"]["Mine"];
         };
-        /** @description A stale base; both versions of each file are in `conflicts`. */
+        /** @description A conflict: a stale base. `conflicts` holds both versions of each file. */
         ConflictProblem: {
             type: string;
             title: string;
@@ -1055,7 +1076,7 @@ export interface components {
             /** @default empty */
             template?: string;
         };
-        /** @description The user's own name, typed again. */
+        /** @description The name of the user, typed again as a confirmation. */
         DeleteMeRequest: {
             username: string;
         };
@@ -1085,7 +1106,7 @@ export interface components {
         };
         /** @enum {string} */
         DirectionEnum: "input" | "output" | "inout";
-        /** @description A draft: text that this user typed and did not save. */
+        /** @description A draft: text that this user has typed and not saved. */
         Draft: {
             path: string;
             base_revision: number;
@@ -1097,7 +1118,7 @@ export interface components {
         DraftList: {
             items: components["schemas"]["Draft"][];
         };
-        /** @description The name of the copy; without one it gets a number. */
+        /** @description The name of the copy. Without a name, the copy gets the same name with a number. */
         DuplicateProjectRequest: {
             /** @default  */
             name?: string;
@@ -1108,7 +1129,7 @@ export interface components {
             end: components["schemas"]["Place"];
             content: string;
         };
-        /** @description A universe or a robot; `preview` is the address of its picture, WebP of 480 by 270 pixels, or empty. */
+        /** @description A universe or a robot. `preview` is the address of its picture, a WebP of 480 × 270 pixels, or "". */
         Entry: {
             id: string;
             name: string;
@@ -1119,7 +1140,7 @@ export interface components {
         EntryList: {
             items: components["schemas"]["Entry"][];
         };
-        /** @description A file as it is now; `content` is null when it is not text. */
+        /** @description A current file; `content` is null if the file is not text. */
         File: {
             path: string;
             revision: number;
@@ -1141,7 +1162,7 @@ export interface components {
             /** @default  */
             rename_to?: string;
         };
-        /** @description One file that differs; `diff` is null if a side is not text. */
+        /** @description A file that differs; `diff` is null if one of the versions is not text. */
         FileDiff: {
             path: string;
             change: components["schemas"]["FileDiffChangeEnum"];
@@ -1209,7 +1230,7 @@ export interface components {
             uses: number;
             max_uses: number;
         };
-        /** @description The lifetime of an invitation, and the number of accounts that it may make. */
+        /** @description The lifetime of an invitation, and the number of accounts that may be made with it. */
         InviteRequest: {
             /** @default 14 */
             days?: number;
@@ -1240,7 +1261,7 @@ export interface components {
             role: components["schemas"]["AccountRole"];
             version: string;
         };
-        /** @description The version of the request. */
+        /** @description The version of the file in the request. */
         Mine: {
             content: string | null;
         };
@@ -1250,7 +1271,7 @@ export interface components {
         NamedRequest: {
             name: string;
         };
-        /** @description The range of a node in the text; offsets in UTF-16 code units, lines end with one unit. */
+        /** @description The range of a node in the text. Offsets are in UTF-16 code units, and each line ends with one unit. */
         NodeRange: {
             node: string;
             start: number;
@@ -1288,7 +1309,7 @@ export interface components {
             manifest: string;
             diagnostics: components["schemas"]["Diagnostic"][];
         };
-        /** @description Fields of project.json to change; `settings` replaces it as a whole. */
+        /** @description Fields of `project.json` to change; `settings` replaces all settings. */
         PatchedEditProjectRequest: {
             base_revision?: number;
             name?: string;
@@ -1297,7 +1318,7 @@ export interface components {
                 [key: string]: unknown;
             };
         };
-        /** @description A name for a revision; an empty one removes it. */
+        /** @description A name for a revision; an empty name removes the label. */
         PatchedLabelRequest: {
             label?: string;
         };
@@ -1310,7 +1331,7 @@ export interface components {
             username: string;
             name: string;
         };
-        /** @description A place in a text; both count from 1, columns in code points. */
+        /** @description A place in a text: line and column count from 1, columns in code points. */
         Place: {
             line: number;
             column: number;
@@ -1373,7 +1394,7 @@ export interface components {
             /** @description false: the project could not be checked, so that its actions are not known. */
             checked: boolean;
         };
-        /** @description A page of projects; `next_offset` is null on the last. */
+        /** @description A page of projects; `next_offset` is null on the last page. */
         ProjectList: {
             items: components["schemas"]["ProjectSummary"][];
             total: number;
@@ -1422,14 +1443,14 @@ export interface components {
             /** @description The diagram before the text was edited. */
             diagram: string;
         };
-        /** @description The findings of the translator in a project. */
+        /** @description The findings of the translator about a project. */
         Report: {
             diagnostics: components["schemas"]["Diagnostic"][];
             actions: components["schemas"]["Action"][];
             /** @description false: the project could not be checked, so that its actions are not known. */
             checked: boolean;
         };
-        /** @description The files to restore; all, if none are named. */
+        /** @description The files to restore; without any, all files are restored. */
         RestoreRevisionRequest: {
             paths?: string[];
         };
@@ -1456,7 +1477,7 @@ export interface components {
             items: components["schemas"]["Revision"][];
             next_before: number | null;
         };
-        /** @description A draft to keep. */
+        /** @description A draft to store. */
         SaveDraftRequest: {
             base_revision: number;
             content: string;
@@ -1533,7 +1554,7 @@ export interface components {
         TemplateList: {
             items: components["schemas"]["Template"][];
         };
-        /** @description The version on the server. */
+        /** @description The version of the file on the server. */
         Theirs: {
             revision: number;
             content: string | null;
@@ -1557,14 +1578,14 @@ export interface components {
             /** @description Escape bare & and < in attributes of XML. */
             repair?: boolean;
         };
-        /** @description The space that is used, and its limits. */
+        /** @description The space that the user's projects take, with its limits. */
         Usage: {
             projects: number;
             max_projects: number;
             bytes: number;
             max_bytes: number;
         };
-        /** @description A diagram to convert to XML. */
+        /** @description A diagram that is to be converted to XML. */
         WriteTreeRequest: {
             /** @description Diagram JSON, as in trees/<TreeID>.json. */
             diagram: string;

@@ -21,7 +21,11 @@ describe('layoutTree', () => {
   it.each(['vertical', 'horizontal'] as const)('never lets blocks overlap (%s)', (orientation) => {
     fc.assert(
       fc.property(steps, (chosen) => {
-        const layout = layoutTree(grown(chosen), vocabulary, { orientation, ignorePositions: true });
+        const layout = layoutTree(grown(chosen), vocabulary, {
+          orientation,
+          ignorePositions: true,
+          isCompact: chosen.length % 2 === 0,
+        });
         const boxes = Object.values(layout.positions);
         boxes.forEach((box, index) => {
           for (const other of boxes.slice(index + 1)) expect(overlap(box, other)).toBe(false);
@@ -47,6 +51,53 @@ describe('layoutTree', () => {
     expect(positions['r']).toMatchObject({ x: 0, y: 0 });
     expect(positions['a']!.x).toBeLessThan(positions['b']!.x);
     expect(positions['a']!.y).toBeGreaterThan(positions['r']!.height);
+  });
+
+  it.each(['vertical', 'horizontal'] as const)(
+    'stacks neighbouring leaves where it is compact (%s)',
+    (layout) => {
+      const leaves = Array.from({ length: 14 }, (_, at) => `l${at}`);
+      const wide: Diagram = {
+        ...emptyDiagram('MainTree'),
+        layout,
+        root: 'r',
+        nodes: {
+          r: { type: 'Sequence', children: ['a', 'i', ...leaves] },
+          a: { type: 'Turn' },
+          i: { type: 'Inverter', children: ['c'] },
+          c: { type: 'Turn' },
+          ...Object.fromEntries(leaves.map((id) => [id, { type: 'Turn' }])),
+        },
+      };
+      const { positions, stacked, width, height } = layoutTree(wide, vocabulary, { isCompact: true });
+      const plain = layoutTree(wide, vocabulary);
+      const [along, across] = layout === 'vertical' ? (['x', 'y'] as const) : (['y', 'x'] as const);
+      // Two columns of seven; a lone leaf stays beside its siblings.
+      expect(stacked).toEqual(new Set(leaves));
+      expect(positions['l1']![along]).toBe(positions['l0']![along]);
+      expect(positions['l1']![across]).toBeGreaterThan(positions['l0']![across]);
+      expect(positions['l7']![along]).toBeGreaterThan(positions['l6']![along]);
+      expect(positions['l7']![across]).toBe(positions['l0']![across]);
+      expect(plain.stacked).toBeUndefined();
+      if (layout === 'vertical') expect(width).toBeLessThan(plain.width / 3);
+      else expect(height).toBeLessThan(plain.height / 3);
+    },
+  );
+
+  it('stacks no leaf that the user placed', () => {
+    const three = (): Diagram => ({
+      ...emptyDiagram('MainTree'),
+      root: 'r',
+      nodes: {
+        r: { type: 'Sequence', children: ['a', 'b', 'c'] },
+        a: { type: 'Turn' },
+        b: { type: 'Turn', position: [900, 90] },
+        c: { type: 'Turn' },
+      },
+    });
+    expect(layoutTree(three(), vocabulary, { isCompact: true }).stacked).toEqual(new Set());
+    const ignored = layoutTree(three(), vocabulary, { isCompact: true, ignorePositions: true });
+    expect(ignored.stacked).toEqual(new Set(['a', 'b', 'c']));
   });
 
   it('moves what hangs below a block that the user placed', () => {

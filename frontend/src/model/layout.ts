@@ -14,21 +14,54 @@ export interface Layout {
   readonly positions: Readonly<Record<NodeId, Box>>;
   readonly width: number;
   readonly height: number;
+  /** The leaves that are drawn below each other, in a compact layout. */
+  readonly stacked?: ReadonlySet<NodeId>;
 }
 
 export interface LayoutOptions {
   readonly orientation?: Orientation;
   /** Ignores manual positions, to show the result of `tidy`. */
   readonly ignorePositions?: boolean;
+  /** Draws neighbouring leaves below each other, and so wide trees narrower. */
+  readonly isCompact?: boolean;
 }
 
-export const GAP = { siblings: 24, levels: 56, trees: 64 } as const;
+export const GAP = { siblings: 24, levels: 56, trees: 64, stacked: 14 } as const;
+
+/** Fewer leaves stay side by side; more are divided into several columns. */
+const STACK = { least: 3, most: 12 } as const;
 
 type Mutable = { -readonly [K in keyof Box]: Box[K] };
 
 /** The children that are drawn; a folded block has none. */
 export function visibleChildren(diagram: Diagram, id: NodeId): readonly NodeId[] {
   return diagram.nodes[id]?.collapsed ? [] : childrenOf(diagram, id);
+}
+
+/** The children of a node in the groups that are drawn below each other; most are alone. */
+function stacksOf(diagram: Diagram, id: NodeId, isStackable: (id: NodeId) => boolean): NodeId[][] {
+  const stacks: NodeId[][] = [];
+  let run: NodeId[] = [];
+  const close = (): void => {
+    const columns = Math.ceil(run.length / STACK.most);
+    const size = run.length < STACK.least ? 1 : Math.ceil(run.length / columns);
+    for (let at = 0; at < run.length; at += size) stacks.push(run.slice(at, at + size));
+    run = [];
+  };
+  for (const child of visibleChildren(diagram, id)) {
+    if (isStackable(child)) run.push(child);
+    else {
+      close();
+      stacks.push([child]);
+    }
+  }
+  close();
+  return stacks;
+}
+
+/** A node of the drawing: one block, or leaves below each other. */
+interface Stack {
+  readonly ids: readonly NodeId[];
 }
 
 /**
@@ -39,29 +72,52 @@ function arrange(
   top: NodeId,
   orientation: Orientation,
   sizeOf: (id: NodeId) => Size,
+  isStackable: (id: NodeId) => boolean,
 ): Map<NodeId, Mutable> {
   const vertical = orientation === 'vertical';
-  const spots: Spot<NodeId>[] = [];
-  const open: [id: NodeId, parent: number][] = [[top, -1]];
+  const breadthOf = (id: NodeId): number => (vertical ? sizeOf(id).width : sizeOf(id).height);
+  const depthOf = (id: NodeId): number => (vertical ? sizeOf(id).height : sizeOf(id).width);
+  const spots: Spot<Stack>[] = [];
+  const open: [ids: readonly NodeId[], parent: number][] = [[[top], -1]];
   for (let next = open.pop(); next; next = open.pop()) {
-    const [id, parent] = next;
-    const { width, height } = sizeOf(id);
-    const [breadth, depth] = vertical ? [width, height] : [height, width];
-    const at = spots.push({ id, parent, breadth, depth: depth + GAP.levels, middle: 0, start: 0 }) - 1;
-    const children = visibleChildren(diagram, id);
-    for (let i = children.length - 1; i >= 0; i -= 1) open.push([children[i] ?? '', at]);
+    const [ids, parent] = next;
+    const breadth = Math.max(...ids.map(breadthOf));
+    const depth = ids.reduce((sum, id) => sum + depthOf(id) + GAP.stacked, GAP.levels - GAP.stacked);
+    const at = spots.push({ id: { ids }, parent, breadth, depth, middle: 0, start: 0 }) - 1;
+    const [first = ''] = ids;
+    const stacks = stacksOf(diagram, first, isStackable);
+    for (let i = stacks.length - 1; i >= 0; i -= 1) open.push([stacks[i] ?? [], at]);
   }
   tidyTree(spots, GAP.siblings);
   const placed = new Map<NodeId, Mutable>();
   const corner = (spots[0]?.breadth ?? 0) / 2;
-  for (const { id, middle, start, breadth } of spots) {
-    const along = Math.round(middle - breadth / 2 + corner);
-    const across = Math.round(start);
-    const { width, height } = sizeOf(id);
-    // Written out, since objects that are made by spreading are slow to read.
-    placed.set(id, { x: vertical ? along : across, y: vertical ? across : along, width, height });
+  for (const { id: stack, middle, start } of spots) {
+    let below = start;
+    for (const id of stack.ids) {
+      const along = Math.round(middle - breadthOf(id) / 2 + corner);
+      const across = Math.round(below);
+      const { width, height } = sizeOf(id);
+      // Written out, since objects that are made by spreading are slow to read.
+      placed.set(id, { x: vertical ? along : across, y: vertical ? across : along, width, height });
+      below += depthOf(id) + GAP.stacked;
+    }
   }
   return placed;
+}
+
+/** The leaves that may be drawn below each other: those without a place of their own. */
+function stackableIn(diagram: Diagram, options: LayoutOptions): (id: NodeId) => boolean {
+  if (!options.isCompact) return () => false;
+  return (id) =>
+    childrenOf(diagram, id).length === 0 &&
+    (options.ignorePositions === true || diagram.nodes[id]?.position === undefined);
+}
+
+/** All leaves of a tree that are drawn below another. */
+function stackedIn(diagram: Diagram, isStackable: (id: NodeId) => boolean): ReadonlySet<NodeId> {
+  const parents = Object.keys(diagram.nodes);
+  const stacks = parents.flatMap((id) => stacksOf(diagram, id, isStackable));
+  return new Set(stacks.filter((ids) => ids.length > 1).flat());
 }
 
 function shift(boxes: Iterable<Mutable>, dx: number, dy: number): void {
@@ -112,10 +168,11 @@ export function layoutTree(diagram: Diagram, vocabulary?: Vocabulary, options: L
     sizes.set(id, size);
     return size;
   };
+  const isStackable = stackableIn(diagram, options);
   const positions: Record<NodeId, Box> = {};
   let occupied = { left: 0, top: 0, right: -Infinity, bottom: -Infinity };
   for (const top of topsOf(diagram)) {
-    const placed = arrange(diagram, top, orientation, sizeOf);
+    const placed = arrange(diagram, top, orientation, sizeOf, isStackable);
     const fixed = !options.ignorePositions && diagram.nodes[top]?.position !== undefined;
     if (!fixed && occupied.right > -Infinity) {
       const own = bounds(placed.values());
@@ -133,5 +190,10 @@ export function layoutTree(diagram: Diagram, vocabulary?: Vocabulary, options: L
   }
   const all = bounds(Object.values(positions));
   const empty = all.right === -Infinity;
-  return { positions, width: empty ? 0 : all.right - all.left, height: empty ? 0 : all.bottom - all.top };
+  return {
+    positions,
+    width: empty ? 0 : all.right - all.left,
+    height: empty ? 0 : all.bottom - all.top,
+    ...(options.isCompact ? { stacked: stackedIn(diagram, isStackable) } : {}),
+  };
 }

@@ -1,4 +1,6 @@
-import { childrenOf, topsOf, type Diagram, type NodeId } from './diagram';
+import { childrenOf, parentOf, subtreeOf, topsOf, type Diagram, type NodeId } from './diagram';
+import { hasRoom } from './rules';
+import type { Vocabulary } from './vocabulary';
 
 /** One line of the outline. */
 export interface OutlineLine {
@@ -22,4 +24,51 @@ export function outlineRows(diagram: Diagram): OutlineLine[] {
   };
   for (const top of topsOf(diagram)) visit(top, 0, top !== diagram.root);
   return rows;
+}
+
+/** A place between or on the lines where dragged lines may be dropped. */
+export interface OutlineSlot {
+  readonly parent: NodeId;
+  /** Counts the children before the drop. */
+  readonly index: number;
+  /** The line that is marked, where: at its upper or lower edge, or all of it. */
+  readonly row: NodeId;
+  readonly edge: 'before' | 'after' | 'onto';
+}
+
+/** The share of a line at its upper and lower edge that means before and after it. */
+const EDGE = 0.3;
+
+interface Drop {
+  readonly diagram: Diagram;
+  readonly vocabulary: Vocabulary;
+  /** The blocks that are moved, each with its subtree. */
+  readonly moving: readonly NodeId[];
+}
+
+/**
+ * The slot at a line; `share` is the height in the line, from 0 to 1. Below a line with visible children is
+ * before the first of them. Null where the blocks may not be dropped.
+ */
+export function outlineSlot(
+  { diagram, vocabulary, moving }: Drop,
+  line: OutlineLine,
+  share: number,
+): OutlineSlot | null {
+  const { id } = line;
+  if (moving.some((top) => subtreeOf(diagram, top).includes(id))) return null;
+  const leaving = new Set(moving);
+  const accepts = (parent: NodeId): boolean => hasRoom(diagram, parent, vocabulary, moving.length, leaving);
+  const onto = (): OutlineSlot | null =>
+    accepts(id) ? { parent: id, index: childrenOf(diagram, id).length, row: id, edge: 'onto' } : null;
+  const beside = (edge: 'before' | 'after'): OutlineSlot | null => {
+    const parent = parentOf(diagram, id);
+    if (parent === null || !accepts(parent)) return null;
+    const at = childrenOf(diagram, parent).indexOf(id);
+    return { parent, index: edge === 'before' ? at : at + 1, row: id, edge };
+  };
+  if (share >= EDGE && share <= 1 - EDGE) return onto() ?? beside(share < 0.5 ? 'before' : 'after');
+  if (share < EDGE) return beside('before') ?? onto();
+  if (!line.hasChildren || line.isFolded) return beside('after') ?? onto();
+  return accepts(id) ? { parent: id, index: 0, row: id, edge: 'after' } : null;
 }

@@ -82,3 +82,50 @@ it('knows the place that a block already has', () => {
   ]);
   expect(isSamePlace(tree, ['a', 'i'], { ...slot, index: 1 })).toBe(false);
 });
+
+describe.each(['vertical', 'horizontal'] as const)('slots between stacked leaves (%s)', (orientation) => {
+  const tree: Diagram = {
+    ...diagram(orientation),
+    nodes: {
+      r: { type: 'Sequence', children: ['a', 'b', 'c', 'i'] },
+      a: { type: 'Turn' },
+      b: { type: 'Turn', name: 'a much longer name' },
+      c: { type: 'Turn' },
+      i: { type: 'Inverter', children: ['d'] },
+      d: { type: 'Turn' },
+    },
+  };
+  const layout = layoutTree(tree, vocabulary, { isCompact: true });
+  const at = (id: string) => layout.positions[id]!;
+  const find = (x: number, y: number) => slotFinder({ diagram: tree, layout, vocabulary })(x, y);
+  const isVertical = orientation === 'vertical';
+
+  it('are a bar across the column', () => {
+    const [x, y] = centre(at('a'));
+    const slot = isVertical
+      ? find(x, (at('a').y + at('a').height + at('b').y) / 2)
+      : find((at('a').x + at('a').width + at('b').x) / 2, y);
+    expect(slot).toMatchObject({ parent: 'r', index: 1, kind: 'between' });
+    expect(isVertical ? slot!.mark.height : slot!.mark.width).toBe(4);
+  });
+
+  it('are above the first and below the last', () => {
+    const [x, y] = centre(at('a'));
+    const first = isVertical ? find(x, at('a').y + 2) : find(at('a').x + 2, y);
+    expect(first).toMatchObject({ parent: 'r', index: 0 });
+    const [lx, ly] = centre(at('c'));
+    const last = isVertical
+      ? find(lx, at('c').y + at('c').height - 2)
+      : find(at('c').x + at('c').width - 2, ly);
+    expect(last).toMatchObject({ parent: 'r', index: 3 });
+    expect(isVertical ? last!.mark.height : last!.mark.width).toBe(4);
+  });
+
+  it('are beside the column for blocks beside it', () => {
+    const i = at('i');
+    const slot = isVertical
+      ? find(i.x + i.width - 2, i.y + i.height / 2)
+      : find(i.x + i.width / 2, i.y + i.height - 2);
+    expect(slot).toMatchObject({ parent: 'r', index: 4 });
+  });
+});

@@ -13,7 +13,7 @@ export interface Slot {
   readonly mark: Box;
 }
 
-const REACH = { along: 48, across: 30, below: 84 } as const;
+const REACH = { along: 48, across: 30, below: 84, beside: 12 } as const;
 
 const transposed = (box: Box): Box => ({ x: box.y, y: box.x, width: box.height, height: box.width });
 
@@ -29,6 +29,8 @@ interface Query {
 interface Field {
   readonly boxOf: (id: NodeId) => Box | undefined;
   readonly accepts: (id: NodeId) => boolean;
+  /** The widths of the columns of leaves that are below each other. */
+  readonly columns: ReadonlyMap<NodeId, number>;
   readonly siblings: (id: NodeId) => readonly NodeId[];
   readonly parentOf: ReadonlyMap<NodeId, NodeId>;
   readonly ids: readonly NodeId[];
@@ -45,38 +47,56 @@ interface Row {
   readonly bottom: number;
 }
 
-function indexAt(field: Field, siblings: readonly NodeId[], x: number): number {
+/** Whether a point is in the column of leaves that are below each other, to which a block belongs. */
+function isInColumn(field: Field, id: NodeId | undefined, x: number): boolean {
+  const box = field.boxOf(id ?? '');
+  const width = field.columns.get(id ?? '');
+  return !!box && width !== undefined && Math.abs(x - middleOf(box)) <= width / 2 + REACH.beside;
+}
+
+function indexAt(field: Field, siblings: readonly NodeId[], x: number, y: number): number {
   const before = siblings.filter((id) => {
     const box = field.boxOf(id);
-    return box !== undefined && box.x + box.width / 2 < x;
+    if (!box) return false;
+    return isInColumn(field, id, x) ? box.y + box.height / 2 < y : middleOf(box) < x;
   });
   return before.length;
 }
 
-function slotBetween(field: Field, parent: NodeId, x: number): Slot | null {
-  const siblings = field.siblings(parent);
-  const index = indexAt(field, siblings, x);
-  const left = field.boxOf(siblings[index - 1] ?? '');
-  const right = field.boxOf(siblings[index] ?? '');
-  if (!left && !right) return null;
+/** The bar between two siblings beside each other; one of them is absent at an end of the row. */
+function barBetween(left: Box | undefined, right: Box | undefined): Box | null {
+  const tops = [left, right].filter((box) => box !== undefined);
+  if (tops.length === 0) return null;
   const at =
     left && right
       ? (left.x + left.width + right.x) / 2
       : left
-        ? left.x + left.width + 12
-        : (right?.x ?? 0) - 12;
-  const tops = [left, right].filter((box) => box !== undefined);
+        ? left.x + left.width + REACH.beside
+        : (right?.x ?? 0) - REACH.beside;
   const y = Math.min(...tops.map((box) => box.y)) - 4;
   const bottom = Math.max(...tops.map((box) => box.y + box.height)) + 4;
+  return { x: at - 2, y, width: 4, height: bottom - y };
+}
+
+/** The bar between two leaves below each other; one of them is absent at an end of the column. */
+function barBelow(upper: Box | undefined, lower: Box | undefined): Box | null {
+  const bar = barBetween(upper && transposed(upper), lower && transposed(lower));
+  return bar && transposed(bar);
+}
+
+function slotBetween(field: Field, parent: NodeId, x: number, y: number): Slot | null {
+  const siblings = field.siblings(parent);
+  const index = indexAt(field, siblings, x, y);
+  const [before, next] = [siblings[index - 1], siblings[index]];
+  const inColumn = (id: NodeId | undefined): Box | undefined =>
+    isInColumn(field, id, x) ? field.boxOf(id ?? '') : undefined;
+  const mark =
+    barBelow(inColumn(before), inColumn(next)) ??
+    barBetween(field.boxOf(before ?? ''), field.boxOf(next ?? ''));
+  if (!mark) return null;
   // The index refers to the visible siblings, without the moved block.
-  const next = siblings[index];
   const all = childrenOf(field.diagram, parent);
-  return {
-    parent,
-    index: next === undefined ? all.length : all.indexOf(next),
-    kind: 'between',
-    mark: { x: at - 2, y, width: 4, height: bottom - y },
-  };
+  return { parent, index: next === undefined ? all.length : all.indexOf(next), kind: 'between', mark };
 }
 
 function slotOnto(field: Field, parent: NodeId): Slot | null {
@@ -89,22 +109,49 @@ const inside = (box: Box, x: number, y: number): boolean =>
   x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + box.height;
 
 /** The slot on a block: in its middle as a child, on its sides beside it. */
-function slotOnBlock(field: Field, id: NodeId, parent: NodeId | undefined, x: number): Slot | null {
+function slotOnBlock(
+  field: Field,
+  id: NodeId,
+  parent: NodeId | undefined,
+  x: number,
+  y: number,
+): Slot | null {
   const box = field.boxOf(id);
   if (!box) return null;
-  const side = Math.abs(x - (box.x + box.width / 2)) > box.width / 4;
-  const beside = parent !== undefined && field.accepts(parent) ? slotBetween(field, parent, x) : null;
+  const side = field.columns.has(id)
+    ? Math.abs(y - (box.y + box.height / 2)) > box.height / 4
+    : Math.abs(x - (box.x + box.width / 2)) > box.width / 4;
+  const beside = parent !== undefined && field.accepts(parent) ? slotBetween(field, parent, x, y) : null;
   const onto = slotOnto(field, id);
   return side ? (beside ?? onto) : (onto ?? beside);
 }
 
-function rowOf(parent: NodeId, boxes: readonly Box[]): Row {
+const middleOf = (box: Box): number => box.x + box.width / 2;
+
+/** The width of its column for each stacked child of a parent; the leaves of a column follow each other. */
+function columnsOf(ids: readonly NodeId[], boxOf: Field['boxOf']): [NodeId, number][] {
+  const columns: { readonly ids: NodeId[]; readonly middle: number; width: number }[] = [];
+  for (const id of ids) {
+    const box = boxOf(id);
+    if (!box) continue;
+    const last = columns.at(-1);
+    if (last && Math.abs(last.middle - middleOf(box)) <= 1) {
+      last.ids.push(id);
+      last.width = Math.max(last.width, box.width);
+    } else columns.push({ ids: [id], middle: middleOf(box), width: box.width });
+  }
+  return columns.flatMap(({ ids: column, width }) => column.map((id): [NodeId, number] => [id, width]));
+}
+
+function rowOf(parent: NodeId, boxes: readonly Box[], isStacked: boolean): Row {
   return {
     parent,
     left: Math.min(...boxes.map((box) => box.x)) - REACH.along,
     right: Math.max(...boxes.map((box) => box.x + box.width)) + REACH.along,
     top: Math.min(...boxes.map((box) => box.y)) - REACH.across,
-    bottom: Math.max(...boxes.map((box) => box.y + Math.min(box.height, 60))) + REACH.across,
+    bottom:
+      Math.max(...boxes.map((box) => box.y + (isStacked ? box.height : Math.min(box.height, 60)))) +
+      REACH.across,
   };
 }
 
@@ -117,7 +164,7 @@ function findSlot(field: Field, x: number, y: number): Slot | null {
   for (const id of field.ids) {
     const box = field.boxOf(id);
     if (box && inside(box, x, y)) {
-      return slotOnBlock(field, id, field.parentOf.get(id), x);
+      return slotOnBlock(field, id, field.parentOf.get(id), x, y);
     }
   }
   let best: NodeId | null = null;
@@ -126,7 +173,7 @@ function findSlot(field: Field, x: number, y: number): Slot | null {
     const found = rowDistance(row, x, y);
     if (found < distance && field.accepts(row.parent)) [best, distance] = [row.parent, found];
   }
-  if (best !== null) return slotBetween(field, best, x);
+  if (best !== null) return slotBetween(field, best, x, y);
   for (const id of field.ids) {
     const box = field.boxOf(id);
     if (!box || field.siblings(id).length > 0) continue;
@@ -150,14 +197,33 @@ function fieldOf({ diagram, layout, vocabulary, moving = [] }: Query): Field {
       : children;
   };
   const parentOf = new Map(ids.flatMap((id) => siblings(id).map((child) => [child, id] as const)));
+  const { stacked } = layout;
+  const columns = new Map(
+    stacked
+      ? ids.flatMap((id) =>
+          columnsOf(
+            siblings(id).filter((each) => stacked.has(each)),
+            boxOf,
+          ),
+        )
+      : [],
+  );
   const rows = ids.flatMap((id) => {
     const boxes = siblings(id)
       .map(boxOf)
       .filter((box) => box !== undefined);
-    return boxes.length > 0 ? [rowOf(id, boxes)] : [];
+    return boxes.length > 0
+      ? [
+          rowOf(
+            id,
+            boxes,
+            siblings(id).some((each) => columns.has(each)),
+          ),
+        ]
+      : [];
   });
   const accepts = (id: NodeId) => hasRoom(diagram, id, vocabulary, Math.max(1, moving.length), leaving);
-  return { boxOf, siblings, parentOf, diagram, accepts, ids, rows };
+  return { boxOf, siblings, parentOf, diagram, accepts, columns, ids, rows };
 }
 
 /** Finds the slot at a point; null if there is none. */

@@ -28,7 +28,10 @@ class AvoidObstacles(py_trees.behaviour.Behaviour):
         self.scan = scan
 
     def nearest(self, low, high):
-        """Returns the nearest distance between two bearings in degrees, else the largest range."""
+        """Returns the nearest distance between two bearings in degrees.
+
+        If there is none, the largest range.
+        """
         scan, found = self.scan, self.scan.range_max
         for i, distance in enumerate(scan.ranges):
             bearing = math.degrees(math.remainder(scan.angle_min + i * scan.angle_increment, math.tau))

@@ -32,7 +32,10 @@ class FollowWall(py_trees.behaviour.Behaviour):
         self.had_wall = False
 
     def nearest(self, low, high):
-        """Returns the nearest distance between two bearings in degrees, else the largest range."""
+        """Returns the nearest distance between two bearings in degrees.
+
+        If there is none, the largest range.
+        """
         scan, found = self.scan, self.scan.range_max
         for i, distance in enumerate(scan.ranges):
             bearing = math.degrees(math.remainder(scan.angle_min + i * scan.angle_increment, math.tau))

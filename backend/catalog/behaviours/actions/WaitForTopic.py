@@ -31,7 +31,7 @@ class WaitForTopic(py_trees.behaviour.Behaviour):
         self.arrived = True
 
     def subscribe(self, topic):
-        """Subscribes once there is a publisher: before that the type is unknown."""
+        """Subscribes to the topic if it has a publisher, since the type is unknown before."""
         for name, types in self.node.get_topic_names_and_types():
             if name == topic:
                 package, kind, message = types[0].split("/")

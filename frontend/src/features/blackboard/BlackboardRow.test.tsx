@@ -1,6 +1,7 @@
 import { screen } from '@testing-library/react';
 import { describe, expect, it } from 'vitest';
-import { show } from '../../../harness/testing';
+import { useRenameKey } from '@/store/dialogs/renameKey';
+import { openProject, show, user } from '../../../harness/testing';
 import { BlackboardRow } from './BlackboardRow';
 
 type Row = Parameters<typeof BlackboardRow>[0]['row'];
@@ -33,6 +34,13 @@ describe('BlackboardRow', () => {
     expect([...row.children].map(({ textContent }) => textContent)).toEqual(['goal', '0.123457', 'float']);
     for (const title of ['goal', '0.123457', 'float']) expect(screen.getByTitle(title)).toBeInTheDocument();
     expect(screen.getByRole('rowheader')).toHaveAttribute('scope', 'row');
+  });
+
+  it('leads to renaming its key in the tree of its scope', async () => {
+    openProject({ trees: { Main: { r: { type: 'SubTree', tree: 'In' } }, In: { i: { type: 'Sleep' } } } });
+    open({ scope: 'In::1' });
+    await user.click(screen.getByRole('button', { name: 'Rename the key goal everywhere…' }));
+    expect(useRenameKey.getState()).toEqual({ isOpen: true, key: { board: 'In', name: 'goal' } });
   });
 
   it('can be written where that is allowed', () => {

@@ -1,4 +1,11 @@
+import { ActionIcon } from '@mantine/core';
+import { IconCursorText } from '@tabler/icons-react';
 import { memo } from 'react';
+import { useTranslation } from 'react-i18next';
+import { keyOf } from '@/model/keys/rename';
+import { treeOfScope } from '@/model/keys/runScope';
+import { openRenameKey } from '@/store/dialogs/renameKey';
+import { useProjectStore } from '@/store/project';
 import type { BlackboardRow as Row } from '@/store/session/types';
 import classes from './blackboard.module.css';
 import { ValueField } from './ValueField';
@@ -10,11 +17,26 @@ interface BlackboardRowProps {
 }
 
 export const BlackboardRow = memo(function BlackboardRow({ row, canEdit }: BlackboardRowProps) {
+  const { t } = useTranslation('blackboard');
   const shown = showValue(row.value);
+  const tree = useProjectStore((state) => (state.role === 'viewer' ? null : treeOfScope(state, row.scope)));
   return (
     <tr data-testid={`blackboard-${row.key}`}>
       <th scope="row" className={classes['key']} title={row.key}>
-        {row.key}
+        <span className={classes['name']}>
+          {row.key}
+          {tree === null ? null : (
+            <ActionIcon
+              size={24}
+              className={classes['rename'] ?? ''}
+              aria-label={t('rename', { key: row.key })}
+              title={t('rename', { key: row.key })}
+              onClick={() => openRenameKey(keyOf(tree, row.key))}
+            >
+              <IconCursorText size={14} aria-hidden="true" />
+            </ActionIcon>
+          )}
+        </span>
       </th>
       <td>
         {canEdit ? (

@@ -72,9 +72,27 @@ describe('BlockMenu', () => {
     ]);
   });
 
+  it('has what works on several blocks', () => {
+    open(['a', 'i']);
+    expect(groups()).toEqual([
+      ['wrap', 'wrapSequence', 'wrapFallback', 'extract'],
+      ['disable'],
+      ['cut', 'copy', 'paste', 'duplicate'],
+      ['delete'],
+    ]);
+  });
+
+  it('extracts no blocks that do not follow each other', () => {
+    open(['a', 's']);
+    expect(groups()[0]).toEqual(['wrap', 'wrapSequence', 'wrapFallback']);
+  });
+
   it('adds and pastes on free canvas', () => {
     open([], { isOnBlock: false });
-    expect(groups()).toEqual([['addBlock', 'paste']]);
+    expect(groups()).toEqual([
+      ['addBlock', 'paste'],
+      ['collapse1', 'collapse2', 'collapse3', 'collapse4'],
+    ]);
   });
 
   it('names the commands and their keys', () => {

@@ -3,6 +3,7 @@ import { Fragment } from 'react';
 import { useTranslation } from 'react-i18next';
 import { keysOf } from '@/commands/shortcuts';
 import { blockCommands, type BlockCommand } from './commands/blockCommands';
+import { levelCommands } from './commands/levelCommands';
 
 export interface MenuPoint {
   readonly x: number;
@@ -19,6 +20,8 @@ const ON_BLOCK = [
     'canvas.add',
     'canvas.addAfter',
     'canvas.wrap',
+    'canvas.wrapSequence',
+    'canvas.wrapFallback',
     'canvas.unwrap',
     'canvas.morph',
     'canvas.extract',
@@ -28,7 +31,7 @@ const ON_BLOCK = [
   ['edit.cut', 'edit.copy', 'edit.paste', 'edit.duplicate'],
   ['edit.delete'],
 ];
-const BESIDE_BLOCKS = [['canvas.add', 'edit.paste']];
+const BESIDE_BLOCKS = [['canvas.add', 'edit.paste'], levelCommands.map(({ id }) => id)];
 const DANGEROUS: ReadonlySet<string> = new Set(['edit.delete']);
 
 interface Item {
@@ -36,7 +39,7 @@ interface Item {
   readonly action: BlockCommand;
 }
 
-const byId = new Map(blockCommands.map((action) => [action.id, action]));
+const byId = new Map([...blockCommands, ...levelCommands].map((action) => [action.id, action]));
 
 /** The commands that are available now, in groups. */
 function itemsFor(isOnBlock: boolean): Item[][] {

@@ -24,6 +24,8 @@ const store = () => useProjectStore.getState();
 const canvas = () => screen.getByTestId('canvas');
 const block = (id: string) => screen.getByTestId(`node-${id}`);
 const edge = (id: string) => document.querySelector<SVGElement>(`.react-flow__edge[data-id="${id}"]`)!;
+/** The menu of the free canvas. */
+const FREE = ['addBlock', 'paste', 'collapse1', 'collapse2', 'collapse3', 'collapse4'];
 const pane = () => document.querySelector<HTMLElement>('.react-flow__pane')!;
 const select = (...ids: string[]) => act(() => store().select('Main', ids));
 const items = () => screen.queryAllByRole('menuitem').map((item) => item.dataset['testid']?.slice(5));
@@ -52,20 +54,23 @@ describe('the canvas', () => {
     expect(canvas()).toHaveAttribute('tabindex', '0');
     expect(screen.getByRole('application', { name: /^Behaviour tree Main/ })).toBe(canvas());
     expect(canvas()).toHaveAttribute('aria-describedby', 'canvas-announcer');
-    expect(screen.queryByText('This tree is empty')).toBeNull();
+    expect(screen.queryByTestId('ghost-block')).toBeNull();
   });
 
   it('leaves out details from afar', () => {
     const { store: flow } = open();
+    expect(canvas()).not.toHaveAttribute('data-names');
     act(() => flow.setState({ transform: [0, 0, 0.43] }));
+    expect(canvas()).toHaveAttribute('data-names', 'true');
     expect(canvas()).not.toHaveAttribute('data-far');
     act(() => flow.setState({ transform: [0, 0, 0.41] }));
     expect(canvas()).toHaveAttribute('data-far', 'true');
+    expect(canvas()).not.toHaveAttribute('data-names');
   });
 
   it('says how to begin an empty tree', () => {
     open({ root: null, nodes: {} });
-    expect(screen.getByText('This tree is empty')).toBeInTheDocument();
+    expect(screen.getByTestId('ghost-block')).toBeInTheDocument();
   });
 
   it('has an overview where the user wants one', () => {
@@ -125,7 +130,7 @@ describe('a press', () => {
 
   it('on a tool or the way up leaves the keyboard with the blocks', () => {
     open();
-    for (const place of ['Tidy layout', 'Main']) {
+    for (const place of ['Show the tools of the view', 'Main']) {
       (document.activeElement as HTMLElement).blur();
       const button = screen.getByRole('button', { name: place });
       fireEvent.pointerDown(button);
@@ -206,13 +211,13 @@ describe('the menu', () => {
   it('of the free canvas adds and pastes', () => {
     open();
     fireEvent.contextMenu(pane());
-    expect(items()).toEqual(['addBlock', 'paste']);
+    expect(items()).toEqual(FREE);
   });
 
   it('opens by keys, for the selection or the canvas', async () => {
     open();
     expect(fireEvent.keyDown(canvas(), { key: 'F10', shiftKey: true })).toBe(false);
-    await waitFor(() => expect(items()).toEqual(['addBlock', 'paste']));
+    await waitFor(() => expect(items()).toEqual(FREE));
     select('a');
     fireEvent.keyDown(canvas(), { key: 'ContextMenu' });
     await waitFor(() => expect(items()).toContain('wrap'));
@@ -220,7 +225,7 @@ describe('the menu', () => {
 
   it('is that of a button while one has the focus', () => {
     open();
-    const button = screen.getByRole('button', { name: 'Tidy layout' });
+    const button = screen.getByRole('button', { name: 'Show the tools of the view' });
     expect(fireEvent.keyDown(button, { key: 'ContextMenu' })).toBe(true);
     expect(fireEvent.contextMenu(canvas())).toBe(false);
     expect(fireEvent.contextMenu(button)).toBe(true);

@@ -13,31 +13,35 @@ import { useProjectStore } from '@/store/project';
 import { Announcer } from './Announcer';
 import { Block } from './block/Block';
 import { Breadcrumbs } from './Breadcrumbs';
-import { CanvasToolbar } from './CanvasToolbar';
+import { CanvasToolbar } from './view/CanvasToolbar';
 import { BlockMenu, type MenuPoint } from './BlockMenu';
-import { Dots } from './Dots';
+import { Dots } from './view/Dots';
 import { EmptyTree } from './EmptyTree';
 import { FindBar } from './FindBar';
 import { FixBox } from './FixBox';
 import { FlowProjection, withHeld, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
 import { openBlock } from './commands/selectedBlock';
 import { enterInside, isMenuKey, onCanvasKey } from './gestures/keyboard';
-import { Overview } from './Overview';
+import { Overview } from './view/Overview';
 import { QuickAdd } from './quickAdd/QuickAdd';
 import { openQuickAdd, pointOf } from './quickAdd/open';
 import { SlotMark } from './gestures/SlotMark';
 import { TreeEdge } from './TreeEdge';
+import { useBoxSelection } from './gestures/useBoxSelection';
 import { useConnecting } from './gestures/useConnecting';
 import { useDragging } from './gestures/useDragging';
-import { useKnownSizes } from './useKnownSizes';
+import { useKnownSizes } from './view/useKnownSizes';
 import { usePaletteDrop } from './gestures/usePaletteDrop';
-import { useReveal } from './useReveal';
+import { useRefit } from './view/useRefit';
+import { useReveal } from './view/useReveal';
 import { useTree } from './useTree';
-import { useViewport } from './useViewport';
+import { LEAST_ZOOM, useViewport } from './view/useViewport';
 import classes from './Canvas.module.css';
 
 const nodeTypes = { block: Block };
 const edgeTypes = { tree: TreeEdge };
+/** Below these zooms blocks show only their names, and then only symbol, colour and status. */
+const NAMES = 0.65;
 const FAR = 0.42;
 const DELETE_KEYS: string[] = [];
 const MULTI_KEYS = ['Meta', 'Control', 'Shift'];
@@ -51,17 +55,20 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
   const flow = useReactFlow<BlockNode, TreeEdgeType>();
   useKnownSizes();
   const isFar = useStore((state) => state.transform[2] < FAR);
+  const hasNamesOnly = useStore(({ transform: [, , zoom] }) => zoom < NAMES && zoom >= FAR);
   const quickAdd = useEditorStore((state) => (state.quickAdd?.tree === treeId ? state.quickAdd : null));
   const find = useEditorStore((state) => state.find);
   const fixing = useEditorStore((state) => state.fixing);
   const minimap = useEditorStore((state) => state.minimap);
   const [menu, setMenu] = useState<MenuPoint | null>(null);
   const [pressedEdge, setChosenEdge] = useState<string | null>(null);
-  const { held, onDrag, onDrop } = useDragging(tree, root);
+  const { held, onDragStart, onDrag, onDrop } = useDragging(tree, root);
   const connecting = useConnecting(tree);
+  const box = useBoxSelection(treeId);
   const palette = usePaletteDrop(tree);
   const viewport = useViewport(treeId, tree.layout, tree.diagram);
   useReveal(treeId, tree.layout);
+  useRefit(tree);
 
   const [projection] = useState(() => new FlowProjection());
   const { diagram, shown, layout, vocabulary, problems, selection } = tree;
@@ -157,6 +164,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
       data-testid="canvas"
       data-tree={treeId}
       data-far={isFar || undefined}
+      data-names={hasNamesOnly || undefined}
       role="application"
       aria-label={t('label', { tree: treeId })}
       aria-describedby="canvas-announcer"
@@ -178,6 +186,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
       }}
       onPointerDownCapture={(event) => {
         useProjectStore.getState().setActiveTree(treeId);
+        box.onPress();
         const target = event.target as HTMLElement;
         if (isTool(target) || !target.closest('input, button, [role="dialog"], [role="menu"]')) focus();
       }}
@@ -204,19 +213,22 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
         edgeTypes={edgeTypes}
         onNodesChange={onNodesChange}
         onEdgesChange={onEdgesChange}
+        onNodeDragStart={onDragStart}
         onNodeDrag={onDrag}
         onNodeDragStop={onDrop}
+        onSelectionStart={box.onSelectionStart}
         onNodeClick={onNodeClick}
         onNodeDoubleClick={onNodeDoubleClick}
         onNodeContextMenu={openMenu}
         onPaneContextMenu={onPaneContextMenu}
         isValidConnection={connecting.isValidConnection}
+        onConnectStart={connecting.onConnectStart}
         onConnect={connecting.onConnect}
         onConnectEnd={connecting.onConnectEnd}
         defaultViewport={viewport.initial}
         onMoveEnd={viewport.onMoveEnd}
         onInit={viewport.onInit}
-        minZoom={0.08}
+        minZoom={LEAST_ZOOM}
         maxZoom={2.2}
         nodeDragThreshold={4}
         nodesFocusable={false}

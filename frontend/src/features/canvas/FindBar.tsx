@@ -39,7 +39,7 @@ export function FindBar({ treeId, onClose }: FindBarProps) {
   };
 
   return (
-    <div className={classes['find']} role="search">
+    <div className={classes['find']} role="search" data-overlay>
       <input
         ref={field}
         aria-label={t('find.label')}

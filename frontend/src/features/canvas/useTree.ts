@@ -7,6 +7,7 @@ import type { Vocabulary } from '@/model/vocabulary';
 import { useEditorStore } from '@/store/project/editor';
 import { problemsOf, worstByNode, type ShownProblem } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
+import { useCompact } from './view/compact';
 
 export interface TreeOnCanvas {
   readonly diagram: Diagram;
@@ -14,6 +15,8 @@ export interface TreeOnCanvas {
   readonly shown: ExpandedTree;
   readonly vocabulary: Vocabulary;
   readonly layout: Layout;
+  /** Whether leaves are below each other. */
+  readonly isCompact: boolean;
   readonly problems: ReadonlyMap<string, ShownProblem>;
   readonly selection: ReadonlySet<string>;
 }
@@ -32,11 +35,15 @@ export function useTree(treeId: string): TreeOnCanvas {
   const expanded = useEditorStore((state) => state.expanded[treeId]) ?? CLOSED;
   const others = useProjectStore((state) => (expanded.size > 0 ? state.diagrams : NO_TREES));
   const shown = useMemo(() => expandTrees(diagram, others, expanded), [diagram, others, expanded]);
-  const layout = useMemo(() => layoutTree(shown.diagram, vocabulary), [shown, vocabulary]);
+  const isCompact = useCompact((state) => state.isCompact);
+  const layout = useMemo(
+    () => layoutTree(shown.diagram, vocabulary, { isCompact }),
+    [shown, vocabulary, isCompact],
+  );
   const problems = useMemo(
     () => worstByNode(problemsOf(diagram, vocabulary, diagnostics)),
     [diagram, vocabulary, diagnostics],
   );
   const selection = useMemo(() => new Set(chosen), [chosen]);
-  return { diagram, shown, vocabulary, layout, problems, selection };
+  return { diagram, shown, vocabulary, layout, isCompact, problems, selection };
 }

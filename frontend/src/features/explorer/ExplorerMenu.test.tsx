@@ -3,6 +3,7 @@ import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { useProjectStore } from '@/store/project';
 import { openProject, show, user } from '../../../harness/testing';
 import { ExplorerItem } from './ExplorerItem';
+import { ExplorerMenu } from './ExplorerMenu';
 
 const choose = async (name: string) => user.click(await screen.findByRole('menuitem', { name }));
 const paths = () => Object.keys(useProjectStore.getState().files);
@@ -29,4 +30,9 @@ describe('a right click, or the menu key', () => {
     expect(await screen.findByText('The path is in the clipboard: notes/a.md')).toBeInTheDocument();
     vi.unstubAllGlobals();
   });
+});
+
+it('is shut until it is asked for', () => {
+  show(<ExplorerMenu path="b.md" name="b.md" isOpened={false} onChange={vi.fn()} onOpen={vi.fn()} />);
+  expect(screen.getByRole('button', { name: 'More for b.md' })).toHaveAttribute('aria-expanded', 'false');
 });

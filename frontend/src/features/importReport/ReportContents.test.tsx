@@ -4,6 +4,7 @@ import { announceImport, useImportReport } from '@/store/dialogs/importReport';
 import { useUniverseChooser } from '@/store/dialogs/universeChooser';
 import type { Diagnostic } from '@/api/types';
 import { action, openProject, show, user, watchNavigation } from '../../../harness/testing';
+import { ReportContents } from './ReportContents';
 import { ImportReport } from './ImportReport';
 
 const stub: Diagnostic = {
@@ -68,4 +69,10 @@ describe('ReportContents', () => {
     expect(useUniverseChooser.getState().isOpen).toBe(true);
     expect(useImportReport.getState().projectId).toBeNull();
   });
+});
+
+it('stands for itself', () => {
+  openProject({ trees: { Main: nodes } });
+  show(<ReportContents />);
+  expect(screen.getByTestId('import-report')).toHaveTextContent('1 tree');
 });

@@ -18,9 +18,19 @@ function Field({ spec, start = null, onChange }: FieldProps) {
     onChange(next);
   };
   return (
-    <PortField port={spec} value={value} keys={['goal', 'pose']} error={null} taken={[]} onChange={change} />
+    <PortField
+      port={spec}
+      value={value}
+      keys={['goal', 'pose']}
+      error={null}
+      taken={[]}
+      onRenameKey={onRenameKey}
+      onChange={change}
+    />
   );
 }
+
+const onRenameKey = vi.fn();
 
 /** Shows the field, and returns its input and the last value it reported. */
 function field(spec: Partial<PortSpec>, start: string | null = null) {
@@ -31,6 +41,21 @@ function field(spec: Partial<PortSpec>, start: string | null = null) {
 }
 
 describe('PortField', () => {
+  it.each([
+    ['{goal}', 'goal'],
+    ['{@goal}', '@goal'],
+    ['{=}', 'x'],
+  ])('with %s offers to rename the key %s everywhere', async (text, key) => {
+    field({}, text);
+    await user.click(screen.getByRole('button', { name: 'Rename this key everywhere…' }));
+    expect(onRenameKey).toHaveBeenLastCalledWith(key);
+  });
+
+  it('offers to rename no key where there is none', () => {
+    field({}, '0.5');
+    expect(screen.queryByRole('button', { name: /^Rename this key/ })).toBeNull();
+  });
+
   it('shows the default of a port that is not set', () => {
     const { input } = field({ default: '0.3', description: 'How fast.' });
     expect(input()).toHaveValue('');

@@ -1,5 +1,5 @@
 import { ActionIcon, Tooltip } from '@mantine/core';
-import { IconArrowBackUp, IconBraces, IconPencil, IconTrash } from '@tabler/icons-react';
+import { IconArrowBackUp, IconBraces, IconCursorText, IconPencil, IconTrash } from '@tabler/icons-react';
 import { useEffect, useId, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { readPortText, type PortSpec } from '@/model/ports';
@@ -23,14 +23,17 @@ interface PortFieldProps {
   readonly onRemove?: (() => void) | undefined;
   /** Present for a port that all blocks of the type share. */
   readonly onRename?: ((name: string) => void) | undefined;
+  /** Renames the key that the port names, wherever it is the same entry. */
+  readonly onRenameKey: (key: string) => void;
   /** The names of the other ports. */
   readonly taken: readonly string[];
 }
 
 /** One port: a value or a blackboard key, with the widget for its type. */
 export function PortField(props: PortFieldProps) {
-  const { port, value, keys, error, onChange, onRemove, onRename, taken, isNew = false, onLeave } = props;
-  const { t } = useTranslation('inspector');
+  const { port, value, keys, error, onChange, onRemove, onRename, onRenameKey } = props;
+  const { taken, isNew = false, onLeave } = props;
+  const { t } = useTranslation(['inspector', 'keys']);
   const label = useId();
   const field = useRef<HTMLDivElement>(null);
   const onLeft = useRef(onLeave);
@@ -54,7 +57,9 @@ export function PortField(props: PortFieldProps) {
   }, [isNew]);
   const [isRenaming, setIsRenaming] = useState(false);
   const isExtra = onRemove !== undefined;
-  const kind = value === null ? 'empty' : readPortText(value).kind;
+  const read = readPortText(value ?? '');
+  const { kind } = read;
+  const key = read.kind === 'key' ? `${read.global ? '@' : ''}${read.key}` : port.name;
   const isKey =
     kind === 'key' ||
     kind === 'same-name' ||
@@ -94,6 +99,13 @@ export function PortField(props: PortFieldProps) {
               }}
             >
               <IconBraces size={14} aria-hidden="true" />
+            </ActionIcon>
+          </Tooltip>
+        )}
+        {(kind === 'key' || kind === 'same-name') && (
+          <Tooltip label={t('keys:here')}>
+            <ActionIcon size={24} aria-label={t('keys:here')} onClick={() => onRenameKey(key)}>
+              <IconCursorText size={14} aria-hidden="true" />
             </ActionIcon>
           </Tooltip>
         )}

@@ -6,6 +6,8 @@ import type { NodeId } from '@/model/diagram';
 import { setPort } from '@/model/edits';
 import type { PortSpec } from '@/model/ports';
 import { blackboardKeys } from '@/model/vocabulary';
+import { keyOf } from '@/model/keys/rename';
+import { openRenameKey } from '@/store/dialogs/renameKey';
 import { change } from '@/store/project/edits/blocks';
 import { portsInUse, shared } from '@/store/project/edits/ports';
 import { problemsOf } from '@/store/project/problems';
@@ -102,6 +104,7 @@ export function PortList(target: Target) {
           onChange={(value) => {
             set(port.name, value);
           }}
+          onRenameKey={(key) => openRenameKey(keyOf(diagram.id, key))}
           onRemove={known.has(port.name) ? undefined : () => remove(port.name)}
           onRename={
             known.has(port.name) || !areShared

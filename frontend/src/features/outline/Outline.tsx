@@ -7,6 +7,7 @@ import { change, deleteSelection } from '@/store/project/edits/blocks';
 import { openAction } from '@/store/project/navigation';
 import { useProjectStore } from '@/store/project';
 import { OutlineRow } from './OutlineRow';
+import { useRowDrag } from './useRowDrag';
 import classes from './Outline.module.css';
 
 const ROW = 28;
@@ -19,7 +20,9 @@ export function Outline() {
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const reveal = useProjectStore((state) => state.reveal);
   const scroller = useRef<HTMLDivElement>(null);
+  const list = useRef<HTMLDivElement>(null);
   const rows = useMemo(() => (diagram ? outlineRows(diagram) : []), [diagram]);
+  const { slot, onPress, wasDragged } = useRowDrag(list, diagram, rows, ROW);
   const [first] = selection;
   const at = rows.findIndex((row) => row.id === first);
   // The virtualiser keeps mutable state, which the compiler must not memoise.
@@ -73,7 +76,7 @@ export function Outline() {
         event.preventDefault();
       }}
     >
-      <div style={{ height: virtual.getTotalSize(), position: 'relative' }} role="presentation">
+      <div ref={list} style={{ height: virtual.getTotalSize(), position: 'relative' }} role="presentation">
         {virtual.getVirtualItems().map((item) => {
           const row = rows[item.index];
           const node = row && diagram.nodes[row.id];
@@ -87,6 +90,9 @@ export function Outline() {
               spec={vocabulary.specs.get(node.type)}
               isSelected={selection.includes(row.id)}
               top={item.start}
+              mark={slot?.row === row.id ? slot.edge : null}
+              onPress={onPress}
+              wasDragged={wasDragged}
             />
           );
         })}

@@ -17,7 +17,19 @@ beforeEach(() => {
 function open(id: string, more: Partial<OutlineLine> = {}, isSelected = false) {
   const row = { id, depth: 0, hasChildren: false, isFolded: false, isDraft: false, ...more };
   const node = nodeOf('Main', id)!;
-  show(<OutlineRow tree="Main" row={row} node={node} spec={undefined} isSelected={isSelected} top={84} />);
+  show(
+    <OutlineRow
+      tree="Main"
+      row={row}
+      node={node}
+      spec={undefined}
+      isSelected={isSelected}
+      top={84}
+      mark={null}
+      onPress={() => undefined}
+      wasDragged={{ current: false }}
+    />,
+  );
   return screen.getByRole('treeitem');
 }
 

@@ -1,8 +1,9 @@
 import { IconChevronRight } from '@tabler/icons-react';
+import type { PointerEvent } from 'react';
 import { useTranslation } from 'react-i18next';
-import { displayName, type DiagramNode } from '@/model/diagram';
+import { displayName, type DiagramNode, type NodeId } from '@/model/diagram';
 import { setCollapsed } from '@/model/edits';
-import type { OutlineLine } from '@/model/outline';
+import type { OutlineLine, OutlineSlot } from '@/model/outline';
 import type { NodeSpec } from '@/model/vocabulary';
 import { change } from '@/store/project/edits/blocks';
 import { liveKey, pastOf, useLiveStore } from '@/store/project/live';
@@ -17,10 +18,15 @@ interface OutlineRowProps {
   readonly spec: NodeSpec | undefined;
   readonly isSelected: boolean;
   readonly top: number;
+  /** Where a dragged line would be dropped at this one. */
+  readonly mark: OutlineSlot['edge'] | null;
+  readonly onPress: (event: PointerEvent, id: NodeId) => void;
+  readonly wasDragged: { readonly current: boolean };
 }
 
 /** One line: symbol, name, type if it differs from the name, and status. The list handles the keys. */
-export function OutlineRow({ tree, row, node, spec, isSelected, top }: OutlineRowProps) {
+export function OutlineRow(props: OutlineRowProps) {
+  const { tree, row, node, spec, isSelected, top, mark, onPress, wasDragged } = props;
   const { t } = useTranslation('outline');
   const status = useLiveStore((state) => state.statuses.get(liveKey(tree, row.id)) ?? 'IDLE');
   const past = useLiveStore((state) => pastOf(state, liveKey(tree, row.id)));
@@ -38,8 +44,11 @@ export function OutlineRow({ tree, row, node, spec, isSelected, top }: OutlineRo
       data-status={past ?? status}
       data-past={past === undefined ? undefined : ''}
       data-disabled={node.disabled || undefined}
+      data-mark={mark ?? undefined}
       style={{ transform: `translateY(${top}px)`, paddingLeft: 6 + row.depth * 14 }}
+      onPointerDown={(event) => onPress(event, row.id)}
       onClick={() => {
+        if (wasDragged.current) return;
         useProjectStore.getState().reveal(tree, row.id);
       }}
     >

@@ -1,5 +1,5 @@
 import { createEvent, fireEvent, screen, waitFor } from '@testing-library/react';
-import { beforeEach, describe, expect, it, vi } from 'vitest';
+import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { useProjectStore } from '@/store/project';
 import { runTree, treeNode } from '../../../harness/running';
 import { openProject, show, user, watchNavigation } from '../../../harness/testing';
@@ -175,9 +175,10 @@ describe('the pointer', () => {
   });
 
   /** Presses at a place, and moves the pointer by some pixels. */
-  function drag(from: number, by: number, buttons = 1): void {
-    fireEvent.pointerDown(rows(), { clientX: from, clientY: 30 });
-    const move = createEvent.pointerMove(rows(), { clientX: from + by, clientY: 30, buttons });
+  function drag(from: number, by: number, button = 0): void {
+    onTestFinished(() => void fireEvent.pointerUp(window, { pointerId: 1 }));
+    fireEvent.pointerDown(rows(), { clientX: from, clientY: 30, button, pointerId: 1 });
+    const move = createEvent.pointerMove(rows(), { clientX: from + by, clientY: 30, pointerId: 1 });
     Object.defineProperty(move, 'movementX', { value: by });
     fireEvent(rows(), move);
   }
@@ -188,11 +189,20 @@ describe('the pointer', () => {
     expect(span()).toEqual(['1:07', '1:37']);
   });
 
-  it('drags nothing by the few pixels of a click, or without a button', async () => {
+  it('drags the span back at Escape', () => {
+    run();
+    drag(200, 40);
+    expect(isFollowing()).toBe('false');
+    fireEvent.keyDown(rows(), { key: 'Escape' });
+    expect(span()).toEqual(['1:10', '1:40']);
+    expect(isFollowing()).toBe('true');
+  });
+
+  it('drags nothing by the few pixels of a click, or with another button', async () => {
     run();
     const { openTree } = watchNavigation();
+    drag(200, 40, 2);
     drag(200, 4);
-    drag(200, 40, 0);
     expect(span()).toEqual(['1:10', '1:40']);
     fireEvent.click(screen.getByRole('button', { name: /^drive/ }));
     expect(openTree).toHaveBeenCalled();

@@ -12,6 +12,7 @@ import { useTranslation } from 'react-i18next';
 import { useProjectStore } from '@/store/project';
 import { openTree } from '@/store/project/navigation';
 import { useSessionStore } from '@/store/session/store';
+import { cancellable } from '@/ui/cancellable';
 import { useVisible } from '@/ui/useVisible';
 import { ROW_PX } from './draw';
 import { Legend } from './Legend';
@@ -40,7 +41,7 @@ export function TimelinePanel() {
   const [isFollowing, setFollowing] = useState(true);
   const [active, setActive] = useState(0);
   const [tip, setTip] = useState<TipAt | null>(null);
-  const pressed = useRef<{ x: number; moved: boolean } | null>(null);
+  const hasPanned = useRef(false);
 
   // The virtualizer keeps its own state; the compiler's memoisation does not apply to this component.
   // eslint-disable-next-line react-hooks/incompatible-library
@@ -66,12 +67,21 @@ export function TimelinePanel() {
     return box && box.width > 0 ? (clientX - box.left) / box.width : -1;
   };
 
-  const onPointerMove = (event: PointerEvent) => {
-    const start = pressed.current;
-    if (start && event.buttons === 1) {
-      if (Math.abs(event.clientX - start.x) > CLICK_PX) start.moved = true;
-      if (start.moved) view.pan(-event.movementX / Math.max(canvas.current?.clientWidth ?? 1, 1));
-    }
+  /** A drag pans the span; Escape shows the span of before. */
+  const onPress = ({ currentTarget, pointerId, clientX, button }: PointerEvent) => {
+    hasPanned.current = false;
+    if (button !== 0) return;
+    const restore = view.remember();
+    cancellable(currentTarget, pointerId, {
+      onMove: (event) => {
+        if (Math.abs(event.clientX - clientX) > CLICK_PX) hasPanned.current = true;
+        if (hasPanned.current) view.pan(-event.movementX / Math.max(canvas.current?.clientWidth ?? 1, 1));
+      },
+      onCancel: restore,
+    });
+  };
+
+  const showTip = (event: PointerEvent) => {
     const share = shareOf(event.clientX);
     const box = scroller.current?.getBoundingClientRect();
     if (share < 0 || !box) return setTip(null);
@@ -81,7 +91,7 @@ export function TimelinePanel() {
   };
 
   const select = (row: TimelineRow) => {
-    if (pressed.current?.moved) return;
+    if (hasPanned.current) return;
     if (!row.node) return;
     openTree(row.tree);
     useProjectStore.getState().reveal(row.tree, row.node);
@@ -155,8 +165,8 @@ export function TimelinePanel() {
           aria-label={t('rows')}
           onScroll={view.redraw}
           onKeyDown={onKeyDown}
-          onPointerDown={(event) => (pressed.current = { x: event.clientX, moved: false })}
-          onPointerMove={onPointerMove}
+          onPointerDown={onPress}
+          onPointerMove={showTip}
           onPointerLeave={() => setTip(null)}
         >
           <div className={classes['rows']} style={{ height: virtual.getTotalSize() }}>

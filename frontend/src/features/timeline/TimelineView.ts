@@ -69,6 +69,15 @@ export class TimelineView {
     this.show({ from: from + by, to: to + by });
   }
 
+  /** Returns a function that shows what is shown now again. */
+  remember(): () => void {
+    const { end, length } = this;
+    return () => {
+      this.length = length;
+      this.setEnd(end);
+    };
+  }
+
   showAll(): void {
     this.show({ from: trace.begin, to: trace.now });
   }

@@ -31,9 +31,9 @@ describe('Plot', () => {
 
   it('holds and continues', async () => {
     show(<Plot isVisible={false} />);
-    await user.click(screen.getByRole('button', { name: 'Pause this list' }));
+    await user.click(screen.getByRole('button', { name: 'Pause the plot' }));
     await user.click(screen.getByRole('button', { name: 'Resume' }));
-    expect(screen.getByRole('button', { name: 'Pause this list' })).toBeInTheDocument();
+    expect(screen.getByRole('button', { name: 'Pause the plot' })).toBeInTheDocument();
   });
 
   it('is closed with all its lines', async () => {

@@ -1,11 +1,14 @@
 import { ActionIcon, CloseButton, Tooltip, useComputedColorScheme } from '@mantine/core';
-import { IconPlayerPause, IconPlayerPlay } from '@tabler/icons-react';
+import { IconDownload, IconPlayerPause, IconPlayerPlay, IconZoomReset } from '@tabler/icons-react';
 import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import { clearPlots, togglePlot, useTopicsStore } from '@/store/session/topics';
-import { colorOf, dataOf, HEIGHT_PX, optionsFor } from './chart';
+import { dataOf, HEIGHT_PX, markOf, optionsFor } from './chart';
+import { csvOf, download } from './csv';
+import { gestures } from './plotGestures';
+import { unitOf, type TimeRange } from './plotView';
 import classes from './topics.module.css';
 
 const REDRAW_MS = 100;
@@ -14,12 +17,16 @@ interface PlotProps {
   readonly isVisible: boolean;
 }
 
-/** The chosen fields over simulated time; a drag zooms, a double click shows everything again. */
+/** The chosen fields over simulated time; wheel and drag zoom and move, a double click shows everything. */
 export function Plot({ isVisible }: PlotProps) {
   const { t } = useTranslation('topics');
   const plotted = useTopicsStore((state) => state.plotted);
   const isDark = useComputedColorScheme('light', { getInitialValueInEffect: false }) === 'dark';
   const host = useRef<HTMLDivElement>(null);
+  const timeLabel = t('timeLabel');
+  const shown = useRef<TimeRange | null>(null);
+  const showRange = useRef<((range: TimeRange | null) => void) | null>(null);
+  const [isZoomed, setZoomed] = useState(false);
   const [isHeld, setHeld] = useState(false);
   const held = useRef(isHeld);
   useEffect(() => {
@@ -29,25 +36,40 @@ export function Plot({ isVisible }: PlotProps) {
   useEffect(() => {
     const element = host.current;
     if (!element || !isVisible) return;
-    const chart = new uPlot(optionsFor(plotted, element), dataOf(plotted), element);
+    const chart = new uPlot(optionsFor(plotted, element, timeLabel), dataOf(plotted), element);
     let version = -1;
+    const draw = () => {
+      const range = shown.current;
+      chart.setData(dataOf(plotted), range === null);
+      if (range) chart.setScale('x', { ...range });
+    };
+    const show = (range: TimeRange | null) => {
+      shown.current = range;
+      setZoomed(range !== null);
+      if (range) chart.setScale('x', { ...range });
+      else draw();
+    };
+    showRange.current = show;
+    draw();
+    const endGestures = gestures(chart, element, show);
     const timer = setInterval(() => {
       const { plotVersion } = useTopicsStore.getState();
       if (held.current || plotVersion === version) return;
       version = plotVersion;
-      chart.setData(dataOf(plotted));
+      draw();
     }, REDRAW_MS);
     const resized = new ResizeObserver(() => {
       if (element.clientWidth > 0) chart.setSize({ width: element.clientWidth, height: HEIGHT_PX });
     });
     resized.observe(element);
     return () => {
+      endGestures();
       clearInterval(timer);
       resized.disconnect();
       chart.destroy();
     };
     // The colours of the axes depend on the theme.
-  }, [plotted, isVisible, isDark]);
+  }, [plotted, isVisible, isDark, timeLabel]);
 
   return (
     <section className={classes['plot']} aria-label={t('plotLabel')} data-testid="plot">
@@ -61,19 +83,47 @@ export function Plot({ isVisible }: PlotProps) {
             aria-label={t('unplotOf', { path: `${topic}.${path}` })}
             onClick={() => togglePlot(topic, path)}
           >
-            <span className={classes['seriesMark']} style={{ background: colorOf(index) }} />
+            <span className={classes['seriesMark']} style={markOf(index)} />
             {topic}.{path}
+            {unitOf(path) ? <span className={classes['muted']}>{unitOf(path)}</span> : null}
           </button>
         ))}
         <span className={classes['spacer']} />
-        <Tooltip label={t(isHeld ? 'resume' : 'hold')}>
-          <ActionIcon size="sm" aria-label={t(isHeld ? 'resume' : 'hold')} onClick={() => setHeld(!isHeld)}>
+        {isZoomed ? (
+          <Tooltip label={t('showAll')}>
+            <ActionIcon size={24} aria-label={t('showAll')} onClick={() => showRange.current?.(null)}>
+              <IconZoomReset size={15} />
+            </ActionIcon>
+          </Tooltip>
+        ) : null}
+        <Tooltip label={t('csv')}>
+          <ActionIcon size={24} aria-label={t('csv')} onClick={() => download('plot.csv', csvOf(plotted))}>
+            <IconDownload size={15} />
+          </ActionIcon>
+        </Tooltip>
+        <Tooltip label={t(isHeld ? 'resume' : 'holdPlot')}>
+          <ActionIcon
+            size={24}
+            aria-label={t(isHeld ? 'resume' : 'holdPlot')}
+            onClick={() => setHeld(!isHeld)}
+          >
             {isHeld ? <IconPlayerPlay size={14} /> : <IconPlayerPause size={14} />}
           </ActionIcon>
         </Tooltip>
-        <CloseButton size="sm" aria-label={t('closePlot')} onClick={clearPlots} />
+        <CloseButton size={24} aria-label={t('closePlot')} onClick={clearPlots} />
       </div>
-      <div ref={host} className={classes['chart']} role="img" aria-label={t('plotLabel')} />
+      {/* Keys zoom and move the plot, as wheel and drag do. */}
+      {/* eslint-disable jsx-a11y/no-noninteractive-tabindex */}
+      <div
+        ref={host}
+        className={classes['chart']}
+        role="application"
+        tabIndex={0}
+        aria-label={t('plotKeys')}
+        data-testid="chart"
+        data-zoomed={isZoomed || undefined}
+      />
+      {/* eslint-enable jsx-a11y/no-noninteractive-tabindex */}
     </section>
   );
 }

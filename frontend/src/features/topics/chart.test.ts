@@ -47,24 +47,31 @@ describe('optionsFor', () => {
   };
 
   it('fills the width of its place, and has room in a hidden one', () => {
-    expect(optionsFor([x], host(640))).toMatchObject({ width: 640, height: 190 });
-    expect(optionsFor([x], host(0)).width).toBe(100);
+    expect(optionsFor([x], host(640), 'Time')).toMatchObject({ width: 640, height: 210 });
+    expect(optionsFor([x], host(0), 'Time').width).toBe(100);
   });
 
   it('has simulated seconds below, in the colours of the theme', () => {
-    const { axes, scales, legend, cursor } = optionsFor([x], host(640));
+    const { axes, scales, legend, cursor } = optionsFor([x], host(640), 'Time');
     const [time, value] = axes ?? [];
     const words = time?.values as (chart: unknown, ticks: number[]) => string[];
     expect(words(null, [1, 2.5])).toEqual(['1 s', '2.5 s']);
     expect(time).toMatchObject({ stroke: '#222', grid: { stroke: '#111' }, ticks: { stroke: '#111' } });
     expect(value?.size).toBe(56);
     expect([scales?.['x']?.time, legend?.show]).toEqual([false, false]);
-    expect(cursor?.drag).toMatchObject({ x: true, y: false });
+    expect(cursor?.drag).toMatchObject({ x: false, y: false });
+    expect([time?.label, value?.label]).toEqual(['Time', undefined]);
+  });
+
+  it('names the unit that all fields share', () => {
+    const speed = { topic: '/odom', path: 'twist.twist.linear.x' };
+    expect(optionsFor([speed], host(640), 'Time').axes?.[1]?.label).toBe('m/s');
+    expect(optionsFor([speed, x], host(640), 'Time').axes?.[1]?.label).toBeUndefined();
   });
 
   it('has one line a field, that of the seventh dashed', () => {
     const many = Array.from({ length: 13 }, (_, index) => ({ topic: '/t', path: `f${index}` }));
-    const [, ...lines] = optionsFor(many, host(640)).series;
+    const [, ...lines] = optionsFor(many, host(640), 'Time').series;
     expect(lines.map(({ label }) => label).slice(0, 2)).toEqual(['/t.f0', '/t.f1']);
     expect(lines.map(({ dash }) => dash !== undefined)).toEqual([
       ...Array.from({ length: 6 }, () => false),

@@ -1,13 +1,22 @@
 import uPlot from 'uplot';
 import { seriesOf } from '@/store/session/topics';
+import { commonUnit } from './plotView';
 
-export const HEIGHT_PX = 190;
+export const HEIGHT_PX = 210;
 /** Told apart on both themes and by colour-blind people (Okabe and Ito), in turn solid and dashed. */
 const COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9'];
 
 export const colorOf = (index: number) => COLORS[index % COLORS.length] ?? '#0072b2';
 
-type Plotted = readonly { readonly topic: string; readonly path: string }[];
+const isDashed = (index: number): boolean => Math.floor(index / COLORS.length) % 2 === 1;
+
+/** The look of a line in the legend. */
+export const markOf = (index: number) =>
+  isDashed(index)
+    ? { background: `repeating-linear-gradient(90deg, ${colorOf(index)} 0 4px, transparent 4px 6px)` }
+    : { background: colorOf(index) };
+
+export type Plotted = readonly { readonly topic: string; readonly path: string }[];
 
 /** All series over the union of their times; a series without a sample at a time has none there. */
 export function dataOf(plotted: Plotted): uPlot.AlignedData {
@@ -20,7 +29,7 @@ export function dataOf(plotted: Plotted): uPlot.AlignedData {
   return tables.length === 1 ? [[...first[0]], [...(first[1] ?? [])]] : uPlot.join(tables);
 }
 
-export function optionsFor(plotted: Plotted, element: HTMLElement): uPlot.Options {
+export function optionsFor(plotted: Plotted, element: HTMLElement, timeLabel: string): uPlot.Options {
   const style = getComputedStyle(element);
   const line = style.getPropertyValue('--bts-border').trim();
   const axis: uPlot.Axis = {
@@ -28,16 +37,20 @@ export function optionsFor(plotted: Plotted, element: HTMLElement): uPlot.Option
     grid: { stroke: line, width: 1 },
     ticks: { stroke: line, width: 1 },
     font: '11px Inter Variable, system-ui, sans-serif',
+    labelFont: '11px Inter Variable, system-ui, sans-serif',
+    labelSize: 16,
   };
+  const unit = commonUnit(plotted.map(({ path }) => path));
   return {
     width: Math.max(element.clientWidth, 100),
     height: HEIGHT_PX,
     scales: { x: { time: false } },
     legend: { show: false },
-    cursor: { drag: { x: true, y: false } },
+    // A drag moves the plot (`plotGestures`).
+    cursor: { drag: { x: false, y: false, setScale: false } },
     axes: [
-      { ...axis, values: (_, ticks) => ticks.map((tick) => `${tick} s`) },
-      { ...axis, size: 56 },
+      { ...axis, label: timeLabel, values: (_, ticks) => ticks.map((tick) => `${tick} s`) },
+      { ...axis, size: 56, ...(unit ? { label: unit } : {}) },
     ],
     series: [
       {},
@@ -47,7 +60,7 @@ export function optionsFor(plotted: Plotted, element: HTMLElement): uPlot.Option
         width: 1.6,
         spanGaps: true,
         points: { show: false },
-        ...(Math.floor(index / COLORS.length) % 2 === 1 ? { dash: [6, 4] } : {}),
+        ...(isDashed(index) ? { dash: [6, 4] } : {}),
       })),
     ],
   };

@@ -5,6 +5,7 @@ import { renameUse } from '@/model/edits';
 import { emptyUndo, redo, seal, undo, type Renaming, type Travel } from '@/model/undo';
 import { applySaved, currentText, openFiles, pendingChanges, tryParse } from './files';
 import { renamed as tellNavigator } from './navigation';
+import { whileEditing } from './problems';
 import { refusingViewers } from './readOnly';
 import { readSettings } from './settings';
 import { withActionRenamed } from './edits/renameAction';
@@ -90,7 +91,7 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
         mainTree: main,
         revision: detail.revision,
         actions: detail.actions,
-        diagnostics: detail.diagnostics,
+        diagnostics: whileEditing(detail.diagnostics),
         activeTree: main in opened.diagrams ? main : (Object.keys(opened.diagrams)[0] ?? null),
       };
       set(knowing(data));
@@ -277,7 +278,7 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
           ...saved,
           revision: result.revision,
           actions: actionsAfter(state.actions, actions, saved.files),
-          diagnostics: confirmed(state.diagnostics, diagnostics),
+          diagnostics: confirmed(state.diagnostics, whileEditing(diagnostics)),
         });
       });
     },

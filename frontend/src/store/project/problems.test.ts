@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { emptyDiagram, type Diagram } from '@/model/diagram';
-import { problemsOf } from './problems';
+import { problemsOf, whileEditing } from './problems';
 import { useProjectStore } from '.';
 
 describe('a finding of the server', () => {
@@ -36,5 +36,23 @@ describe('a finding of the server', () => {
 
   it('leaves with its block', () => {
     expect(problemsOf(diagram, vocabulary, [{ ...item, node: 'gone' }])).toHaveLength(1);
+  });
+});
+
+describe('an empty tree', () => {
+  const empty = { code: 'BT0101', severity: 'error', message: 'Nothing.', tree: 'Main' } as const;
+  const { vocabulary } = useProjectStore.getState();
+  const diagram = emptyDiagram('Main');
+
+  it('is no error while it is edited, and other findings stay what they are', () => {
+    const other = { ...empty, code: 'BT0102' };
+    expect(whileEditing([empty, other]).map(({ severity }) => severity)).toEqual(['note', 'error']);
+    expect(problemsOf(diagram, vocabulary, []).map(({ severity }) => severity)).toEqual(['note']);
+  });
+
+  it('is the error that a run says it is', () => {
+    const [found, ...more] = problemsOf(diagram, { ...vocabulary, reachable: new Set(['Main']) }, [empty]);
+    expect(found).toMatchObject({ kind: 'empty-tree', severity: 'error' });
+    expect(more).toEqual([]);
   });
 });

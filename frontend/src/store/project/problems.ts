@@ -22,6 +22,16 @@ export type ShownProblem =
 const placeOf = (code: string, node: NodeId | null, port: string | undefined): string =>
   `${code} ${node ?? ''} ${port ?? ''}`;
 
+/** A tree without a root. */
+const EMPTY_TREE = 'BT0101';
+
+/**
+ * Findings while the user works: an empty tree is where everybody begins, and no error. It is one when it is to
+ * be run; then the findings are those of the run.
+ */
+export const whileEditing = (diagnostics: readonly Diagnostic[]): Diagnostic[] =>
+  diagnostics.map((each) => (each.code === EMPTY_TREE ? { ...each, severity: 'note' } : each));
+
 const RANK: Record<Severity, number> = { error: 2, warning: 1, note: 0 };
 
 const found = new WeakMap<Diagram, { vocabulary: Vocabulary; problems: readonly Problem[] }>();
@@ -40,7 +50,14 @@ export function problemsOf(
   vocabulary: Vocabulary,
   diagnostics: readonly Diagnostic[],
 ): ShownProblem[] {
-  const own = ownProblems(diagram, vocabulary).map((problem) => ({ source: 'editor', ...problem }) as const);
+  const isToRun = diagnostics.some(
+    ({ tree, code, severity }) => tree === diagram.id && code === EMPTY_TREE && severity === 'error',
+  );
+  const severityOf = ({ kind, severity }: Problem): Severity =>
+    kind === 'empty-tree' && !isToRun ? 'note' : severity;
+  const own = ownProblems(diagram, vocabulary).map(
+    (problem) => ({ source: 'editor', ...problem, severity: severityOf(problem) }) as const,
+  );
   const told = new Set(
     own.flatMap((problem) => CODES[problem.kind].map((code) => placeOf(code, problem.node, problem.port))),
   );

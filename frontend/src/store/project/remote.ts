@@ -2,6 +2,7 @@ import type { ProjectDetail } from '@/api/types';
 import { emptyUndo } from '@/model/undo';
 import { withLastDeclarations } from './declarations';
 import { currentText, openFiles } from './files';
+import { whileEditing } from './problems';
 import { readSettings } from './settings';
 import type { ProjectData } from './state';
 import { knowing } from './transitions';
@@ -72,7 +73,7 @@ export function mergeRemote(data: ProjectData, detail: ProjectDetail): Merged {
     histories,
     revision: Math.max(data.revision, detail.revision),
     actions: withLastDeclarations(data.actions, detail.actions),
-    diagnostics: detail.diagnostics,
+    diagnostics: whileEditing(detail.diagnostics),
     ...(kept.includes('project.json')
       ? {}
       : { settings, mainTree: main, name: detail.name, description: detail.description }),

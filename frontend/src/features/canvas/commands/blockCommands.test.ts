@@ -69,6 +69,8 @@ const COMMON = [
   'canvas.rename',
   'canvas.comment',
   'canvas.wrap',
+  'canvas.wrapSequence',
+  'canvas.wrapFallback',
   'canvas.unwrap',
   'canvas.morph',
   'canvas.disable',
@@ -104,9 +106,18 @@ describe('the commands of a block', () => {
     expect(enabled()).toEqual(['edit.copy', 'edit.cut', 'edit.paste', 'edit.duplicate']);
   });
 
-  it('extract several blocks', () => {
-    select('a', 'g');
+  it('extract several blocks that follow each other', () => {
+    select('a', 'i');
     expect(enabled()).toContain('canvas.extract');
+    select('a', 'g');
+    expect(enabled()).not.toContain('canvas.extract');
+  });
+
+  it('wrap several at once', () => {
+    select('a', 'i');
+    run('canvas.wrapFallback');
+    expect(typesOf(children())).toEqual(['Fallback', 'SubTree', 'Grasp', 'Nowhere', 'SubTree']);
+    expect(childrenOf(now.diagram(), children()[0]!)).toEqual(['a', 'i']);
   });
 });
 

@@ -19,9 +19,11 @@ import {
   IconTrash,
   type Icon,
 } from '@tabler/icons-react';
+import { areNeighbours } from '@/model/edits';
 import { canUnwrap } from '@/model/rules';
 import { copySelection, cutSelection } from '@/store/project/edits/clipboard';
 import {
+  achieve,
   activeDiagram,
   deleteSelection,
   duplicateSelection,
@@ -50,11 +52,16 @@ const state = () => useProjectStore.getState();
 const selectedNode = () => activeDiagram()?.nodes[firstSelected() ?? ''];
 const selectedSpec = () => state().vocabulary.specs.get(selectedNode()?.type ?? '');
 const childCount = () => selectedNode()?.children?.length ?? 0;
+const areDisabled = () => state().selection.every((id) => activeDiagram()?.nodes[id]?.disabled === true);
 const isSubTree = () => selectedNode()?.type === 'SubTree';
 const opensTree = () => isSubTree() && selectedNode()?.tree !== undefined;
 const opensCode = () => selectedSpec()?.source === 'action';
 const canLookInside = () => isSubTree() && state().vocabulary.trees.has(selectedNode()?.tree ?? '');
-const isExtractable = () => childCount() > 0 || state().selection.length > 1;
+const areSeveral = () => state().selection.length > 1;
+const isExtractable = () => {
+  const diagram = activeDiagram();
+  return areSeveral() ? diagram !== null && areNeighbours(diagram, state().selection) : childCount() > 0;
+};
 const isLookedInside = () =>
   useEditorStore.getState().expanded[state().activeTree ?? '']?.has(firstSelected() ?? '') === true;
 
@@ -63,6 +70,15 @@ const selectedOnCanvas = () => isOnCanvas() && hasSelection();
 const selectedInFront = () => hasSelection() && isTreeInFront();
 
 const always = (words: string) => () => words;
+/** Not for several blocks, of which it would change only the first. */
+const forOne = (words: (isOnBlock: boolean) => string | null) => (isOnBlock: boolean) =>
+  areSeveral() && isOnBlock ? null : words(isOnBlock);
+const forSeveral = (words: string) => () => (areSeveral() ? words : null);
+
+/** Wraps the selected blocks at once, without asking in what. */
+function wrapIn(type: 'Sequence' | 'Fallback'): void {
+  achieve({ does: 'wrap', nodes: state().selection }, { type });
+}
 
 function wordsOfAdding(isOnBlock: boolean): string | null {
   if (!isOnBlock) return 'addBlock';
@@ -136,7 +152,7 @@ export const blockCommands: readonly BlockCommand[] = [
     id: 'canvas.add',
     group: 'canvas',
     labelKey: 'canvas:menu.addBlock',
-    inMenu: wordsOfAdding,
+    inMenu: forOne(wordsOfAdding),
     icon: IconPlus,
     keys: 'Tab',
     enabled: isTreeInFront,
@@ -148,7 +164,7 @@ export const blockCommands: readonly BlockCommand[] = [
     id: 'canvas.addAfter',
     group: 'canvas',
     labelKey: 'canvas:menu.addAfter',
-    inMenu: always('addAfter'),
+    inMenu: forOne(always('addAfter')),
     icon: IconRowInsertBottom,
     keys: '$mod+Enter',
     enabled: selectedInFront,
@@ -160,7 +176,7 @@ export const blockCommands: readonly BlockCommand[] = [
     id: 'canvas.rename',
     group: 'canvas',
     labelKey: 'canvas:command.rename',
-    inMenu: always('rename'),
+    inMenu: forOne(always('rename')),
     icon: IconForms,
     keys: 'F2',
     enabled: selectedInFront,
@@ -172,7 +188,7 @@ export const blockCommands: readonly BlockCommand[] = [
     id: 'canvas.comment',
     group: 'canvas',
     labelKey: 'canvas:command.comment',
-    inMenu: always('comment'),
+    inMenu: forOne(always('comment')),
     icon: IconMessage2,
     keys: 'Slash',
     enabled: selectedInFront,
@@ -184,7 +200,7 @@ export const blockCommands: readonly BlockCommand[] = [
     id: 'canvas.open',
     group: 'canvas',
     labelKey: 'canvas:command.open',
-    inMenu: wordsOfOpening,
+    inMenu: forOne(wordsOfOpening),
     icon: IconCode,
     keys: 'Enter',
     enabled: () => isTreeInFront() && (opensTree() || opensCode()),
@@ -197,7 +213,7 @@ export const blockCommands: readonly BlockCommand[] = [
     id: 'canvas.fold',
     group: 'canvas',
     labelKey: 'canvas:command.fold',
-    inMenu: () => (childCount() === 0 ? null : selectedNode()?.collapsed ? 'unfold' : 'fold'),
+    inMenu: forOne(() => (childCount() === 0 ? null : selectedNode()?.collapsed ? 'unfold' : 'fold')),
     icon: IconFold,
     keys: 'Space',
     enabled: () => isTreeInFront() && childCount() > 0,
@@ -215,11 +231,20 @@ export const blockCommands: readonly BlockCommand[] = [
       openQuickAddHere('wrap');
     },
   },
+  ...(['Sequence', 'Fallback'] as const).map((type): BlockCommand => ({
+    id: `canvas.wrap${type}`,
+    group: 'canvas',
+    labelKey: `canvas:menu.wrap${type}`,
+    inMenu: forSeveral(`wrap${type}`),
+    icon: IconBox,
+    enabled: selectedInFront,
+    run: () => wrapIn(type),
+  })),
   {
     id: 'canvas.unwrap',
     group: 'canvas',
     labelKey: 'canvas:menu.unwrap',
-    inMenu: () => (canUnwrapSelected() ? 'unwrap' : null),
+    inMenu: forOne(() => (canUnwrapSelected() ? 'unwrap' : null)),
     icon: IconBoxOff,
     shortcut: '$mod+Shift+KeyG',
     enabled: selectedInFront,
@@ -229,7 +254,7 @@ export const blockCommands: readonly BlockCommand[] = [
     id: 'canvas.morph',
     group: 'canvas',
     labelKey: 'canvas:menu.morph',
-    inMenu: always('morph'),
+    inMenu: forOne(always('morph')),
     icon: IconArrowsExchange,
     shortcut: '$mod+KeyM',
     enabled: selectedInFront,
@@ -241,7 +266,7 @@ export const blockCommands: readonly BlockCommand[] = [
     id: 'canvas.disable',
     group: 'canvas',
     labelKey: 'canvas:menu.disable',
-    inMenu: () => (selectedNode()?.disabled ? 'enable' : 'disable'),
+    inMenu: () => (areDisabled() ? 'enable' : 'disable'),
     icon: IconBan,
     shortcut: '$mod+KeyE',
     enabled: selectedInFront,
@@ -251,7 +276,7 @@ export const blockCommands: readonly BlockCommand[] = [
     id: 'canvas.fix',
     group: 'canvas',
     labelKey: 'canvas:menu.fix',
-    inMenu: () => (hasProblem(firstSelected()) ? 'fix' : null),
+    inMenu: forOne(() => (hasProblem(firstSelected()) ? 'fix' : null)),
     icon: IconBulb,
     shortcut: '$mod+Period',
     enabled: () => hasProblem(firstSelected()),
@@ -275,7 +300,7 @@ export const blockCommands: readonly BlockCommand[] = [
     id: 'canvas.look',
     group: 'canvas',
     labelKey: 'canvas:command.look',
-    inMenu: () => (canLookInside() ? (isLookedInside() ? 'lookAway' : 'lookInside') : null),
+    inMenu: forOne(() => (canLookInside() ? (isLookedInside() ? 'lookAway' : 'lookInside') : null)),
     icon: IconFold,
     keys: 'Space',
     enabled: () => isTreeInFront() && canLookInside(),
@@ -285,7 +310,7 @@ export const blockCommands: readonly BlockCommand[] = [
     id: 'canvas.inline',
     group: 'canvas',
     labelKey: 'canvas:menu.inline',
-    inMenu: () => (isSubTree() ? 'inline' : null),
+    inMenu: forOne(() => (isSubTree() ? 'inline' : null)),
     icon: IconBoxOff,
     enabled: () => isTreeInFront() && isSubTree(),
     run: inlineSelection,

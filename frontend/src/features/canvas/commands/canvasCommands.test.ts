@@ -6,7 +6,7 @@ import { setName } from '@/model/edits';
 import { useProjectStore } from '@/store/project';
 import { now, openDiagram } from '../../../../harness/canvas';
 import { nodeOf } from '../../../../harness/testing';
-import { showsTree } from '../views';
+import { showsTree } from '../view/views';
 import { FIT_KEYS, registerCanvasCommands } from './canvasCommands';
 
 const store = () => useProjectStore.getState();

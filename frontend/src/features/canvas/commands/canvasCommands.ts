@@ -7,6 +7,7 @@ import {
   IconArrowsVertical,
   IconFocusCentered,
   IconLayoutDistributeHorizontal,
+  IconLayoutList,
   IconMap2,
   IconMaximize,
   IconSearch,
@@ -17,10 +18,12 @@ import { setLayout, tidy } from '@/model/edits';
 import { activeDiagram, change } from '@/store/project/edits/blocks';
 import { isMinimapShown, setEditor } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
+import { toggleCompact } from '../view/compact';
 import { blockCommands } from './blockCommands';
+import { levelCommands } from './levelCommands';
 import { followClipboard } from '../gestures/clipboard';
 import { isOnCanvas, isTreeInFront } from '../inFront';
-import { fit, fitSelection, isTreeShown, zoomIn, zoomOut, zoomReset } from '../views';
+import { fit, fitSelection, isTreeShown, zoomIn, zoomOut, zoomReset } from '../view/views';
 
 const state = () => useProjectStore.getState();
 const undoStack = () => state().histories[state().activeTree ?? ''];
@@ -159,10 +162,18 @@ const views: readonly UserCommand[] = [
       setEditor(({ minimap }) => ({ minimap: !isMinimapShown(minimap, blocks) }));
     },
   },
+  {
+    id: 'canvas.compact',
+    group: 'canvas',
+    labelKey: 'canvas:command.compact',
+    icon: IconLayoutList,
+    enabled: hasTree,
+    run: toggleCompact,
+  },
 ];
 
 /** Registers the editor's commands and the clipboard's; the returned function removes them. */
 export function registerCanvasCommands(): () => void {
-  const ends = [registerCommands([...rows, ...blockCommands, ...views]), followClipboard()];
+  const ends = [registerCommands([...rows, ...blockCommands, ...levelCommands, ...views]), followClipboard()];
   return () => ends.forEach((end) => end());
 }

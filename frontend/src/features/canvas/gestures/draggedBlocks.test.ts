@@ -22,7 +22,7 @@ beforeEach(() => {
 it('moves the blocks with what hangs below them, and the edges between them', () => {
   const hand = new BlockDrag(canvas, 'top', new Set(['top']), new Set(['top', 'below']));
   expect(hand.holds).toBe('top');
-  hand.moveBy(3, -4);
+  hand.moveBy(3, -4, false);
   expect(translates()).toEqual({
     'node top': '3px -4px',
     'node below': '3px -4px',
@@ -41,8 +41,28 @@ it('moves the blocks with what hangs below them, and the edges between them', ()
 it('finds blocks that come into view on the way', () => {
   canvas.querySelectorAll('[data-id=below]').forEach((each) => each.remove());
   const hand = new BlockDrag(canvas, 'top', new Set(['top']), new Set(['top', 'below']));
-  hand.moveBy(1, 1);
+  hand.moveBy(1, 1, false);
   canvas.insertAdjacentHTML('beforeend', '<i class="react-flow__node" data-id="below"></i>');
-  hand.moveBy(2, 2);
+  hand.moveBy(2, 2, false);
   expect(translates()['node below']).toBe('2px 2px');
+});
+
+it('leaves blocks that are copied where they are, and moves a picture of them', () => {
+  const hand = new BlockDrag(canvas, 'top', new Set(['top']), new Set(['top', 'below']));
+  hand.moveBy(3, 4, false);
+  hand.moveBy(5, 6, true);
+  expect(new Set(Object.values(translates()))).toEqual(new Set(['']));
+  expect(useDraggedBlocks.getState().tops.size).toBe(0);
+  const ghost = canvas.querySelector<HTMLElement>('[data-testid=copy-ghost]')!;
+  expect(ghost.style.translate).toBe('5px 6px');
+  expect(ghost.children).toHaveLength(2);
+  expect(ghost).toHaveTextContent('+');
+  expect(ghost.querySelector('[data-id]')).toBeNull();
+  hand.copy(false);
+  expect(canvas.querySelector('[data-testid=copy-ghost]')).toBeNull();
+  expect(translates()['node below']).toBe('5px 6px');
+  hand.copy(true);
+  hand.letGo();
+  expect(canvas.querySelector('[data-testid=copy-ghost]')).toBeNull();
+  expect(canvas).not.toHaveAttribute('data-copying');
 });

@@ -1,5 +1,6 @@
 import { create } from 'zustand';
 import type { NodeId } from '@/model/diagram';
+import { CopyGhost } from './copyGhost';
 
 /** The offset of dragged blocks from their places in the layout; edges to `tops` are drawn again. */
 interface DraggedBlocks {
@@ -8,14 +9,20 @@ interface DraggedBlocks {
   readonly dy: number;
 }
 
-export const useDraggedBlocks = create<DraggedBlocks>(() => ({ tops: new Set(), dx: 0, dy: 0 }));
+const NOTHING: DraggedBlocks = { tops: new Set(), dx: 0, dy: 0 };
+
+export const useDraggedBlocks = create<DraggedBlocks>(() => NOTHING);
 
 /**
  * Moves dragged blocks with the pointer. It sets the CSS property `translate`, which React does not set, on
  * the drawn elements: no block renders, however many move and however large the tree is. Each step queries
- * the page again and so includes blocks that come into view.
+ * the page again and so includes blocks that come into view. Blocks that are copied stay where they are, and
+ * a ghost of them moves.
  */
 export class BlockDrag {
+  private by = { dx: 0, dy: 0 };
+  private ghost: CopyGhost | null = null;
+
   constructor(
     private readonly canvas: HTMLElement,
     readonly holds: NodeId,
@@ -23,20 +30,47 @@ export class BlockDrag {
     private readonly ids: ReadonlySet<NodeId>,
   ) {}
 
-  moveBy(dx: number, dy: number): void {
+  moveBy(dx: number, dy: number, isCopy: boolean): void {
+    this.by = { dx, dy };
+    this.copy(isCopy);
+  }
+
+  /** Changes between moving and copying at the same place. */
+  copy(isCopy: boolean): void {
+    const { dx, dy } = this.by;
+    if (isCopy) {
+      if (!this.ghost) this.putBack();
+      this.ghost ??= new CopyGhost(this.canvas, this.holds, this.drawn());
+      this.ghost.moveBy(dx, dy);
+      return;
+    }
+    this.removeGhost();
     this.translate(`${dx}px ${dy}px`);
     useDraggedBlocks.setState({ tops: this.tops, dx, dy });
   }
 
   letGo(): void {
+    this.removeGhost();
+    this.putBack();
+  }
+
+  private removeGhost(): void {
+    this.ghost?.remove();
+    this.ghost = null;
+  }
+
+  private putBack(): void {
     this.translate('');
-    useDraggedBlocks.setState({ tops: new Set(), dx: 0, dy: 0 });
+    useDraggedBlocks.setState(NOTHING);
+  }
+
+  private drawn(): HTMLElement[] {
+    const nodes = this.canvas.querySelectorAll<HTMLElement>('.react-flow__node');
+    return [...nodes].filter(({ dataset }) => this.ids.has(dataset['id'] ?? ''));
   }
 
   private translate(by: string): void {
-    for (const element of this.canvas.querySelectorAll<HTMLElement>('.react-flow__node')) {
-      if (this.ids.has(element.dataset['id'] ?? '')) element.style.translate = by;
-    }
+    for (const element of this.drawn()) element.style.translate = by;
     for (const element of this.canvas.querySelectorAll<SVGElement>('.react-flow__edge')) {
       const child = element.dataset['id'] ?? '';
       if (this.ids.has(child) && !this.tops.has(child)) element.style.translate = by;

@@ -1,4 +1,4 @@
-import { act } from '@testing-library/react';
+import { act, fireEvent } from '@testing-library/react';
 import type { Connection, FinalConnectionState } from '@xyflow/react';
 import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import { childrenOf } from '@/model/diagram';
@@ -138,4 +138,22 @@ describe('a connection that ends', () => {
     );
     expect(now.editor().quickAdd).toBeNull();
   });
+});
+
+it('is not made once Escape was pressed, and the next one is', () => {
+  const used = begin();
+  const start = () => {
+    const event = { target: document.body } as unknown as MouseEvent;
+    act(() => used().onConnectStart(event));
+  };
+  start();
+  fireEvent.keyDown(document.body, { key: 'Escape' });
+  act(() => used().onConnect(connection('f', 'd')));
+  end(used, { from: 'f', onto: 'd' });
+  end(used, { from: 'f' });
+  expect(childrenOf(now.diagram(), 'f')).toEqual(['a']);
+  expect(now.editor().quickAdd).toBeNull();
+  start();
+  act(() => used().onConnect(connection('f', 'd')));
+  expect(childrenOf(now.diagram(), 'f')).toEqual(['a', 'd']);
 });

@@ -1,14 +1,31 @@
 import { useReactFlow, type Connection, type Edge, type FinalConnectionState } from '@xyflow/react';
-import { useCallback } from 'react';
+import { useCallback, useRef } from 'react';
 import { childrenOf, isWithin } from '@/model/diagram';
 import { canMoveUnder } from '@/model/rules';
 import { connect } from '@/store/project/edits/blocks';
+import { cancellable, releaseMouse } from '@/ui/cancellable';
 import { openQuickAdd, openQuickAddBelow } from '../quickAdd/open';
 import type { TreeOnCanvas } from '../useTree';
 
-/** Connects blocks by hand; a connection that ends on the empty canvas opens the quick-add box. */
+/**
+ * Connects blocks by hand; a connection that ends on the empty canvas opens the quick-add box, and one that
+ * Escape ends does nothing.
+ */
 export function useConnecting({ diagram, vocabulary }: TreeOnCanvas) {
   const flow = useReactFlow();
+  const isCancelled = useRef(false);
+
+  const onConnectStart = useCallback((event: MouseEvent | TouchEvent) => {
+    isCancelled.current = false;
+    if (!(event.target instanceof Element)) return;
+    const { ownerDocument } = event.target;
+    cancellable(event.target, null, {
+      onCancel: () => {
+        isCancelled.current = true;
+        releaseMouse(ownerDocument);
+      },
+    });
+  }, []);
 
   const isValidConnection = useCallback(
     (connection: Connection | Edge) =>
@@ -18,12 +35,12 @@ export function useConnecting({ diagram, vocabulary }: TreeOnCanvas) {
   );
 
   const onConnect = useCallback((connection: Connection) => {
-    connect(connection.source, connection.target);
+    if (!isCancelled.current) connect(connection.source, connection.target);
   }, []);
 
   const onConnectEnd = useCallback(
     (event: MouseEvent | TouchEvent, state: FinalConnectionState) => {
-      if (state.isValid || !state.fromNode || !('clientX' in event)) return;
+      if (isCancelled.current || state.isValid || !state.fromNode || !('clientX' in event)) return;
       const from = state.fromNode.id;
       const { clientX, clientY } = event;
       const target = document
@@ -44,5 +61,5 @@ export function useConnecting({ diagram, vocabulary }: TreeOnCanvas) {
     [diagram, flow],
   );
 
-  return { isValidConnection, onConnect, onConnectEnd };
+  return { isValidConnection, onConnectStart, onConnect, onConnectEnd };
 }

@@ -1,6 +1,6 @@
-import { act } from '@testing-library/react';
+import { act, fireEvent } from '@testing-library/react';
 import { useRef } from 'react';
-import { beforeEach, describe, expect, it } from 'vitest';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { childrenOf } from '@/model/diagram';
 import { useProjectStore } from '@/store/project';
 import { toggleExpanded } from '@/store/project/editor';
@@ -61,7 +61,7 @@ function begin() {
     [...canvas.querySelectorAll<HTMLElement>('i')]
       .filter(({ style }) => style.translate !== '')
       .map(({ dataset }) => dataset['id']);
-  return { used, drag, drop, boxOf, centreOf, translated, unmount };
+  return { used, drag, drop, boxOf, centreOf, translated, unmount, canvas };
 }
 
 describe('while a block is carried', () => {
@@ -142,6 +142,68 @@ describe('while a block is carried', () => {
   });
 });
 
+describe('Escape', () => {
+  const undoSteps = () => useProjectStore.getState().histories['Main']?.past.length ?? 0;
+
+  it('leaves the tree as it was, and the end of the drag does nothing', () => {
+    const { used, drag, drop, centreOf, translated } = begin();
+    const before = now.diagram();
+    const released = vi.fn();
+    window.addEventListener('mouseup', released, { once: true });
+    drag('a', 50, 0, centreOf('b'));
+    expect(now.editor().slot).not.toBeNull();
+    act(() => void fireEvent.keyDown(document.body, { key: 'Escape' }));
+    expect(released).toHaveBeenCalledOnce();
+    expect(used().held).toBeNull();
+    expect(translated()).toEqual([]);
+    expect(now.editor().slot).toBeNull();
+    // A touch continues until the finger is lifted.
+    drag('a', 60, 0, centreOf('b'));
+    expect(translated()).toEqual([]);
+    drop('a', 60, 0, centreOf('b'));
+    expect(now.diagram()).toBe(before);
+    expect(undoSteps()).toBe(0);
+  });
+
+  it('does not count for the next drag', () => {
+    const { used, drag, translated } = begin();
+    drag('a', 50, 0);
+    act(() => void fireEvent.keyDown(document.body, { key: 'Escape' }));
+    act(() => used().onDragStart());
+    drag('a', 50, 0);
+    expect(translated()).toEqual(['a']);
+  });
+});
+
+describe('Alt', () => {
+  const ghosts = (canvas: HTMLElement) => canvas.querySelectorAll('[data-testid=copy-ghost]').length;
+
+  it('shows a copy at once where the pointer rests, and moves the block again when it is released', () => {
+    const { drag, drop, translated, canvas, boxOf } = begin();
+    const [a, b] = [boxOf('a'), boxOf('b')];
+    drag('a', 20, 0, { x: (a.x + a.width + b.x) / 2, y: a.y + 10 });
+    expect(now.editor().slot).toBeNull();
+    act(() => void fireEvent.keyDown(window, { key: 'Alt' }));
+    expect([ghosts(canvas), translated()]).toEqual([1, []]);
+    expect(now.editor().slot).not.toBeNull();
+    act(() => void fireEvent.keyUp(window, { key: 'Alt' }));
+    expect([ghosts(canvas), translated()]).toEqual([0, ['a']]);
+    drop('a', 20, 0);
+    fireEvent.keyDown(window, { key: 'Alt' });
+    expect(ghosts(canvas)).toBe(0);
+  });
+
+  it('and Escape copy nothing', () => {
+    const { drag, canvas } = begin();
+    const before = now.diagram();
+    drag('i', 50, 60, undefined, true);
+    expect(ghosts(canvas)).toBe(1);
+    act(() => void fireEvent.keyDown(document.body, { key: 'Escape' }));
+    expect(ghosts(canvas)).toBe(0);
+    expect(now.diagram()).toBe(before);
+  });
+});
+
 describe('a block that is dropped', () => {
   it('hangs below the marked block, in one step of undo', () => {
     const { drag, drop, centreOf } = begin();
@@ -169,6 +231,7 @@ describe('a block that is dropped', () => {
     drag('a', 6, 0);
     drop('a', 6, 0);
     expect(nodeOf('Main', 'a')?.position).toBeUndefined();
+    drag('a', 7, 0);
     drop('a', 7, 0);
     expect(nodeOf('Main', 'a')?.position).toBeDefined();
   });

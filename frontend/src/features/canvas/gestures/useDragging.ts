@@ -7,6 +7,7 @@ import { isSamePlace, slotFinder, type Slot, type SlotFinder } from '@/model/slo
 import { change } from '@/store/project/edits/blocks';
 import { setEditor, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
+import { cancellable, releaseMouse } from '@/ui/cancellable';
 import { BlockDrag } from './draggedBlocks';
 import type { BlockNode } from '../flow';
 import type { TreeOnCanvas } from '../useTree';
@@ -21,38 +22,62 @@ interface Grip {
   readonly tops: readonly NodeId[];
   readonly layout: unknown;
   readonly findSlot: SlotFinder;
+  /** The last step of the pointer, for a key that is pressed where it rests. */
+  last: Step | null;
+  /** Stops to listen for Escape and the Alt key. */
+  readonly end: () => void;
 }
 
-/** Drags blocks into a slot of the tree or to a free position. Alt copies them. */
+/** How far the block is from its place, and where the pointer is in the window. */
+interface Step {
+  readonly dx: number;
+  readonly dy: number;
+  readonly x: number;
+  readonly y: number;
+}
+
+type DragEvent = MouseEvent | TouchEvent | React.MouseEvent;
+
+const pointerOf = (event: DragEvent): { readonly clientX: number; readonly clientY: number } | undefined =>
+  'touches' in event ? event.touches[0] : event;
+
+/** Calls back when the Alt key is pressed or released, until the returned function is called. */
+function watchAlt(canvas: HTMLElement, onAlt: (isDown: boolean) => void): () => void {
+  const listening = new AbortController();
+  const view = canvas.ownerDocument.defaultView ?? window;
+  for (const type of ['keydown', 'keyup'] as const) {
+    const onKey = (event: KeyboardEvent): void => {
+      if (event.key !== 'Alt') return;
+      // Else the browser's menu takes the focus.
+      event.preventDefault();
+      onAlt(type === 'keydown');
+    };
+    view.addEventListener(type, onKey, { signal: listening.signal });
+  }
+  return () => listening.abort();
+}
+
+/** Drags blocks into a slot of the tree or to a free position. Alt copies them, Escape leaves all as it was. */
 export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | null>) {
   const flow = useReactFlow();
   const grip = useRef<Grip | null>(null);
   const [held, setHeld] = useState<string | null>(null);
   const { diagram, shown, layout, vocabulary } = tree;
 
-  const take = useCallback(
-    (node: BlockNode): Grip | null => {
-      const known = grip.current;
-      if (known?.hand.holds === node.id && known.layout === layout) return known;
-      known?.hand.letGo();
-      if (!canvas.current) return null;
-      const { selection } = useProjectStore.getState();
-      const tops =
-        selection.length > 1 && selection.includes(node.id) ? topmost(diagram, selection) : [node.id];
-      const ids = new Set(tops.flatMap((top) => subtreeOf(shown.diagram, top)));
-      const hand = new BlockDrag(canvas.current, node.id, new Set(tops), ids);
-      const findSlot = slotFinder({ diagram, layout, vocabulary, moving: tops });
-      setHeld(node.id);
-      return (grip.current = { hand, tops, layout, findSlot });
-    },
-    [diagram, shown, layout, vocabulary, canvas],
-  );
+  const isCancelled = useRef(false);
 
   const letGo = useCallback(() => {
+    grip.current?.end();
     grip.current?.hand.letGo();
     grip.current = null;
   }, []);
   useEffect(() => letGo, [letGo]);
+
+  const putDown = useCallback(() => {
+    letGo();
+    setHeld(null);
+    setEditor({ slot: null });
+  }, [letGo]);
 
   /** A copy is added to the children that are there; a moved block leaves its place first. */
   const allows = useCallback(
@@ -61,35 +86,87 @@ export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | 
     [diagram, vocabulary],
   );
 
-  const onDrag = useCallback(
-    (event: MouseEvent | TouchEvent | React.MouseEvent, node: BlockNode) => {
-      const origin = layout.positions[node.id];
-      if (!origin || !('clientX' in event)) return;
-      const taken = take(node);
-      if (!taken) return;
-      const [dx, dy] = [node.position.x - origin.x, node.position.y - origin.y];
-      taken.hand.moveBy(dx, dy);
-      const pointer = flow.screenToFlowPosition({ x: event.clientX, y: event.clientY });
-      const far = Math.hypot(dx, dy) > DEAD_ZONE;
-      const slot = far ? taken.findSlot(pointer.x, pointer.y) : null;
-      const next = slot && allows(slot, taken.tops, event.altKey) ? slot : null;
+  const follow = useCallback(
+    ({ hand, tops, findSlot }: Grip, { dx, dy, x, y }: Step, isCopy: boolean) => {
+      hand.moveBy(dx, dy, isCopy);
+      const pointer = flow.screenToFlowPosition({ x, y });
+      const slot = Math.hypot(dx, dy) > DEAD_ZONE ? findSlot(pointer.x, pointer.y) : null;
+      const next = slot && allows(slot, tops, isCopy) ? slot : null;
       const shown = useEditorStore.getState().slot;
       const same =
         next?.parent === shown?.parent && next?.index === shown?.index && next?.kind === shown?.kind;
       if (!same) setEditor({ slot: next });
     },
-    [layout, take, allows, flow],
+    [allows, flow],
+  );
+
+  const take = useCallback(
+    (node: BlockNode): Grip | null => {
+      const known = grip.current;
+      if (known?.hand.holds === node.id && known.layout === layout) return known;
+      letGo();
+      const element = canvas.current;
+      if (!element) return null;
+      const { selection } = useProjectStore.getState();
+      const tops =
+        selection.length > 1 && selection.includes(node.id) ? topmost(diagram, selection) : [node.id];
+      const ids = new Set(tops.flatMap((top) => subtreeOf(shown.diagram, top)));
+      const endGesture = cancellable(element, null, {
+        onCancel: () => {
+          isCancelled.current = true;
+          putDown();
+          releaseMouse(element.ownerDocument);
+        },
+      });
+      const endAlt = watchAlt(element, (isDown) => {
+        if (taken.last) follow(taken, taken.last, isDown);
+      });
+      const taken: Grip = {
+        hand: new BlockDrag(element, node.id, new Set(tops), ids),
+        tops,
+        layout,
+        findSlot: slotFinder({ diagram, layout, vocabulary, moving: tops }),
+        last: null,
+        end: () => {
+          endAlt();
+          endGesture();
+        },
+      };
+      setHeld(node.id);
+      return (grip.current = taken);
+    },
+    [diagram, shown, layout, vocabulary, canvas, letGo, putDown, follow],
+  );
+
+  const onDragStart = useCallback(() => {
+    isCancelled.current = false;
+  }, []);
+
+  const onDrag = useCallback(
+    (event: DragEvent, node: BlockNode) => {
+      const origin = layout.positions[node.id];
+      const pointer = pointerOf(event);
+      if (!origin || !pointer || isCancelled.current) return;
+      const taken = take(node);
+      if (!taken) return;
+      taken.last = {
+        dx: node.position.x - origin.x,
+        dy: node.position.y - origin.y,
+        x: pointer.clientX,
+        y: pointer.clientY,
+      };
+      follow(taken, taken.last, event.altKey);
+    },
+    [layout, take, follow],
   );
 
   const onDrop = useCallback(
-    (event: MouseEvent | TouchEvent | React.MouseEvent, node: BlockNode) => {
+    (event: DragEvent, node: BlockNode) => {
       const found = useEditorStore.getState().slot;
       const origin = layout.positions[node.id];
-      const tops = grip.current?.tops ?? [node.id];
-      letGo();
-      setHeld(null);
-      setEditor({ slot: null });
-      if (!origin) return;
+      const tops = grip.current?.tops;
+      putDown();
+      if (!origin || !tops) return;
       const [dx, dy] = [node.position.x - origin.x, node.position.y - origin.y];
       if (Math.hypot(dx, dy) <= DEAD_ZONE) return;
       // The key may have been released, or pressed, since the last move of the pointer.
@@ -111,8 +188,8 @@ export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | 
         change('place', recipes, { select: tops });
       }
     },
-    [diagram, layout, letGo, allows],
+    [diagram, layout, putDown, allows],
   );
 
-  return { held, onDrag, onDrop };
+  return { held, onDragStart, onDrag, onDrop };
 }

@@ -1,6 +1,6 @@
 import { beforeEach, expect, it, vi } from 'vitest';
 import { useProjectStore } from '@/store/project';
-import { openProject } from '../../../harness/testing';
+import { openProject } from '../../../../harness/testing';
 import { fit, fitSelection, isTreeShown, showsTree, zoomIn, zoomOut, zoomReset } from './views';
 
 const recording = () => ({ zoomIn: vi.fn(), zoomOut: vi.fn(), zoomTo: vi.fn(), fitView: vi.fn() });
@@ -25,7 +25,7 @@ it('commands the view of the tree in front', () => {
   expect(main.zoomIn).toHaveBeenCalledExactlyOnceWith({ duration: 120 });
   expect(main.zoomOut).toHaveBeenCalledExactlyOnceWith({ duration: 120 });
   expect(main.zoomTo).toHaveBeenCalledExactlyOnceWith(1, { duration: 120 });
-  const how = { padding: 0.14, maxZoom: 1.1, minZoom: 0.3, duration: 200 };
+  const how = { padding: 0.14, maxZoom: 1.1, minZoom: 0.004, duration: 200 };
   expect(main.fitView.mock.calls).toEqual([[how], [{ ...how, nodes: [{ id: 'r' }, { id: 'a' }] }]]);
   expect(dock.zoomIn).not.toHaveBeenCalled();
   ends.forEach((end) => end());

@@ -1,7 +1,7 @@
 import { act, waitFor } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import { useProjectStore } from '@/store/project';
-import { inFlow, openDiagram } from '../../../harness/canvas';
+import { inFlow, openDiagram } from '../../../../harness/canvas';
 import { useReveal } from './useReveal';
 import type { Layout } from '@/model/layout';
 

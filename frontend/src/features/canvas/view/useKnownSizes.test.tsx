@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest';
-import { inFlow } from '../../../harness/canvas';
+import { inFlow } from '../../../../harness/canvas';
 import { useKnownSizes } from './useKnownSizes';
 
 it('makes React Flow measure no block', () => {

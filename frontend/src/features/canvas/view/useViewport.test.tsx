@@ -3,9 +3,9 @@ import type { ReactFlowInstance } from '@xyflow/react';
 import { describe, expect, it, vi } from 'vitest';
 import { emptyDiagram, type Diagram } from '@/model/diagram';
 import type { Layout } from '@/model/layout';
-import { inFlow, now, openDiagram } from '../../../harness/canvas';
-import { nodeOf } from '../../../harness/testing';
-import type { BlockNode, TreeEdge } from './flow';
+import { inFlow, now, openDiagram } from '../../../../harness/canvas';
+import { nodeOf } from '../../../../harness/testing';
+import type { BlockNode, TreeEdge } from '../flow';
 import { FIT, useViewport } from './useViewport';
 
 const box = { x: 100, y: 40, width: 200, height: 44 };

@@ -1,6 +1,6 @@
 import { act } from '@testing-library/react';
 import { beforeEach, describe, expect, it } from 'vitest';
-import { showInFlow } from '../../../harness/canvas';
+import { showInFlow } from '../../../../harness/canvas';
 import { Dots } from './Dots';
 
 let moveTo: (x: number, y: number, zoom: number) => void;

@@ -1,8 +1,8 @@
 import { act, screen, waitFor } from '@testing-library/react';
 import { beforeEach, describe, expect, it } from 'vitest';
 import { useProjectStore } from '@/store/project';
-import { now, openDiagram, showInFlow } from '../../../harness/canvas';
-import { nodeOf, user } from '../../../harness/testing';
+import { now, openDiagram, showInFlow } from '../../../../harness/canvas';
+import { nodeOf, user } from '../../../../harness/testing';
 import { CanvasToolbar } from './CanvasToolbar';
 import { FIT } from './useViewport';
 import { isTreeShown } from './views';
@@ -60,9 +60,6 @@ describe('the layout', () => {
     await press('Left-right layout');
     expect(now.diagram().layout).toBe('horizontal');
     expect(screen.queryByRole('button', { name: 'Left-right layout' })).toBeNull();
-    await waitFor(() => {
-      expect(flow.store.getState().fitViewQueued).toBe(true);
-    });
     await press('Top-down layout');
     expect(now.diagram().layout).toBe('vertical');
   });
@@ -94,4 +91,19 @@ it('gives the commands of the view something to move', () => {
   expect(isTreeShown()).toBe(true);
   flow.unmount();
   expect(isTreeShown()).toBe(false);
+});
+
+it('is one button on a small canvas, which opens the tools', async () => {
+  act(() => flow.store.setState({ width: 390, height: 600 }));
+  expect(screen.getAllByRole('button')).toHaveLength(1);
+  expect(button('Show the tools of the view')).toHaveAttribute('aria-expanded', 'false');
+  await press('Show the tools of the view');
+  expect(button('Tidy layout')).toBeInTheDocument();
+  await press('Hide the tools of the view');
+  expect(screen.getAllByRole('button')).toHaveLength(1);
+  act(() => flow.store.setState({ width: 900, height: 300 }));
+  expect(screen.getAllByRole('button')).toHaveLength(1);
+  act(() => flow.store.setState({ width: 900, height: 600 }));
+  expect(button('Tidy layout')).toBeInTheDocument();
+  expect(screen.queryByTestId('toolbar-toggle')).toBeNull();
 });

@@ -3,9 +3,10 @@ import { useComputedColorScheme } from '@mantine/core';
 import { useEffect, useLayoutEffect, useMemo, useRef, type PointerEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { Box } from '@/model/layout';
-import type { BlockNode, TreeEdge } from './flow';
+import { cancellable } from '@/ui/cancellable';
+import type { BlockNode, TreeEdge } from '../flow';
 import { boundsOf, frameOf, shrink, type Shrinking } from './overview';
-import classes from './Canvas.module.css';
+import classes from '../Canvas.module.css';
 
 const PICTURE = { width: 168, height: 112 } as const;
 const DRAW_WITHIN_MS = 200;
@@ -55,7 +56,8 @@ function draw(picture: HTMLCanvasElement, { nodes, edges }: OverviewProps, { sx,
   for (const node of nodes) if (node.data.problem?.severity === 'error') paint(node, token('failure-bright'));
 }
 
-/** A small picture of the whole tree with the visible part marked; a press or a drag moves the view. */
+/** A small picture of the whole tree with the visible part marked; a press or a drag moves the view, and
+ * Escape moves it back. */
 export function Overview({ nodes, edges }: OverviewProps) {
   const { t } = useTranslation('canvas');
   const picture = useRef<HTMLCanvasElement>(null);
@@ -92,11 +94,23 @@ export function Overview({ nodes, edges }: OverviewProps) {
     return store.subscribe(follow);
   }, [store, shrinking]);
 
-  const goTo = (event: PointerEvent<HTMLDivElement>): void => {
-    const { left, top } = event.currentTarget.getBoundingClientRect();
-    const x = (event.clientX - left - shrinking.left) / shrinking.sx;
-    const y = (event.clientY - top - shrinking.top) / shrinking.sy;
-    void flow.setCenter(x, y, { zoom: flow.getZoom() });
+  const begin = ({
+    currentTarget,
+    pointerId,
+    clientX,
+    clientY,
+    button,
+  }: PointerEvent<HTMLDivElement>): void => {
+    if (button !== 0) return;
+    const before = flow.getViewport();
+    const { left, top } = currentTarget.getBoundingClientRect();
+    const goTo = (point: { readonly clientX: number; readonly clientY: number }): void => {
+      const x = (point.clientX - left - shrinking.left) / shrinking.sx;
+      const y = (point.clientY - top - shrinking.top) / shrinking.sy;
+      void flow.setCenter(x, y, { zoom: flow.getZoom() });
+    };
+    goTo({ clientX, clientY });
+    cancellable(currentTarget, pointerId, { onMove: goTo, onCancel: () => void flow.setViewport(before) });
   };
 
   return (
@@ -105,13 +119,8 @@ export function Overview({ nodes, edges }: OverviewProps) {
       role="img"
       aria-label={t('minimap')}
       data-testid="minimap"
-      onPointerDown={(event) => {
-        event.currentTarget.setPointerCapture(event.pointerId);
-        goTo(event);
-      }}
-      onPointerMove={(event) => {
-        if (event.currentTarget.hasPointerCapture(event.pointerId)) goTo(event);
-      }}
+      data-overlay
+      onPointerDown={begin}
     >
       <canvas ref={picture} />
       <div ref={frame} className={classes['view']} />

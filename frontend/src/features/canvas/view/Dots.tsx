@@ -1,6 +1,6 @@
 import { useStoreApi } from '@xyflow/react';
 import { useLayoutEffect, useRef } from 'react';
-import classes from './Canvas.module.css';
+import classes from '../Canvas.module.css';
 
 const GAP = 24;
 /** Denser dots would blur to grey: when zoomed out, only every second, fourth … dot is drawn. */

@@ -1,6 +1,6 @@
 import type { ReactFlowInstance } from '@xyflow/react';
 import { useProjectStore } from '@/store/project';
-import type { BlockNode, TreeEdge } from './flow';
+import type { BlockNode, TreeEdge } from '../flow';
 import { FIT } from './useViewport';
 
 type View = ReactFlowInstance<BlockNode, TreeEdge>;

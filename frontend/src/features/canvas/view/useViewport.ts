@@ -3,15 +3,18 @@ import { useCallback, useMemo } from 'react';
 import type { Diagram, NodeId } from '@/model/diagram';
 import type { Box, Layout } from '@/model/layout';
 import { disconnect } from '@/store/project/edits/blocks';
-import type { BlockNode, TreeEdge } from './flow';
+import type { BlockNode, TreeEdge } from '../flow';
 
 /** The last view of each tree, until the page closes. */
 const viewports = new Map<string, Viewport>();
 
-export const FIT = { padding: 0.14, maxZoom: 1.1, minZoom: 0.3 } as const;
+/** So far out that the largest tree is seen as a whole. */
+export const LEAST_ZOOM = 0.004;
+
+export const FIT = { padding: 0.14, maxZoom: 1.1, minZoom: LEAST_ZOOM } as const;
 
 /** Below this zoom the names of blocks are hard to read. */
-const READABLE = 0.6;
+export const READABLE = 0.6;
 const EDGE = 48;
 
 /** The initial view of a tree that does not fit: its root, readable, near the edge that it grows from. */

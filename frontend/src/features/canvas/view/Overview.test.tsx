@@ -5,8 +5,8 @@ import { expandTrees } from '@/model/expand';
 import { layoutTree } from '@/model/layout';
 import { vocabulary } from '@/model/testing';
 import type { ShownProblem } from '@/store/project/problems';
-import { PANE, showInFlow } from '../../../harness/canvas';
-import { FlowProjection } from './flow';
+import { PANE, showInFlow } from '../../../../harness/canvas';
+import { FlowProjection } from '../flow';
 import { boundsOf, frameOf, shrink } from './overview';
 import { Overview } from './Overview';
 
@@ -133,7 +133,6 @@ describe('the part in view', () => {
 
   beforeEach(() => {
     flow = showInFlow(<Overview nodes={nodes} edges={edges} />);
-    Object.assign(map(), { setPointerCapture: vi.fn(), hasPointerCapture: () => true });
   });
 
   it('is framed, and the frame follows the view', () => {
@@ -163,11 +162,21 @@ describe('the part in view', () => {
     expect(to.y).toBeCloseTo(PANE.height / 2 - y * 0.5);
     fireEvent.pointerMove(map(), { clientX: 500 + px + 10, clientY: 400 + py, pointerId: 3 });
     expect(flow.view.setViewport).toHaveBeenCalledTimes(2);
+    fireEvent.pointerUp(map(), { pointerId: 3 });
+    fireEvent.pointerMove(map(), { clientX: 500, clientY: 400, pointerId: 3 });
+    expect(flow.view.setViewport).toHaveBeenCalledTimes(2);
   });
 
-  it('stays where the pointer only passes', () => {
-    Object.assign(map(), { hasPointerCapture: () => false });
+  it('is again what it was when Escape cancels the drag', () => {
+    act(() => flow.store.setState({ transform: [-10, -20, 0.5] }));
+    fireEvent.pointerDown(map(), { clientX: 20, clientY: 20, pointerId: 3 });
+    fireEvent.keyDown(map(), { key: 'Escape' });
+    expect(flow.view.setViewport.mock.lastCall![0]).toEqual({ x: -10, y: -20, zoom: 0.5 });
+  });
+
+  it('stays where the pointer only passes, or another button presses', () => {
     fireEvent.pointerMove(map(), { clientX: 10, clientY: 10, pointerId: 3 });
+    fireEvent.pointerDown(map(), { clientX: 10, clientY: 10, pointerId: 3, button: 2 });
     expect(flow.view.setViewport).not.toHaveBeenCalled();
   });
 });

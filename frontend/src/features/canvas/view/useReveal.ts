@@ -3,12 +3,16 @@ import { useEffect, useRef } from 'react';
 import type { NodeId } from '@/model/diagram';
 import type { Layout } from '@/model/layout';
 import { useProjectStore } from '@/store/project';
+import { panToShow } from './clearing';
 
 const MARGIN = 48;
 /** The height of the toolbar that covers the bottom of the canvas, in px. */
 const MARGIN_BELOW = 84;
 
-/** Scrolls a block into view on request, or when keys select one that is out of sight. */
+/**
+ * Scrolls a block into view on request, and one that is new or selected by keys so far that it is seen: neither
+ * outside nor below what lies on the canvas (`data-overlay`).
+ */
 export function useReveal(treeId: string, layout: Layout): void {
   const flow = useReactFlow();
   const revealed = useProjectStore((state) => (state.revealed?.tree === treeId ? state.revealed : null));
@@ -30,13 +34,22 @@ export function useReveal(treeId: string, layout: Layout): void {
 
   useEffect(() => {
     const box = boxes.current.positions[first ?? ('' as NodeId)];
-    const canvas = document.querySelector(`[data-tree="${CSS.escape(treeId)}"]`)?.getBoundingClientRect();
-    if (!box || !canvas || canvas.width === 0) return;
+    const canvas = document.querySelector(`[data-tree="${CSS.escape(treeId)}"]`);
+    if (!box || !canvas || canvas.getBoundingClientRect().width === 0) return;
     const start = flow.flowToScreenPosition({ x: box.x, y: box.y });
     const end = flow.flowToScreenPosition({ x: box.x + box.width, y: box.y + box.height });
-    const dx = Math.max(0, canvas.left + MARGIN - start.x) - Math.max(0, end.x - (canvas.right - MARGIN));
-    const dy =
-      Math.max(0, canvas.top + MARGIN - start.y) - Math.max(0, end.y - (canvas.bottom - MARGIN_BELOW));
+    const bounds = canvas.getBoundingClientRect();
+    const view = {
+      x: bounds.left + MARGIN,
+      y: bounds.top + MARGIN,
+      width: bounds.width - 2 * MARGIN,
+      height: bounds.height - MARGIN - MARGIN_BELOW,
+    };
+    const obstacles = [...canvas.querySelectorAll('[data-overlay]')].map((each) =>
+      each.getBoundingClientRect(),
+    );
+    const block = { ...start, width: end.x - start.x, height: end.y - start.y };
+    const { dx, dy } = panToShow(block, view, obstacles);
     if (dx === 0 && dy === 0) return;
     const { x, y, zoom } = flow.getViewport();
     void flow.setViewport({ x: x + dx, y: y + dy, zoom }, { duration: 120 });

@@ -1,18 +1,21 @@
 import { ActionIcon, Tooltip } from '@mantine/core';
 import {
+  IconAdjustmentsHorizontal,
   IconArrowsVertical,
   IconArrowsHorizontal,
   IconFocusCentered,
   IconLayoutDistributeHorizontal,
+  IconLayoutList,
   IconMap2,
   IconMaximize,
   IconMinus,
   IconPlus,
   IconSearch,
+  IconX,
   type Icon,
 } from '@tabler/icons-react';
 import { useReactFlow, useStore } from '@xyflow/react';
-import { memo, useEffect } from 'react';
+import { memo, useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { shortcutLabel } from '@/commands/shortcuts';
 import { CommandButton } from '@/ui/CommandButton';
@@ -20,11 +23,15 @@ import { setLayout, tidy } from '@/model/edits';
 import { change } from '@/store/project/edits/blocks';
 import { isMinimapShown, setEditor, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
-import { FIT_KEYS } from './commands/canvasCommands';
-import type { BlockNode, TreeEdge } from './flow';
+import { FIT_KEYS } from '../commands/canvasCommands';
+import type { BlockNode, TreeEdge } from '../flow';
+import { toggleCompact, useCompact } from './compact';
 import { FIT } from './useViewport';
 import { fitSelection, showsTree } from './views';
-import classes from './Canvas.module.css';
+import classes from '../Canvas.module.css';
+
+/** On a smaller canvas the tools would lie on the tree: they become one button. */
+const ROOM = { width: 560, height: 320 } as const;
 
 interface ToolProps {
   readonly label: string;
@@ -32,9 +39,10 @@ interface ToolProps {
   readonly onClick: () => void;
   readonly testId?: string;
   readonly isOn?: boolean;
+  readonly isExpanded?: boolean;
 }
 
-function Tool({ label, icon: Symbol, onClick, testId, isOn }: ToolProps) {
+function Tool({ label, icon: Symbol, onClick, testId, isOn, isExpanded }: ToolProps) {
   return (
     <Tooltip label={label} position="top">
       <ActionIcon
@@ -43,6 +51,7 @@ function Tool({ label, icon: Symbol, onClick, testId, isOn }: ToolProps) {
         size={30}
         {...(testId === undefined ? {} : { 'data-testid': testId })}
         {...(isOn === undefined ? {} : { 'aria-pressed': isOn })}
+        {...(isExpanded === undefined ? {} : { 'aria-expanded': isExpanded })}
       >
         <Symbol size={17} stroke={1.8} aria-hidden="true" />
       </ActionIcon>
@@ -64,13 +73,29 @@ export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly 
 
   useEffect(() => showsTree(treeId, flow), [treeId, flow]);
 
-  const fitSoon = (): void => {
-    // Waits until React has drawn the new layout.
-    requestAnimationFrame(() => void flow.fitView({ ...FIT, duration: 200 }));
-  };
+  const isSmall = useStore(({ width, height }) => width > 0 && (width < ROOM.width || height < ROOM.height));
+  const isCompact = useCompact((state) => state.isCompact);
+  const [isOpen, setOpen] = useState(false);
+  const toggle = (
+    <Tool
+      label={t(isOpen ? 'toolbar.close' : 'toolbar.open')}
+      icon={isOpen ? IconX : IconAdjustmentsHorizontal}
+      testId="toolbar-toggle"
+      isExpanded={isOpen}
+      onClick={() => setOpen(!isOpen)}
+    />
+  );
+  if (isSmall && !isOpen) {
+    return (
+      <div className={classes['toolbar']} role="toolbar" aria-label={t('toolbar.label')}>
+        {toggle}
+      </div>
+    );
+  }
 
   return (
     <div className={classes['toolbar']} role="toolbar" aria-label={t('toolbar.label')}>
+      {isSmall && toggle}
       <Tool
         label={t('toolbar.zoomOut')}
         icon={IconMinus}
@@ -106,7 +131,8 @@ export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly 
         testId="tidy"
         onClick={() => {
           change('tidy', [tidy()]);
-          fitSoon();
+          // Waits until React has drawn the new layout.
+          requestAnimationFrame(() => void flow.fitView({ ...FIT, duration: 200 }));
         }}
       />
       <Tool
@@ -115,8 +141,14 @@ export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly 
         testId="orientation"
         onClick={() => {
           change('orientation', [setLayout(isHorizontal ? 'vertical' : 'horizontal')]);
-          fitSoon();
         }}
+      />
+      <Tool
+        label={t('toolbar.compact')}
+        icon={IconLayoutList}
+        testId="compact"
+        isOn={isCompact}
+        onClick={toggleCompact}
       />
       <span className={classes['divider']} />
       <Tool

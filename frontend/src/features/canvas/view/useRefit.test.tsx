@@ -1,0 +1,76 @@
+import { act, waitFor } from '@testing-library/react';
+import { beforeEach, describe, expect, it } from 'vitest';
+import { setLayout } from '@/model/edits';
+import { toggleExpanded } from '@/store/project/editor';
+import { useProjectStore } from '@/store/project';
+import { oneBlock } from '@/store/testing';
+import { inFlow, openDiagram } from '../../../../harness/canvas';
+import { useTree } from '../useTree';
+import { toggleCompact } from './compact';
+import { useRefit } from './useRefit';
+
+beforeEach(() => {
+  openDiagram(
+    {
+      root: 'r',
+      nodes: {
+        r: { type: 'Sequence', children: ['s', 'a'] },
+        s: { type: 'SubTree', tree: 'Dock' },
+        a: { type: 'Sleep' },
+      },
+    },
+    { texts: { 'trees/Dock.json': oneBlock('Dock', 'AlwaysSuccess') } },
+  );
+});
+
+function begin() {
+  const { store } = inFlow(() => useRefit(useTree('Main')));
+  const wish = () => store.getState().fitViewOptions;
+  return { store, wish };
+}
+
+describe('the view is fitted again', () => {
+  it('when the tree turns', async () => {
+    const { wish } = begin();
+    expect(wish()).toBeUndefined();
+    act(() => useProjectStore.getState().apply('Main', 'orientation', [setLayout('horizontal')]));
+    await waitFor(() => expect(wish()).toMatchObject({ duration: 200 }));
+  });
+
+  it('when the layout becomes compact', async () => {
+    const { wish } = begin();
+    act(toggleCompact);
+    await waitFor(() => expect(wish()).toMatchObject({ duration: 200 }));
+    act(toggleCompact);
+  });
+
+  it('when a subtree is looked into: to all, if it can be read then', async () => {
+    const { wish } = begin();
+    act(() => toggleExpanded('Main', 's'));
+    await waitFor(() => expect(wish()).toMatchObject({ duration: 200 }));
+    expect(wish()).not.toHaveProperty('nodes');
+  });
+
+  it('when a subtree of a large tree is looked into: to that', async () => {
+    const { store, wish } = begin();
+    act(() => store.setState({ width: 200, height: 150 }));
+    act(() => toggleExpanded('Main', 's'));
+    await waitFor(() => expect(wish()?.nodes).toEqual([{ id: 's' }, { id: 's n1' }]));
+  });
+
+  it('when a smaller canvas shows no longer all of it', async () => {
+    const { store, wish } = begin();
+    act(() => store.setState({ transform: [250, 20, 1] }));
+    act(() => store.setState({ width: 780 }));
+    expect(wish()).toBeUndefined();
+    act(() => store.setState({ width: 200 }));
+    await waitFor(() => expect(wish()).toMatchObject({ duration: 200 }));
+  });
+});
+
+it('stays where the user looked at a part', () => {
+  const { store, wish } = begin();
+  act(() => store.setState({ transform: [-500, 20, 1] }));
+  act(() => store.setState({ width: 200 }));
+  expect(wish()).toBeUndefined();
+});

@@ -1,0 +1,82 @@
+import { useReactFlow, useStore, useStoreApi } from '@xyflow/react';
+import { useEffect, useRef } from 'react';
+import type { NodeId } from '@/model/diagram';
+import type { BlockNode, TreeEdge } from '../flow';
+import type { TreeOnCanvas } from '../useTree';
+import { FIT, READABLE } from './useViewport';
+
+const ANIMATED = { ...FIT, duration: 200 };
+
+/** The SubTree that was expanded or closed last, with what is shown inside of it now. */
+function changedGroup(
+  { shown }: TreeOnCanvas,
+  before: ReadonlyMap<NodeId, unknown>,
+): readonly NodeId[] | null {
+  const opened = [...shown.groups.keys()].find((id) => !before.has(id));
+  const closed = [...before.keys()].find((id) => !shown.groups.has(id) && id in shown.diagram.nodes);
+  const id = opened ?? closed;
+  return id === undefined ? null : [id, ...(shown.groups.get(id) ?? [])];
+}
+
+/**
+ * Fits the view again after what changes the whole picture: the orientation, the compact layout, a subtree that
+ * is expanded or closed, and a canvas of another size, if the
+ * tree was seen as a whole and is not any more.
+ */
+export function useRefit(tree: TreeOnCanvas): void {
+  const flow = useReactFlow<BlockNode, TreeEdge>();
+  const store = useStoreApi();
+  const { layout, diagram, shown, isCompact } = tree;
+  const width = useStore((state) => state.width);
+  const height = useStore((state) => state.height);
+  const before = useRef({
+    orientation: diagram.layout,
+    isCompact,
+    groups: shown.groups,
+    width,
+    height,
+    layout,
+  });
+
+  useEffect(() => {
+    const last = before.current;
+    before.current = { orientation: diagram.layout, isCompact, groups: shown.groups, width, height, layout };
+    const fitSoon = (nodes?: readonly NodeId[]): void => {
+      // Waits until React Flow knows the new places.
+      requestAnimationFrame(
+        () => void flow.fitView(nodes ? { ...ANIMATED, nodes: nodes.map((id) => ({ id })) } : ANIMATED),
+      );
+    };
+    if (last.orientation !== diagram.layout || last.isCompact !== isCompact) return fitSoon();
+    if (last.groups !== shown.groups) {
+      const group = changedGroup(tree, last.groups);
+      const zoom = Math.min(width / layout.width, height / layout.height) / (1 + FIT.padding);
+      if (group) fitSoon(zoom >= READABLE ? undefined : group);
+      return;
+    }
+    if ((last.width === width && last.height === height) || last.width === 0 || width === 0) return;
+    const { transform } = store.getState();
+    if (isWhole(last, transform) && !isWhole({ width, height, layout }, transform)) fitSoon();
+  }, [tree, flow, store, layout, diagram, shown, isCompact, width, height]);
+}
+
+interface Seen {
+  readonly width: number;
+  readonly height: number;
+  readonly layout: TreeOnCanvas['layout'];
+}
+
+/** Whether all blocks were in the view. */
+function isWhole({ width, height, layout }: Seen, [x, y, zoom]: readonly [number, number, number]): boolean {
+  const boxes = Object.values(layout.positions);
+  return (
+    boxes.length > 0 &&
+    boxes.every(
+      (box) =>
+        box.x * zoom + x >= 0 &&
+        box.y * zoom + y >= 0 &&
+        (box.x + box.width) * zoom + x <= width &&
+        (box.y + box.height) * zoom + y <= height,
+    )
+  );
+}

@@ -1,0 +1,73 @@
+import { beforeEach, describe, expect, it, vi } from 'vitest';
+import type uPlot from 'uplot';
+import { gestures } from './plotGestures';
+
+const setRange = vi.fn();
+let over: HTMLElement;
+let host: HTMLElement;
+let end: () => void;
+
+beforeEach(() => {
+  setRange.mockClear();
+  over = document.createElement('div');
+  host = document.createElement('div');
+  host.append(over);
+  over.setPointerCapture = vi.fn();
+  Object.defineProperty(over, 'clientWidth', { value: 100 });
+  const chart = { over, scales: { x: { min: 0, max: 10 } }, posToVal: (px: number) => px / 10 };
+  end = gestures(chart as unknown as uPlot, host, setRange);
+});
+
+const pointer = (type: string, clientX: number) =>
+  over.dispatchEvent(new MouseEvent(type, { clientX, button: 0, bubbles: true }));
+const press = (key: string) => host.dispatchEvent(new KeyboardEvent('keydown', { key }));
+const last = (): unknown => setRange.mock.lastCall?.[0];
+
+describe('gestures', () => {
+  it('zoom by the wheel, around the pointer', () => {
+    over.dispatchEvent(new WheelEvent('wheel', { deltaY: -100, clientX: 0 }));
+    expect(last()).toEqual({ min: 0, max: 10 / 1.2 });
+    over.dispatchEvent(new WheelEvent('wheel', { deltaY: 100, clientX: 100 }));
+    expect(last()).toMatchObject({ max: 10 });
+  });
+
+  it('move by a drag, until it ends', () => {
+    pointer('pointerdown', 50);
+    pointer('pointermove', 70);
+    expect(last()).toEqual({ min: -2, max: 8 });
+    pointer('pointerup', 70);
+    pointer('pointermove', 90);
+    expect(setRange).toHaveBeenCalledOnce();
+  });
+
+  it('take a drag back with Escape', () => {
+    pointer('pointerdown', 50);
+    pointer('pointermove', 70);
+    press('Escape');
+    expect(last()).toEqual({ min: 0, max: 10 });
+  });
+
+  it('show everything after a double click', () => {
+    over.dispatchEvent(new MouseEvent('dblclick'));
+    expect(last()).toBeNull();
+  });
+
+  it.each([
+    ['+', { min: 5 - 5 / 1.2, max: 5 + 5 / 1.2 }],
+    ['-', { min: -1, max: 11 }],
+    ['ArrowLeft', { min: -2, max: 8 }],
+    ['ArrowRight', { min: 2, max: 12 }],
+    ['0', null],
+  ])('follow the key %s', (key, range) => {
+    press(key);
+    if (range) expect(last()).toEqual({ min: expect.closeTo(range.min), max: expect.closeTo(range.max) });
+    else expect(last()).toBeNull();
+  });
+
+  it('leave other keys alone, and end', () => {
+    press('a');
+    end();
+    press('0');
+    expect(setRange).not.toHaveBeenCalled();
+  });
+});

@@ -1,0 +1,96 @@
+import type uPlot from 'uplot';
+import { moved, zoomed, type TimeRange } from './plotView';
+
+const WHEEL_STEP = 1.2;
+/** The part of the range that an arrow moves. */
+const ARROW_STEP = 0.2;
+
+type SetRange = (range: TimeRange | null) => void;
+
+function rangeOf({ scales }: uPlot): TimeRange | null {
+  const { min, max } = scales['x'] ?? {};
+  return typeof min === 'number' && typeof max === 'number' && max > min ? { min, max } : null;
+}
+
+/** The range that a key of a plot asks for; undefined for other keys, null for everything. */
+function rangeAfter(key: string, range: TimeRange): TimeRange | null | undefined {
+  const span = range.max - range.min;
+  const middle = (range.min + range.max) / 2;
+  switch (key) {
+    case '+':
+    case '=':
+      return zoomed(range, middle, 1 / WHEEL_STEP);
+    case '-':
+      return zoomed(range, middle, WHEEL_STEP);
+    case 'ArrowLeft':
+      return moved(range, -span * ARROW_STEP);
+    case 'ArrowRight':
+      return moved(range, span * ARROW_STEP);
+    case '0':
+      return null;
+    default:
+      return undefined;
+  }
+}
+
+/** Wheel and drag move and zoom a plot; a double click, or 0, shows everything again. */
+export function gestures(chart: uPlot, host: HTMLElement, setRange: SetRange): () => void {
+  const { over } = chart;
+  let held: { x: number; range: TimeRange } | null = null;
+  const ends = new AbortController();
+  const { signal } = ends;
+
+  over.addEventListener(
+    'wheel',
+    (event) => {
+      const range = rangeOf(chart);
+      if (!range) return;
+      event.preventDefault();
+      const at = chart.posToVal(event.clientX - over.getBoundingClientRect().left, 'x');
+      setRange(zoomed(range, at, event.deltaY < 0 ? 1 / WHEEL_STEP : WHEEL_STEP));
+    },
+    { signal, passive: false },
+  );
+  over.addEventListener(
+    'pointerdown',
+    (event) => {
+      const range = rangeOf(chart);
+      if (!range || event.button !== 0) return;
+      held = { x: event.clientX, range };
+      over.setPointerCapture(event.pointerId);
+    },
+    { signal },
+  );
+  over.addEventListener(
+    'pointermove',
+    (event) => {
+      if (!held || event.clientX === held.x) return;
+      const { x, range } = held;
+      const secondsPerPx = (range.max - range.min) / Math.max(1, over.clientWidth);
+      setRange(moved(range, (x - event.clientX) * secondsPerPx));
+    },
+    { signal },
+  );
+  for (const end of ['pointerup', 'pointercancel'] as const) {
+    over.addEventListener(end, () => (held = null), { signal });
+  }
+  over.addEventListener('dblclick', () => setRange(null), { signal });
+  host.addEventListener(
+    'keydown',
+    (event) => {
+      const range = rangeOf(chart);
+      if (event.key === 'Escape' && held) {
+        setRange(held.range);
+        held = null;
+        return;
+      }
+      const next = range ? rangeAfter(event.key, range) : undefined;
+      if (next === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
+      event.preventDefault();
+      event.stopPropagation();
+      setRange(next);
+    },
+    { signal },
+  );
+  return () => ends.abort();
+}

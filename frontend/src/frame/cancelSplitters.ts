@@ -1,0 +1,47 @@
+import { Actions, RowNode, TabSetNode, type Model } from 'flexlayout-react';
+import { cancellable } from '@/ui/cancellable';
+
+/** The weights of the children of each row of panels. */
+function weightsOf(model: Model): ReadonlyMap<string, readonly number[]> {
+  const weights = new Map<string, readonly number[]>();
+  model.visitNodes((node) => {
+    if (node instanceof RowNode) weights.set(node.getId(), childWeights(node));
+  });
+  return weights;
+}
+
+const childWeights = (row: RowNode): number[] =>
+  row
+    .getChildren()
+    .map((child) => (child instanceof RowNode || child instanceof TabSetNode ? child.getWeight() : 0));
+
+function restore(model: Model, weights: ReadonlyMap<string, readonly number[]>): void {
+  for (const [id, before] of weights) {
+    const row = model.getNodeById(id);
+    if (!(row instanceof RowNode)) continue;
+    if (childWeights(row).some((weight, at) => weight !== before[at]))
+      model.doAction(Actions.adjustWeights(id, [...before]));
+  }
+}
+
+/**
+ * Lets Escape cancel a drag of the line between two panels, which the docking library does not know: the panels
+ * get their sizes of before. Returns a function that ends this.
+ */
+export function cancelSplitters(document: Document, model: Model): () => void {
+  const onPress = (event: PointerEvent): void => {
+    const splitter = (event.target as Element).closest('.flexlayout__splitter');
+    if (!splitter || event.button !== 0) return;
+    const weights = weightsOf(model);
+    const { pointerId } = event;
+    cancellable(splitter, pointerId, {
+      onCancel: () => {
+        document.dispatchEvent(new PointerEvent('pointercancel', { pointerId, cancelable: true }));
+        if (splitter.hasPointerCapture(pointerId)) splitter.releasePointerCapture(pointerId);
+        restore(model, weights);
+      },
+    });
+  };
+  document.addEventListener('pointerdown', onPress, { capture: true });
+  return () => document.removeEventListener('pointerdown', onPress, { capture: true });
+}

@@ -182,6 +182,7 @@ COMMANDS: Final[dict[str, type[Struct]]] = {
     "set_speed": SetSpeed,
     "restart_application": Empty,
     "reset_world": Empty,
+    "run_world": Empty,
     "terminate_application": Empty,
     "terminate_visualization": Empty,
     "terminate_universe": Empty,

@@ -1,4 +1,4 @@
-"""Draws the chooser's pictures of universes and robots: `python -m executor.generate.previews [ID …]`.
+"""Draws the pictures of universes, robots and examples: `python -m executor.generate.previews [ID …]`.
 
 The pictures are committed to the repository, so that the start page needs no renderer. Draw a picture again
 when its content changed.
@@ -7,8 +7,10 @@ when its content changed.
 from __future__ import annotations
 
 import argparse
+import json
 import math
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 import cv2
@@ -21,14 +23,15 @@ from executor.universes.loader import preview_path as universe_preview
 from executor.world.physics.bullet import BulletWorld
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     import numpy as np
     from numpy.typing import NDArray
 
     from executor.render import Renderer
     from executor.universes import Universe
 
+_REPOSITORY: Final = Path(__file__).parents[2]
+EXAMPLES: Final = _REPOSITORY / "examples"
+EXAMPLE_PICTURES: Final = _REPOSITORY / "frontend/src/features/projects/examples/pictures"
 SIZE: Final = (480, 270)
 MOST_BYTES: Final = 30_000
 FOV: Final = 1.05
@@ -51,6 +54,23 @@ def universe_picture(renderer: Renderer, universe_id: str) -> bytes:
     """Returns the picture of a universe as WebP."""
     universe = load_builtin(universe_id)
     return _webp(_draw(renderer, universe, look_at(universe.view.eye, universe.view.target, FOV)))
+
+
+def example_picture(renderer: Renderer, universe_path: Path) -> bytes:
+    """Returns the picture of an example's own universe as WebP."""
+    universe = parse_universe(universe_path.read_text(encoding="utf-8"))
+    return _webp(_draw(renderer, universe, look_at(universe.view.eye, universe.view.target, FOV)))
+
+
+def own_universes() -> dict[str, Path]:
+    """Returns the universes of examples that bring one, by example; the others have a built-in one."""
+    found = {}
+    for manifest in sorted(EXAMPLES.glob("*/project.json")):
+        name = json.loads(manifest.read_bytes())["universe"]
+        path = manifest.parent / "universes" / f"{name}.yaml"
+        if path.is_file():
+            found[manifest.parent.name] = path
+    return found
 
 
 def robot_picture(renderer: Renderer, robot_id: str) -> bytes:
@@ -103,6 +123,9 @@ def main(arguments: list[str] | None = None) -> None:
     for robot_id in robot_ids():
         if not wanted or robot_id in wanted:
             _write(robot_preview(robot_id), robot_picture(renderer, robot_id))
+    for example_id, path in own_universes().items():
+        if not wanted or example_id in wanted:
+            _write(EXAMPLE_PICTURES / f"{example_id}.webp", example_picture(renderer, path))
     renderer.close()
 
 

@@ -73,6 +73,19 @@ def _reset_world(stage: Stage, event: CommandCame, _: Struct) -> None:
     _ask(stage, event, "world", child_messages.Reset(), patience_s=RESET_TIMEOUT_S)
 
 
+def _run_world(stage: Stage, event: CommandCame, _: Struct) -> None:
+    def note() -> None:
+        stage.run.is_world_alone = stage.state is State.VISUALIZATION_READY
+
+    _ask(stage, event, "world", child_messages.Resume(), then=note)
+
+
+def _does_time_pass(stage: Stage) -> bool:
+    """Whether simulated time passes; that of an outside graph is not the session's to stop."""
+    run = stage.run
+    return stage.state is State.APPLICATION_RUNNING or run.is_world_alone or run.is_outside
+
+
 def _subscribe(stage: Stage, event: CommandCame, data: messages.Subscribe) -> None:
     if stage.clients.subscribes_to_too_many(event.client, data):
         text = f"A client may subscribe to {MOST_STREAMS} streams at once."
@@ -103,6 +116,10 @@ def _list_topics(stage: Stage, event: CommandCame, _: Struct) -> None:
 
 
 def _publish_topic(stage: Stage, event: CommandCame, data: messages.PublishTopic) -> None:
+    if not _does_time_pass(stage):
+        hint = "Resume the run first." if stage.state is State.PAUSED else "Let the world run first."
+        stage.output.refuse(event, "world_paused", "The world is paused, so nothing would happen.", hint)
+        return
     message = child_messages.PublishTopic(data.topic, data.type, data.message)
     _ask(stage, event, "world", message, topic=data.topic)
 
@@ -152,6 +169,7 @@ IMMEDIATE: Final[dict[str, Callable[[Stage, CommandCame], None]]] = {
     "set_tick_rate": _typed(messages.SetTickRate, _set_tick_rate),
     "set_speed": _typed(messages.SetSpeed, _set_speed),
     "reset_world": _typed(messages.Empty, _reset_world),
+    "run_world": _typed(messages.Empty, _run_world),
     "subscribe": _typed(messages.Subscribe, _subscribe),
     "unsubscribe": _typed(messages.Unsubscribe, _unsubscribe),
     "echo_topic": _typed(messages.EchoTopic, _echo_topic),
@@ -170,6 +188,7 @@ ANSWER_LATER: Final = frozenset(
         "set_tick_rate",
         "set_speed",
         "reset_world",
+        "run_world",
         "move_body",
         "list_topics",
         "echo_topic",

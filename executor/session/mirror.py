@@ -93,6 +93,7 @@ class Mirror:
                 self.logs.append(event)
             case LaunchNodes():
                 self.launch_nodes = event.nodes
+                self._forget_faults_of([node for node in event.nodes if node.state == "running"])
             case Fault():
                 self.faults.append(event)
             case TopicMismatch():
@@ -125,6 +126,13 @@ class Mirror:
             past=self.past,
             finished=self.finished,
         )
+
+    def _forget_faults_of(self, nodes: list[LaunchNode]) -> None:
+        """Removes the faults of launch nodes that run again."""
+        places = {(node.file, node.line) for node in nodes}
+        gone = [f for f in self.faults if f.kind == "process" and f.file and (f.file, f.line) in places]
+        for fault in gone:
+            self.faults.remove(fault)
 
     def _apply_entries(self, entries: list[BlackboardEntry]) -> None:
         for entry in entries:

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 __all__ = [
     "await_tick",
     "go",
+    "hold_world",
     "pause",
     "resume",
     "set_blackboard",
@@ -48,6 +49,13 @@ def stop_moving(stage: Stage) -> None:
     """Sets the robot's target velocity to zero and pauses the world."""
     stage.children.tell_world(child_messages.StopRobot())
     stage.children.tell_world(child_messages.Pause())
+    stage.run.is_world_alone = False
+
+
+def hold_world(stage: Stage) -> None:
+    """Pauses a world that runs without an application."""
+    if stage.run.is_world_alone:
+        stop_moving(stage)
 
 
 def go(stage: Stage, application: Child) -> Step:

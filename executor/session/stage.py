@@ -53,6 +53,8 @@ class LastRun:
     domain_id: int = 0
     is_outside: bool = False
     seed: int = 0
+    is_world_alone: bool = False
+    """The world runs without an application."""
     deaf_until_s: float = 0.0
     """Until this time, an application that receives no simulated time is not restarted again."""
 

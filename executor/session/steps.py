@@ -16,6 +16,7 @@ from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.running import (
     await_tick,
     go,
+    hold_world,
     pause,
     resume,
     set_blackboard,
@@ -97,6 +98,7 @@ def _launch_universe(stage: Stage, data: messages.LaunchUniverse) -> Step:
         stage.children.drop("world")
         stage.children.replenish()
         raise
+    stage.run.is_world_alone = False
     stage.mirror.universe = reply.universe or str(data.universe)
     stage.mirror.speed = data.speed
     streaming.resume_echoes(stage)
@@ -175,6 +177,7 @@ def restart_application(stage: Stage, data: Struct) -> Step:
 def _start_application(stage: Stage) -> Child:
     data = stage.run.application
     assert data is not None  # noqa: S101 - both callers set it
+    hold_world(stage)
     stage.mirror.begin_run(data.tick_hz)
     _progress(stage, "run_application", 0.0, "Loading the tree and its actions")
     application = stage.children.ensure("application")
@@ -224,6 +227,7 @@ def _run(stage: Stage, data: messages.Run) -> Step:
         yield from _terminate_application(stage, data)
     if stage.state is State.IDLE:
         yield from _connect(stage, data)
+    hold_world(stage)
     orders = []
     if stage.state.reaches(State.UNIVERSE_READY):
         if stage.children.ensure("world").is_hanging or not _is_same_world(stage.run.universe, data.universe):
@@ -285,6 +289,7 @@ def _is_same_world(old: messages.LaunchUniverse | None, new: messages.LaunchUniv
 
 def _terminate_application(stage: Stage, _: Struct) -> Step:
     if stage.state not in HAS_APPLICATION:
+        hold_world(stage)
         return
     application = stage.children.ensure("application")
     application.is_stopping = True

@@ -151,8 +151,8 @@ export class FakeExecutor {
   }
 
   /** From now on the command is refused with this message. */
-  refuse(command: keyof Commands, message: string, hint = ''): void {
-    this.refusals[command] = { code: 'refused', message, hint };
+  refuse(command: keyof Commands, message: string, hint = '', code = 'refused'): void {
+    this.refusals[command] = { code, message, hint };
   }
 
   /** What was sent with a command, each time. */

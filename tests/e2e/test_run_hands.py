@@ -71,7 +71,7 @@ class Work(py_trees.behaviour.Behaviour):
 LAUNCH = """\
 launch:
   - node: {exec: launch/talker.py, name: talker}
-  - node: {exec: launch/brief.py, name: brief}
+  - node: {exec: nodes/brief.py, name: brief}
 """
 TALKER = """\
 import rclpy
@@ -98,7 +98,7 @@ FILES = {
     "actions/Work.py": WORK,
     "launch/extra.launch.yaml": LAUNCH,
     "launch/talker.py": TALKER,
-    "launch/brief.py": BRIEF,
+    "nodes/brief.py": BRIEF,
 }
 
 

@@ -118,9 +118,17 @@ async def test_topics_are_listed_echoed_published_and_described():
         assert await client.ask("terminate_application") == "ack"
         place = await settled(client)
         right = {"topic": "/cmd_vel", "type": twist, "message": {"linear": {"x": 0.3}}}
-        assert await client.ask("publish_topic", right) == "ack"
+        assert (await client.ask("publish_topic", right))["code"] == "world_paused"
         assert await client.ask("move_body", {"id": "ghost", "pose": [0] * 6}) != "ack"
         assert await settled(client) == place  # the world is paused
+
+        assert await client.ask("run_world") == "ack"
+        assert await client.ask("publish_topic", right) == "ack"
+        while (await client.event("sim"))["data"]["pose"] == place:
+            pass
+        assert await client.ask("terminate_application") == "ack"
+        place = await settled(client)
+        assert await settled(client) == place
         await client.close()
 
 

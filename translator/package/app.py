@@ -29,9 +29,13 @@ def to_app_zip(project: Project) -> bytes:
 
 
 def app_files(project: Project) -> dict[str, bytes]:
-    """Returns the files of the app by path, for a project that is known to be sound."""
-    files = {path: raw for path, raw in project.files.items() if path.startswith(FOLDERS)}
-    files.update((path, raw) for path, raw in project.files.items() if is_action_source(path))
+    """Returns the files of the app by path, for a project that is known to be sound.
+
+    All Python travels along: actions import it, and launch files start it.
+    """
+    files = {
+        path: raw for path, raw in project.files.items() if path.startswith(FOLDERS) or path.endswith(".py")
+    }
     files.update(engine_files())
     files[PROJECT_FILE] = (
         json.dumps(project.settings.to_json(), ensure_ascii=False, indent=2) + "\n"

@@ -49,10 +49,15 @@ def dependencies_of(files: Mapping[str, bytes]) -> set[str]:
 
 
 def programs(files: Mapping[str, bytes]) -> dict[str, str]:
-    """Returns the Python files beside the launch files, each with the name of its executable."""
+    """Returns the Python files that launch files start, each with the name of its executable.
+
+    These are all beside the launch files, and others of the project whose name is in a launch file.
+    """
     named: dict[str, str] = {}
+    texts = b"\n".join(files[path] for path in launch_files(files))
     for path in sorted(files):
-        if path.startswith(FOLDER) and path.endswith(".py") and not _LAUNCH_FILE.fullmatch(path):
+        is_named = path.startswith(FOLDER) or PurePosixPath(path).name.encode() in texts
+        if is_named and path.endswith(".py") and not _LAUNCH_FILE.fullmatch(path):
             name = path.removeprefix(FOLDER).replace("/", "_")
             while name in named.values():
                 name = f"_{name}"

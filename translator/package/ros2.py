@@ -119,14 +119,15 @@ class _Builder:
 
     def extras(self) -> dict[str, bytes]:
         """Returns launch files, assets and requirements of the project."""
-        result = {}
+        result = {
+            f"{self.name}/scripts/{name}": as_program(self.project.files[path])
+            for path, name in self.programs.items()
+        }
         for path, raw in self.project.files.items():
             if path in self.launch_files:
                 text, found = in_package(path, raw, self.name, self.programs)
                 result[f"{self.name}/launch/{self.own_launch_name(path)}"] = text
                 self.found.extend(found)
-            elif path in self.programs:
-                result[f"{self.name}/scripts/{self.programs[path]}"] = as_program(raw)
             elif path.startswith("assets/") or path in (*self.companions, "requirements.txt"):
                 result[f"{self.name}/{path}"] = raw
         return result

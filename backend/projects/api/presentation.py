@@ -16,15 +16,10 @@ if TYPE_CHECKING:
     from backend.projects.storage.queries import StoredFile
 
 
-<<<<<<< HEAD
 def summary(
     project: Project, root_diagram: dict[str, Any] | None, conditions: Sequence[str]
 ) -> dict[str, Any]:
     """Returns a project in the form of a list."""
-=======
-def summary(project: Project, root_diagram: dict[str, Any] | None) -> dict[str, Any]:
-    """Returns a project in the form for lists."""
->>>>>>> main
     return {
         "id": str(project.id),
         "name": project.name,

@@ -113,7 +113,8 @@ class SimulationLoop:
 
     def run_due(self, now_s: float) -> None:
         """Runs everything that is due at this real time."""
-        if self._stands_still(now_s):
+        stands_still = self._stands_still(now_s)
+        if stands_still:
             self._pacer.pause()
             self._idle(now_s)
         else:
@@ -121,7 +122,7 @@ class SimulationLoop:
         self.streams.send_due(now_s)
         for watch in self.watchers:
             watch(now_s)
-        self._report_due(now_s)
+        self._report_due(now_s, is_running=not stands_still)
 
     def next_due_s(self, now_s: float) -> float:
         """Returns the seconds until `run_due` has something to do."""
@@ -169,11 +170,11 @@ class SimulationLoop:
             text = f"{robot} bumped into {collision.body}"
             self._log("warning", text, collision.time_s)
 
-    def _report_due(self, now_s: float) -> None:
+    def _report_due(self, now_s: float, *, is_running: bool) -> None:
         report = self._report
         if report is None:
             report = self._report = _Report(now_s, self._world.time_s)
-        if not self.is_paused and self._last_s is not None:
+        if is_running and self._last_s is not None:
             report.running_s += now_s - self._last_s
         self._last_s = now_s
         if now_s - report.real_s < REPORT_S:

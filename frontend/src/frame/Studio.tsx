@@ -12,10 +12,7 @@ import { FileDialog } from '@/features/code/FileDialog';
 import { ExportDialog } from '@/features/export/ExportDialog';
 import { ImportReport } from '@/features/importReport/ImportReport';
 import { Shortcuts } from '@/features/onboarding/Shortcuts';
-import { Banner } from '@/features/run/Banner';
-import { ViewerNotice } from '@/features/run/ViewerNotice';
-import { RestartOffer } from '@/features/run/RestartOffer';
-import { RunProgress } from '@/features/run/RunProgress';
+import { RunStrip } from '@/features/run/strip/RunStrip';
 import { registerRunCommands } from '@/features/run/commands';
 import { registerRateCommands } from '@/features/run/rates';
 import { useRunReactions } from '@/features/run/useRunReactions';
@@ -140,10 +137,7 @@ function Workbench({ projectId }: StudioProps) {
   return (
     <div className={classes['studio']}>
       <TopBar />
-      <RunProgress />
-      <Banner />
-      <ViewerNotice />
-      <RestartOffer />
+      <RunStrip />
       <main className={classes['dock']}>
         {model && modelWidth ? <Dock model={model} width={modelWidth} key={modelWidth} /> : null}
       </main>

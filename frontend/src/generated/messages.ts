@@ -574,6 +574,7 @@ export interface Commands {
   set_speed: SetSpeed;
   restart_application: Empty;
   reset_world: Empty;
+  run_world: Empty;
   terminate_application: Empty;
   terminate_visualization: Empty;
   terminate_universe: Empty;

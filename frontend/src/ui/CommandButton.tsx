@@ -2,6 +2,7 @@ import { ActionIcon, Tooltip, type ActionIconProps } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 import { perform, useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
+import { usePressed } from './usePressed';
 
 interface CommandButtonProps extends Pick<ActionIconProps, 'color' | 'variant' | 'size'> {
   readonly command: string;
@@ -13,17 +14,19 @@ interface CommandButtonProps extends Pick<ActionIconProps, 'color' | 'variant' |
 export function CommandButton({ command: id, isDisabled = false, testId, ...look }: CommandButtonProps) {
   const { t } = useTranslation();
   const command = useCommandTable((table) => table.commands[id]);
+  const { isPressed, handlers } = usePressed();
   if (!command) return null;
   const label = t(command.labelKey);
   const keys = keysOf(command);
   const Icon = command.icon;
   return (
-    <Tooltip label={keys ? `${label} (${keys})` : label}>
+    <Tooltip label={keys ? `${label} (${keys})` : label} disabled={isPressed}>
       <ActionIcon
         size="lg"
         aria-label={label}
         disabled={isDisabled}
         onClick={() => perform(id)}
+        {...handlers}
         {...look}
         {...(testId ? { 'data-testid': testId } : {})}
       >

@@ -25,6 +25,14 @@ def test_each_has_a_small_picture_that_is_not_empty(path: Path) -> None:
     assert picture.std() > 5
 
 
+def test_each_example_with_a_world_of_its_own_has_a_picture() -> None:
+    shown = {path.stem: path.read_bytes() for path in previews.EXAMPLE_PICTURES.iterdir()}
+    assert shown.keys() == previews.own_universes().keys()
+    for data in shown.values():
+        picture = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)
+        assert (picture.shape, picture.std() > 5) == ((270, 480, 3), True)
+
+
 def test_there_is_no_picture_of_what_is_gone() -> None:
     folder = universe_preview("empty").parent
     assert sorted(path.stem for path in folder.iterdir()) == sorted(BUILTIN_IDS)

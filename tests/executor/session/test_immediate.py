@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from executor.child_messages import Pause, Reset, Resume
+from executor.session.events import Tell
 from executor.session.immediate import ANSWER_LATER, IMMEDIATE
 from executor.session.ladder import TABLE, State
 from tests.executor.session.play import Play
@@ -25,3 +27,30 @@ def test_a_command_to_a_process_that_is_gone_is_refused() -> None:
     play.climb(State.VISUALIZATION_READY)
     del play.session.children.living["world"]
     assert play.reply(play.command("list_topics")) == "process_died"
+
+
+def test_a_message_is_published_only_while_time_passes() -> None:
+    play = Play()
+    play.climb(State.VISUALIZATION_READY)
+    assert play.reply(play.command("publish_topic")) == "world_paused"
+    assert play.reply(play.command("run_world")) == "ack"
+    assert play.reply(play.command("publish_topic")) == "ack"
+    assert play.reply(play.command("terminate_application")) == "ack"
+    assert play.reply(play.command("publish_topic")) == "world_paused"
+    play.climb(State.APPLICATION_RUNNING)
+    assert play.reply(play.command("publish_topic")) == "ack"
+    play.command("pause")
+    assert play.reply(play.command("publish_topic")) == "world_paused"
+
+
+def test_a_world_that_runs_alone_waits_for_the_application() -> None:
+    play = Play()
+    play.climb(State.VISUALIZATION_READY)
+    play.command("run_world")
+    play.effects.clear()
+    play.command("run")
+    told = [
+        type(effect.message) for effect in play.effects if isinstance(effect, Tell) and effect.kind == "world"
+    ]
+    assert told.index(Pause) < told.index(Reset) < told.index(Resume)
+    assert not play.session.run.is_world_alone

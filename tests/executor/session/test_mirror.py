@@ -2,7 +2,18 @@
 
 from __future__ import annotations
 
-from executor.messages import Blackboard, BlackboardEntry, Fault, Finished, StateChanged, Tick, Tree, TreeNode
+from executor.messages import (
+    Blackboard,
+    BlackboardEntry,
+    Fault,
+    Finished,
+    LaunchNode,
+    LaunchNodes,
+    StateChanged,
+    Tick,
+    Tree,
+    TreeNode,
+)
 from executor.session.ladder import State
 from executor.session.mirror import FAULTS, Mirror
 
@@ -49,3 +60,15 @@ def test_the_last_tick_and_the_end_stay_until_the_next_run() -> None:
     assert (mirror.snapshot().past, mirror.snapshot().finished) == ([(1, "FAILURE")], end)
     mirror.begin_run(10.0)
     assert (mirror.snapshot().past, mirror.snapshot().finished) == ([], None)
+
+
+def test_a_launch_node_that_runs_again_has_no_fault() -> None:
+    mirror = Mirror()
+    mirror.apply(Fault("process", "beeper ended", file="launch/a.launch.yaml", line=3))
+    mirror.apply(other := Fault("process", "the world ended"))
+    node = LaunchNode("id", "beeper", "", "nodes/beeper.py", "launch/a.launch.yaml", 3, "failed")
+    mirror.apply(LaunchNodes([node]))
+    assert len(mirror.snapshot().faults) == 2
+    node.state = "running"
+    mirror.apply(LaunchNodes([node]))
+    assert mirror.snapshot().faults == [other]

@@ -46,6 +46,9 @@ def test_every_command_in_every_state(state, command):
     elif command == "restart_application" and state is State.VISUALIZATION_READY:
         assert play.reply(request) == "nothing_to_restart"
         assert play.state is before
+    elif command == "publish_topic" and state is not State.APPLICATION_RUNNING:
+        assert play.reply(request) == "world_paused"
+        assert play.state is before
     elif command == "restart_node":
         assert play.reply(request) == "unknown_node"
         assert play.state is before

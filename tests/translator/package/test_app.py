@@ -28,11 +28,13 @@ def test_app_holds_all_that_runs(example):
 
 def test_assets_and_launch_files_travel_along(make_project):
     project = make_project(
-        {"n1": {"type": "Act"}}, files={"assets/a.bin": b"a", "launch/b.launch.py": b"b", "x": b"x"}
+        {"n1": {"type": "Act"}},
+        files={"assets/a.bin": b"a", "launch/b.launch.py": b"b", "nodes/c.py": b"c", "x": b"x"},
     )
     files = unzipped(to_app_zip(project))
     assert files["assets/a.bin"] == b"a"
     assert files["launch/b.launch.py"] == b"b"
+    assert files["nodes/c.py"] == b"c"
     assert "x" not in files
 
 

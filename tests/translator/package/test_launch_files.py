@@ -30,6 +30,17 @@ def test_launch_files_programs_and_what_lies_beside_them() -> None:
     assert dependencies_of(FILES) == {"launch_yaml", "launch_xml", "nav2_map_server"}
 
 
+def test_any_python_file_that_a_launch_file_names_is_a_program() -> None:
+    files = {
+        "launch/a.launch.yaml": b"launch:\n- node: {exec: nodes/beeper.py}\n",
+        "nodes/beeper.py": b"",
+        "nodes/other.py": b"",
+    }
+    assert programs(files) == {"nodes/beeper.py": "nodes_beeper.py"}
+    text, found = in_package("launch/a.launch.yaml", files["launch/a.launch.yaml"], "mine", programs(files))
+    assert (text, found) == (b"launch:\n- node: {pkg: mine, exec: nodes_beeper.py}\n", [])
+
+
 RENAMED = b"- node: {pkg: mine, exec: talker.py}\n"
 
 

@@ -20,10 +20,13 @@ export function BlackboardPanel() {
   const isOpen = useSessionStore(
     ({ executor, introspection }) => executor === 'paused' && introspection?.role !== 'viewer',
   );
+  const isRunning = useSessionStore(
+    ({ executor, tree }) => (executor === 'application_running' || executor === 'paused') && tree.length > 0,
+  );
   const groups = useMemo(() => byScope(Object.values(blackboard)), [blackboard]);
   return (
     <ScrollArea h="100%" type="auto" data-testid="blackboard">
-      {groups.length === 0 ? <p className={classes['empty']}>{t('empty')}</p> : null}
+      {groups.length === 0 ? <p className={classes['empty']}>{t(isRunning ? 'noKeys' : 'empty')}</p> : null}
       {groups.map(([scope, rows]) => (
         <table key={scope} className={classes['table']}>
           <caption className={classes['scope']}>{scope || t('root')}</caption>

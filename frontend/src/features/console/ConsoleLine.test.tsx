@@ -68,4 +68,9 @@ describe('ConsoleLine', () => {
       ['b', 'bold red'],
     ]);
   });
+
+  it('divides two runs', () => {
+    showLine({ run: 2 });
+    expect(screen.getByRole('separator', { name: 'Run 2' })).toBeInTheDocument();
+  });
 });

@@ -24,6 +24,12 @@ function showBlock({ tree_id, node_id }: TreeNode): void {
 
 export const ConsoleLine = memo(function ConsoleLine({ line, files, node, launched }: ConsoleLineProps) {
   const { t } = useTranslation('console');
+  if (line.run !== undefined)
+    return (
+      <div className={classes['divider']} role="separator" aria-label={t('run', { count: line.run })}>
+        {t('run', { count: line.run })}
+      </div>
+    );
   // The engine numbers unnamed nodes: `Forward::6`.
   const name = (line.node_path.split('/').at(-1) ?? '').replace(/::\d+$/, '');
   const said = name || launched || line.source;

@@ -49,3 +49,22 @@ describe('filterLines', () => {
     expect(LEVELS).toEqual(['debug', 'info', 'warning', 'error']);
   });
 });
+
+describe('a divider between runs', () => {
+  const of = (all: LogLine[], filter: Partial<ConsoleFilter> = {}) =>
+    filterLines(all, { source: 'all', level: 'info', search: '', ...filter }).map(
+      ({ text, run }) => run ?? text,
+    );
+  const divider = (run: number) => line('', { run });
+
+  it('passes every filter where there is something to divide', () => {
+    const all = [line('a'), divider(2), line('b'), line('c', { source: 'world' })];
+    expect(of(all)).toEqual(['a', 2, 'b', 'c']);
+    expect(of(all, { source: 'action', search: 'b' })).toEqual(['b']);
+    expect(of(all, { source: 'action' })).toEqual(['a', 2, 'b']);
+  });
+
+  it('is not first, last or double', () => {
+    expect(of([divider(1), line('a'), divider(2), divider(3), line('b'), divider(4)])).toEqual(['a', 3, 'b']);
+  });
+});

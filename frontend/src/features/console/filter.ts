@@ -22,12 +22,20 @@ const isOf = (line: LogLine, source: ConsoleFilter['source']) =>
 export function filterLines(lines: readonly LogLine[], filter: ConsoleFilter): LogLine[] {
   const lowest = LEVELS.indexOf(filter.level);
   const wanted = filter.search.trim().toLowerCase();
-  return lines.filter(
+  const found = lines.filter(
     (line) =>
-      isOf(line, filter.source) &&
-      LEVELS.indexOf(line.level) >= lowest &&
-      (wanted === '' ||
-        plainText(line.text).toLowerCase().includes(wanted) ||
-        line.node_path.toLowerCase().includes(wanted)),
+      line.run !== undefined ||
+      (isOf(line, filter.source) &&
+        LEVELS.indexOf(line.level) >= lowest &&
+        (wanted === '' ||
+          plainText(line.text).toLowerCase().includes(wanted) ||
+          line.node_path.toLowerCase().includes(wanted))),
   );
+  // A divider without a line on both of its sides divides nothing.
+  return found.filter((line, at) => line.run === undefined || isBetween(found, at));
+}
+
+function isBetween(lines: readonly LogLine[], at: number): boolean {
+  const next = lines[at + 1];
+  return at > 0 && next !== undefined && next.run === undefined;
 }

@@ -41,7 +41,7 @@ describe('NewProject', () => {
     expect(await screen.findByTestId('new-from-laser_bump_and_go')).toBeInTheDocument();
     expect(screen.queryByTestId('examples-loading')).toBeNull();
     const headings = screen.getAllByRole('heading', { level: 2 }).map((each) => each.textContent);
-    expect(headings).toEqual(['Templates', 'Examples']);
+    expect(headings).toEqual(['Templates', 'Examples that teach']);
   });
 
   it('folds them once there are projects; an empty one is a click away', async () => {

@@ -2,10 +2,11 @@ import { Button, FileButton, Group, Skeleton, Text, Title, Tooltip } from '@mant
 import { IconChevronDown, IconChevronUp, IconPlus, IconUpload } from '@tabler/icons-react';
 import type { RefObject } from 'react';
 import { useTranslation } from 'react-i18next';
-import { ExampleCards } from './ExampleCards';
+import { ExampleShelf } from './examples/ExampleShelf';
 import classes from './projects.module.css';
 import { TemplateCards } from './TemplateCards';
-import { isTemplate, useSortedTemplates } from './templates';
+import { isExample } from './examples/shelf';
+import { useSortedTemplates } from './templates';
 import { useFold } from './useFold';
 
 /** Project zips of BT Studio and of JdeRobot, trees as XML, and projects of Groot2. */
@@ -89,19 +90,17 @@ export function NewProject({ onCreate, pending, onImport, isImporting, importBut
 function Shelves({ onCreate, pending }: Pick<NewProjectProps, 'onCreate' | 'pending'>) {
   const { t } = useTranslation('projects');
   const { all, isKnown } = useSortedTemplates();
-  const templates = all.filter(isTemplate);
-  const examples = all.filter((each) => !isTemplate(each));
+  const templates = all.filter(({ id }) => !isExample(id));
   return (
     <>
       <Title order={2} size={16} mt="md" mb="sm">
         {t('templates')}
       </Title>
       <TemplateCards templates={templates} onCreate={onCreate} pending={pending} />
-      <Title order={2} size={16} mt="lg" mb="sm">
-        {t('examples')}
-      </Title>
       {isKnown ? (
-        <ExampleCards examples={examples} onCreate={onCreate} pending={pending} />
+        <div className={classes['examplesShelf']}>
+          <ExampleShelf onCreate={onCreate} pending={pending} />
+        </div>
       ) : (
         <div className={classes['templates']} aria-hidden="true" data-testid="examples-loading">
           {PLACES.map((place) => (

@@ -4,9 +4,10 @@ import { useMemo } from 'react';
 import { api } from '@/api/client';
 import type { TemplateInfo } from '@/api/types';
 import { translates } from '@/i18n';
+import { SHELF } from './examples/shelf';
 
 /** The order of known templates; others follow. */
-const ORDER = ['laser_bump_and_go', 'visual_follow_person', 'empty'];
+const ORDER: readonly string[] = [...SHELF.map(([id]) => id), 'empty'];
 
 const EMPTY: TemplateInfo = { id: 'empty', name: '', description: '', conditions: [] };
 
@@ -15,9 +16,6 @@ function sorted(templates: readonly TemplateInfo[]): TemplateInfo[] {
   const place = ({ id }: TemplateInfo) => (ORDER.includes(id) ? ORDER.indexOf(id) : ORDER.length);
   return all.sort((a, b) => place(a) - place(b));
 }
-
-/** A beginning without a behaviour of its own; the others are examples. */
-export const isTemplate = ({ id }: TemplateInfo): boolean => id === EMPTY.id;
 
 /** Templates and examples; before the server has answered, the empty project alone. */
 export function useSortedTemplates(): { readonly all: readonly TemplateInfo[]; readonly isKnown: boolean } {

@@ -65,4 +65,22 @@ describe('ExecutorState', () => {
     show(<ExecutorState />);
     expect(state()).toHaveTextContent(/^Running$/);
   });
+
+  it('tells a fault from a stop by hand, and a tick that hangs with its seconds', () => {
+    const finished = { status: 'IDLE', message: '', node_id: '', tree_id: '', node_path: '' } as const;
+    const words = (change: Partial<SessionData>) => {
+      useSessionStore.setState({ ...initialSession, executor: 'visualization_ready', ...change });
+      const { unmount } = show(<ExecutorState />);
+      const { textContent } = state();
+      unmount();
+      return textContent;
+    };
+    expect(words({ finished: { ...finished, reason: 'terminated' } })).toBe('Stopped');
+    expect(words({ finished: { ...finished, reason: 'process_died' } })).toBe('Stopped: fault');
+    expect(words({ finished: { ...finished, status: 'FAILURE', reason: 'action_raised' } })).toBe(
+      'Stopped: fault',
+    );
+    expect(words({ silentS: 12 })).toBe('Not responding (12 s)');
+    expect(words({ executor: 'application_running', isHanging: true })).toBe('Not responding (3 s)');
+  });
 });

@@ -1,18 +1,17 @@
 import { Tooltip } from '@mantine/core';
+import { useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useSessionStore } from '@/store/session/store';
 import classes from './run.module.css';
+import { useShownState } from './useShownState';
 
 /** The executor's state in one word, with the rung of the ladder as tooltip. */
 export function ExecutorState() {
   const { t } = useTranslation('run');
   const executor = useSessionStore((state) => state.executor);
-  const connection = useSessionStore((state) => state.connection);
   const finished = useSessionStore((state) => state.finished);
-  const isLaunching = useSessionStore((state) => state.isLaunching);
-  const isSilent = useSessionStore((state) => state.silentS > 0);
-  const isLost = connection === 'reconnecting' || connection === 'lost';
-  const shown = isLost ? 'lost' : isSilent ? 'silent' : isLaunching ? 'launching' : executor;
+  const silentS = useSilence();
+  const shown = useShownState();
   return (
     <Tooltip label={t(`stateHelp.${shown}`)}>
       <span
@@ -25,7 +24,9 @@ export function ExecutorState() {
         <span className={classes['dot']} aria-hidden="true" />
         <span className={classes['stateText']}>
           {t(`state.${shown}`)}
-          {finished && finished.status !== 'IDLE' && executor === 'visualization_ready'
+          {/* Not for screen readers, which would say every second. */}
+          {shown === 'silent' ? <span aria-hidden="true"> ({silentS} s)</span> : null}
+          {shown === 'visualization_ready' && finished && finished.status !== 'IDLE'
             ? ` · ${t(`status.${finished.status}`)}`
             : null}
         </span>
@@ -33,3 +34,22 @@ export function ExecutorState() {
     </Tooltip>
   );
 }
+
+/** The seconds since the executor's last answer, or since a tick was reported as hanging. */
+function useSilence(): number {
+  const silentS = useSessionStore((state) => state.silentS);
+  const isHanging = useSessionStore((state) => state.isHanging);
+  const [hangsS, setHangsS] = useState(0);
+  useEffect(() => {
+    if (!isHanging) return;
+    const timer = setInterval(() => setHangsS((seconds) => seconds + 1), 1000);
+    return () => {
+      clearInterval(timer);
+      setHangsS(0);
+    };
+  }, [isHanging]);
+  return silentS > 0 ? silentS : HANG_REPORTED_S + hangsS;
+}
+
+/** The executor reports a tick that has not returned for this long, s. */
+const HANG_REPORTED_S = 3;

@@ -69,7 +69,7 @@ describe('RunControls', () => {
   it('follows the state of the executor', async () => {
     await open('application_running');
     expect(screen.getByTestId('executor-state')).toHaveTextContent(/^Running$/);
-    expect(button('Run again')).toBeEnabled();
+    expect(button('Run')).toBeEnabled();
     executor.emit('state-changed', { state: 'visualization_ready', reason: '' });
     executor.emit('finished', {
       status: 'SUCCESS',
@@ -87,7 +87,7 @@ describe('RunControls', () => {
   });
 
   it.each([
-    [{ silentS: 3 }, 'No answer'],
+    [{ silentS: 3 }, 'Not responding'],
     [{ isLaunching: true }, 'Starting'],
     [{ connection: 'reconnecting', silentS: 3 }, 'No connection'],
   ] as const)('shows %j as “%s”', async (change, text) => {
@@ -113,11 +113,11 @@ describe('RunControls', () => {
 
   it('lets a viewer run nothing', async () => {
     await open('application_running', 'viewer');
-    expect(button('Run again')).toHaveAttribute('aria-disabled', 'true');
+    expect(button('Run')).toHaveAttribute('aria-disabled', 'true');
     for (const name of ['Pause', 'Step one tick', 'Stop (the world stays)', 'End the session'])
       expect(button(name)).toBeDisabled();
     expect(button(/^Ticks a second/)).toBeDisabled();
-    await user.click(button('Run again'));
+    await user.click(button('Run'));
     expect(useRunStore.getState()).toMatchObject({ stage: null, runBlocker: 'viewer' });
   });
 
@@ -164,8 +164,8 @@ describe('RunControls', () => {
     act(() => {
       useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter });
     });
-    expect(button('Run again')).toHaveAttribute('data-variant', 'light');
+    expect(button('Run')).toHaveAttribute('data-variant', 'light');
     edit();
-    expect(button('Run again')).toHaveAttribute('data-variant', 'filled');
+    expect(button('Run')).toHaveAttribute('data-variant', 'filled');
   });
 });

@@ -4,7 +4,9 @@ import { useTranslation } from 'react-i18next';
 import { perform } from '@/commands/registry';
 import { shortcutLabel } from '@/commands/shortcuts';
 import { CommandButton } from '@/ui/CommandButton';
+import { usePressed } from '@/ui/usePressed';
 import { useRunStore } from '@/store/run/store';
+import { doesWorldRunAlone } from '@/store/session/clock';
 import { useSessionStore } from '@/store/session/store';
 import { ExecutorState } from './ExecutorState';
 import { RunMenu } from './RunMenu';
@@ -22,16 +24,18 @@ export function RunControls() {
   const isRunning = executor === 'application_running';
   const isPaused = executor === 'paused';
   const hasApplication = isRunning || isPaused;
+  const worldRuns = useSessionStore(doesWorldRunAlone);
   const runBlocker = useRunBlocker();
   const isBlocked = runBlocker !== null;
   const hasChanged = useHasChanged();
-  const help = hasApplication ? (hasChanged ? 'changedHelp' : 'runAgainHelp') : 'runHelp';
-  const runLabel = t(hasApplication ? 'runAgain' : 'command.run');
+  const { isPressed, handlers } = usePressed();
 
   return (
     <Group gap={4} wrap="nowrap">
       <Tooltip
-        label={runBlocker ? t(`runBlocker.${runBlocker}`) : `${t(help)} (${shortcutLabel('F5')})`}
+        label={runBlocker ? t(`runBlocker.${runBlocker}`) : `${t('runHelp')} (${shortcutLabel('F5')})`}
+        // The pressed button's tooltip would lie on the message of the run.
+        disabled={isPressed && !isBlocked}
         multiline
         maw={340}
         events={{ hover: true, focus: isBlocked, touch: isBlocked }}
@@ -49,10 +53,16 @@ export function RunControls() {
           aria-disabled={isBlocked}
           data-testid="run"
           onClick={() => perform('run.run')}
+          {...handlers}
         >
-          {runLabel}
+          {t('command.run')}
         </Button>
       </Tooltip>
+      <CommandButton
+        command="run.restart"
+        testId="restart"
+        isDisabled={!(hasApplication || executor === 'visualization_ready') || isBlocked || stage !== null}
+      />
       {isPaused ? (
         <CommandButton command="run.resume" testId="resume" isDisabled={isBlocked} />
       ) : (
@@ -60,7 +70,11 @@ export function RunControls() {
       )}
       <CommandButton command="run.step" testId="step" isDisabled={!hasApplication || isBlocked} />
       <RunMenu isDisabled={isBlocked} />
-      <CommandButton command="run.stop" testId="stop" isDisabled={!hasApplication || isBlocked} />
+      <CommandButton
+        command="run.stop"
+        testId="stop"
+        isDisabled={!(hasApplication || worldRuns) || isBlocked}
+      />
       <CommandButton command="run.end" testId="end-session" isDisabled={connection === 'off' || isBlocked} />
       <Divider orientation="vertical" mx={4} my={8} className={classes['rates']} />
       <div className={classes['rates']}>

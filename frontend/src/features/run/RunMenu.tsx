@@ -8,7 +8,15 @@ import { setStatusRate, STATUS_RATES, useStatusRate } from '@/store/session/stat
 import { RateMenus } from './RateSelects';
 import { useFollowing } from './following';
 
-const COMMANDS = ['run.step10', 'run.restart', 'run.resetWorld', 'run.teleop', 'run.connectRos'];
+const COMMANDS = [
+  'run.run',
+  'run.restart',
+  'run.step10',
+  'run.resetWorld',
+  'run.world',
+  'run.teleop',
+  'run.connectRos',
+];
 
 /** Rare commands, and options for the statuses on blocks. */
 export function RunMenu({ isDisabled }: { readonly isDisabled: boolean }) {

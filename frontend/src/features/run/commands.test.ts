@@ -21,7 +21,7 @@ describe('commands of a run', () => {
   it.each([
     ['idle', ['run', 'end']],
     ['connected', ['run', 'end']],
-    ['visualization_ready', ['run', 'resetWorld', 'end']],
+    ['visualization_ready', ['run', 'restart', 'resetWorld', 'end']],
     ['application_running', ['run', 'pause', 'step', 'stop', 'step10', 'restart', 'resetWorld', 'end']],
     ['paused', ['run', 'resume', 'step', 'stop', 'step10', 'restart', 'resetWorld', 'end']],
   ] as const)('may be given while the executor is %s', (state: State, expected) => {

@@ -10,9 +10,13 @@ import {
   IconRefresh,
   IconRotateClockwise,
   IconSteeringWheel,
+  IconWorldBolt,
 } from '@tabler/icons-react';
 import { registerCommands, type UserCommand } from '@/commands/registry';
 import {
+  canRestart,
+  canRunWorld,
+  canStop,
   hasApplication,
   hasSession,
   isViewer,
@@ -22,6 +26,7 @@ import {
   end,
   resetWorld,
   resume,
+  runWorld,
   step,
   stepMany,
   stop,
@@ -81,7 +86,7 @@ const rows: UserCommand[] = [
     icon: IconPlayerStopFilled,
     shortcut: 'Shift+F5',
     inTextFields: true,
-    enabled: hasApplication,
+    enabled: canStop,
     run: () => void stop(),
   },
   {
@@ -115,7 +120,7 @@ const rows: UserCommand[] = [
     icon: IconRotateClockwise,
     shortcut: '$mod+Shift+F5',
     inTextFields: true,
-    enabled: () => hasApplication() && useRunStore.getState().stage === null,
+    enabled: () => canRestart() && useRunStore.getState().stage === null,
     run: () => void restartProject(),
   },
   {
@@ -125,6 +130,14 @@ const rows: UserCommand[] = [
     icon: IconRefresh,
     enabled: () => !['idle', 'connected'].includes(useSessionStore.getState().executor),
     run: () => void resetWorld(),
+  },
+  {
+    id: 'run.world',
+    group: 'run',
+    labelKey: 'run:command.world',
+    icon: IconWorldBolt,
+    enabled: canRunWorld,
+    run: () => void runWorld(),
   },
   {
     id: 'run.takeOver',

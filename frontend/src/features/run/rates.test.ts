@@ -24,8 +24,8 @@ describe('commands for rates', () => {
   it('are one for each rate', () => {
     expect(TICK_RATES).toEqual([1, 2, 5, 10, 20, 50, 100]);
     expect(TICK_RATES).toContain(DEFAULT_TICK_HZ);
-    expect(SPEEDS).toEqual([0.1, 0.25, 0.5, 1, 2, 5, 10, 0]);
-    expect(Object.keys(commands())).toHaveLength(7 + 8 + 5);
+    expect(SPEEDS).toEqual([0.1, 0.25, 0.5, 1, 2, 4, 5, 10, 0]);
+    expect(Object.keys(commands())).toHaveLength(7 + 9 + 5);
     expect(Object.values(commands()).every(({ group }) => group === 'rates')).toBe(true);
   });
 

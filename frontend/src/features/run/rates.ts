@@ -8,7 +8,7 @@ export const TICK_RATES = [1, 2, 5, 10, 20, 50, 100] as const;
 /** The tick rate of a project whose settings have none, Hz. */
 export const DEFAULT_TICK_HZ = 20;
 /** The speeds of simulated time; zero is as fast as the machine can. */
-export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 0] as const;
+export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 5, 10, 0] as const;
 
 const mayRun = () => useRunStore.getState().runBlocker === null;
 

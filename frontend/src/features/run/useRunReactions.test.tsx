@@ -81,3 +81,39 @@ describe('a fault', () => {
     },
   );
 });
+
+describe('the messages about a run', () => {
+  const fault = (kind: Fault['kind'], file: string): Fault => ({
+    ...{
+      kind,
+      file,
+      line: 3,
+      message: kind,
+      hint: '',
+      node_id: '',
+      tree_id: '',
+      node_path: '',
+      traceback: '',
+    },
+  });
+
+  it('leave with the first edit, but for those of launch nodes', () => {
+    const node = { id: 'x', name: 'x', package: '', executable: '', file: 'launch/a.yaml', line: 3 };
+    const ofNode = fault('process', 'launch/a.yaml');
+    useSessionStore.setState({
+      launchNodes: [{ ...node, state: 'failed', restarts: 0, end: '' }],
+      faults: [fault('exception', 'actions/Go.py'), ofNode],
+      executorReason: 'It ended.',
+    });
+    act(() => useProjectStore.getState().addFile('notes.md', ''));
+    expect(useSessionStore.getState()).toMatchObject({ faults: [ofNode], executorReason: '' });
+  });
+
+  it('open no older fault when a newer one is dismissed', () => {
+    const [first, second] = [fault('exception', 'actions/Go.py'), fault('load', 'actions/Go.py')];
+    act(() => useSessionStore.setState({ faults: [first, second] }));
+    expect(openFile).toHaveBeenCalledOnce();
+    act(() => useSessionStore.setState({ faults: [first] }));
+    expect(openFile).toHaveBeenCalledOnce();
+  });
+});

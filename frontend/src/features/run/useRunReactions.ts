@@ -1,6 +1,8 @@
-import { useEffect } from 'react';
+import { useEffect, useRef } from 'react';
+import type { Fault } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
 import { useRunStore } from '@/store/run/store';
+import { launchNodeFaults } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 
 import { followRunning } from './following';
@@ -16,6 +18,7 @@ export function useRunReactions({ showPanel, openFile }: Frame): void {
   const fault = useSessionStore((state) => state.faults.at(-1));
 
   useEffect(followRunning, []);
+  useEffect(forgetWithTheFirstEdit, []);
 
   useEffect(() => {
     if (!failure || failure.diagnostics.length === 0) return;
@@ -26,10 +29,26 @@ export function useRunReactions({ showPanel, openFile }: Frame): void {
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, [failure]);
 
+  const told = useRef(new WeakSet<Fault>());
   useEffect(() => {
+    // An older fault is the last one again when the user dismisses a newer one.
+    if (!fault || told.current.has(fault)) return;
+    useSessionStore.getState().faults.forEach((each) => told.current.add(each));
     // The end of a launch node does not end the run, and must not change what the user sees.
-    if (!fault?.file || fault.line <= 0 || fault.kind === 'process') return;
+    if (!fault.file || fault.line <= 0 || fault.kind === 'process') return;
     if (fault.file in useProjectStore.getState().files) openFile(fault.file, fault.line);
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, [fault]);
+}
+
+/** Messages about the last run leave with the first edit, which answers them; those of launch nodes stay. */
+function forgetWithTheFirstEdit(): () => void {
+  return useProjectStore.subscribe(({ changeCounter, projectId }, before) => {
+    if (changeCounter === before.changeCounter || projectId !== before.projectId) return;
+    if (useRunStore.getState().stage !== null) return;
+    const session = useSessionStore.getState();
+    useRunStore.setState({ failure: null });
+    if (session.faults.length > 0 || session.executorReason !== '')
+      useSessionStore.setState({ faults: launchNodeFaults(session), executorReason: '' });
+  });
 }

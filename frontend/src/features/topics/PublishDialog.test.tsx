@@ -79,8 +79,33 @@ describe('PublishDialog', () => {
   it('shows why the session refuses a message', async () => {
     executor.refuse('publish_topic', 'No field y.', 'Did you mean x?');
     await fill();
+    write('{"y": 1}');
     await publish();
     expect(await screen.findByText('No field y. Did you mean x?')).toBeInTheDocument();
+  });
+
+  it('sends nothing with Enter, and with Ctrl+Enter only what is there to see', async () => {
+    const field = screen.getByRole('combobox', { name: /Topic/ });
+    await user.type(field, '/cmd_vel{Enter}');
+    await user.type(field, '{Control>}{Enter}{/Control}');
+    expect(screen.getByRole('button', { name: 'Publish once' })).toBeDisabled();
+    expect(executor.sentAs('publish_topic')).toEqual([]);
+    await expect.poll(() => executor.sentAs('describe_type')).toEqual([{ type: TWIST }]);
+    executor.emit('type_description', { type: TWIST, fields: {}, example: { linear: { x: 0 } } });
+    await user.type(field, '{Enter}');
+    expect(executor.sentAs('publish_topic')).toEqual([]);
+    await user.type(field, '{Control>}{Enter}{/Control}');
+    expect(executor.sentAs('publish_topic')).toHaveLength(1);
+  });
+
+  it('says that the world is paused, and no success', async () => {
+    executor.emit('state-changed', { state: 'visualization_ready', reason: '' });
+    expect(screen.getByTestId('paused-world')).toHaveTextContent('The world is paused.');
+    executor.refuse('publish_topic', 'The world is paused.', '', 'world_paused');
+    await fill();
+    write('{"y": 1}');
+    await publish();
+    expect(screen.queryByText(/was published/)).toBeNull();
   });
 
   it('closes', async () => {

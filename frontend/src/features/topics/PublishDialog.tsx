@@ -1,8 +1,10 @@
-import { Alert, Autocomplete, Button, Group, JsonInput, Modal, Stack, Text } from '@mantine/core';
+import { Alert, Autocomplete, Button, Group, JsonInput, Modal, Stack, Text, Tooltip } from '@mantine/core';
 import { useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { describeType, publish } from '@/store/run/topics';
+import { CommandError } from '@/store/session/control';
 import { useTopicsStore } from '@/store/session/topics';
+import { PausedWorld } from '@/ui/PausedWorld';
 import { closePublish, usePublishing } from './publishing';
 
 const DESCRIBE_AFTER_MS = 250;
@@ -42,7 +44,10 @@ function PublishForm({ topic: firstTopic, type: firstType }: PublishFormProps) {
     setTyped(null);
   };
 
+  // Only what the user sees is sent: not before the fields of the type are there.
+  const canSend = topic.trim() !== '' && type.trim() !== '' && (typed !== null || description !== undefined);
   const submit = async () => {
+    if (!canSend) return;
     try {
       const message: unknown = JSON.parse(text);
       if (typeof message !== 'object' || message === null || Array.isArray(message)) {
@@ -53,15 +58,22 @@ function PublishForm({ topic: firstTopic, type: firstType }: PublishFormProps) {
     } catch (error) {
       // The field itself shows the error.
       if (error instanceof SyntaxError) return setResult(null);
+      // The notice above says that the world is paused, with what to do.
+      if (error instanceof CommandError && error.code === 'world_paused') return setResult(null);
       const { message, hint = '' } = error as Error & { hint?: string };
       setResult({ isError: true, text: [message, hint].filter(Boolean).join(' ') });
     }
   };
 
   return (
+    // The keys are those of its fields, wherever the caret is.
+    // eslint-disable-next-line jsx-a11y/no-noninteractive-element-interactions
     <form
       data-testid="publish"
-      onSubmit={(event) => {
+      // Enter in a field chooses a topic or a type; it must not send.
+      onSubmit={(event) => event.preventDefault()}
+      onKeyDown={(event) => {
+        if (event.key !== 'Enter' || !(event.ctrlKey || event.metaKey)) return;
         event.preventDefault();
         void submit();
       }}
@@ -109,6 +121,7 @@ function PublishForm({ topic: firstTopic, type: firstType }: PublishFormProps) {
               .join(' · ')}
           </Text>
         ) : null}
+        <PausedWorld text={t('worldPaused')} />
         {result ? (
           <Alert color={result.isError ? 'red' : 'teal'} role="status" py={8}>
             {result.text}
@@ -118,7 +131,11 @@ function PublishForm({ topic: firstTopic, type: firstType }: PublishFormProps) {
           <Button variant="default" onClick={closePublish}>
             {t('close')}
           </Button>
-          <Button type="submit">{t('publishOnce')}</Button>
+          <Tooltip label={t('publishKeys')}>
+            <Button disabled={!canSend} onClick={() => void submit()}>
+              {t('publishOnce')}
+            </Button>
+          </Tooltip>
         </Group>
       </Stack>
     </form>

@@ -2,7 +2,9 @@ import { CloseButton, Slider } from '@mantine/core';
 import { IconArrowBackUp, IconArrowDown, IconArrowForwardUp, IconArrowUp } from '@tabler/icons-react';
 import { useEffect } from 'react';
 import { useTranslation } from 'react-i18next';
+import { isWorldPaused } from '@/store/session/clock';
 import { useSessionStore } from '@/store/session/store';
+import { PausedWorld } from '@/ui/PausedWorld';
 import { canDrive, drive, halt, setDriving, useTeleop, type Direction } from '@/store/run/teleop';
 import classes from './viewer.module.css';
 
@@ -49,6 +51,7 @@ function Pad() {
   const { t } = useTranslation('viewer');
   const { linear, angular, direction } = useTeleop();
   const isPaused = useSessionStore(({ executor }) => executor === 'paused');
+  const standsStill = useSessionStore(isWorldPaused);
   useHeldKeys();
   const isHeld = (code: string) => {
     const key = KEYS[code];
@@ -109,7 +112,9 @@ function Pad() {
         </label>
       </div>
       <CloseButton size="sm" aria-label={t('driveEnd')} onClick={() => setDriving(false)} />
-      <span className={classes['padHelp']}>{t(isPaused ? 'drivePaused' : 'driveHelp')}</span>
+      <span className={classes['padHelp']}>
+        {standsStill ? <PausedWorld text={t(isPaused ? 'drivePaused' : 'driveStill')} /> : t('driveHelp')}
+      </span>
     </div>
   );
 }

@@ -1,6 +1,7 @@
 import { useProjectStore } from '@/store/project';
 import { endSession, send } from '@/store/session/connection';
 import { isUnconnected } from '@/store/session/control';
+import { doesWorldRunAlone, isWorldPaused } from '@/store/session/clock';
 import { useSessionStore } from '@/store/session/store';
 import { useRunStore } from './store';
 
@@ -21,6 +22,9 @@ async function reported(doing: Promise<unknown>): Promise<void> {
 export const isRunning = () => useSessionStore.getState().executor === 'application_running';
 export const isPaused = () => useSessionStore.getState().executor === 'paused';
 export const hasApplication = () => isRunning() || isPaused();
+/** Whether the program can be started in the world as it is. */
+export const canRestart = () =>
+  hasApplication() || useSessionStore.getState().executor === 'visualization_ready';
 const isWorldUp = () => !['idle', 'connected'].includes(useSessionStore.getState().executor);
 export const isViewer = () => useSessionStore.getState().introspection?.role === 'viewer';
 export const hasSession = () => useSessionStore.getState().connection !== 'off';
@@ -28,6 +32,19 @@ export const hasSession = () => useSessionStore.getState().connection !== 'off';
 export const pause = () => reported(send('pause', {}));
 export const resume = () => reported(send('resume', {}));
 export const stop = () => reported(send('terminate_application', {}));
+/** Lets the world run without a program. */
+export const runWorld = () =>
+  reported(
+    send('run_world', {}).then(() =>
+      useSessionStore.setState(({ sim }) => (sim ? { sim: { ...sim, paused: false } } : {})),
+    ),
+  );
+export const canRunWorld = () => {
+  const session = useSessionStore.getState();
+  return session.executor === 'visualization_ready' && isWorldPaused(session);
+};
+/** Whether there is something to stop: a program, or a world that runs without one. */
+export const canStop = () => hasApplication() || doesWorldRunAlone(useSessionStore.getState());
 export const resetWorld = () => reported(send('reset_world', {}));
 /** Takes control of the session; the page that had it becomes a viewer. */
 export const takeOver = () => reported(send('take_over', {}));

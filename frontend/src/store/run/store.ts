@@ -25,6 +25,10 @@ interface RunData {
   /** The edit counter of the program that is running. */
   ranAt: number;
   runBlocker: RunBlocker | null;
+  /** The run for which the user declined a restart, by its `ranAt`. */
+  declinedRestart: number | null;
+  /** The notice about another page's control that the user has read. */
+  readTakeOver: string;
 }
 
 export const useRunStore = create<RunData>(() => ({
@@ -32,4 +36,6 @@ export const useRunStore = create<RunData>(() => ({
   failure: null,
   ranAt: 0,
   runBlocker: null,
+  declinedRestart: null,
+  readTakeOver: '',
 }));

@@ -199,6 +199,52 @@ describe('reduce', () => {
   });
 });
 
+describe('a run', () => {
+  const loading = message('progress', { rung: 'run_application', fraction: 0, message: '' });
+
+  it('is divided in the console from the one before', () => {
+    const first = reduceAll(initialSession, [loading, message('log', log('a'))]);
+    expect(first.logs.map(({ run }) => run)).toEqual([undefined]);
+    const second = reduce(first, loading);
+    expect(second.logs.map(({ run }) => run)).toEqual([undefined, 2]);
+  });
+
+  it('hangs from the report until it ticks again', () => {
+    const running = { ...initialSession, executor: 'application_running' } as const;
+    const fault = {
+      kind: 'timeout',
+      message: '',
+      hint: '',
+      node_id: '',
+      tree_id: '',
+      node_path: '',
+    } as const;
+    const hanging = reduce(running, message('fault', { ...fault, file: '', line: 0, traceback: '' }));
+    expect(hanging.isHanging).toBe(true);
+    expect(reduce(hanging, message('tick', tick(3))).isHanging).toBe(false);
+  });
+
+  it('has no fault of a launch node that runs again', () => {
+    const node = { id: 'x', name: 'x', package: '', executable: '', file: 'launch/a.yaml', line: 2 } as const;
+    const end = { ...node, restarts: 0, end: '' };
+    const fault = {
+      kind: 'process',
+      message: '',
+      hint: '',
+      node_id: '',
+      tree_id: '',
+      node_path: '',
+    } as const;
+    const failed = reduceAll(initialSession, [
+      message('launch_nodes', { nodes: [{ ...end, state: 'failed' }] }),
+      message('fault', { ...fault, file: 'launch/a.yaml', line: 2, traceback: '' }),
+    ]);
+    expect(failed.faults).toHaveLength(1);
+    const again = reduce(failed, message('launch_nodes', { nodes: [{ ...end, state: 'running' }] }));
+    expect(again.faults).toEqual([]);
+  });
+});
+
 describe('appendLogs', () => {
   it('makes a row of each line of text and numbers them', () => {
     const { logs, nextLogId } = appendLogs({ logs: [], nextLogId: 1 }, [log('a\nb\n'), log('c')]);

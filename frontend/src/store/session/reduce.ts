@@ -1,4 +1,12 @@
-import type { BlackboardEntry, Events, Fault, Log, ServerMessage, TopicMismatch } from '@/generated/messages';
+import type {
+  BlackboardEntry,
+  Events,
+  Fault,
+  LaunchNode,
+  Log,
+  ServerMessage,
+  TopicMismatch,
+} from '@/generated/messages';
 import type { BlackboardRow, LogLine, SessionData } from './types';
 
 /** Older lines are dropped; this is about an hour of output. */
@@ -15,6 +23,8 @@ export const initialSession: SessionData = {
   executor: 'idle',
   executorReason: '',
   progress: null,
+  isHanging: false,
+  runs: 0,
   isLaunching: false,
   tree: [],
   blackboard: {},
@@ -47,32 +57,52 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
   'state-changed': (state, data) => ({
     executor: data.state,
     executorReason: data.reason,
+    isHanging: false,
     ...(data.state === 'application_running' || data.state === 'paused' ? {} : { progress: state.progress }),
     ...(data.state === 'idle' || data.state === 'connected' ? { sim: null } : {}),
+    // Every rung below a running application pauses the world; the next report of the world is up to 1 s away.
+    ...(data.state === 'visualization_ready' && state.sim ? { sim: { ...state.sim, paused: true } } : {}),
   }),
-  progress: (_, data) => ({ progress: data }),
+  progress: (state, data) => ({
+    progress: data,
+    ...(data.rung === 'run_application' && data.fraction === 0 ? beginRun(state) : {}),
+  }),
   // A new tree is a new run: faults of the last one are removed. Its launch nodes were started before it, and
   // one may have ended already.
   tree: ({ faults, launchNodes }, data) => ({
     tree: data.nodes,
     blackboard: {},
-    faults: faults.filter(({ file, line }) =>
-      launchNodes.some((node) => node.state === 'failed' && node.file === file && node.line === line),
+    faults: faults.filter((fault) =>
+      isOfLaunchNode(
+        fault,
+        launchNodes.filter(({ state }) => state === 'failed'),
+      ),
     ),
     finished: null,
     tick: 0,
   }),
-  tick: (_, data) => ({ tick: data.n }),
+  tick: (_, data) => ({ tick: data.n, isHanging: false }),
   blackboard: (state, data, { seq }) => ({
     blackboard: mergeBlackboard(state.blackboard, data.entries, seq),
   }),
   log: (state, data, { t }) => appendLogs(state, [{ ...data, time: data.time || t }]),
   fault: (state, data, { t }) => ({
     faults: [...state.faults, data],
+    isHanging: data.kind === 'timeout' && state.executor === 'application_running',
     ...appendLogs(state, [logOf(data, t)]),
   }),
   topic_mismatch: (state, data, { t }) => appendLogs(state, [mismatchLog(data, t)]),
-  launch_nodes: (_, data) => ({ launchNodes: data.nodes }),
+  // A node that runs again has no fault any more.
+  launch_nodes: ({ faults }, data) => ({
+    launchNodes: data.nodes,
+    faults: faults.filter(
+      (fault) =>
+        !isOfLaunchNode(
+          fault,
+          data.nodes.filter(({ state }) => state === 'running'),
+        ),
+    ),
+  }),
   finished: (_, data) => ({ finished: data }),
   sim: (_, data) => ({ sim: data, speed: data.speed }),
   snapshot: (state, data, { seq, t }) => ({
@@ -122,6 +152,28 @@ function mergeBlackboard(
     else next[id] = { ...entry, changedAt };
   }
   return next;
+}
+
+/** Whether a fault is that of one of these launch nodes, by its place in the launch file. */
+export const isOfLaunchNode = (fault: Fault, nodes: readonly LaunchNode[]): boolean =>
+  fault.kind === 'process' &&
+  nodes.some(({ file, line }) => file !== '' && file === fault.file && line === fault.line);
+
+/** The faults that do not concern the program: those of launch nodes. */
+export const launchNodeFaults = ({ faults, launchNodes }: Pick<SessionData, 'faults' | 'launchNodes'>) =>
+  faults.filter((fault) => isOfLaunchNode(fault, launchNodes));
+
+/** Separates the output of a run from that before it. */
+function beginRun(state: SessionData): Partial<SessionData> {
+  const run = state.runs + 1;
+  const { logs, nextLogId } = state;
+  if (logs.length === 0) return { runs: run };
+  const divider = { source: 'manager', level: 'error', text: '', node_id: '', node_path: '' } as const;
+  return {
+    runs: run,
+    logs: [...logs, { ...divider, time: state.simTime, launch_node: '', id: nextLogId, run }],
+    nextLogId: nextLogId + 1,
+  };
 }
 
 /** A fault as console lines: its traceback, whose lines can be clicked. */

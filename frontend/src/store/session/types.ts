@@ -15,6 +15,8 @@ import type { Connection } from './connectionStates';
 export interface LogLine extends Log {
   /** Increases within this page; the key of console rows. */
   id: number;
+  /** The line begins this run and is drawn as a divider. */
+  run?: number;
 }
 
 export interface BlackboardRow extends BlackboardEntry {
@@ -36,6 +38,10 @@ export interface SessionData {
   executor: State;
   executorReason: string;
   progress: Progress | null;
+  /** A tick does not return: reported as a fault, until there is another tick or another state. */
+  isHanging: boolean;
+  /** The number of runs that this page has seen. */
+  runs: number;
   /** Run was pressed and has neither succeeded nor failed yet. */
   isLaunching: boolean;
   tree: TreeNode[];

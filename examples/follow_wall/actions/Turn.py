@@ -1,0 +1,25 @@
+import py_trees
+from geometry_msgs.msg import Twist
+
+from tree_gardener.ports import Port, get_input
+
+
+class Turn(py_trees.behaviour.Behaviour):
+    """Turns on the spot until it is halted."""
+
+    INPUT_PORTS = {
+        "ang_speed": Port(float, default=0.6, description="Turning speed in rad/s; positive turns left.")
+    }
+
+    def setup(self, **kwargs):
+        self.publisher = kwargs["node"].create_publisher(Twist, "/cmd_vel", 10)
+
+    def update(self):
+        twist = Twist()
+        twist.angular.z = get_input(self, "ang_speed")
+        self.publisher.publish(twist)
+        # Turning never ends by itself: a condition beside it decides when it is enough.
+        return py_trees.common.Status.RUNNING
+
+    def terminate(self, new_status):
+        self.publisher.publish(Twist())

@@ -1,0 +1,48 @@
+import { Button, Progress, Text } from '@mantine/core';
+import { useTranslation } from 'react-i18next';
+import type { Rung } from '@/generated/messages';
+import { cancelRun } from '@/store/run/run';
+import { useRunStore, type LaunchStage } from '@/store/run/store';
+import { useSessionStore } from '@/store/session/store';
+import classes from './strip.module.css';
+
+const STAGES: LaunchStage[] = ['saving', 'checking', 'starting', 'launching'];
+const RUNGS: Rung[] = ['connect', 'launch_universe', 'prepare_visualization', 'run_application'];
+
+/** The steps before the executor's own take the first fifth of the bar, its rungs the rest. */
+const BEFORE = 0.2;
+
+export function fractionOf(stage: LaunchStage, rung: Rung | undefined, fraction: number): number {
+  if (stage !== 'launching') return (BEFORE * (STAGES.indexOf(stage) + 1)) / STAGES.length;
+  const index = rung ? RUNGS.indexOf(rung) : 0;
+  return BEFORE + ((1 - BEFORE) * (index + fraction)) / RUNGS.length;
+}
+
+/** A progress bar with the present step from Run to a moving robot. */
+export function RunProgress() {
+  const { t } = useTranslation('run');
+  const stage = useRunStore((state) => state.stage);
+  const progress = useSessionStore((state) => state.progress);
+  if (!stage) return null;
+  const rung = stage === 'launching' ? progress?.rung : undefined;
+  const name = rung ? t(`rung.${rung}`) : t(`stage.${stage}`);
+  const percent = 100 * fractionOf(stage, rung, progress?.fraction ?? 0);
+  return (
+    <div className={classes['progress']} role="status" data-testid="run-progress">
+      <Progress value={percent} size="xs" radius={0} transitionDuration={200} aria-label={name} />
+      <div className={classes['progressText']}>
+        <Text size="xs" fw={600}>
+          {name}
+        </Text>
+        <Text size="xs" c="dimmed" truncate="end">
+          {stage === 'launching' || stage === 'starting' ? progress?.message : ''}
+        </Text>
+        {stage === 'launching' || stage === 'starting' ? (
+          <Button size="compact-xs" variant="subtle" color="gray" onClick={cancelRun}>
+            {t('cancel')}
+          </Button>
+        ) : null}
+      </div>
+    </div>
+  );
+}

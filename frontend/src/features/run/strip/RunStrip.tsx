@@ -1,0 +1,67 @@
+import { Popover, UnstyledButton } from '@mantine/core';
+import { IconChevronDown } from '@tabler/icons-react';
+import { useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { useRunStore } from '@/store/run/store';
+import { useShownState } from '../useShownState';
+import { MessageRow } from './MessageRow';
+import type { StripMessage } from './messages';
+import { RunProgress } from './RunProgress';
+import classes from './strip.module.css';
+import { useMessages } from './useMessages';
+
+/**
+ * The place of all messages of a run, of one height: nothing moves when one comes, and it covers nothing. It
+ * shows the most important one; without any, the state of the executor in a sentence.
+ */
+export function RunStrip() {
+  const { t } = useTranslation('run');
+  const messages = useMessages();
+  const isStarting = useRunStore((state) => state.stage !== null);
+  const shown = useShownState();
+  const [first] = messages;
+  const isCutOff = first?.kind === 'connection' || first?.kind === 'silence';
+  return (
+    <div className={classes['strip']} data-testid="run-strip" data-tone={first?.tone ?? 'calm'}>
+      {isStarting && !isCutOff ? (
+        <RunProgress />
+      ) : first ? (
+        <>
+          <MessageRow message={first} />
+          <AllMessages messages={messages} />
+        </>
+      ) : (
+        <p className={classes['calm']}>{t(`stateHelp.${shown}`)}</p>
+      )}
+    </div>
+  );
+}
+
+/** How many other messages there are; opens all of them in full. */
+function AllMessages({ messages }: { readonly messages: readonly StripMessage[] }) {
+  const { t } = useTranslation('run');
+  const [isOpen, setOpen] = useState(false);
+  const others = messages.length - 1;
+  return (
+    <Popover opened={isOpen} onChange={setOpen} position="bottom-end" width="min(720px, 94vw)" trapFocus>
+      <Popover.Target>
+        <UnstyledButton
+          className={classes['more']}
+          aria-label={t('allMessages', { count: messages.length })}
+          title={t('allMessages', { count: messages.length })}
+          aria-expanded={isOpen}
+          data-testid="all-messages"
+          onClick={() => setOpen(!isOpen)}
+        >
+          {others > 0 ? `+${others}` : null}
+          <IconChevronDown size={14} aria-hidden="true" />
+        </UnstyledButton>
+      </Popover.Target>
+      <Popover.Dropdown p={0}>
+        {messages.map((message) => (
+          <MessageRow key={message.id} message={message} isWhole />
+        ))}
+      </Popover.Dropdown>
+    </Popover>
+  );
+}

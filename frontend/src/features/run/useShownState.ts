@@ -1,0 +1,20 @@
+import { useSessionStore } from '@/store/session/store';
+import type { SessionData } from '@/store/session/types';
+import type { State } from '@/generated/messages';
+
+/** A rung of the ladder, or the more urgent truth that hides it. */
+export type ShownState = State | 'lost' | 'silent' | 'launching' | 'fault';
+
+/** The ends of a run that nobody asked for. */
+const FAULTS = new Set(['action_raised', 'process_died']);
+
+export function shownState(state: SessionData): ShownState {
+  const { connection, silentS, isHanging, isLaunching, finished, executor } = state;
+  if (connection === 'reconnecting' || connection === 'lost') return 'lost';
+  if (silentS > 0 || isHanging) return 'silent';
+  if (isLaunching) return 'launching';
+  const isStopped = executor === 'visualization_ready' || executor === 'connected';
+  return isStopped && finished && FAULTS.has(finished.reason) ? 'fault' : executor;
+}
+
+export const useShownState = () => useSessionStore(shownState);

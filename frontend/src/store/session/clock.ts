@@ -1,0 +1,13 @@
+import type { SessionData } from './types';
+
+type Clock = Pick<SessionData, 'executor' | 'sim'>;
+
+/** Whether there is a world whose time is paused. */
+export function isWorldPaused({ executor, sim }: Clock): boolean {
+  if (executor === 'paused') return true;
+  return (executor === 'universe_ready' || executor === 'visualization_ready') && (sim?.paused ?? true);
+}
+
+/** Whether the world runs without a program. */
+export const doesWorldRunAlone = ({ executor, sim }: Clock): boolean =>
+  executor === 'visualization_ready' && sim !== null && !sim.paused;

@@ -1,4 +1,4 @@
-"""Reading an action's Python without running it: class, docstring, ports, imports."""
+"""Reads the Python of an action without running it: class, docstring, ports, imports."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
     from translator.catalog import PortModel
 
 KEPT_BYTES = 16 * 1024
-"""Longer sources are not cached, which bounds the memory of the cache."""
+"""The size in bytes above which a source is not cached, which limits the memory of the cache."""
 
 
 @dataclass(frozen=True, slots=True)
 class Import:
-    """A module that an action imports, with the line that does it."""
+    """A module that an action imports, with the line of the import."""
 
     module: str
     line: int
@@ -33,7 +33,10 @@ class Import:
 
 @dataclass(frozen=True, slots=True)
 class ActionModel:
-    """An action, a control node or a decorator as its source declares it. `open` ones accept any port."""
+    """An action, a control node or a decorator as its source declares it.
+
+    If `open` is set, it accepts any port.
+    """
 
     name: str
     doc: str = ""
@@ -114,7 +117,7 @@ def source_text(action: ActionModel) -> str:
 
 
 class _Inspector:
-    """Finds in one module the class that the file is named after."""
+    """Finds the class of a module that has the name of its file."""
 
     def __init__(self, module: ast.Module, source: str, filename: str, name: str) -> None:
         self.module = module
@@ -196,7 +199,7 @@ class _Inspector:
         return line
 
     def is_behaviour(self, cls: ast.ClassDef) -> bool:
-        """Whether some base may be a behaviour; an imported base may always be one."""
+        """Whether a base of the class may be a behaviour; an imported base always may be one."""
         local = self.lineage(cls)
         foreign = [
             base

@@ -1,7 +1,7 @@
 """The kind of an action's class and its number of children, read from its syntax tree.
 
-A control node or decorator derives from a class of the engine or of py_trees. Where the base class is in
-another file, `NODE_KIND` says what it is.
+A control node or decorator derives from a class of the engine or of py_trees. If the base class is in another
+file, `NODE_KIND` is the kind.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def qualified_bases(module: ast.Module, lineage: Iterable[ast.ClassDef]) -> list
 
 
 def _imported(module: ast.Module) -> Iterator[tuple[str, str]]:
-    """Yields what each name that a module imports stands for."""
+    """Yields each name that a module imports, with its full name."""
     for node in module.body:
         if isinstance(node, ast.Import):
             for alias in node.names:
@@ -75,7 +75,7 @@ def is_loop(bases: Iterable[str]) -> bool:
 def children_of(
     lineage: Iterable[ast.ClassDef], kind: str, report: Callable[..., None]
 ) -> tuple[int, int | None]:
-    """Returns the least and the largest number of children; None for any."""
+    """Returns the smallest and the largest number of children; None means any number."""
     if kind not in LIMITS:
         return 0, 0
     least, most = LIMITS[kind]

@@ -1,7 +1,7 @@
 """The ports that an action's class declares, read from its syntax tree.
 
-Declared are the class attributes `INPUT_PORTS`, `OUTPUT_PORTS` and `INOUT_PORTS`, a dict of name to
-`Port(…)` of tree_gardener or `PortInformation(…)` of py_trees. Of a class without them, the ports
+A class declares ports in the attributes `INPUT_PORTS`, `OUTPUT_PORTS` and `INOUT_PORTS`: each is a dict of
+name to `Port(…)` of tree_gardener or `PortInformation(…)` of py_trees. Of a class without them, the ports
 that its code uses by a literal name are listed, so that the editor can offer them.
 """
 
@@ -36,13 +36,13 @@ Report = Callable[..., None]
 
 @dataclass(frozen=True, slots=True)
 class Declarations:
-    """The port dicts of a class, by attribute, those of a derived class before its bases'."""
+    """The port dicts of a class, by attribute; those of a derived class come before those of its bases."""
 
     values: tuple[tuple[str, ast.expr], ...]
 
     @property
     def any(self) -> bool:
-        """Whether the class declares ports at all."""
+        """Whether the class declares any ports."""
         return bool(self.values)
 
     @staticmethod
@@ -102,7 +102,7 @@ def _port(name: str, direction: str, value: ast.expr, report: Report) -> PortMod
 
 
 def _type(node: ast.expr | None) -> str | None:
-    """Returns the catalogue's name of a type, `any` where none is given, None where it is unknown."""
+    """Returns the catalogue's name of a type; `any` if no type is given, None if it is unknown."""
     if node is None:
         return "any"
     if isinstance(node, ast.Constant):
@@ -128,7 +128,7 @@ def _type_name(text: str) -> str | None:
 
 
 def _default(node: ast.expr | None) -> str | None:
-    """Returns the text of a default as XML would have it."""
+    """Returns the text of a default in the form of XML."""
     if node is None:
         return None
     try:
@@ -173,7 +173,7 @@ def _assignment(node: ast.stmt) -> tuple[str, ast.expr | None]:
 
 
 def assigned(node: ast.stmt, name: str) -> ast.expr | None:
-    """Returns what a statement assigns to a name, or None if it does not."""
+    """Returns the value that a statement assigns to a name, or None if it assigns none."""
     if isinstance(node, ast.Assign):
         if any(isinstance(target, ast.Name) and target.id == name for target in node.targets):
             return node.value
@@ -183,7 +183,7 @@ def assigned(node: ast.stmt, name: str) -> ast.expr | None:
 
 
 def loop_ports(lineage: Iterable[ast.ClassDef]) -> tuple[PortModel, ...]:
-    """Returns the ports of a LoopNode, whose `ELEMENT` says what it loops over."""
+    """Returns the ports of a LoopNode; its `ELEMENT` is the type of the elements."""
     elements = (assigned(node, "ELEMENT") for cls in lineage for node in cls.body)
     element = _type(next((value for value in elements if value is not None), None)) or "any"
     queue = f"list[{element}]" if element != "any" and not element.startswith("list") else "any"

@@ -29,7 +29,7 @@ def _error(code: str, file: str, **values: object) -> TranslatorError:
 
 
 def safe_path(name: str) -> str | None:
-    """Returns the path of an entry in normal form, or None if it leaves the project."""
+    """Returns the normalised path of an entry, or None if the path leaves the project."""
     if "\\" in name or "\0" in name or name.startswith("/") or (len(name) > 1 and name[1] == ":"):
         return None
     parts = PurePosixPath(name).parts
@@ -46,7 +46,8 @@ def read_zip(raw: bytes, *, file: str = "project.zip") -> dict[str, bytes]:
     """Returns the files of a zip, by path; a single folder that holds all of them is removed.
 
     Raises:
-        TranslatorError: If it is not a zip, holds links or paths that leave the project, or is too large.
+        TranslatorError: If the data are not a zip, contain links or paths that leave the project, or are too
+            large.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(raw)) as archive:
@@ -88,7 +89,7 @@ def _bounded(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, file: str, left: 
 
 
 def without_top_folder(files: dict[str, bytes]) -> dict[str, bytes]:
-    """Removes the folder that holds all files, which zips of a folder have."""
+    """Removes the folder that contains all files, if there is one, as in a zip of a folder."""
     tops = {path.partition("/")[0] for path in files}
     if len(tops) != 1 or any("/" not in path for path in files):
         return files
@@ -102,7 +103,7 @@ def read_folder(folder: Path) -> dict[str, bytes]:
     """Returns the files of a folder, by path; hidden folders and links are left out.
 
     Raises:
-        TranslatorError: If a file cannot be read, or there is too much.
+        TranslatorError: If a file cannot be read, or the files are too many or too large.
     """
     files: dict[str, bytes] = {}
     total = 0
@@ -127,7 +128,7 @@ def read_file(path: Path) -> bytes:
     """Returns the bytes of a file.
 
     Raises:
-        TranslatorError: If it is not there, or cannot be read.
+        TranslatorError: If the file does not exist, or cannot be read.
     """
     try:
         return path.read_bytes()

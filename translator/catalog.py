@@ -79,13 +79,13 @@ def _port_model(row: dict[str, Any]) -> PortModel:
 
 
 def did_you_mean(name: str, known: Iterable[str], *, otherwise: str = "") -> str:
-    """Returns the sentence that offers the nearest known name, or `otherwise`."""
+    """Returns the sentence that suggests the nearest known name; `otherwise` if there is none."""
     near = nearest(name, known)
     return f"Did you mean {near}?" if near else otherwise
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
-    """Returns the known name that is most like this one, or an empty text."""
+    """Returns the known name that is most similar to this one; "" if there is none."""
     # Imported here, since the engine imports py_trees, which reading and writing trees do not need.
     from tree_gardener.spelling import nearest as nearest_name  # noqa: PLC0415
 

@@ -1,7 +1,7 @@
 """Diagnostics: what is wrong, where, and what to do about it.
 
-Each has a code from the one table in `diagnostics.json`, which also makes the reference page
-and serves the front end. A diagnostic always has a place: a file, and in it a node or a line.
+Each has a code from the table in `diagnostics.json`, from which the reference page is generated, and which
+the front end uses. A diagnostic always has a place: a file, and a node or a line in the file.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ TABLE_PATH = Path(__file__).with_name("diagnostics.json")
 
 
 class Severity(StrEnum):
-    """The severity: a tree with an error does not run."""
+    """The severity of a diagnostic; a tree with an error does not run."""
 
     ERROR = "error"
     WARNING = "warning"
@@ -29,7 +29,7 @@ class Severity(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """The place of a diagnostic: the file, and as far as known the node, port, line and column."""
+    """The place of a diagnostic: the file, and the node, port, line and column if they are known."""
 
     file: str = ""
     tree: str = ""
@@ -52,9 +52,9 @@ class Rule:
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
-    """One finding. `str()` gives the line that the command line prints.
+    """One finding. `str()` returns the line that the command line prints.
 
-    `values` are the values in message and hint: a translation is made from the code and these.
+    `values` are the values in message and hint; a translated text is made from the code and these values.
     """
 
     code: str
@@ -66,7 +66,7 @@ class Diagnostic:
 
     @property
     def is_error(self) -> bool:
-        """Whether the finding keeps the tree from running."""
+        """Whether the finding prevents the tree from running."""
         return self.severity is Severity.ERROR
 
     def to_json(self) -> dict[str, Any]:
@@ -99,7 +99,7 @@ class Diagnostic:
 
 
 class TranslatorError(Exception):
-    """The work failed; `diagnostics` hold the reasons, each with a place and a hint."""
+    """The operation failed; `diagnostics` holds the reasons, each with a place and a hint."""
 
     def __init__(self, diagnostics: tuple[Diagnostic, ...] | list[Diagnostic]) -> None:
         self.diagnostics = tuple(diagnostics)

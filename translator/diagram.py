@@ -1,4 +1,4 @@
-"""Diagram JSON: one function that reads and repairs it, one that writes it.
+"""The JSON of diagrams: functions that read and repair it, and functions that write it.
 
 `restore` repairs what it can and reports each repair, so that no diagram is lost to a small error;
 `to_diagram` and `diagram_text` are deterministic: the same tree gives the same bytes.
@@ -27,7 +27,7 @@ DIRECTIONS = ("input", "output", "inout")
 
 
 def restore(raw: bytes | str, *, file: str) -> tuple[Tree | None, tuple[Diagnostic, ...]]:
-    """Reads a diagram; returns the tree, or None where nothing can be restored, and the findings."""
+    """Reads a diagram; returns the tree, or None if nothing can be restored, and the findings."""
     document, problem = parse_json(raw, file=file)
     if problem is not None:
         return None, (problem,)
@@ -42,7 +42,7 @@ def restore_document(document: Any, *, file: str) -> tuple[Tree | None, tuple[Di
 
 
 class _Reader:
-    """Reads one document, collecting what it had to repair."""
+    """Reads one document, and collects the repairs that it needs."""
 
     def __init__(self, file: str) -> None:
         self.file = file
@@ -206,7 +206,7 @@ class _Reader:
         )
 
     def linked(self, nodes: dict[str, Node]) -> dict[str, Node]:
-        """Drops children that do not exist and second parents."""
+        """Removes children that do not exist, and second parents."""
         seen: set[str] = set()
         for node in list(nodes.values()):
             kept = []
@@ -245,7 +245,7 @@ class _Reader:
     def without_cycles(
         self, nodes: dict[str, Node], parented: Mapping[str, str], starts: list[str | None]
     ) -> None:
-        """Cuts rings. As each node has one parent, a ring is entered from nowhere else."""
+        """Cuts cycles. Since each node has one parent, a cycle cannot be reached from outside."""
         cleared = _reach(nodes, starts)
         for node_id, node in list(nodes.items()):
             if node_id in cleared:
@@ -263,7 +263,7 @@ class _Reader:
             cleared |= trail
 
     def lost(self, nodes: dict[str, Node], starts: list[str | None]) -> list[str]:
-        """Turns pieces that belong to neither the root nor a draft into drafts."""
+        """Returns the starts of pieces that belong neither to the root nor to a draft; they become drafts."""
         parented = {child for node in nodes.values() for child in node.children}
         known = set(starts)
         lost = [key for key in nodes if key not in parented and key not in known]
@@ -316,7 +316,7 @@ def to_diagram(tree: Tree) -> dict[str, Any]:
 
 
 def diagram_text(tree: Tree) -> str:
-    """Returns the diagram as text with one line a node, so that a diff shows what changed."""
+    """Returns the diagram as text with one line for each node, so that a diff shows the changes."""
     document = to_diagram(tree)
     nodes = document.pop("nodes")
     parts = [f"  {_dump(key)}: {_dump(value)}" for key, value in document.items()]
@@ -326,7 +326,7 @@ def diagram_text(tree: Tree) -> str:
 
 
 def diagram_path(tree_id: str) -> str:
-    """Returns where in a project the diagram of a tree is kept."""
+    """Returns the path of a tree's diagram in a project."""
     return f"trees/{tree_id if is_valid_id(tree_id) else safe_name(tree_id)}.json"
 
 

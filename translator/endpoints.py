@@ -1,7 +1,7 @@
-"""ROS endpoints in the Python of a project: topics, services, actions, parameters, read by syntax alone.
+"""Reads ROS endpoints in the Python of a project by syntax alone: topics, services, actions, parameters.
 
-A name or type is known where the source states it: as text, as a constant of the module or class, or put
-together from those. What is made while the program runs is given as the expression that makes it.
+A name or type is known if the source states it: as text, as a constant of the module or class, or as a
+combination of these. For a name that is computed at run time, the expression is returned.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ class Endpoint:
     """One end of a topic, service or action, or a parameter.
 
     Attributes:
-        name: its name in the source; the expression where `known` is false.
+        name: its name in the source; the expression if `known` is false.
         kind: `publisher`, `subscription`, `client`, `service`, `action client`, `action server`, `parameter`.
-        type: such as `geometry_msgs/msg/Twist`; "" where the source does not state it.
+        type: its type, such as `geometry_msgs/msg/Twist`; "" if the source does not state it.
         known: whether the name is certain.
         path: the file, and `line` in it.
     """
@@ -67,7 +67,7 @@ _TF_CLASSES = {
 
 
 def endpoints(source: str, path: str) -> list[Endpoint]:
-    """Returns the endpoints that a Python file opens, in its order; none where it cannot be parsed."""
+    """Returns the endpoints that a Python file opens, in its order; none if it cannot be parsed."""
     try:
         return list(_Reader(parse(source, path), path).found())
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -137,7 +137,7 @@ class _Reader:
         return Endpoint(name, kind, type_, known, self.path, call.lineno)
 
     def text_of(self, node: ast.expr) -> str | None:
-        """Returns the text that an expression certainly has."""
+        """Returns the text of an expression if it is certain; otherwise None."""
         if isinstance(node, ast.Constant):
             return node.value if isinstance(node.value, str) else None
         if isinstance(node, ast.Name):
@@ -158,7 +158,7 @@ class _Reader:
         return self.text_of(part)
 
     def dotted(self, node: ast.expr) -> str:
-        """Returns the full name by the imports; "" for an expression that is not a name."""
+        """Returns the full name of an expression, by the imports; "" if the expression is not a name."""
         if isinstance(node, ast.Attribute):
             before = self.dotted(node.value)
             return f"{before}.{node.attr}" if before else node.attr
@@ -199,7 +199,7 @@ def _constants(module: ast.Module) -> dict[str, str]:
 
 
 def _assigned(node: ast.AST) -> Iterator[tuple[str, ast.expr | None]]:
-    """Yields the names that a statement assigns, with the value; `None` where the value is unknown."""
+    """Yields the names that a statement assigns, with the value; `None` if the value is unknown."""
     if isinstance(node, ast.Assign):
         targets, value = node.targets, node.value
     elif isinstance(node, ast.AnnAssign) and node.value is not None:

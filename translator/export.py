@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 def to_xml(project: Project) -> str:
     """Returns the project's trees as one BehaviorTree.CPP v4 document.
 
-    A project that was imported from one XML file gives back that file, byte for byte where nothing
-    was changed; errors that only keep it from running here do not keep it from being exported.
+    A project that was imported from one XML file returns that file; the bytes of unchanged parts are the
+    same. Errors that only prevent it from running in BT Studio do not prevent its export.
 
     Raises:
         TranslatorError: If the project has errors; its `diagnostics` name them.
@@ -43,7 +43,7 @@ def to_xml(project: Project) -> str:
 
 
 def export_files(project: Project) -> dict[str, bytes]:
-    """Returns what to write to disk: the imported files with their changes, or one `<name>.xml`.
+    """Returns the files to write to disk: the imported files with their changes, or one `<name>.xml`.
 
     Raises:
         TranslatorError: If the project has errors; its `diagnostics` name them.
@@ -86,7 +86,7 @@ def _patched(document: Document, project: Project, documents: list[Document]) ->
 
 
 def self_contained(project: Project) -> str:
-    """Returns the document with the source of each action used, so that one file is enough to run it.
+    """Returns the document with the source of each used action, so that one file is enough to run it.
 
     Raises:
         TranslatorError: If the project has errors; its `diagnostics` name them.
@@ -109,7 +109,7 @@ def used_actions(project: Project) -> list[ActionModel]:
 
 
 def unwritten_actions(project: Project) -> list[str]:
-    """Returns the names of the actions that are stubs, of those that the main tree may run."""
+    """Returns the names of actions that are stubs and that the main tree may run."""
     from tree_gardener.stubs import is_stub  # noqa: PLC0415 - the engine loads py_trees
 
     reached = reachable_trees(project.trees, project.settings.main_tree)

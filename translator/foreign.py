@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["is_of_tool", "without_tools"]
 
 _SHORT_NAME = re.compile(r"git~\d+")
-"""The short name of `.git` on Windows, of eight letters."""
+"""The short name of `.git` on Windows, which has up to eight letters."""
 
 
 def is_of_tool(path: str) -> bool:
@@ -32,6 +32,6 @@ def without_tools(files: Mapping[str, bytes]) -> dict[str, bytes]:
 
 
 def _as_disks_see_it(name: str) -> str:
-    """Folds a path as disks do that ignore the case of letters and invisible characters."""
+    """Normalises a path as file systems do that ignore the case of letters and invisible characters."""
     shown = "".join(char for char in name if unicodedata.category(char) != "Cf")
     return unicodedata.normalize("NFKC", shown).casefold().rstrip(" .")

@@ -86,9 +86,10 @@ def from_xml(  # noqa: PLR0913 - each is a choice of its own, and keyword-only
         file: Its path, to which the paths of `<include>` are relative.
         included: The files that it may include, by path.
         actions: Sources of actions by file name, such as `Forward.py`.
-        stubs: Whether actions that are missing get Nav2's source, if they are nodes of Nav2, or a stub.
-        places: The prefix of a file's path in places of findings. Without it, findings of checks point into
-            the diagrams of the new project, else into the XML.
+        stubs: Whether a missing action gets the source of Nav2's node of that name, if there is one, or a
+            stub.
+        places: The prefix of a file's path in places of findings. If it is "", findings of checks have places
+            in the diagrams of the new project, otherwise in the XML.
 
     Raises:
         TranslatorError: If the text is not a readable behaviour tree.
@@ -128,7 +129,7 @@ def _placed(tree: Tree, places: str) -> Tree:
 def with_proposal(
     settings: Settings, trees: Iterable[Tree], files: Mapping[str, bytes]
 ) -> tuple[Settings, list[Diagnostic]]:
-    """Chooses the universe, and the robot, that fit the topics of the actions that the trees use."""
+    """Selects the universe, and the robot, that suit the topics of the actions that the trees use."""
     used = used_types(trees)
     actions = {path: raw for path, raw in files.items() if _action_name(path) in used}
     proposal = propose(actions, hints=[settings.name])
@@ -154,7 +155,7 @@ def project_files(settings: Settings, trees: Iterable[Tree]) -> dict[str, bytes]
 
 
 def _merged(work: _Import, file: str) -> tuple[list[Tree], Settings]:
-    """Joins the trees of all documents; of two with one id the first is used."""
+    """Joins the trees of all documents; if two have the same id, the first one is used."""
     trees: dict[str, Tree] = {}
     for document in work.documents.values():
         for item in document.trees:
@@ -192,7 +193,7 @@ def main_tree_of(documents: Iterable[Document]) -> tuple[str, str]:
 def _actions(
     trees: list[Tree], documents: list[Document], sources: Mapping[str, bytes], *, stubs: bool
 ) -> dict[str, bytes]:
-    """Returns the action files: those given, those of `<Code>`, Nav2's own, and stubs for the others."""
+    """Returns the action files: given ones, those of `<Code>`, those of Nav2, and stubs for the others."""
     files = {f"actions/{name}": raw for name, raw in sources.items()}
     for document in documents:
         for name, code in document.code.items():
@@ -226,14 +227,14 @@ def _actions(
 
 @dataclass(slots=True)
 class _Use:
-    """The ports and the largest number of children that a type of node is seen with."""
+    """The ports and the largest number of children with which a type of node is used."""
 
     ports: set[str] = field(default_factory=set)
     children: int = 0
 
     @property
     def kind(self) -> str:
-        """The kind that fits."""
+        """The kind of node that suits this use."""
         return "control" if self.children > 1 else "decorator" if self.children else "action"
 
 
@@ -242,7 +243,7 @@ def _with_children() -> list[str]:
 
 
 def _unknown_nodes(trees: list[Tree]) -> dict[str, _Use]:
-    """Returns the types of nodes that are not built in, with what is seen on them."""
+    """Returns the types of nodes that are not built in, with their ports and numbers of children."""
     ids = {tree.id for tree in trees}
     seen: dict[str, _Use] = {}
     for tree in trees:

@@ -1,4 +1,4 @@
-"""Reads foreign JSON: any bytes give a value or a located diagnostic."""
+"""Reads foreign JSON; any bytes give a value or a diagnostic with a place."""
 
 from __future__ import annotations
 

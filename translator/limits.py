@@ -1,8 +1,8 @@
-"""Limits of a project: the one table, `limits.json`, for all code that reads, checks, writes or stores one.
+"""Limits of a project: one table, `limits.json`, for all code that reads, checks or stores projects.
 
-The settings of the web server have their defaults from it, `frontend/src/generated/limits.ts` and
-`docs/reference/limits.md` are made of it. What exists already and is larger can be opened, made smaller
-and downloaded; it is not translated, and does not grow.
+The table has the defaults of the web server's settings; `frontend/src/generated/limits.ts` and
+`docs/reference/limits.md` are generated from it. A project that already exceeds a limit can be opened, made
+smaller and downloaded; it is not translated, and cannot grow.
 """
 
 from __future__ import annotations
@@ -55,16 +55,19 @@ DESCRIPTION_CHARACTERS: Final = TABLE["description_characters"].value
 SCRIPT_CHARACTERS: Final = TABLE["script_characters"].value
 
 OVERSIZE: Final = frozenset({"BT0017", "BT0018", "BT0019"})
-"""The codes of what `oversize` finds."""
+"""The codes of the findings of `oversize`."""
 
 
 def megabytes(value: int) -> str:
-    """Returns a number of bytes as a message says it."""
+    """Returns a number of bytes as text for a message."""
     return f"{value // 2**20} MB"
 
 
 def oversize(trees: Iterable[Tree], place: Place) -> list[Diagnostic]:
-    """Returns what is too large about the trees of a project; what concerns all of them is put at `place`."""
+    """Returns findings about trees that are too large.
+
+    Those about all trees together have the place `place`.
+    """
     found: list[Diagnostic] = []
     count = total = 0
     for tree in trees:

@@ -11,7 +11,7 @@ CURRENT_VERSION = 1
 
 
 def _name_the_format(document: dict[str, Any]) -> dict[str, Any]:
-    """0 to 1: diagrams written before the format had a name and a number."""
+    """Migrates version 0 to 1: adds the fields `format` and `version`."""
     return {"format": "bt-studio/diagram", **document, "version": 1}
 
 

@@ -1,4 +1,4 @@
-"""Nodes of Nav2 in an imported tree: their sources where the engine has them, else their ports for a stub."""
+"""Nodes of Nav2 in an imported tree: their sources if the engine has them, else their ports for a stub."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ _TYPES: Final = {
 
 
 def nav2_models(seen: Mapping[str, Set[str]], models: Mapping[str, NodeModel]) -> dict[str, NodeModel]:
-    """Returns Nav2's models of the nodes of a tree that are Nav2's.
+    """Returns the models of those nodes of a tree that are nodes of Nav2.
 
     Args:
-        seen: The ports that each type of node is seen with.
-        models: The models that the document brings; one that differs from Nav2's means another node.
+        seen: The ports with which each type of node is used.
+        models: The models in the document; a model that differs from Nav2's belongs to another node.
     """
     from tree_gardener.nav2_library import table  # noqa: PLC0415 - the engine loads py_trees
 

@@ -30,12 +30,12 @@ def open_path(
 
     Args:
         path: A folder, a zip, a diagram (`.json`) or a tree (`.xml`, `.btproj`).
-        actions: A folder of actions to take with a diagram or a tree.
+        actions: A folder with the actions of a diagram or a tree.
         stubs: Whether actions that are missing get a stub.
         repair: Whether bare `&` and `<` in attributes of XML are escaped.
 
     Raises:
-        TranslatorError: If there is nothing that can be read.
+        TranslatorError: If nothing can be read.
     """
     sources = _read_actions(actions) if actions is not None else {}
     if path.is_dir():
@@ -61,7 +61,7 @@ def open_files(
     """Opens a project of any kind from its files, by path.
 
     Raises:
-        TranslatorError: If there is nothing that can be read.
+        TranslatorError: If nothing can be read.
     """
     sources = actions or {}
     if repair:
@@ -100,7 +100,7 @@ def open_tree(  # noqa: PLR0913 - the arguments of `from_xml`
     """Opens one XML document of any form; the arguments are those of `from_xml`.
 
     Raises:
-        TranslatorError: If it cannot be read.
+        TranslatorError: If the document cannot be read.
     """
     if is_old_form(raw):
         return read_old_form(raw, file=file)
@@ -115,7 +115,7 @@ def _read_actions(folder: Path) -> dict[str, bytes]:
 
 
 def _open_diagram(path: Path, raw: bytes, sources: Mapping[str, bytes]) -> Project:
-    """Opens a diagram: together with its project folder if it is in one, else alone."""
+    """Opens a diagram: with its project if it is in a project folder, otherwise alone."""
     if looks_like_graph(raw):
         return import_jderobot({"graph.json": raw} | _beside(path), name=path.stem)
     tree, found = restore(raw, file=str(path))

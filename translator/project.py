@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
 class Project:
-    """The input of a translation. `diagnostics` are those of reading; `check` adds its own."""
+    """A project, the input of a translation. `diagnostics` are those of reading; `check` adds others."""
 
     settings: Settings
     trees: Mapping[str, Tree]
@@ -38,7 +38,7 @@ class Project:
 
     @property
     def main(self) -> Tree | None:
-        """The main tree, if the project has it."""
+        """The main tree; None if the project does not have it."""
         return self.trees.get(self.settings.main_tree)
 
     def model(self, type_: str) -> NodeModel | None:
@@ -50,7 +50,7 @@ class Project:
         return None
 
     def imported_model(self, type_: str) -> NodeModel | None:
-        """Returns the model in an imported file of a type of node that cannot run here."""
+        """Returns the model that an imported file has of a node type that cannot run here, or None."""
         if self not in _imported:
             _imported[self] = _imported_models(self.files)
         return _imported[self].get(type_)
@@ -128,7 +128,7 @@ def _is_diagram(path: str) -> bool:
 
 
 def _are_too_large(files: Mapping[str, bytes], found: list[Diagnostic]) -> bool:
-    """Whether the diagrams are so many, or so large, that none of them is read."""
+    """Whether the diagrams are too many or too large, so that none of them is read."""
     sizes = [len(raw) for path, raw in files.items() if _is_diagram(path)]
     place = Place(PROJECT_FILE, line=1)
     if sum(sizes) > DIAGRAM_BYTES_PER_PROJECT:
@@ -175,7 +175,10 @@ def action_paths(files: Mapping[str, bytes]) -> Iterator[tuple[str, str]]:
 
 
 def _is_shared_module(model: ActionModel) -> bool:
-    """Whether a file is a module that actions import: named as modules are, and without such a class."""
+    """Whether a file is a module that actions import.
+
+    It has the name of a module, and no class of an action.
+    """
     return model.name[:1].islower() and any(item.code in {"BT0602", "BT0607"} for item in model.diagnostics)
 
 

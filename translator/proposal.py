@@ -38,7 +38,7 @@ class TopicUse:
 
 @dataclass(frozen=True, slots=True)
 class Proposal:
-    """A universe, a robot where the universe's own does not fit, and the reason."""
+    """A universe; a robot if that of the universe does not suit; and the reason."""
 
     universe: str
     robot: str | None = None
@@ -46,7 +46,7 @@ class Proposal:
 
 
 def topics_used(source: str) -> list[TopicUse]:
-    """Returns the topics that an action publishes and subscribes; source that cannot be parsed has none."""
+    """Returns the topics that an action publishes or subscribes to; none if it cannot be parsed."""
     try:
         module = parse(source, "proposal.py")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -55,11 +55,11 @@ def topics_used(source: str) -> list[TopicUse]:
 
 
 def propose(actions: Mapping[str, bytes], *, hints: Iterable[str] = ()) -> Proposal | None:
-    """Returns the proposal, or None where the topics of the actions do not decide.
+    """Returns the proposal, or None if the topics of the actions do not determine one.
 
     Args:
-        actions: sources by path.
-        hints: names that distinguish worlds with cameras: of the project, of its trees.
+        actions: the sources of the actions, by path.
+        hints: the names of the project and of its trees, which distinguish universes for cameras.
     """
     texts = {path: raw.decode("utf-8", "replace") for path, raw in sorted(actions.items())}
     uses = [use for text in texts.values() for use in topics_used(text)]

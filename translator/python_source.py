@@ -1,8 +1,9 @@
 """Python source as a syntax tree, for programs with several threads.
 
 CPython 3.11 keeps the recursion depth of `ast.parse` in one counter for all threads: two calls at the same
-time fail with `SystemError: AST constructor recursion depth mismatch`, or with a depth that no tree has. So
-a lock admits one at a time, and all calls are here (`tests/translator/test_python_source.py` finds others).
+time fail with `SystemError: AST constructor recursion depth mismatch`, or report a depth that no tree has. So
+a lock admits one call at a time, and all calls are in this module (`tests/translator/test_python_source.py`
+finds others).
 """
 
 from __future__ import annotations
@@ -22,8 +23,9 @@ def parse(source: str, filename: str) -> ast.Module:
     """Reads a module.
 
     Raises:
-        SyntaxError: it is not Python.
-        ValueError, RecursionError, MemoryError: it cannot be parsed, for example because of its depth.
+        SyntaxError: the source is not valid Python.
+        ValueError, RecursionError, MemoryError: the source cannot be parsed, for example because of its
+            depth.
     """
     with _lock, warnings.catch_warnings():  # an invalid escape in the user's code is reported elsewhere
         warnings.simplefilter("ignore")

@@ -1,4 +1,6 @@
-"""Writes what is generated from the tables: pages of diagnostics and limits, JSON Schemas, a TypeScript file.
+"""Writes the files that are generated from the tables.
+
+They are pages of diagnostics and limits, JSON Schemas, and a TypeScript file.
 
 python -m translator.reference [FOLDER]      # docs/reference, if not given
 """

@@ -1,7 +1,7 @@
 """The diagram format as Pydantic models, the source of its JSON Schema.
 
-Reading goes through `diagram.restore`, which repairs; a document that these models accept needs no repair
-but for links between nodes, which a schema cannot say.
+`diagram.restore` reads and repairs documents. A document that these models accept needs no repair, except for
+links between nodes, which a schema cannot describe.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The names that a script reads and writes, and its errors, by the engine's own parser."""
+"""Finds the names that a script reads and writes, and its errors, by the engine's own parser."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ MAX_INTEGER = 2**63 - 1
 
 
 class Problem(NamedTuple):
-    """The reason why a script cannot be read, and the position."""
+    """The reason why a script cannot be read, with its position."""
 
     offset: int
     message: str
@@ -22,7 +22,7 @@ class Problem(NamedTuple):
 
 
 class ScriptNames(NamedTuple):
-    """The entries that a script reads and assigns, each once; none where it cannot be read."""
+    """The entries that a script reads and assigns, each once; none if it cannot be read."""
 
     read: tuple[str, ...] = ()
     written: tuple[str, ...] = ()
@@ -64,7 +64,7 @@ def integers_too_large(code: str) -> list[str]:
 
 
 def _names(program: Program) -> tuple[list[str], list[str]]:
-    """Returns the names read and assigned, in one walk; a name that `:=` creates counts as read by none."""
+    """Returns the names read and assigned, in one walk. A name that `:=` creates does not count as read."""
     from tree_gardener.script.syntax import Assignment, Name, walk  # noqa: PLC0415
 
     names: list[Name] = []

@@ -14,7 +14,7 @@ from translator.text import clean, is_clean
 PROJECT_FILE = "project.json"
 FORMAT = "bt-studio/project"
 NO_UNIVERSE = "none"
-"""What `universe` says where the program runs against an outside ROS graph, without a world of ours."""
+"""The value of `universe` for a program in an outside ROS graph, without a simulated world."""
 
 
 class Maintainer(BaseModel):
@@ -27,7 +27,7 @@ class Maintainer(BaseModel):
 
 
 class Settings(BaseModel):
-    """The settings of a project. Each has a default, so that an empty file is a project too."""
+    """The settings of a project. Each has a default, so that an empty file is valid."""
 
     model_config = ConfigDict(frozen=True, extra="ignore", json_schema_extra={"title": "project.json"})
 
@@ -45,7 +45,7 @@ class Settings(BaseModel):
     maintainer: Maintainer = Maintainer()
 
     def to_json(self) -> dict[str, Any]:
-        """Returns the document, without a robot where the universe's own is used."""
+        """Returns the document; `robot` is left out if the universe's own robot is used."""
         document = self.model_dump()
         if self.robot is None:
             del document["robot"]

@@ -1,4 +1,4 @@
-"""Text that all our formats can hold: no control characters, no lone surrogates."""
+"""Text that all formats of BT Studio can hold: no control characters, no lone surrogates."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def safe_name(identifier: str) -> str:
 
 @lru_cache(maxsize=4096)
 def is_xml_name(name: str) -> bool:
-    """Whether the text can be an XML tag or attribute; asks expat, since it reads the file later."""
+    """Whether the text can be an XML tag or attribute; asks expat, which later reads the file."""
     if ":" in name or not name or re.search(r"[\s<>/=\"'&?!]", name) or not is_clean(name):
         return False
     try:

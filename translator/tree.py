@@ -1,7 +1,7 @@
 """The tree that every format goes through: immutable, typed, with queries and structural edits.
 
 A `Tree` holds its nodes by id; ids are stable over edits and formats. The order of `children`
-is the order of execution. Nodes that are no descendants of the root belong to `drafts`.
+is the order of execution. Nodes that are not descendants of the root belong to `drafts`.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Span:
 class Node:
     """One node. `tree` is the target of a SubTree; `attributes` are those that only other programs use.
 
-    A name may be empty, which gives another path than no name.
+    An empty name gives another path than no name (None).
     """
 
     id: str
@@ -72,7 +72,10 @@ class Node:
 
 @dataclass(frozen=True, slots=True)
 class Tree:
-    """One behaviour tree. `ports` is its model as a SubTree; an empty `layout` is the usual, vertical one."""
+    """One behaviour tree.
+
+    `ports` are its ports as a SubTree; an empty `layout` means the default, vertical one.
+    """
 
     id: str
     root: str | None
@@ -94,7 +97,7 @@ class Tree:
             stack.extend(reversed(node.children))
 
     def post_order(self) -> Iterator[Node]:
-        """Yields the nodes of the running tree, children before parents."""
+        """Yields the nodes, children before parents and siblings in reverse order; drafts are left out."""
         yield from reversed(list(self.walk()))
 
     def parents(self) -> dict[str, str]:
@@ -102,11 +105,11 @@ class Tree:
         return {child: node.id for node in self.nodes.values() for child in node.children}
 
     def subtree_calls(self) -> Iterator[Node]:
-        """Yields the SubTree nodes of the running tree."""
+        """Yields the SubTree nodes of the tree, without those in drafts."""
         return (node for node in self.walk() if node.is_subtree)
 
     def depth(self) -> int:
-        """Returns the number of levels of the running tree."""
+        """Returns the number of levels of the tree, without drafts."""
         depths: dict[str, int] = {}
         deepest = 0
         for node in self.walk():
@@ -188,7 +191,7 @@ class Tree:
 def pointer(text: str, port: str = "") -> str | None:
     """Returns the blackboard key that a port's text names, or None for a literal.
 
-    `{=}` is the entry named like the port. Outer blanks are allowed, as in BT.CPP.
+    `{=}` means the entry with the name of the port. Outer blanks are permitted, as in BT.CPP.
     """
     stripped = text.strip(BLANKS)
     if len(stripped) < 3 or stripped[0] != "{" or stripped[-1] != "}":
@@ -198,7 +201,7 @@ def pointer(text: str, port: str = "") -> str | None:
 
 
 def reachable_trees(trees: Mapping[str, Tree], main: str) -> list[str]:
-    """Returns the ids of the trees that `main` calls, itself first, in order of first call."""
+    """Returns the ids of the trees that `main` calls, in order of the first call; `main` is the first."""
     found: dict[str, None] = {}
     stack = [main]
     while stack:
@@ -211,5 +214,5 @@ def reachable_trees(trees: Mapping[str, Tree], main: str) -> list[str]:
 
 
 def used_types(trees: Iterable[Tree]) -> set[str]:
-    """Returns the types of all nodes of the running trees."""
+    """Returns the types of all nodes of the trees, without drafts."""
     return {node.type for tree in trees for node in tree.walk()}

@@ -1,7 +1,7 @@
-"""One tree as an XML document of its own, for an editor that shows text and drawing side by side.
+"""Converts one tree to an XML document and back, for an editor that shows text and drawing side by side.
 
-The text keeps its author's comments and blanks: a tree that was changed elsewhere is patched into it. Nodes
-of a changed text keep their ids, also where the text carries none.
+The text keeps the comments and blanks of its author: changes of the tree are patched into it. Nodes of a
+changed text keep their ids, even if the text contains none.
 """
 
 from __future__ import annotations
@@ -29,7 +29,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class NodeRange:
-    """The range of a node in a text: its start tag, and all of it; offsets in UTF-16, as editors count."""
+    """The range of a node in a text: its start tag, and the whole element.
+
+    Offsets are in UTF-16, as in editors.
+    """
 
     node: str
     start: int
@@ -46,7 +49,7 @@ class TreeText:
 
     @property
     def ids(self) -> list[str]:
-        """The ids of the nodes in the order of the text, which may carry others or none."""
+        """The ids of the nodes in the order of the text, which may contain other ids or none."""
         return [found.node for found in self.ranges]
 
 
@@ -63,8 +66,9 @@ def write_tree_text(tree: Tree, *, base: str = "", ids: Sequence[str] = ()) -> T
     """Returns the tree as XML.
 
     Args:
-        tree: The tree as it is now; its drafts are left out.
-        base: A text of an earlier state of it, whose comments and blanks are kept; else a new one is made.
+        tree: The current tree; its drafts are left out.
+        base: The text of an earlier state of the tree, whose comments and blanks are kept; if "", a new text
+            is made.
         ids: The nodes of `base` in the order of the text.
 
     Raises:
@@ -90,7 +94,8 @@ def read_tree_text(xml: str, now: Tree) -> ReadTree:
 
     Args:
         xml: A document with one tree, v4 or v3.
-        now: The tree as it was before; parts that the text does not hold (drafts, ports) are copied from it.
+        now: The tree before the edit; parts that the text does not contain (drafts, ports) are copied from
+            it.
 
     Raises:
         TranslatorError: If the text is not XML, or not a single tree of this ID.
@@ -145,7 +150,7 @@ def _read(xml: str, tree: Tree) -> Document:
 
 
 def _take_ids(document: Document, ids: Sequence[str]) -> None:
-    """Gives the nodes of the tree these ids, in the order of the text."""
+    """Sets the ids of the tree's nodes, in the order of the text."""
     source = document.trees[0]
     names = dict(zip(source.elements, ids, strict=False))
     if len(names) != len(source.elements) or len(set(names.values())) != len(names):
@@ -173,7 +178,7 @@ _KEYS: tuple[Callable[[Node], tuple[object, ...]], ...] = (
 
 
 def _matched(source: TreeSource, now: Tree) -> list[str]:
-    """Returns an id for each node of a text: its own, that of the node it was, or a new one."""
+    """Returns an id for each node of a text: its own, that of the matching earlier node, or a new one."""
     taken = {node.id for draft in now.drafts for node in now.walk(draft)}
     before = {node.id for node in now.walk()}
     ids: dict[str, str] = {}
@@ -197,7 +202,7 @@ def _matched(source: TreeSource, now: Tree) -> list[str]:
 
 
 def _pair(old: list[Node], new: list[Node], ids: dict[str, str], free: set[str]) -> None:
-    """Pairs children of one parent: first equal ones, last those of the same kind."""
+    """Matches children of one parent: first equal nodes, then nodes of the same kind."""
     for key_of in _KEYS:
         candidates: dict[tuple[object, ...], deque[str]] = defaultdict(deque)
         for node in old:

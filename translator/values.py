@@ -1,4 +1,4 @@
-"""Whether a literal suits the type of a port, by the rules that BehaviorTree.CPP applies at loading."""
+"""Checks whether a literal suits the type of a port, by the rules of BehaviorTree.CPP at loading."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Fit(Enum):
 
 
 def fit(type_: str, text: str) -> Fit:
-    """Returns the literal's fit to the port's type; types without a check accept everything."""
+    """Returns how a literal suits a port's type; types without a check accept all texts."""
     if type_.startswith("list["):
         return _fit_list(type_[5:-1], text)
     if type_ in {"int", "uint"}:

@@ -50,7 +50,7 @@ def load_actions(sources: Mapping[str, str] | str | pathlib.Path) -> dict[str, t
 
 
 class _Loader(importlib.abc.MetaPathFinder, importlib.abc.Loader):
-    """Loads a set of actions that may import one another, by ``actions.<Name>`` or the bare name."""
+    """Loads actions that may import one another, by ``actions.<Name>`` or by the bare name."""
 
     def __init__(self, sources: Mapping[str, str]) -> None:
         self.sources = sources
@@ -66,7 +66,7 @@ class _Loader(importlib.abc.MetaPathFinder, importlib.abc.Loader):
     def find_spec(
         self, fullname: str, path: object = None, target: object = None
     ) -> importlib.machinery.ModuleSpec | None:
-        """Finds the actions, for imports."""
+        """Finds the module specification of an action, for imports; None for other modules."""
         name = fullname.removeprefix(f"{PACKAGE}.")
         return importlib.machinery.ModuleSpec(fullname, self) if name in self.sources else None
 
@@ -76,10 +76,10 @@ class _Loader(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         return sys.modules.get(f"{PACKAGE}.{name}") or self.execute(name)
 
     def exec_module(self, module: types.ModuleType) -> None:
-        """Does nothing: `create_module` ran the source."""
+        """Does nothing, since `create_module` has already run the source."""
 
     def load(self, name: str) -> type[Any]:
-        """Runs one source, unless another one imported it already."""
+        """Returns the class of an action; runs its source, unless an import has run it already."""
         module = sys.modules.get(f"{PACKAGE}.{name}") or self.execute(name)
         cls = getattr(module, name, None)
         if not isinstance(cls, type):
@@ -88,7 +88,7 @@ class _Loader(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         return cls
 
     def execute(self, name: str) -> types.ModuleType:
-        """Compiles and runs one source."""
+        """Compiles and runs one source; returns its module."""
         filename, source = f"{PACKAGE}/{name}.py", self.sources[name]
         module = types.ModuleType(f"{PACKAGE}.{name}")
         module.__file__ = filename

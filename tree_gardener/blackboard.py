@@ -1,8 +1,8 @@
 """The blackboard: typed entries in a hierarchy of scopes, one scope for each SubTree.
 
-A name is looked up in its own scope first; if it is not there, the SubTree's remapping (or ``_autoremap``)
-leads to another name in the caller's scope. This happens at every access, so that the outer entry may appear
-later.
+A name is looked up in its own scope first. If that scope does not have it, the SubTree's remapping (or
+``_autoremap``) leads to another name in the caller's scope. This happens at every access, so that the outer
+entry may appear later.
 """
 
 from collections.abc import Callable, Iterator, MutableMapping
@@ -32,8 +32,9 @@ class Entry:
 
     Attributes:
         board: the scope that stores it.
-        key: its name there.
-        type: None while anything may be written (made by a script); ``ANY`` is such a type, too.
+        key: its name in that scope.
+        type: None if values of any type may be written, as to an entry that a script made; ``ANY`` accepts
+            them too.
         value: EMPTY until it is written.
         sequence: the number of writes.
     """
@@ -54,13 +55,13 @@ class Entry:
 
     @property
     def type_name(self) -> str:
-        """The declared type, else that of the value, else ``empty``."""
+        """The declared type; if there is none, the type of the value; without a value ``empty``."""
         if self.value is EMPTY:
             return "empty"
         return self.type.name if self.type is not None and self.type.is_strong else type_name_of(self.value)
 
     def write(self, value: Any, writer: int = 0) -> None:
-        """Stores a value as it is; `writer` is the uid of the node that writes, 0 for none."""
+        """Stores a value unchanged; `writer` is the uid of the node that writes, 0 for none."""
         self.value = value
         self.sequence += 1
         journal = self.board.journal
@@ -72,9 +73,9 @@ Journal = Callable[[Entry, int], None]
 
 
 class Blackboard(MutableMapping[str, Any]):
-    """The entries of one scope, and the way to those of the enclosing scopes.
+    """The entries of one scope, with access to those of the enclosing scopes.
 
-    As a mapping it reads and writes by name, through all remappings.
+    Used as a mapping, it reads and writes entries by name and follows all remappings.
     """
 
     __slots__ = ("autoremap", "entries", "journal", "locate", "parent", "remapping", "root", "scopes")
@@ -91,7 +92,7 @@ class Blackboard(MutableMapping[str, Any]):
 
     @property
     def path(self) -> str:
-        """The path of the SubTree that the scope belongs to; "" for the root's."""
+        """The path of the SubTree to which the scope belongs; "" for the root."""
         return self.locate()
 
     def scope(self, path: str) -> "Blackboard":
@@ -111,7 +112,7 @@ class Blackboard(MutableMapping[str, Any]):
         return type(self)(self)
 
     def find(self, key: str) -> Entry | None:
-        """Returns the entry that a name in this scope stands for, or None."""
+        """Returns the entry that a name means in this scope, or None."""
         board = self
         while True:
             if key[:1] == "@":
@@ -130,10 +131,10 @@ class Blackboard(MutableMapping[str, Any]):
             board = parent
 
     def create(self, key: str, kind: ValueType | None) -> Entry:
-        """Declares an entry, where the remapping leads; returns the existing one if there is one.
+        """Declares an entry in the scope to which the remapping leads; if the entry exists, returns it.
 
         Raises:
-            PortError: it exists with another type.
+            PortError: the entry exists with another type.
         """
         board = self
         if key.count("@") > 1 and key.startswith("@"):
@@ -159,7 +160,7 @@ class Blackboard(MutableMapping[str, Any]):
         """Writes a value as a typed output port does; `kind` None or ANY is BT.CPP's ``set<Any>``.
 
         Raises:
-            PortError: the entry has a type that the value does not convert to.
+            PortError: the value cannot be converted to the type of the entry.
         """
         if key[:1] == "@":
             if "@" in key[1:]:
@@ -175,7 +176,7 @@ class Blackboard(MutableMapping[str, Any]):
             _assign(entry, value, kind, writer)
 
     def unset(self, key: str, writer: int = 0) -> None:
-        """Removes an entry of this scope itself, if there is one; remapped names are not followed."""
+        """Removes an entry of this scope, if it exists; remappings are not followed."""
         entry = self.entries.pop(key, None)
         if entry is not None and self.journal is not None:
             self.journal(entry, writer)
@@ -216,7 +217,7 @@ class Blackboard(MutableMapping[str, Any]):
 
 
 def _kept_kind(entry: Entry, value: Any) -> Any:
-    """Converts a value to the kind of number that the entry holds, as BT.CPP's ``Any::copyInto``."""
+    """Converts a number to the kind of number that the entry holds, as BT.CPP's ``Any::copyInto``."""
     old, number = as_number(entry.value), as_number(value)
     if old is None or isinstance(entry.value, bool):
         return value
@@ -232,7 +233,7 @@ def _kept_kind(entry: Entry, value: Any) -> Any:
 
 
 def _assign(entry: Entry, value: Any, kind: ValueType | None, writer: int) -> None:
-    """Writes to an entry that exists in this scope itself, as `kind`."""
+    """Writes a value of the type `kind` to an entry of this scope."""
     declared = entry.type
     if declared is None or not declared.is_strong:
         entry.type = ANY if kind is None else kind

@@ -1,4 +1,4 @@
-"""The table of the built-in nodes, `catalog.json`, which all parts share."""
+"""The table of the built-in nodes, `catalog.json`, which all parts of BT Studio use."""
 
 import dataclasses
 import functools
@@ -40,7 +40,7 @@ class CatalogNode:
 
     @functools.cached_property
     def manifest(self) -> dict[str, PortSpec]:
-        """Its ports as the engine uses them."""
+        """Returns the ports of the node in the engine's form."""
         return {port.name: _spec(port) for port in self.ports}
 
 

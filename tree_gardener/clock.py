@@ -1,4 +1,4 @@
-"""Time, as an argument: clocks and the timers of a tree."""
+"""Clocks, and the timers of a tree. Time is an argument."""
 
 import heapq
 import itertools
@@ -11,17 +11,17 @@ class Clock(Protocol):
     """A source of time that can also wait."""
 
     def now(self) -> float:
-        """Seconds since some fixed moment; never goes back."""
+        """Returns the seconds since a fixed moment; they never decrease."""
 
     def sleep(self, duration_s: float) -> None:
         """Waits for this many seconds."""
 
 
 class SystemClock:
-    """The computer's own time."""
+    """The clock of the computer."""
 
     def now(self) -> float:
-        """Seconds since some fixed moment."""
+        """Returns the seconds since a fixed moment."""
         return time.monotonic()
 
     def sleep(self, duration_s: float) -> None:
@@ -36,7 +36,7 @@ class ManualClock:
         self._now_s = now_s
 
     def now(self) -> float:
-        """Seconds since zero."""
+        """Returns the seconds since the start at zero."""
         return self._now_s
 
     def sleep(self, duration_s: float) -> None:
@@ -47,7 +47,7 @@ class ManualClock:
 
 
 class Timer:
-    """One call that is due at a time."""
+    """One call that is scheduled for a time."""
 
     __slots__ = ("callback", "deadline_s")
 
@@ -72,13 +72,13 @@ class Timers:
         self._order = itertools.count()
 
     def start(self, delay_s: float, callback: Callable[[], None]) -> Timer:
-        """Schedules `callback` for when `delay_s` is over."""
+        """Schedules a call of `callback` after `delay_s` seconds."""
         timer = Timer(self.clock.now() + delay_s, callback)
         heapq.heappush(self.heap, (timer.deadline_s, next(self._order), timer))
         return timer
 
     def fire(self) -> None:
-        """Makes the calls that are due, in the order of their deadlines."""
+        """Makes the calls whose time has come, in the order of their deadlines."""
         # A tolerance, because seconds in floats do not add up: three times 0.1 s is 0.30000000000000004 s.
         now_s = self.clock.now() + 1e-9
         while self.heap and self.heap[0][0] <= now_s:
@@ -87,7 +87,7 @@ class Timers:
                 callback()
 
     def next_s(self) -> float | None:
-        """Returns when the next call is due, or None."""
+        """Returns the time at which the next call is due, or None."""
         while self.heap and self.heap[0][2].callback is None:
             heapq.heappop(self.heap)
         return self.heap[0][0] if self.heap else None

@@ -1,11 +1,11 @@
 """Pre- and post-conditions: the scripts that any node can have as attributes.
 
 Before a tick, in this order and not in that of the attributes: ``_failureIf``, ``_successIf`` and ``_skipIf``
-are tested while the node is IDLE, and a true one decides without ticking it; ``_while`` is tested at every
-tick, and when it is false the node is SKIPPED, after it was halted if it was RUNNING.
+are tested while the node is IDLE. If one is true, it decides the result, and the node is not ticked.
+``_while`` is tested at every tick. If it is false, the node is SKIPPED; a RUNNING node is halted before.
 
-After a result, also one that a pre-condition decided: ``_onSuccess`` or ``_onFailure``, then ``_post``.
-``_onHalted`` runs whenever the node is halted.
+After a result, also after one that a pre-condition decided, ``_onSuccess`` or ``_onFailure`` runs, and then
+``_post``. ``_onHalted`` runs whenever the node is halted.
 """
 
 from collections.abc import Callable, Mapping
@@ -26,7 +26,7 @@ class Condition:
 
     Attributes:
         text: the script.
-        call: runs it; a pre-condition gives true or false.
+        call: runs the script; for a pre-condition it returns true or false.
     """
 
     __slots__ = ("call", "text")
@@ -74,7 +74,7 @@ class Guard:
         return None
 
     def after(self, node: Node, status: Status) -> None:
-        """Runs the post-conditions of a result."""
+        """Runs the post-conditions after a result."""
         condition = self.on_success if status is SUCCESS else self.on_failure
         if condition is not None:
             self.run(node, condition)
@@ -82,7 +82,7 @@ class Guard:
             self.run(node, self.post)
 
     def halted(self, node: Node) -> None:
-        """Runs ``_onHalted``."""
+        """Runs ``_onHalted`` after the node was halted."""
         if self.on_halted is not None:
             self.run(node, self.on_halted)
 
@@ -95,9 +95,9 @@ class Guard:
 
 
 def compile_conditions(attributes: Mapping[str, str]) -> dict[str, Script]:
-    """Compiles the conditions among a node's attributes.
+    """Compiles the pre- and post-conditions among a node's attributes.
 
     Raises:
-        ScriptError: one does not parse.
+        ScriptError: a condition cannot be parsed.
     """
     return {name: compile_script(text) for name, text in attributes.items() if name in CONDITIONS}

@@ -1,4 +1,4 @@
-"""Control nodes and decorators of your own.
+"""Base classes for users' control nodes and decorators.
 
 ```python
 from tree_gardener import ControlNode, Status
@@ -15,8 +15,8 @@ class FirstToSucceed(ControlNode):
         return Status.RUNNING
 ```
 
-The engine evaluates the node's own pre- and post-conditions round `update`. What it makes of the result is in
-`tree_gardener.controls.custom`.
+The engine evaluates the pre- and post-conditions of the node before and after `update`. The module
+`tree_gardener.controls.custom` describes how the engine handles the result.
 """
 
 from collections.abc import Callable
@@ -31,17 +31,17 @@ if TYPE_CHECKING:
 
 
 class ControlNode:
-    """A control node of your own: it decides in `update` which of its children are ticked.
+    """The base class of a user's control node, whose `update` decides which children are ticked.
 
     Declare ports with ``INPUT_PORTS``, ``OUTPUT_PORTS`` and ``INOUT_PORTS``, as in an action. The constructor
-    is called with the node's name; children, ports and the clock are there from `setup` on.
+    is called with the node's name; children, ports and the clock are available from `setup` on.
 
     Attributes:
-        NODE_KIND: its kind, for the checker, where the base class is in another file.
+        NODE_KIND: the kind of the node; the checker needs it if the base class is in another file.
         MARKS_RUNNING: whether the engine makes the node RUNNING before `update`, as the nodes of
             BehaviorTree.CPP do that call ``setStatus(RUNNING)`` first.
-        MIN_CHILDREN: the least number of children, 1 or more; checked when the tree is loaded.
-        MAX_CHILDREN: the largest number, or None for any.
+        MIN_CHILDREN: the smallest number of children, 1 or more; checked when the tree is loaded.
+        MAX_CHILDREN: the largest number of children, or None for any number.
         name: the node's name.
     """
 
@@ -64,24 +64,24 @@ class ControlNode:
         """Prepares the node once, before the first tick; ``kwargs["node"]`` is the rclpy node or None."""
 
     def update(self) -> Status:
-        """Does one tick.
+        """Executes one tick, and returns the result.
 
-        SUCCESS and FAILURE set the node's status; children keep theirs until you reset them. RUNNING sets it.
-        SKIPPED leaves the status as it is. Anything else, None too, is a TickError.
+        SUCCESS, FAILURE and RUNNING become the node's status; children keep their status until you reset
+        them. SKIPPED does not change the node's status. Any other value, including None, is a TickError.
         """
         raise NotImplementedError(f"{type(self).__name__} has no method update")
 
     def halt(self) -> None:
         """Stops the node: halts its children and makes it IDLE.
 
-        An override is for what the node remembers. The engine runs it first and then halts the children
-        itself, even if it raised; it need not call this method. It may be called while the node is IDLE. Call
-        ``self.halt()`` in `update` to start again from nothing.
+        Override it to reset the state of your class. The engine calls the override first, and then halts the
+        children itself, even after an exception; so the override need not call this method. The method may be
+        called while the node is IDLE. Call ``self.halt()`` in `update` to restart the node.
         """
         self._node.halt_by_itself()
 
     def shutdown(self) -> None:
-        """Frees what `setup` took; called once, at the end."""
+        """Frees the resources that `setup` acquired; called once, at the end."""
 
     # -- what you call ------------------------------------------------------------------------------
 
@@ -96,7 +96,7 @@ class ControlNode:
 
     @property
     def status(self) -> Status:
-        """The node's own status; until `update` returned, that of before the tick, or RUNNING."""
+        """The node's own status; during `update`, the status from before the tick, or RUNNING."""
         return self._node.status
 
     @property
@@ -108,12 +108,12 @@ class ControlNode:
         """Returns the stored status of a child; never SKIPPED.
 
         Raises:
-            TickError: there is no such child.
+            TickError: the child does not exist.
         """
         return self._node.child_at(index).status
 
     def mark_running(self) -> None:
-        """Makes the node RUNNING within its tick, for nodes that test something before.
+        """Makes the node RUNNING within its tick, for a node that tests something before that.
 
         Raises:
             TickError: it is called outside of the node's own tick.
@@ -123,13 +123,13 @@ class ControlNode:
     def tick_child(self, index: int) -> Status:
         """Ticks a child and returns its result, which may be SKIPPED: the child then keeps its status.
 
-        The same child may be ticked again in one tick. A StatefulAction that rests in SUCCESS or FAILURE
-        returns that again without a callback: reset it first to start it again.
+        The same child may be ticked again in one tick. A StatefulAction that has kept SUCCESS or FAILURE
+        returns it again without a callback; reset the child first to start it again.
 
         Raises:
-            TickError: the child, or a node below it, raised; it names that node. Or there is no such child,
-                or the call comes from outside of the node's own tick, from another thread, or while a child
-                is being ticked.
+            TickError: the child or a node below it raised an exception (the error names that node), the child
+                does not exist, or the call comes from outside of the node's own tick, from another thread, or
+                while a child is being ticked.
         """
         return self._node.tick_child(index)
 
@@ -137,7 +137,8 @@ class ControlNode:
         """Halts a child if it is RUNNING (its ``_onHalted`` runs), and makes it IDLE in every case.
 
         Raises:
-            TickError: the child raised; or as for `tick_child`. `halt` and timers may call it too.
+            TickError: the child raised an exception, or the reasons are those of `tick_child`. Unlike
+                `tick_child`, the method may also be called by `halt` and by timers.
         """
         self._node.halt_child(index)
 
@@ -150,17 +151,17 @@ class ControlNode:
         self._node.halt_children(0)
 
     def emit_wake_up(self) -> None:
-        """Asks for another tick soon; may be called from any thread."""
+        """Requests another tick soon; may be called from any thread."""
         self._node.tree.wake()
 
     def now(self) -> float:
-        """Returns seconds of the tree's clock: simulated time where there is one. Never use another clock."""
+        """Returns seconds of the tree's clock: simulated time if there is one. Use no other clock."""
         return self._node.tree.clock.now()
 
     def start_timer(self, delay_s: float, callback: Callable[[], None]) -> "Timer":
         """Calls `callback` at the first tick, or in the first sleep between ticks, after `delay_s` seconds.
 
-        The callback may halt children and wake the tree up, and cannot tick a child. Cancel the timer in
+        The callback may halt children and wake the tree up, but cannot tick a child. Cancel the timer in
         `halt` with its method ``cancel()``.
         """
         return self._node.start_timer(delay_s, callback)
@@ -169,7 +170,7 @@ class ControlNode:
         """Reads an input port, converted to its type.
 
         Raises:
-            PortError: it has no value, or one that does not convert.
+            PortError: the port has no value, or its value cannot be converted.
         """
         return read_port(self._node, port)
 
@@ -177,15 +178,15 @@ class ControlNode:
         """Writes an output port.
 
         Raises:
-            PortError: it was given no ``{key}``, or the entry is of another type.
+            PortError: the tree gives the port no ``{key}``, or the entry has another type.
         """
         write_port(self._node, port, value)
 
 
 class DecoratorNode(ControlNode):
-    """A decorator of your own: a node with exactly one child.
+    """The base class of a user's decorator, a node with exactly one child.
 
-    After each of its ticks a child that rests in SUCCESS or FAILURE becomes IDLE.
+    After each tick of the decorator, a child in SUCCESS or FAILURE becomes IDLE.
     """
 
     NODE_KIND: ClassVar[str] = "Decorator"
@@ -205,15 +206,16 @@ class DecoratorNode(ControlNode):
 
 
 class LoopNode:
-    """A loop over elements of any type, as BehaviorTree.CPP's ``LoopNode<T>``.
+    """The base class of a loop over elements of any type, as BehaviorTree.CPP's ``LoopNode<T>``.
 
     ```python
     class LoopPose(LoopNode):
         ELEMENT = Pose
     ```
 
-    It is the rule of the built-in Loop nodes: ticks its child once for each element of `queue`, which is
-    written to `value`. A SharedQueue on the blackboard is consumed in place, a list or tuple is copied.
+    It follows the rule of the built-in Loop nodes: it ticks its child once for each element of `queue`, and
+    writes the element to `value`. A SharedQueue on the blackboard is consumed in place, a list or tuple is
+    copied.
 
     Attributes:
         ELEMENT: the type of an element; Any accepts everything. Only int, float, str, bool and enums can be

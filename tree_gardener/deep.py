@@ -1,4 +1,4 @@
-"""Ticks of trees that are deeper than Python's limit of recursion allows."""
+"""Ticks trees that are deeper than Python's recursion limit permits."""
 
 import sys
 import threading
@@ -6,10 +6,10 @@ from collections.abc import Callable
 from typing import Any, Final, TypeVar
 
 DEEP: Final = 150
-"""Trees up to this depth are ticked directly: the limit that Python starts with leaves room enough."""
+"""Trees up to this depth are ticked directly, since Python's default recursion limit suffices for them."""
 
 CALLS_ARE_FREE: Final[bool] = sys.version_info >= (3, 11)
-"""Whether calls between Python functions take no room on the machine's stack."""
+"""Whether calls between Python functions need no space on the C stack."""
 
 _FRAMES_PER_LEVEL: Final = 6
 _STACK_BYTES_PER_LEVEL: Final = 16 * 1024

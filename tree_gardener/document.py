@@ -15,7 +15,7 @@ from tree_gardener.errors import Diagnostic, LoadError
 MAX_BYTES: Final = 64 * 1024 * 1024
 MAX_ELEMENTS: Final = 1_000_000
 MAX_XML_DEPTH: Final = 1_000
-"""Of any elements; that of nodes is checked, as in BT.CPP, at 256 (`structure`)."""
+"""The largest depth of XML elements. The depth of nodes is limited to 256, as in BT.CPP (`structure`)."""
 
 _HINTS: Final = {
     "mismatched tag": "close every element that is opened, in reverse order",
@@ -32,10 +32,10 @@ class Element:
 
     Attributes:
         tag: its name.
-        attributes: in the order of the document.
-        children: the elements in it.
-        text: the text in it; collected inside of ``<Code>`` only.
-        offset: of its first byte in the document.
+        attributes: its attributes, in the order of the document.
+        children: the elements that it contains.
+        text: its text; collected only inside of ``<Code>``.
+        offset: the offset of its first byte in the document.
     """
 
     __slots__ = ("attributes", "children", "offset", "tag", "text")
@@ -48,7 +48,7 @@ class Element:
         self.offset = offset
 
     def walk(self) -> Iterator["Element"]:
-        """Yields the element and all in it, in the order of the document."""
+        """Yields the element and all its descendants, in the order of the document."""
         stack = [self]
         while stack:
             element = stack.pop()
@@ -61,8 +61,8 @@ class Document:
     """A parsed document.
 
     Attributes:
-        name: for messages.
-        data: the bytes.
+        name: the name of the document in messages.
+        data: the bytes of the document.
         root: the document element.
     """
 
@@ -71,19 +71,22 @@ class Document:
     root: Element
 
     def locate(self, offset: int) -> tuple[int, int]:
-        """Returns line and column, from 1, of a byte."""
+        """Returns line and column, both from 1, of a byte offset."""
         line = self.data.count(b"\n", 0, offset) + 1
         start = self.data.rfind(b"\n", 0, offset) + 1
         return line, len(self.data[start:offset].decode("utf-8", "replace")) + 1
 
     def locate_value(self, element: Element, attribute: str) -> int:
-        """Returns the offset of the first character of an attribute's value, or that of the element."""
+        """Returns the offset of the first character of an attribute's value.
+
+        Without it, the element's offset.
+        """
         pattern = re.compile(rb"""\s""" + re.escape(attribute.encode()) + rb"""\s*=\s*["']""")
         match = pattern.search(self.data, element.offset)
         return element.offset if match is None else match.end()
 
     def skip(self, offset: int, characters: int) -> int:
-        """Returns the offset behind a number of characters; a reference such as ``&lt;`` is one."""
+        """Returns the offset after a number of characters; a reference such as ``&lt;`` counts as one."""
         text = self.data[offset:].decode("utf-8", "replace") if characters else ""
         position = 0
         for _ in range(characters):
@@ -125,7 +128,7 @@ def parse_document(text: str | bytes, name: str = "tree.xml") -> Document:
     """Parses XML.
 
     Raises:
-        LoadError: it is not well-formed, has a DTD, or is too large.
+        LoadError: the document is not well-formed, has a DTD, or is too large.
     """
     data = text.encode() if isinstance(text, str) else text
     if len(data) > MAX_BYTES:
@@ -199,7 +202,7 @@ class _Reader:
 
 
 def embedded_sources(document: Document) -> dict[str, str]:
-    """Returns the sources of the actions in ``<Code>``, by action; both forms of self-contained documents."""
+    """Returns the sources of the actions in ``<Code>``, by name; reads both self-contained forms."""
     sources = {}
     for code in document.root.children:
         if code.tag != "Code":

@@ -29,16 +29,16 @@ class Diagnostic:
     """One thing that is wrong with a document.
 
     Attributes:
-        code: stable, such as ``TG103``.
+        code: the stable code, such as ``TG103``.
         message: what is wrong, in one sentence.
         hint: what to do about it, or "".
         severity: ``error`` or ``warning``.
-        file: name of the document.
+        file: the name of the document.
         line: from 1; 0 when unknown.
         column: from 1; 0 when unknown.
-        tree: ID of the BehaviorTree, or "".
+        tree: the ID of the BehaviorTree, or "".
         node: the node's tag, or "".
-        node_id: its ``_bts_id``, or "".
+        node_id: the node's ``_bts_id``, or "".
         port: the port or attribute concerned, or "".
     """
 
@@ -96,7 +96,7 @@ class PortError(TreeGardenerError):
 
 
 class TickError(TreeGardenerError):
-    """A node raised while it was ticked, halted or set up.
+    """A node raised an exception while it was ticked, halted or set up.
 
     Attributes:
         uid: the node's uid.
@@ -142,7 +142,7 @@ _PACKAGE = __file__.rsplit("/", 1)[0] + "/"
 
 
 def _locate(trace: TracebackType | None) -> tuple[str, int]:
-    """Returns the innermost line that belongs to an action, else to anything outside the engine."""
+    """Returns the innermost line of an action; if there is none, the innermost line outside of the engine."""
     return _nearest((frame.filename, frame.lineno or 0) for frame in traceback.extract_tb(trace))
 
 

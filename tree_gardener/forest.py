@@ -1,4 +1,4 @@
-"""Documents that belong together: a main document, what it includes, and others registered before it."""
+"""Documents that belong together: a main document, its includes, and documents registered before it."""
 
 import pathlib
 from collections.abc import Mapping, Sequence
@@ -13,10 +13,10 @@ class Forest:
     """All trees and models of some documents.
 
     Attributes:
-        definitions: the trees by ID; of two with one ID the last counts.
-        models: of the SubTrees, by tree ID.
-        sources: of the actions that the documents carry, by name.
-        main: the document that says which tree is the main one.
+        definitions: the trees by ID; if two have the same ID, the last one counts.
+        models: the models of the SubTrees, by tree ID.
+        sources: the sources of the actions in the documents, by name.
+        main: the document that names the main tree.
     """
 
     def __init__(self) -> None:
@@ -28,7 +28,7 @@ class Forest:
         self._own_trees: list[str] = []
 
     def read(self, text: str | bytes, name: str, base_path: pathlib.Path | None) -> None:
-        """Parses a document and those that it includes; the last one read is the main one."""
+        """Parses a document and its includes; the document that is read last is the main one."""
         self.main = self._read(text, name, base_path, [])
 
     def _read(
@@ -87,7 +87,7 @@ class Forest:
         """Returns the tree to run: the given one, that of ``main_tree_to_execute``, or the only one.
 
         Raises:
-            LoadError: none is named and there are several, or no tree has that name.
+            LoadError: no tree is named and there are several, or the named tree does not exist.
         """
         assert self.main is not None
         named = wanted or self.main.root.attributes.get("main_tree_to_execute")
@@ -103,7 +103,7 @@ class Forest:
         )
 
     def check_cycles(self, main: Definition) -> list[Diagnostic]:
-        """Finds trees that contain themselves and SubTrees without a tree, from the main tree on."""
+        """Finds trees that contain themselves, and SubTrees whose tree does not exist, from `main` on."""
         problems: list[Diagnostic] = []
         done: set[str] = set()
         above: dict[str, None] = {main.tree_id: None}  # in order, and quick to look up

@@ -1,7 +1,7 @@
 """Hooks before and after the ticks of nodes: for debuggers, tests and timing.
 
-A hook before a node may return a result, which then stands for the tick: the node is not ticked. A hook after
-it may return another result. Nodes without hooks are ticked exactly as if there were none in the tree.
+A hook before a node may return a result; the node is then not ticked. A hook after a node may replace its
+result. Nodes without hooks are ticked exactly as in a tree without hooks.
 """
 
 import dataclasses
@@ -37,7 +37,7 @@ class Hooks:
         self.times_leaves = False
 
     def applies(self, node: Node) -> bool:
-        """Whether a node must be ticked through the hooks."""
+        """Whether a node must be ticked with hooks."""
         if self.tree.node_times_s is not None or (self.times_leaves and isinstance(node, Leaf)):
             return True
         return any(hook.uid in (None, node.uid) for hook in self.hooks)
@@ -69,7 +69,7 @@ class Hooks:
         return status
 
     def timed(self, node: Node, inner: Execute) -> Status:
-        """Ticks a node, and measures it if an observer asked for times."""
+        """Ticks a node, and measures its time if an observer requested times."""
         tree = self.tree
         times = tree.node_times_s
         is_leaf = self.times_leaves and isinstance(node, Leaf)
@@ -90,7 +90,7 @@ class Hooks:
 
 
 def _take(node: Node, status: Status) -> Status:
-    """Sets a result that a hook decided instead of the node."""
+    """Sets the status of a node to the result that a hook decided."""
     if status is IDLE:
         raise ValueError("a hook must not return IDLE")
     if status is SKIPPED:

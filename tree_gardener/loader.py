@@ -1,8 +1,8 @@
 """Builds the nodes of a tree from checked documents.
 
-Nodes are made in pre-order, each SubTree node before its body, without recursion; on the way their ports
-declare entries on the blackboard, as in BehaviorTree.CPP, so that contradictory types are found before the
-first tick.
+Nodes are made in pre-order, each SubTree node before its body, without recursion. Meanwhile the ports declare
+entries on the blackboard, as in BehaviorTree.CPP, so that contradictory types are found before the first
+tick.
 """
 
 import logging
@@ -87,7 +87,7 @@ class Builder:
         )
 
     def build(self, main: Definition) -> list[Node]:
-        """Makes all nodes of the tree, in pre-order; `problems` holds what is wrong."""
+        """Makes all nodes of the tree, in pre-order; adds errors to `problems`."""
         instance = Instance(main.tree_id, self.tree.blackboard, None)
         stack: list[tuple[Definition, Element, Instance, Node | None, int]] = [
             (main, main.body, instance, None, 1)
@@ -153,7 +153,7 @@ class Builder:
     def substituted(
         self, element: Element, kind: NodeType, name: str, instance: Instance, uid: int
     ) -> tuple[NodeType, TestConfig | None]:
-        """Returns the type that a node gets after substitution, with the config of a TestNode."""
+        """Returns the node's type after substitution; for a TestNode also its configuration."""
         prefix = instance.path()
         local = name if "name" in element.attributes else f"{type_of(element)}::{uid}"
         path = f"{prefix}/{local}" if prefix else local
@@ -170,7 +170,7 @@ class Builder:
         return kind, None
 
     def ports(self, element: Element, kind: NodeType) -> Mapping[str, str]:
-        """Returns the ports that a node was given, and the textual defaults of the others."""
+        """Returns the ports that the document gives a node, and the textual defaults of the others."""
         manifest = kind.manifest
         if manifest is None:
             return {
@@ -320,7 +320,7 @@ class Builder:
     # -- SubTrees -----------------------------------------------------------------------------------
 
     def scope(self, node: Node, instance: Instance) -> Blackboard:
-        """Makes the blackboard of a SubTree's body."""
+        """Makes the blackboard for the tree that a SubTree node calls."""
         element = node.element
         path = node.path
         if path in self.paths:
@@ -343,7 +343,7 @@ class Builder:
         return board
 
     def autoremap(self, element: Element) -> bool:
-        """Whether names that are not found inside are those of the caller."""
+        """Whether names that a SubTree does not have are those of the caller."""
         text = element.attributes.get("_autoremap")
         if text is None:
             return False
@@ -377,7 +377,10 @@ class Builder:
 
 
 def constant(text: str) -> tuple[Any, ValueType | None]:
-    """Returns the value of a constant that a SubTree is given; a text makes an entry without a type."""
+    """Returns the value of a constant for a SubTree, with its type.
+
+    None for a text, whose entry has no type.
+    """
     if _INTEGER.match(text):
         number = int(text)
         if INT64[0] <= number <= INT64[1]:
@@ -388,7 +391,10 @@ def constant(text: str) -> tuple[Any, ValueType | None]:
 
 
 class PortText(str):
-    """The text of a port, as the older contract passes it to an action; it keeps the scope it belongs to."""
+    """The text of a port in the form of the older contract of actions.
+
+    It stores the scope to which it belongs.
+    """
 
     __slots__ = ("board", "port", "writer")
 

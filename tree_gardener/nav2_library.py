@@ -1,6 +1,6 @@
 """Nav2's nodes as data: the table of all of them, and the sources of those in `tree_gardener.nav2`.
 
-It loads none of them.
+The module loads none of the nodes.
 """
 
 import json

@@ -1,12 +1,12 @@
 """The nodes of a running tree: what all of them share.
 
 A node's `execute` is its whole tick: it applies the node's rule, sets the node's own status and returns the
-result. Parents call their children's `entry` directly, through tuples that are made once (`link`), so that a
-plain node costs one call, and only nodes with conditions or hooks take a longer way.
+result. Parents call the `entry` of their children directly, through tuples that are made once (`link`). So a
+plain node costs one call; only nodes with conditions or hooks cost more.
 
 While the tree is observed, `journal` is the recorder. A node reports to it when it starts (`touched`), and
 reports its results, each as one of its `marks`, which are made once (`results`). The code that resets a node
-reports that where it is a change. Without observers, `journal` is None, and that test is the whole cost.
+reports the reset if the status changes. Without observers, `journal` is None, and this test is the only cost.
 """
 
 import enum
@@ -59,15 +59,15 @@ class Node:
     """The base of all nodes.
 
     Attributes:
-        tree: the tree that it is part of.
+        tree: the tree of which the node is a part.
         uid: 1 for the root, then in pre-order.
-        type: its tag in XML.
-        name: its name, or its type if it was given none.
-        parent: None for the root.
-        children: in order of execution.
-        status: never SKIPPED.
+        type: the tag of the node in XML.
+        name: the name of the node, or its type if it has none.
+        parent: the parent; None for the root.
+        children: the children in order of execution.
+        status: the stored status; never SKIPPED.
         board: the scope of the blackboard that its ports and scripts use.
-        ports: what its ports were given, as text.
+        ports: the texts that the document gives its ports.
     """
 
     __slots__ = (
@@ -90,7 +90,7 @@ class Node:
     MARKS_RUNNING: ClassVar[tuple[Status, ...]] = (IDLE, SUCCESS, FAILURE)
     """The statuses from which the node makes itself RUNNING before it ticks its children."""
     NEEDS: ClassVar[str] = ""
-    """The port without which the node cannot be made: BehaviorTree.CPP reads it in the constructor."""
+    """The port without which the node cannot be created; BehaviorTree.CPP reads it in the constructor."""
     CODE: ClassVar[str] = ""
     """The port that holds a script, which is read when the node is made."""
 
@@ -125,7 +125,7 @@ class Node:
 
     @property
     def path(self) -> str:
-        """The names of the SubTrees that contain the node and its own, joined by ``/``."""
+        """The names of the SubTrees that contain the node, and its own name, joined by ``/``."""
         parts = [self.local_path]
         around = self.instance.subtree
         while around is not None:
@@ -135,12 +135,12 @@ class Node:
 
     @property
     def node_id(self) -> str:
-        """The id of the diagram's node that it was made from, or ""."""
+        """The id of the diagram's node from which it was made, or ""."""
         return self.element.attributes.get("_bts_id", "")
 
     @property
     def tree_id(self) -> str:
-        """ID of the BehaviorTree that it is part of."""
+        """The ID of the BehaviorTree of which it is a part."""
         return self.instance.tree_id
 
     @property
@@ -150,12 +150,12 @@ class Node:
 
     @property
     def attributes(self) -> Mapping[str, str]:
-        """All its attributes in XML."""
+        """All attributes of the node in XML."""
         return self.element.attributes
 
     @property
     def behaviour(self) -> Any:
-        """The py_trees object of the node: the user's own behaviour for an action, a view for all else."""
+        """The py_trees object of the node: the user's behaviour for an action, a view for other nodes."""
         from tree_gardener.views import view_of  # noqa: PLC0415 - views need nodes
 
         return view_of(self)
@@ -245,10 +245,10 @@ class Node:
     # -- ports and errors ---------------------------------------------------------------------------
 
     def get(self, port: str) -> Any:
-        """Reads one of its own ports.
+        """Reads a port of the node.
 
         Raises:
-            TickError: it has no value, or one of the wrong type.
+            TickError: the port has no value, or a value of the wrong type.
         """
         try:
             return read_port(self, port)
@@ -256,10 +256,10 @@ class Node:
             raise TickError(self, str(error)) from None
 
     def put(self, port: str, value: Any) -> None:
-        """Writes one of its own ports.
+        """Writes a port of the node.
 
         Raises:
-            TickError: it leads to no entry, or to one of another type.
+            TickError: the port leads to no entry, or to an entry of another type.
         """
         try:
             write_port(self, port, value)
@@ -307,7 +307,7 @@ class Control(Node):
         return status
 
     def finish_all(self, status: Status) -> Status:
-        """Does the same as `finish`, but faster: every child is done, so that none must be halted."""
+        """Does the same as `finish`, but faster, since no child can be RUNNING."""
         if self.journal is not None:
             self.journal.reset_done(self.children)
             self.journal.results.append(self.marks[0] if status is SUCCESS else self.marks[1])

@@ -20,12 +20,12 @@ class BlackboardChange:
     """A blackboard entry that was written or removed.
 
     Attributes:
-        scope: path of the SubTree that stores it; "" for the root.
-        key: its name there.
-        type: its type by name; ``empty`` if it has no value.
-        value: by reference; None if it has none.
+        scope: the path of the SubTree that stores the entry; "" for the root.
+        key: the name of the entry in that scope.
+        type: the name of its type; ``empty`` if it has no value.
+        value: the value itself, not a copy; None if there is none.
         removed: whether it was removed.
-        writer_uid: the node that wrote last; 0 if it was written from outside.
+        writer_uid: the uid of the node that wrote it last; 0 if it was written from outside.
     """
 
     scope: str
@@ -41,12 +41,13 @@ class TickChanges:
 
     Attributes:
         tick: number of the tick, from 1.
-        changed: nodes whose status differs from that after the tick before, with the new one.
+        changed: nodes whose status differs from that after the previous tick, with the new status.
         flashed: nodes that returned a status within the tick and no longer have it after the tick: a SUCCESS
-            or FAILURE that the parent reset, or SKIPPED. A node that was ticked twice may be here twice.
+            or FAILURE that the parent reset, or SKIPPED. A node that was ticked twice may be listed twice.
         blackboard: entries that were written, also between the tick before and this one.
-        duration_s: of the tick.
-        node_times_s: seconds that each node took, with all below it, by uid; empty unless asked for.
+        duration_s: the duration of the tick.
+        node_times_s: the seconds that each node took, including the nodes below it, by uid; empty unless
+            requested.
     """
 
     __slots__ = ("blackboard", "changed", "duration_s", "flashed", "node_times_s", "tick")
@@ -77,7 +78,7 @@ class Recorder:
     """Collects the changes of a tree while it is observed.
 
     Attributes:
-        touched: nodes that started, or were reset from what was reported.
+        touched: nodes that started, or whose reported status was reset.
         results: what nodes returned in this tick, except RUNNING, in order.
     """
 
@@ -123,7 +124,7 @@ class Recorder:
                 self.touched.append(child)
 
     def reset_done(self, children: Iterable[Node]) -> None:
-        """Makes all children IDLE, of which none is RUNNING."""
+        """Makes all children IDLE; none of them may be RUNNING."""
         for child in children:
             child.status = IDLE
             if child.reported is not IDLE:
@@ -153,7 +154,7 @@ class Recorder:
             observer(changes)
 
     def collect(self, duration_s: float) -> TickChanges:
-        """Returns the changes in what was recorded."""
+        """Returns the changes, computed from the recorded events."""
         nodes = self.tree.nodes
         touched, results = self.touched, self.results
         self.touched, self.results = [], []
@@ -180,7 +181,7 @@ class Recorder:
 
 
 def change(entry: Entry, writer: int) -> BlackboardChange:
-    """Returns an entry as observers receive it."""
+    """Returns an entry in the form that observers receive."""
     board: Blackboard = entry.board
     value = None if entry.value is EMPTY else entry.value
     removed = board.entries.get(entry.key) is not entry

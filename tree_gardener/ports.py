@@ -34,7 +34,7 @@ class Port:
     """A port of an action, as declared in ``INPUT_PORTS``, ``OUTPUT_PORTS`` or ``INOUT_PORTS``.
 
     Attributes:
-        type: a Python type; ``Any`` accepts everything.
+        type: a Python type; ``Any`` accepts all values.
         default: a value, ``"{key}"``, or ``"{=}"`` for the entry named like the port.
         required: whether a tree must give it a value.
         description: one sentence for users.
@@ -119,7 +119,7 @@ def _spec(name: str, direction: str, port: Any) -> PortSpec:
 
 
 class InputBinding:
-    """The source of an input port's value: a literal that was parsed once, or an entry."""
+    """The source of an input port's value: a literal, which was parsed once, or an entry."""
 
     __slots__ = ("key", "name", "type", "value")
 
@@ -132,10 +132,10 @@ class InputBinding:
             self.value = spec.type.parse(given) if isinstance(given, str) else given
 
     def read(self, node: "Node") -> Any:
-        """Returns the port's value now.
+        """Returns the current value of the port.
 
         Raises:
-            PortError: the entry is missing, empty, or of a type that does not convert.
+            PortError: the entry is missing or empty, or its value cannot be converted.
         """
         if self.key is None:
             return self.value
@@ -153,7 +153,7 @@ def read_port(node: "Node", name: str) -> Any:
     """Reads an input port of a node.
 
     Raises:
-        PortError: it has no value, or one that does not convert.
+        PortError: the port has no value, or its value cannot be converted.
     """
     binding = node.inputs.get(name)
     if binding is None:
@@ -187,7 +187,7 @@ def write_port(node: "Node", name: str, value: Any) -> None:
     """Writes an output port of a node.
 
     Raises:
-        PortError: it leads to no entry, or to one of another type.
+        PortError: the port leads to no entry, or to an entry of another type.
     """
     manifest = node.manifest
     spec = PortSpec(name, INOUT, ANY) if manifest is None else manifest.get(name)
@@ -214,7 +214,7 @@ def node_of(behaviour: Any) -> "Node":
     """Returns the engine's node of a behaviour that is in a tree.
 
     Raises:
-        PortError: it is in no tree, as during ``__init__``.
+        PortError: the behaviour is not in a tree, as during ``__init__``.
     """
     node = getattr(behaviour, "tree_gardener_node", None)
     if node is None:
@@ -226,7 +226,7 @@ def get_input(behaviour: Any, name: str) -> Any:
     """Reads an input port, converted to the port's type.
 
     Raises:
-        PortError: it has no value, or one that does not convert.
+        PortError: the port has no value, or its value cannot be converted.
     """
     return read_port(node_of(behaviour), name)
 
@@ -235,6 +235,6 @@ def set_output(behaviour: Any, name: str, value: Any) -> None:
     """Writes an output port.
 
     Raises:
-        PortError: it was given no ``{key}``, or the entry is of another type.
+        PortError: the tree gives the port no ``{key}``, or the entry has another type.
     """
     write_port(node_of(behaviour), name, value)

@@ -1,4 +1,4 @@
-"""Redirects the port access of classes written for ``py_trees.ports`` to our ports."""
+"""Redirects the port access of classes for ``py_trees.ports`` to the ports of the engine."""
 
 from typing import Any
 

@@ -67,7 +67,7 @@ OLD_NAMES: Final = {
     "ReactiveSelector": "ReactiveFallback",
     "Selector": "Fallback",
 }
-"""Names of version 3 and of other engines, with those of today."""
+"""Node names of version 3 and of other engines, each with the current name."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -77,8 +77,8 @@ class NodeType:
     Attributes:
         name: the tag.
         node_class: the engine's class.
-        manifest: its ports; None if it accepts any.
-        min_children: the least number of children.
+        manifest: its ports; None if it accepts any port.
+        min_children: the smallest number of children.
         max_children: the largest number; None for any.
         behaviour_class: the class of an action, or of a control node of the user; None for others.
         takes_ports: whether that class takes the ports in its constructor.
@@ -94,12 +94,12 @@ class NodeType:
 
     @property
     def is_own(self) -> bool:
-        """Whether it is a control node or decorator of the user."""
+        """Whether the type is a control node or decorator of the user."""
         return issubclass(self.node_class, CustomControl)
 
     @property
     def kind(self) -> Kind:
-        """Its kind."""
+        """The kind of the nodes of this type."""
         return self.node_class.KIND
 
 
@@ -159,7 +159,7 @@ def _user_type(name: str, cls: Any) -> NodeType:
 
 
 def _own_type(name: str, cls: type, own: type[ControlNode]) -> NodeType:
-    """Returns the type of a control node or decorator of the user; `own` is `cls`, or what adapts it."""
+    """Returns the type of a user's control node or decorator; `own` is `cls`, or the class that adapts it."""
     is_decorator = issubclass(own, DecoratorNode)
     least, most = own.MIN_CHILDREN, own.MAX_CHILDREN
     if is_decorator and (least, most) != (1, 1):

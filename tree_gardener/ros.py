@@ -20,11 +20,11 @@ class RosClock:
         self._clock = node.get_clock()
 
     def now(self) -> float:
-        """Seconds of ROS time."""
+        """Returns the ROS time in seconds."""
         return float(self._clock.now().nanoseconds) / NANOSECONDS
 
     def sleep(self, duration_s: float) -> None:
-        """Waits; a node that spins itself must not call it from a callback."""
+        """Waits for this much ROS time; must not be called from a callback of the node that spins."""
         end_s = self.now() + duration_s
         while self.now() < end_s:
             time.sleep(min(0.001, duration_s))
@@ -38,9 +38,10 @@ class RosRunner:
     Args:
         tree: made with ``clock=RosClock(node)``.
         node: the rclpy node; it is handed to ``setup`` of each action.
-        tick_hz: ticks a second.
+        tick_hz: the number of ticks per second.
         finished: called with the root's last status when the run ends by itself.
-        callback_group: of the timer; else one of its own, so that an action may spin the node within a tick.
+        callback_group: the callback group of the timer; by default a separate one, so that an action may spin
+            the node within a tick.
         more: arguments of `Runner`.
     """
 

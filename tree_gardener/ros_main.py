@@ -1,4 +1,4 @@
-"""Runs one tree file as a ROS 2 node: what exported packages start."""
+"""Runs one tree file as a ROS 2 node; exported packages start it."""
 
 import contextlib
 import hashlib
@@ -55,13 +55,13 @@ def run_tree(  # noqa: PLR0913 - what main.py states of one package
     """Ticks a tree by ROS time until it ends, or the process receives a signal.
 
     The node has the parameters ``tick_hz``, ``tree`` (path of the file), ``on_finish`` and ``on_error``, and
-    ROS 2's own ``use_sim_time``. The arguments of this function are their defaults; ``--tick_hz=5.0`` and the
-    like on the command line go before all.
+    ROS 2's own ``use_sim_time``. The arguments of this function are their defaults; arguments such as
+    ``--tick_hz=5.0`` on the command line override all others.
 
     Args:
         tree_file: the document; a self-contained one brings the sources of its actions.
         node_name: the name of the node.
-        actions: a folder of sources, which go before those in the document.
+        actions: a folder of sources, which override those in the document.
         tick_hz: ticks a second.
         on_finish: ``stop`` or ``repeat``, as `Runner` has it.
         on_error: ``stop`` or ``failure``, as `Runner` has it.
@@ -204,7 +204,7 @@ def _load(
 
 
 def _sources(text: bytes, folder: pathlib.Path, log: Any) -> "dict[str, str]":
-    """Returns the sources of a document's actions; a file in the folder goes before the document's copy."""
+    """Returns the sources of a document's actions; a file in the folder overrides the document's copy."""
     if str(folder) not in sys.path:
         sys.path.insert(0, str(folder))  # modules that the actions share
     sources = {}
@@ -235,7 +235,7 @@ def _import_messages() -> None:
 
 @contextlib.contextmanager
 def _handled_signals(stop: threading.Event) -> "Iterator[None]":
-    """Ends the run in order on SIGINT and SIGTERM."""
+    """Ends the run in order after SIGINT or SIGTERM, while the context lasts."""
     numbers = (signal.SIGINT, signal.SIGTERM)
     before = [signal.signal(number, lambda *_: stop.set()) for number in numbers]
     try:

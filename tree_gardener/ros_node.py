@@ -1,4 +1,4 @@
-"""The rclpy that actions find: a node that they share, and a default context that the run has opened.
+"""The rclpy of actions: a node that they share, and a default context that the run has opened.
 
 Tutorials use `rclpy.init()`, `rclpy.spin_once(node)` and `rclpy.ok()`; these work in an action too. Calls
 that would end ROS for the rest of the tree (`rclpy.shutdown()`, `node.destroy_node()`) raise an error that
@@ -59,7 +59,7 @@ class ActionNode(Node):
         """Makes a subscription, as rclpy does.
 
         Raises:
-            TypeError: this process has the topic in another type.
+            TypeError: this process uses the topic with another type.
         """
         with self._other_type_named(msg_type, topic):
             return super().create_subscription(msg_type, topic, *arguments, **options)
@@ -68,14 +68,14 @@ class ActionNode(Node):
         """Makes a publisher, as rclpy does.
 
         Raises:
-            TypeError: this process has the topic in another type.
+            TypeError: this process uses the topic with another type.
         """
         with self._other_type_named(msg_type, topic):
             return super().create_publisher(msg_type, topic, *arguments, **options)
 
     @contextlib.contextmanager
     def _other_type_named(self, msg_type: Any, topic: str) -> Iterator[None]:
-        """Explains rcl's "invalid allocator": one participant cannot have a topic in two types."""
+        """Explains rcl's "invalid allocator": a participant cannot use one topic with two types."""
         try:
             yield
         except RuntimeError:  # RCLError

@@ -45,7 +45,7 @@ def read_arguments(words: Sequence[str]) -> dict[str, Any]:
     """Returns the parameters that the words of a command line give, without those for ROS.
 
     Raises:
-        ParameterError: A word is no parameter, or a switch is neither true nor false.
+        ParameterError: A word is not a parameter, or a switch is neither true nor false.
     """
     values: dict[str, Any] = {}
     for word in words:

@@ -28,12 +28,12 @@ class Overrun:
     """A tick that took longer than its period.
 
     Attributes:
-        tick: its number.
-        duration_s: how long it took.
-        period_s: how long it may take.
+        tick: the number of the tick.
+        duration_s: the duration of the tick.
+        period_s: the time that a tick may take.
         missed: ticks that were skipped because of it.
         slow_uid: the action that took most of the time; 0 if none was ticked.
-        slow_s: how long that took.
+        slow_s: the time that this action took.
     """
 
     tick: int
@@ -67,14 +67,15 @@ class Runner:
     """Ticks a tree at a fixed rate.
 
     Args:
-        tree: set up already.
-        tick_hz: ticks a second.
+        tree: the tree, after `setup()`.
+        tick_hz: the number of ticks per second.
         on_finish: ``stop`` ends the run when the root succeeds, fails or is skipped; ``repeat`` continues.
         on_error: ``stop`` ends the run when an action raises; ``failure`` makes that node fail.
         finished: called once with the root's last status when the run ends by itself.
         fault: called with each error.
         overrun: called after each tick that took longer than its period.
-        measure: seconds, for the length of ticks; not the time that ticks are due by.
+        measure: returns a time in seconds that measures the duration of ticks; it does not determine when
+            ticks are due.
     """
 
     def __init__(  # noqa: PLR0913 - all by keyword

@@ -13,7 +13,9 @@ Bind = Callable[[str, Environment], Callable[[], Any]]
 
 
 class ScriptPort:
-    """The script of a port, bound to the node when the tree is built, or again when an entry's text changed.
+    """The script of a port.
+
+    It is bound to the node when the tree is built, and again when an entry's text has changed.
 
     Attributes:
         fixed: runs the script, if the port holds the script itself and not the name of an entry.
@@ -36,10 +38,10 @@ class ScriptPort:
                 self.fixed = self.current()
 
     def current(self) -> Callable[[], Any]:
-        """Returns the function that runs the script of the port now.
+        """Returns the function that runs the current script of the port.
 
         Raises:
-            TickError: the port has no value, or the text does not parse.
+            TickError: the port has no value, or the text cannot be parsed.
         """
         text = self.node.get(self.port)
         if text != self.text or self.last is None:
@@ -52,5 +54,5 @@ class ScriptPort:
         return self.last
 
     def fault(self, error: ScriptError | PortError) -> TickError:
-        """Returns the error of the node for one of the script."""
+        """Returns the error of the node for an error of its script."""
         return TickError(self.node, f"in the script '{self.text}': {error}")

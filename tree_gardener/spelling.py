@@ -8,7 +8,7 @@ _LONGEST: Final = 100
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
-    """Returns the nearest known name, or "" where none is within a third of the letters and 3 edits."""
+    """Returns the nearest known name, or "" if none is within 3 edits and a third of the letters."""
     wanted = name.lower()[:_LONGEST]
     allowed = min(MAX_SLIPS, max(1, len(wanted) // 3))
     found = [

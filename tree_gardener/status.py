@@ -1,4 +1,4 @@
-"""The five statuses of a node, and how py_trees' four relate to them."""
+"""The five statuses of a node, and their relation to the four of py_trees."""
 
 import enum
 
@@ -27,7 +27,7 @@ class Status(enum.Enum):
 
     @property
     def is_completed(self) -> bool:
-        """Whether it is SUCCESS or FAILURE."""
+        """Whether the status is SUCCESS or FAILURE."""
         return self is Status.SUCCESS or self is Status.FAILURE
 
 

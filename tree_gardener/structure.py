@@ -25,7 +25,7 @@ _ASYNC_IN_REACTIVE: Final = "AsyncSequence"
 
 @dataclasses.dataclass(frozen=True)
 class SubTreeModel:
-    """The ports of a SubTree by its ``TreeNodesModel``; a default of None makes a port mandatory."""
+    """The ports of a SubTree in the ``TreeNodesModel``; a port with the default None is mandatory."""
 
     ports: Mapping[str, str | None]
 
@@ -40,7 +40,7 @@ class Definition:
 
     @property
     def body(self) -> Element:
-        """Its root node."""
+        """The root node of the tree."""
         return self.element.children[0]
 
 
@@ -200,7 +200,7 @@ class StructureCheck:
             )
 
     def check_reactive(self, element: Element) -> None:
-        """Checks the children of a ReactiveSequence by their tags, as BT.CPP does."""
+        """Checks the children of a ReactiveSequence by their tags, as BT.CPP."""
         asynchronous = 0
         for child in element.children:
             if child.tag in EXPLICIT:
@@ -227,7 +227,7 @@ class StructureCheck:
             self.models[tree_id] = SubTreeModel(ports)
 
     def model_ports(self, element: Element) -> Iterator[Element]:
-        """Returns the ports of a model that have valid names."""
+        """Yields the ports of a model that have valid names."""
         for port in element.children:
             if port.tag not in ("input_port", "output_port", "inout_port"):
                 continue

@@ -1,4 +1,4 @@
-"""Actions and control nodes that nobody has written yet: the importer leaves stubs, which always fail."""
+"""Stubs: actions and control nodes of an import that have no code yet; a stub always fails."""
 
 import linecache
 import sys

@@ -15,7 +15,7 @@ from tree_gardener.values import ConversionError, parse_status
 
 
 class RuleError(ValueError):
-    """Substitution rules that make no sense."""
+    """Substitution rules that are invalid."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Rule:
     type: str = ""
 
     def matches(self, name: str, kind: str, path: str) -> bool:
-        """Whether a node is to be replaced."""
+        """Whether the rule replaces a node."""
         return self.pattern in (name, kind) or fnmatch.fnmatchcase(path, self.pattern)
 
 
@@ -35,7 +35,7 @@ def parse_rules(rules: Mapping[str, Any] | str) -> tuple[Rule, ...]:
     """Reads substitution rules, as JSON text or as the object.
 
     Raises:
-        RuleError: they make no sense.
+        RuleError: the rules are invalid.
     """
     if isinstance(rules, str):
         try:

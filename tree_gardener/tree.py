@@ -31,8 +31,8 @@ _log = logging.getLogger("tree_gardener")
 class Tree:
     """A tree of nodes, its blackboard, and the functions that tick it.
 
-    Make one with `from_xml` or `from_file`; call `setup` once, then one of the tick functions again and
-    again, and `shutdown` at the end.
+    Create it with `from_xml` or `from_file`. Call `setup` once, then one of the tick functions repeatedly,
+    and `shutdown` at the end.
 
     Attributes:
         nodes: all nodes in pre-order; ``nodes[0]`` is the root node.
@@ -43,12 +43,13 @@ class Tree:
         wake_up: set by nodes that need another tick soon.
         on_error: called with the error when an action raises, which then counts as FAILURE of its node; if
             None, the error is raised out of the tick.
-        on_warning: called with a node and a sentence where something is tolerated, once for each node and
+        on_warning: called with a node and a sentence if a mistake is tolerated, once for each node and
             sentence; if None, the sentence goes to the logger ``tree_gardener``.
         tick_number: the number of ticks so far.
-        current: holds `current_uid` at its start; it may be memory that is shared with another process.
+        current: a sequence whose first item is `current_uid`; it may be memory that is shared with another
+            process.
         slowest: duration and uid of the slowest action of the last tick, while leaves are timed.
-        node_times_s: time of each node in the tick, while an observer asked for them; else None.
+        node_times_s: the time of each node in the tick, if an observer requested times; else None.
     """
 
     def __init__(self, clock: Clock | None, blackboard: Blackboard | None, enums: Mapping[str, int]) -> None:
@@ -95,12 +96,12 @@ class Tree:
 
         Args:
             text: the document. A self-contained one brings the sources of its actions.
-            nodes: classes of actions by XML tag; they go before those in the document.
+            nodes: classes of actions by XML tag; they override those in the document.
             clock: the time for Delay, Timeout and Sleep; the computer's if None.
             main_tree: the tree to run, if it is not the one that the document names.
-            base_path: the folder that ``<include>`` starts from.
-            name: of the document, for messages.
-            documents: others, whose trees can be used as SubTrees.
+            base_path: the folder to which ``<include>`` is relative.
+            name: the name of the document in messages.
+            documents: other documents, whose trees can be used as SubTrees.
             blackboard: the root blackboard; entries in it keep their types.
             enums: constants for scripts and Switch.
             substitutions: rules that replace nodes, as BehaviorTree.CPP's JSON.
@@ -141,7 +142,10 @@ class Tree:
         clock: Clock | None = None,
         **more: Any,
     ) -> "Tree":
-        """Builds a tree from a file; ``<include>`` is relative to it. Arguments as for `from_xml`."""
+        """Builds a tree from a file; ``<include>`` is relative to it.
+
+        Other arguments are those of `from_xml`.
+        """
         path = pathlib.Path(path)
         more.setdefault("base_path", path.parent)
         more.setdefault("name", str(path))
@@ -170,7 +174,7 @@ class Tree:
 
     @property
     def current_uid(self) -> int:
-        """The action that is being ticked, while leaves are timed; else 0."""
+        """The uid of the action that is being ticked, while leaves are timed; else 0."""
         return self.current[0]
 
     def use_clock(self, clock: Clock) -> None:
@@ -187,7 +191,7 @@ class Tree:
             kwargs: passed on unchanged.
 
         Raises:
-            TickError: a behaviour raised.
+            TickError: a behaviour raised an exception.
         """
         for own in self._users_nodes():
             try:
@@ -265,7 +269,7 @@ class Tree:
         return self._reset_root(self._tick_root())
 
     def tick_once(self) -> Status:
-        """Ticks the root, and again as long as it is RUNNING and a node asked for that by waking the tree up.
+        """Ticks the root, and again while it is RUNNING and a node has woken the tree up.
 
         Raises:
             TickError: a node could not do its work.
@@ -327,7 +331,7 @@ class Tree:
             self.timers.fire()
 
     def _woken(self) -> bool:
-        """Tests and clears the wake-up flag."""
+        """Returns whether the wake-up flag is set, and clears it."""
         if self.timers.heap:
             self.timers.fire()
         woken, self.wake_up = self.wake_up, False
@@ -349,7 +353,7 @@ class Tree:
         return call_deep(function, self.depth) if self.depth > DEEP else function()
 
     def warn(self, node: Node, message: str) -> None:
-        """Reports once a fault of a node that is tolerated."""
+        """Reports a tolerated fault of a node, once."""
         if (node.uid, message) in self._warned:
             return
         self._warned.add((node.uid, message))
@@ -361,12 +365,12 @@ class Tree:
     # -- observation and hooks ----------------------------------------------------------------------
 
     def observe(self, callback: Observer, *, node_times: bool = False) -> Callable[[], None]:
-        """Calls `callback` after each tick with what changed; returns the function that unsubscribes it.
+        """Calls `callback` after each tick with the changes; returns the function that unsubscribes it.
 
         Args:
-            callback: called with a `TickChanges`, also when the tick raised. The first one has all nodes
-                that are not IDLE and all entries.
-            node_times: also measure each node.
+            callback: called with a `TickChanges`, also after a tick that raised an exception. The first one
+                contains all nodes that are not IDLE, and all entries.
+            node_times: whether each node is measured too.
         """
         recorder = self._recorder
         if not recorder.observers:
@@ -390,11 +394,13 @@ class Tree:
     def add_hook(
         self, *, before: Before | None = None, after: After | None = None, node: Node | int | None = None
     ) -> Callable[[], None]:
-        """Calls functions before and after the ticks of one node, or of all; returns what removes them.
+        """Calls functions before and after the ticks of one node, or of all.
+
+        Returns the function that removes them.
 
         Args:
-            before: called with the node; a status that it returns is taken instead of ticking the node.
-            after: called with the node and its result; a status that it returns replaces that.
+            before: called with the node; if it returns a status, the node is not ticked, and has this result.
+            after: called with the node and its result; if it returns a status, this replaces the result.
             node: the node or its uid; None for all nodes.
         """
         uid = node.uid if isinstance(node, Node) else node

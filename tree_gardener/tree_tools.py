@@ -14,7 +14,7 @@ _state: dict[str, Blackboard] = {}
 
 
 def use_blackboard(board: Blackboard) -> None:
-    """Sets the blackboard that plain texts belong to: that of the tree made last."""
+    """Sets the blackboard for plain texts: that of the tree that was made last."""
     _state["board"] = board
 
 
@@ -32,7 +32,7 @@ def _entry_of(text: str) -> tuple[Blackboard, str] | None:
 
 
 def get_port_content(port_value: str) -> Any:
-    """Returns the text itself, or for ``{key}`` the entry's value; ``""`` if that was never written."""
+    """Returns the text itself, or for ``{key}`` the value of the entry; ``""`` if it was never written."""
     place = _entry_of(port_value)
     if place is None:
         return str(port_value)

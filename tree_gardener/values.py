@@ -1,7 +1,7 @@
 """Types of ports and blackboard entries, with the conversions that BehaviorTree.CPP makes between them.
 
-A value is a plain Python object. Numbers, strings and booleans convert as BT.CPP's ``Any`` does; everything
-else passes by reference.
+A value is a plain Python object. Numbers, strings and booleans convert as BT.CPP's ``Any`` does; all other
+values are passed by reference.
 """
 
 import collections
@@ -65,7 +65,7 @@ class ValueType:
 
 
 def format_number(value: float) -> str:
-    """Returns a number as text: an integer plain, a double always with six decimals."""
+    """Returns a number as text: an integer without decimals, a double always with six."""
     if isinstance(value, int):
         return str(int(value))
     if math.isnan(value):
@@ -74,7 +74,7 @@ def format_number(value: float) -> str:
 
 
 def to_text(value: Any) -> str:
-    """Returns a value as a string port reads it."""
+    """Returns a value in the form in which a string port reads it."""
     if isinstance(value, str):
         return value
     number = as_number(value)
@@ -135,7 +135,7 @@ def parse_double(text: str) -> float:
 
 
 def checked_double(text: str) -> float:
-    """Converts a real number; one that no double can hold is refused, as ``from_chars`` does."""
+    """Converts a real number; refuses one that no double can hold, as ``from_chars`` does."""
     number = float(text)
     if math.isinf(number) and text[-1].isdigit():
         raise ConversionError(f"{text} is too large: a double ends at {sys.float_info.max:.3g}")
@@ -255,8 +255,8 @@ _BY_CLASS: dict[Any, ValueType] = {
 def value_type(annotation: Any) -> ValueType:
     """Returns the type of a Python annotation, as in ``Port(list[float])``.
 
-    A name out of ``catalog.json`` stands for itself. Any other class is a type of its own: its values pass by
-    reference, and it has no literals, except for an Enum, whose members are written by name.
+    A name of ``catalog.json`` means the type of that name. Any other class is a separate type: its values are
+    passed by reference, and it has no literals, except for an Enum, whose members are written by name.
     """
     if isinstance(annotation, ValueType):
         return annotation
@@ -317,7 +317,7 @@ def _class(cls: type) -> ValueType:
 
 
 def type_name_of(value: Any) -> str:
-    """Returns a value's type for messages: ``int``, ``double``, ``string``, ``bool``, else its class."""
+    """Returns the type of a value for messages: ``int``, ``double``, ``string``, ``bool``, or its class."""
     if isinstance(value, bool):
         return "bool"
     if isinstance(value, int):

@@ -1,4 +1,4 @@
-"""Views for py_trees' tools: composites and decorators of py_trees that stand for our nodes.
+"""Views for py_trees' tools: composites and decorators of py_trees that represent nodes of the engine.
 
 They are made at the first request, so that a tree without py_trees' tools does not pay for them. Actions are
 their own views. The root's `tick` is a generator, as py_trees requires: it ticks the tree and then yields
@@ -30,7 +30,7 @@ class _View:
     name: str
 
     def adopt(self, node: Node) -> None:
-        """Becomes the py_trees object of a node."""
+        """Makes this view the py_trees object of a node."""
         self.node = node
         self.children = [child.view if child.view is not None else child.behaviour for child in node.children]
         for child in self.children:
@@ -111,7 +111,7 @@ def _make(node: Node) -> Any:
 
 
 def sync(root: Node, results: dict[int, Status] | None = None) -> None:
-    """Updates the statuses of the views; results of the tick go before the nodes' own statuses."""
+    """Updates the statuses of the views; results of the tick override the nodes' own statuses."""
     for node in root.tree.nodes:
         status = node.status
         if results is not None and status is IDLE:

@@ -10,7 +10,7 @@ class UnavailableError(Exception):
 
 
 class PythonRefusedError(StudioError):
-    """The source is not valid Python; `diagnostics` has the places."""
+    """The source is too long, or the tool did not answer."""
 
     status = 422
     code = "python_refused"

@@ -28,20 +28,17 @@ _MAX_FINDINGS: Final = 200
 Run = Callable[[list[str], str], tuple[int | None, str]]
 
 
-def format_source(source: str, filename: str, run: Run) -> str:
-    """Returns the source as `ruff format` writes it.
+def format_source(source: str, filename: str, run: Run) -> dict[str, Any]:
+    """Returns the source as `ruff format` writes it; one that does not parse, unchanged with its errors.
 
     Raises:
-        PythonRefusedError: the source cannot be parsed, is too long, or takes too long.
+        PythonRefusedError: it is too long, or takes too long.
     """
     status, output = _run(run, ["format", "--line-length", str(LINE_LENGTH)], source, filename)
-    if status != 0:
-        raise PythonRefusedError(
-            "The file has a syntax error, so it is not formatted.",
-            hint="Correct it first; the editor marks the place.",
-            diagnostics=[each for each in findings(source, filename, run) if each["severity"] == "error"],
-        )
-    return output
+    if status == 0:
+        return {"source": output, "findings": []}
+    errors = [each for each in findings(source, filename, run) if each["severity"] == "error"]
+    return {"source": source, "findings": errors}
 
 
 def findings(source: str, filename: str, run: Run) -> list[dict[str, Any]]:

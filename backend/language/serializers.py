@@ -12,12 +12,6 @@ class SourceSerializer(serializers.Serializer[dict[str, str]]):
     filename = serializers.CharField(max_length=400, default="action.py")
 
 
-class FormattedSerializer(serializers.Serializer[dict[str, str]]):
-    """A formatted source."""
-
-    source = serializers.CharField()  # type: ignore[assignment]
-
-
 class PlaceSerializer(serializers.Serializer[dict[str, int]]):
     """A place in a text: line and column count from 1, columns in code points."""
 
@@ -54,4 +48,11 @@ class FindingSerializer(serializers.Serializer[dict[str, object]]):
 class FindingsSerializer(serializers.Serializer[dict[str, object]]):
     """All findings about a source."""
 
+    findings = FindingSerializer(many=True)
+
+
+class FormattedSerializer(serializers.Serializer[dict[str, object]]):
+    """A formatted source; one that does not parse is unchanged, with its errors."""
+
+    source = serializers.CharField()  # type: ignore[assignment]
     findings = FindingSerializer(many=True)

@@ -32,10 +32,10 @@ class Format(APIView):
         tags=["language"],
     )
     def post(self, request: Request) -> Deferred:
-        """Formats a source. The answer is 422 if it is not valid Python."""
+        """Formats a source; one that does not parse comes back unchanged, with its errors."""
         given = parsed(s.SourceSerializer, request.data)
         work = partial(ruff.format_source, **given, run=checker(user_of(request)))
-        return _answered(self, request, "source", work)
+        return _answered(self, request, work)
 
 
 class Lint(APIView):
@@ -50,11 +50,15 @@ class Lint(APIView):
     def post(self, request: Request) -> Deferred:
         """Lists probable errors, with the edits that fix them."""
         given = parsed(s.SourceSerializer, request.data)
-        work = partial(ruff.findings, **given, run=checker(user_of(request)))
-        return _answered(self, request, "findings", work)
+        work = partial(_found, **given, run=checker(user_of(request)))
+        return _answered(self, request, work)
 
 
-def _answered(view: APIView, request: Request, name: str, work: Callable[[], Any]) -> Deferred:
-    """Returns a deferred answer with the result of ruff; no request thread waits for it."""
+def _found(**given: Any) -> dict[str, Any]:
+    return {"findings": ruff.findings(**given)}
+
+
+def _answered(view: APIView, request: Request, work: Callable[[], dict[str, Any]]) -> Deferred:
+    """Returns a deferred answer with the result of ruff, so that no request thread waits for it."""
     asked = checkers.ask(f"user {user_of(request).pk}", work)
-    return Deferred(view, request, asked, lambda done: Response({name: done.result()}))
+    return Deferred(view, request, asked, lambda done: Response(done.result()))

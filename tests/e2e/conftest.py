@@ -77,7 +77,7 @@ def shared_studio(shared_server: Server, browser: Browser) -> Iterator[Studio]:
     studio.open()
     yield studio
     context.close()
-    assert studio.complaints == [], "the browser's console must stay empty"
+    assert studio.complaints == [], "the browser's console must stay empty, and nothing is refused"
 
 
 @pytest.fixture
@@ -101,7 +101,7 @@ def open_studio(server: Server) -> Iterator[Callable[[Browser], Studio]]:
     yield open_in
     for studio in opened:
         studio.page.context.close()
-        assert studio.complaints == [], "the browser's console must stay empty"
+        assert studio.complaints == [], "the browser's console must stay empty, and nothing is refused"
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ import math
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
 
 from playwright.sync_api import expect
 
@@ -13,7 +14,7 @@ from tests.e2e.observer import Observer
 from tests.e2e.server import wait_until
 
 if TYPE_CHECKING:
-    from playwright.sync_api import ConsoleMessage, Locator, Page
+    from playwright.sync_api import ConsoleMessage, Locator, Page, Response
 
     from tests.e2e.server import Server
 
@@ -28,6 +29,8 @@ NO_LESSONS = (
 EXPECTED_NOTES = re.compile(
     r"Failed to load resource|WebSocket connection to .* failed|GPU stall|GL Driver Message"
 )
+# The one refusal of normal use: a file was saved elsewhere meanwhile, and is merged.
+STALE_SAVE = r"409 POST /api/v1/projects/[^/]+/changes"
 
 
 class Studio:
@@ -38,13 +41,24 @@ class Studio:
         self.server = server
         self.complaints: list[str] = []
         page.context.set_default_timeout(WAIT_MSEC)
+        self.refusals = [STALE_SAVE]
         page.add_init_script(NO_LESSONS)
         page.on("console", self._note)
+        page.on("response", self._hear)
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
 
     def _note(self, message: ConsoleMessage) -> None:
         if message.type in ("error", "warning") and not EXPECTED_NOTES.search(message.text):
             self.complaints.append(f"{message.type}: {message.text}")
+
+    def _hear(self, response: Response) -> None:
+        refused = f"{response.status} {response.request.method} {urlsplit(response.url).path}"
+        if 400 <= response.status < 500 and not re.fullmatch("|".join(self.refusals), refused):
+            self.complaints.append(f"refused: {refused}")
+
+    def may_be_refused(self, *patterns: str) -> None:
+        """Allows refusals in a walk whose subject is wrong input: `422 POST /api/v1/projects/import`."""
+        self.refusals += patterns
 
     def open(self) -> None:
         """Follows the link with the token to the start page."""

@@ -122,7 +122,9 @@ def the_frame_selects_nothing(studio: Studio) -> None:
 def panes_keep_their_sizes(studio: Studio) -> None:
     canvas = studio.at("canvas")
     before = place(canvas)
-    splitter = studio.page.locator(".flexlayout__splitter_vert, .flexlayout__splitter").first
+    lines = studio.page.locator(".flexlayout__splitter").all()
+    # The line on the left of the canvas.
+    splitter = min(lines, key=lambda line: abs(middle(line)[0] - before[0]))
     x, y = middle(splitter)
     mouse = studio.page.mouse
     mouse.move(x, y)

@@ -237,6 +237,7 @@ def test_long_lists_are_searched_sorted_and_paged(shared_studio: Studio) -> None
 
 
 def test_what_falls_onto_the_page_becomes_a_project(shared_studio: Studio) -> None:
+    shared_studio.may_be_refused(r"4\d\d POST /api/v1/projects/import")
     studio = shared_studio
     drop(studio, "Night patrol.xml", BTCPP)
     report(studio, "Night patrol.xml")

@@ -59,11 +59,15 @@ def test_problems_lists_what_is_typed_anywhere_and_what_the_run_raised(studio: S
     expect(editor(studio, TONES)).to_be_focused()
     expect(studio.page.locator(f'[data-path="{TONES}"] .cm-activeLine')).to_contain_text("return = hertz")
     replace(studio, TONES, GOOD)
+    new(studio, "file", "lib/tones.py")
+    for folder in ("nodes", "lib"):
+        expect(tab(studio, f"tones.py · {folder}")).to_have_count(1)
     expect(problems).to_contain_text("the project can run")
     expect(mark(studio, TONES)).to_have_count(0)
 
     the_last_declaration_stays(studio)
     replace(studio, FORWARD, RAISES)
+    studio.page.keyboard.press("Control+s")
     studio.saved()
     studio.at("run").click()
     fault = problems.get_by_role("button").filter(has_text="no way ahead")

@@ -36,6 +36,8 @@ def test_a_frozen_executor_is_shown_then_ended_and_run_starts_another(
     with serving(tmp_path, BT_STUDIO_SESSION_SILENCE_S="15") as server:
         page = browser_without_webgl.new_context(viewport={"width": 1440, "height": 900}).new_page()
         studio = Studio(page, server)
+        # The session that was ended is asked for.
+        studio.may_be_refused(r"404 GET /api/v1/sessions/.*")
         studio.open()
         freeze(studio)
         page.context.close()

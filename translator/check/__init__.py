@@ -1,4 +1,4 @@
-"""Checks: every rule of BehaviorTree.CPP's loader, and more, reported before the tree runs."""
+"""Checks of projects: every rule of BehaviorTree.CPP's loader, and more, applied before the tree runs."""
 
 from translator.check.run import check
 

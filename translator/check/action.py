@@ -1,4 +1,4 @@
-"""Checks of the actions that the trees use; findings in their source are reported at loading."""
+"""Checks of the actions that the trees use; findings in their sources are reported when they are loaded."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def check_actions(context: Context) -> None:
-    """Reports actions that are used but not written yet."""
+    """Reports actions that are used but have no code yet."""
     from tree_gardener.stubs import is_stub  # noqa: PLC0415 - the engine loads py_trees
 
     used = {node.type: (tree, node) for tree in context.project.trees.values() for node in tree.walk()}

@@ -34,7 +34,7 @@ class Context:
 
     @cached_property
     def reachable(self) -> set[str]:
-        """The trees that run."""
+        """Returns the trees that can be reached from the main tree."""
         return set(reachable_trees(self.project.trees, self.project.settings.main_tree))
 
     def report(
@@ -77,7 +77,7 @@ _NODE_KEY = re.compile(r'"((?:[^"\\]|\\.)*)"\s*:\s*\{')
 
 
 def _key_positions(raw: bytes) -> dict[str, tuple[int, int]]:
-    """Finds the position of each object-valued key of a JSON text; precise enough to point at a node."""
+    """Returns the position of each key of a JSON text whose value is an object, to locate nodes."""
     positions: dict[str, tuple[int, int]] = {}
     for number, line in enumerate(raw.decode("utf-8", "replace").splitlines(), start=1):
         for match in _NODE_KEY.finditer(line):

@@ -1,7 +1,7 @@
 """Checks of the data flow over the blackboard: keys read but never written, outputs never read.
 
-Each tree has a blackboard of its own; a SubTree node joins names of two of them. So the
-trees are summarised callees first: the keys that a tree reads and writes under its own names, with its calls.
+Each tree has its own blackboard; a SubTree node connects names of two blackboards. So the keys that a tree
+and its calls read and write are collected under the tree's own names, called trees first.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class _Use:
 
 @dataclass(slots=True)
 class _Keys:
-    """First use of each key of one tree, and which keys no port alone decides."""
+    """The first use of each key of a tree, and the keys that are not decided by ports alone."""
 
     read: dict[str, _Use] = field(default_factory=dict)
     written: dict[str, _Use] = field(default_factory=dict)
@@ -53,7 +53,7 @@ def check_dataflow(context: Context) -> None:
 
 
 def _callees_first(context: Context) -> list[str]:
-    """Returns the trees so that each stands after those it calls; rings are reported elsewhere."""
+    """Returns the trees so that each comes after those that it calls; cycles are reported elsewhere."""
     trees = context.project.trees
     order: dict[str, None] = {}
     open_: set[str] = set()
@@ -128,7 +128,7 @@ def _add_call(own: _Keys, node: Node, inner: _Keys | None) -> None:
 
 
 def _outer_name(node: Node, inner: str) -> str | None:
-    """Returns the caller's name of an entry of the called tree, or None where it has none."""
+    """Returns the caller's name for an entry of the called tree, or None if the caller has none."""
     if inner.startswith("@"):
         return inner
     if inner in node.ports:

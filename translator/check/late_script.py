@@ -1,6 +1,6 @@
 """Checks of scripts that are in an entry: BehaviorTree.CPP reads them when it builds the tree.
 
-Then an entry has a value only if it is a constant that a SubTree is given.
+At that time an entry has a value only if it is a constant that a SubTree receives.
 """
 
 from __future__ import annotations

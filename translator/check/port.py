@@ -17,7 +17,7 @@ RESERVED = {"name", "ID"}
 
 
 def check_ports(context: Context) -> None:
-    """Reports port values that the engine would refuse, or that do not mean what they seem to."""
+    """Reports port values that the engine would refuse, or whose meaning differs from their appearance."""
     for tree in context.project.trees.values():
         entries: dict[str, _Use] = {}
         for node in tree.walk():
@@ -76,12 +76,12 @@ def check_literal(context: Context, tree: Tree, node: Node, port: PortModel, tex
 
 
 def _names_entry(node: Node, port: PortModel) -> bool:
-    """Whether it is the port of a built-in node that watches an entry, whose name must be there."""
+    """Whether the port is that of a built-in node that watches an entry; the entry's name is required."""
     return port.name == "entry" and node.type in builtins()
 
 
 def _takes_literal(port: PortModel) -> bool:
-    """Whether an output may hold a literal: an inout that is then only read, or the name of a key."""
+    """Whether an output may be a literal: as an inout that is then only read, or as the name of a key."""
     return port.direction == "inout" and port.name in {"queue", "output_key"}
 
 
@@ -111,7 +111,7 @@ class _Use:
 
 
 def _check_entry(context: Context, tree: Tree, node: Node, port: PortModel, entries: dict[str, _Use]) -> None:
-    """Reports an entry that two ports use with different types, which the engine refuses."""
+    """Reports an entry that two ports use with different types; the engine refuses it."""
     text = node.ports.get(port.name, port.default)
     key = pointer(text, port.name) if text is not None else None
     # SetBlackboard copies a value of any type, although its port is a text in the catalogue.

@@ -26,7 +26,7 @@ Outcomes = frozenset[str]
 
 
 def check_reachability(context: Context) -> None:
-    """Reports, for each node, the first child that its earlier siblings always prevent from a tick."""
+    """Reports, for each node, the first child that can never be ticked because of its earlier siblings."""
     for tree in context.project.trees.values():
         outcomes: dict[str, Outcomes] = {}
         for node in tree.post_order():
@@ -58,7 +58,7 @@ def _report(context: Context, tree: Tree, node: Node, child: Node, cause: tuple[
 
 
 def _outcomes(node: Node, children: list[Outcomes]) -> Outcomes:
-    """Returns the statuses that a node may return; `ANY` where that is unknown."""
+    """Returns the statuses that a node may return; `ANY` if they are unknown."""
     if node.disabled:
         return frozenset({K})
     rule = _RULES.get(node.type) if children or node.type in _SURE_LEAVES else None

@@ -1,4 +1,4 @@
-"""Runs all checks over a project, in an order that puts causes before effects."""
+"""Runs all checks over a project; causes are checked before their effects."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 
 
 def check(project: Project) -> tuple[Diagnostic, ...]:
-    """Returns all findings about a project, with those of reading it.
+    """Returns all findings about a project, including those from reading it.
 
-    Each finding has a place: a file, and in it a node or a line. Only findings of severity
-    *error* keep the project from being translated.
+    Each finding has a place: a file, and a node or a line in the file. Only findings of severity *error*
+    prevent a translation of the project.
     """
     # Exporting runs the checks again; a project is immutable, so the first result is kept.
     found = _found.get(project)

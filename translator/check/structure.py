@@ -1,4 +1,4 @@
-"""Checks of shape: known nodes, child counts, names, roots, drafts."""
+"""Checks of the structure of trees: known nodes, numbers of children, names, roots, drafts."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def check_structure(context: Context) -> None:
 
 
 def _check_universes(context: Context) -> None:
-    """Reports a universe that could not be chosen, since its name means *no world*."""
+    """Reports a universe that cannot be chosen, since its name means *no world*."""
     if (file := f"universes/{NO_UNIVERSE}.yaml") in context.project.files:
         context.found.append(diagnostic("BT0031", Place(file, line=1), name=NO_UNIVERSE, file=file))
 

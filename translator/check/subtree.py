@@ -67,7 +67,7 @@ def _check_call(context: Context, tree: Tree, node: Node) -> None:
 
 
 def _check_value(context: Context, tree: Tree, node: Node, port: PortModel, text: str) -> None:
-    """Reports a literal that the tree below could not read."""
+    """Reports a literal that the called tree could not read."""
     if pointer(text, port.name) is not None:
         return
     if port.type == "double" and _WHOLE.fullmatch(text):
@@ -78,7 +78,7 @@ def _check_value(context: Context, tree: Tree, node: Node, port: PortModel, text
 
 
 def _check_cycles(context: Context) -> None:
-    """Reports, for each ring, the call that closes it on the way from the main tree."""
+    """Reports, for each cycle of calls, the call that closes it, on the way from the main tree."""
     trees = context.project.trees
     for tree_id, target, ring in closing_calls(trees, context.project.settings.main_tree):
         node = next(node for node in trees[tree_id].subtree_calls() if node.tree == target)
@@ -86,9 +86,9 @@ def _check_cycles(context: Context) -> None:
 
 
 def closing_calls(trees: Mapping[str, Tree], main: str) -> Iterator[tuple[str, str, list[str]]]:
-    """Yields caller, called tree and the ring of each call back to a tree that is being walked through.
+    """Yields each call that closes a cycle: the caller, the called tree, and the trees of the cycle.
 
-    The walk begins at the main tree, then at each tree that it did not reach, by ID.
+    The search begins at the main tree, and continues at each tree that was not reached, by ID.
     """
     done: set[str] = set()
     for start in [main, *sorted(trees)]:

@@ -1,1 +1,1 @@
-"""Projects of JdeRobot's BT Studio: reads all their formats, and writes the one of 2024."""
+"""Projects of JdeRobot's BT Studio: reads all their formats, and writes the format of 2024."""

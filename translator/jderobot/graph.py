@@ -49,7 +49,7 @@ class _Port:
 
 @dataclass(frozen=True, slots=True)
 class GraphOptions:
-    """The settings of a tree that its graph does not hold."""
+    """The settings of a tree that its graph does not contain."""
 
     tree_id: str
     file: str
@@ -58,7 +58,7 @@ class GraphOptions:
 
 
 def read_graph(raw: bytes, options: GraphOptions) -> tuple[Tree | None, tuple[Diagnostic, ...]]:
-    """Reads a graph; returns the tree, or None where there is nothing to read, and the findings."""
+    """Reads a graph; returns the tree, or None if nothing can be read, and the findings."""
     document, problem = parse_json(raw, file=options.file)
     if problem is not None:
         return None, (problem,)
@@ -67,7 +67,7 @@ def read_graph(raw: bytes, options: GraphOptions) -> tuple[Tree | None, tuple[Di
 
 
 class _Reader:
-    """Converts one graph to our diagram."""
+    """Converts one graph to a diagram of BT Studio."""
 
     def __init__(self, options: GraphOptions) -> None:
         self.options = options

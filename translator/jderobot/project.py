@@ -1,4 +1,4 @@
-"""Reading a project of JdeRobot's BT Studio, of any of its three layouts."""
+"""Reads a project of JdeRobot's BT Studio, in any of its three layouts."""
 
 from __future__ import annotations
 
@@ -43,11 +43,11 @@ def is_jderobot_project(files: Mapping[str, bytes]) -> bool:
 
 
 def import_jderobot(files: Mapping[str, bytes], *, name: str = "") -> Project:
-    """Converts a project of JdeRobot to one of ours; the actions are kept unchanged.
+    """Converts a project of JdeRobot to a project of BT Studio; the actions do not change.
 
     Args:
-        files: The files of the project, by path; it may have a folder of its own.
-        name: The project's name where its settings have none.
+        files: The files of the project, by path; they may all be in one folder.
+        name: The name of the project, if its settings have none.
 
     Raises:
         TranslatorError: If there is no main graph, or it cannot be read.
@@ -136,7 +136,7 @@ def _read_trees(
 
 
 def _tree_ids(layout: _Layout, found: list[Diagnostic]) -> dict[str, str]:
-    """Returns the id of each subtree: its name, but for characters that an id cannot have."""
+    """Returns the id of each subtree: its name, without characters that an id cannot have."""
     ids: dict[str, str] = {}
     for name, path in layout.subtrees.items():
         tree_id = name
@@ -151,7 +151,7 @@ def _tree_ids(layout: _Layout, found: list[Diagnostic]) -> dict[str, str]:
 
 
 def _other_files(files: Mapping[str, bytes], layout: _Layout) -> dict[str, bytes]:
-    """Returns the actions in our folder, and all files but graphs and settings among the assets."""
+    """Returns the actions in BT Studio's folder, and all other files except graphs and settings as assets."""
     result: dict[str, bytes] = {}
     graphs = {layout.main, *layout.subtrees.values(), f"{layout.folder}config.json"}
     for path in sorted(files):

@@ -1,4 +1,4 @@
-"""The self-contained XML of JdeRobot's BT Studio as it was in 2024, read and written.
+"""Reads and writes the self-contained XML of JdeRobot's BT Studio of 2024.
 
 `<Root name="Tree Root"><BehaviorTree>…</BehaviorTree><Code><Forward>source</Forward>…</Code></Root>`;
 subtrees are written in place, since that system joins all trees on one blackboard.
@@ -41,7 +41,7 @@ def read_old_form(raw: bytes | str, *, file: str = "self_contained_tree.xml") ->
     """Makes a project of a document of 2024.
 
     Raises:
-        TranslatorError: If it cannot be read, or has no tree.
+        TranslatorError: If the document cannot be read, or has no tree.
     """
     source = parse_source(raw, file=file)
     if source.root.tag != ROOT:

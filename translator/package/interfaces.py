@@ -24,7 +24,7 @@ _SHARED = frozenset({"/clock", "/diagnostics", "/parameter_events", "/rosout", "
 
 
 def absolute_names(opened: Iterable[Endpoint]) -> list[str]:
-    """Returns the names that begin with a slash, which ROS leaves out of a namespace by itself."""
+    """Returns the names that begin with a slash; ROS does not put these into a namespace."""
     names = {item.name for item in opened if item.known and item.kind != PARAMETER}
     return sorted(
         name for name in names - _SHARED if name.startswith("/") and len(name) > 1 and not _has_blank(name)
@@ -45,14 +45,14 @@ def interface_rows(opened: Iterable[Endpoint]) -> list[tuple[str, str, str, str]
 
 
 def example_name(opened: Sequence[Endpoint]) -> str:
-    """Returns a name to show how names are changed; that of an action rather than of a program."""
+    """Returns a name as an example of renaming; preferably that of an action, not of a program."""
     known = [item for item in opened if item.known and item.kind != PARAMETER and not _has_blank(item.name)]
     best = sorted(known, key=lambda item: (not item.path.startswith("actions/"), item.kind != "publisher"))
     return best[0].name if best else ""
 
 
 def unknown_names(opened: Iterable[Endpoint]) -> list[str]:
-    """Returns a sentence for each name that is made while the program runs."""
+    """Returns a sentence for each name that is computed while the program runs."""
     return [
         f"{item.path}, line {item.line}: {_WORDS[item.kind]} `{_cell(item.name)}`"
         + (f" of type `{item.type}`" if item.type else "")

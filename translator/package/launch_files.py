@@ -1,8 +1,8 @@
 """The launch files of a project as parts of its ROS 2 package.
 
 In the project a node may be a Python file, named by its path (`exec: launch/talker.py`). In the package such
-a file is installed as an executable of the package, and the launch file names it so. All else in `launch/`
-is installed beside the launch files, where `$(dirname)` finds it.
+a file is installed as an executable of the package, and the launch file names the executable. All other files
+in `launch/` are installed beside the launch files, so that `$(dirname)` finds them.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def launch_files(files: Mapping[str, bytes]) -> list[str]:
 
 
 def dependencies_of(files: Mapping[str, bytes]) -> set[str]:
-    """Returns the packages that launch files need: those that read them, and those of their nodes."""
+    """Returns the packages that launch files need: to read them, and to run their nodes."""
     readers = {name for path in launch_files(files) for name in DEPENDENCIES[PurePosixPath(path).suffix]}
     texts = (files[path].decode("utf-8", "replace") for path in launch_files(files))
     named = {name for text in texts for groups in _PACKAGES.findall(text) for name in groups}
@@ -75,7 +75,7 @@ def companions(files: Mapping[str, bytes]) -> list[str]:
 
 
 def as_program(raw: bytes) -> bytes:
-    """Returns a Python file that the system can start."""
+    """Returns the Python file with a first line by which the system can start it."""
     return raw if raw.startswith(b"#!") else _SHEBANG + raw
 
 
@@ -150,7 +150,7 @@ def _in_xml(text: str, folder: str, package: str, known: Mapping[str, str]) -> l
 
 
 def _left(path: str, raw: bytes, text: str, package: str, known: Mapping[str, str]) -> Iterator[Diagnostic]:
-    """Returns warnings for the programs that the package's launch file still names by their path."""
+    """Yields warnings for programs that the package's launch file still names by their path."""
     lines = raw.decode("utf-8", "replace").splitlines()
     for program_path, program in known.items():
         if not any(program_path in line.partition("#")[0] for line in text.splitlines()):
@@ -163,7 +163,10 @@ def _left(path: str, raw: bytes, text: str, package: str, known: Mapping[str, st
 
 
 def _program(named: str, folder: str, known: Mapping[str, str]) -> str | None:
-    """Returns the executable of a path, searched relative to the project, then to the launch file."""
+    """Returns the executable for a path, which is relative to the project or to the launch file.
+
+    Else None.
+    """
     if named.startswith(_HERE):
         return known.get(normpath(f"{folder}/{named.removeprefix(_HERE)}"))
     return known.get(normpath(named)) or known.get(normpath(f"{folder}/{named}"))

@@ -47,7 +47,7 @@ KNOWN = {
 
 
 def is_for_ubuntu(entry: Any) -> bool:
-    """Whether a rosdep entry names something for the Ubuntu of Jazzy."""
+    """Whether a rosdep entry has a package for the Ubuntu version of Jazzy."""
     rule = entry.get("ubuntu") if isinstance(entry, dict) else None
     if isinstance(rule, dict) and "pip" not in rule:
         rule = rule.get(UBUNTU, rule.get("*"))
@@ -55,7 +55,7 @@ def is_for_ubuntu(entry: Any) -> bool:
 
 
 def import_names(key: str) -> list[str]:
-    """Returns the import that a key of rosdep provides, judged by its name."""
+    """Returns the imports that a rosdep key provides, judged by its name."""
     match = re.fullmatch(r"python3?-(.+?)(-pip)?", key)
     if match is None:
         return []
@@ -64,7 +64,7 @@ def import_names(key: str) -> list[str]:
 
 
 def make_table(python: dict[str, Any], packages: list[str], date: str) -> dict[str, Any]:
-    """Returns the table; of several keys for one import, Debian packages come before pip."""
+    """Returns the table. If several keys provide one import, Debian packages have priority over pip."""
     keys = {key for key, entry in python.items() if is_for_ubuntu(entry)}
     imports: dict[str, str] = {}
     for key in sorted(keys, key=lambda key: (key.endswith("-pip"), not key.startswith("python3-"), key)):

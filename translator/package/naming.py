@@ -56,10 +56,10 @@ def problem_with(name: str) -> str | None:
 
 
 def require_name(name: str) -> str:
-    """Returns the name that a user chose.
+    """Checks a package name that a user chose, and returns it unchanged.
 
     Raises:
-        TranslatorError: If it is not a valid name of a ROS package.
+        TranslatorError: If the name is not valid for a ROS package.
     """
     problem = problem_with(name)
     if problem is not None:

@@ -133,7 +133,10 @@ class _Builder:
         return result
 
     def own_launch_name(self, path: str) -> str:
-        """Returns the path of a project's launch file below `launch`, apart from the package's own."""
+        """Returns the path below `launch` for a launch file of the project.
+
+        It differs from the package's own.
+        """
         name = path.removeprefix(FOLDER)
         return f"project_{name}" if name == f"{self.name}.launch.py" else name
 

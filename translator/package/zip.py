@@ -1,4 +1,4 @@
-"""Zips with the same bytes for the same files: sorted names, one date, one permission."""
+"""Writes zips that have the same bytes for the same files: sorted names, one date, one permission."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Converts a node's properties to XML attributes and back.
 
-Attributes that begin with `_` are ignored by BehaviorTree.CPP, but for conditions and `_autoremap`:
-ids, positions, colours and comments are stored there.
+BehaviorTree.CPP ignores attributes that begin with `_`, except conditions and `_autoremap`. So ids,
+positions, colours and comments are stored in such attributes.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _RESERVED = {"name", "ID", *METADATA, *CONDITIONS, *_SHOWN}
 
 
 def is_free(name: str) -> bool:
-    """Whether an attribute may be kept for another program: neither ours nor read by BehaviorTree.CPP."""
+    """Whether an attribute may be kept for another program: BT Studio and BT.CPP do not read it."""
     return name.startswith("_") and name not in _RESERVED and is_xml_name(name)
 
 
@@ -60,7 +60,7 @@ def to_attributes(node: Node) -> dict[str, str]:
 
 
 def from_attributes(attributes: Mapping[str, str], *, is_subtree: bool) -> dict[str, Any]:
-    """Returns the fields of a node that its attributes give; `id` is missing where there is no metadata."""
+    """Returns the fields of a node from its attributes; `id` is missing if they do not contain it."""
     fields: dict[str, Any] = {"ports": {}, "conditions": {}, "attributes": {}}
     disabled = attributes.get(DISABLED) == "1" and attributes.get("_skipIf") == "true"
     for name, text in attributes.items():

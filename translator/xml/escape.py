@@ -24,5 +24,5 @@ def character_data(text: str) -> str:
 
 
 def cdata(text: str) -> str:
-    """Returns the text as a CDATA section, split where it holds the mark that ends one."""
+    """Returns the text as a CDATA section; it is split at each mark that would end the section."""
     return "<![CDATA[" + text.replace("]]>", "]]]]><![CDATA[>") + "]]>"

@@ -1,7 +1,7 @@
-"""Writes an imported file back: byte for byte where nothing changed, in the file's own style elsewhere.
+"""Writes an imported file back: unchanged parts byte for byte, changed parts in the file's own style.
 
 Each node of a tree is compared with its element in the file. The bytes of a start tag are kept
-unless the node changed; the text between tags (comments, blanks) is kept unless its children did.
+unless the node changed; the text between tags (comments, blanks) is kept unless the node's children changed.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ _TAG = re.compile(r"<([^\s>/]+)")
 
 
 def patch_document(document: Document, project: Project, *, added: list[Tree], main: str | None) -> bytes:
-    """Returns the file with the project's state of its trees.
+    """Returns the file with the current state of its trees.
 
     Args:
         document: The file as it was imported.
-        project: The project now.
+        project: The current project.
         added: Trees to append.
         main: The main tree to name in the root, or None to leave it unchanged.
     """
@@ -77,12 +77,12 @@ def _style(data: bytes) -> _Style:
 
 
 def _insertion_offset(root: Element) -> int:
-    """Returns where added trees go: before the models, or else the end of the document."""
+    """Returns the offset for added trees: before the models, otherwise at the end of the document."""
     return next((child.start for child in root.children if child.tag in {"TreeNodesModel", "Code"}), root.end)
 
 
 def _before(data: bytes, position: int, start: int, new: bytes) -> bytes:
-    """Puts new lines between what precedes a tag and the blanks that indent it."""
+    """Inserts new lines between the text before a tag and the blanks that indent the tag."""
     gap = data[position:start]
     kept = gap.rstrip(b" \t\r\n")
     return kept + new + gap[len(kept) :]
@@ -118,7 +118,7 @@ class _Patch:
         self._index(source)
 
     def _index(self, source: TreeSource) -> None:
-        """Stores for each node the blanks and comments before it, and each element's children."""
+        """Stores, for each node, the blanks and comments before it, and the children of its element."""
         names = {id(element): node_id for node_id, element in source.elements.items()}
         for element in source.element.walk():
             position = element.open_end
@@ -155,7 +155,7 @@ class _Patch:
         return f"{opening}{newline}{body}{newline}{self.style.indent}</{element.tag}>".encode()
 
     def node(self, node: Node, depth: int) -> bytes:
-        """Returns a node and its descendants."""
+        """Returns the text of a node and its descendants."""
         element = self.source.elements.get(node.id)
         if element is None:
             return self._new_node(node, depth)
@@ -177,7 +177,7 @@ class _Patch:
         return _rewritten(opening, tag, element, wanted)
 
     def _new_node(self, node: Node, depth: int) -> bytes:
-        """Writes a node that the file does not have; its descendants may be in the file."""
+        """Returns the text of a node that the file does not have; the file may have its descendants."""
         lead = self.style.indent * (depth - 1)
         single = Tree(self.tree_now.id, node.id, {node.id: replace(node, children=())})
         line = next(iter(node_lines(single, node.id, self.project, depth=0, indent="")))
@@ -238,7 +238,7 @@ def _opened(tag: str) -> str:
 
 
 def _rewritten(text: str, tag: str, element: Element, wanted: dict[str, str]) -> str:
-    """Returns a start tag with other attributes, keeping order, quotes and blanks of those that stay."""
+    """Returns a start tag with other attributes; attributes that stay keep order, quotes and blanks."""
     name = _TAG.match(text)
     assert name is not None  # noqa: S101 - expat has read it
     parts = [f"<{tag}"]

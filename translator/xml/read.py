@@ -64,7 +64,7 @@ def read_document(raw: bytes | str, *, file: str) -> Document:
     """Reads one document; findings that do not prevent reading are in its `diagnostics`.
 
     Raises:
-        TranslatorError: If the text is not XML that we accept, or not a behaviour tree.
+        TranslatorError: If the text is not accepted as XML, or is not a behaviour tree.
     """
     source = parse_source(raw, file=file)
     root = source.root
@@ -153,7 +153,7 @@ class _Reader:
         return result
 
     def node_ids(self, tree: Element, explicit: set[str]) -> dict[int, str]:
-        """Sets each element's id: the one it carries, else the next free `n<number>` in pre-order."""
+        """Returns each element's id: the one that it has, or the next free `n<number>` in pre-order."""
         ids: dict[int, str] = {}
         used: set[str] = set()
         number = 0
@@ -228,7 +228,7 @@ class _Reader:
 
 
 def type_name(cpp: str) -> str:
-    """Returns the catalogue's name of a C++ type; `any` for those that it does not have."""
+    """Returns the catalogue's name of a C++ type; `any` if the catalogue does not have it."""
     if cpp.startswith("std::vector<") and cpp.endswith(">"):
         inner = type_name(cpp[len("std::vector<") : -1])
         return f"list[{inner}]" if inner in {"int", "double", "bool", "string"} else "any"

@@ -1,4 +1,4 @@
-"""Bare `&` and `<` in attributes: BehaviorTree.CPP's parser accepts them, XML does not.
+"""Finds bare `&` and `<` in attributes; BehaviorTree.CPP's parser accepts them, XML does not.
 
 Repairs are found and offered; nothing is changed unless the user asks for it.
 """

@@ -1,7 +1,7 @@
 """Reads foreign XML: guarded, and with the place of every tag.
 
-The standard library's expat gives line, column and byte offset. No DTD, no entities of the document's
-own, nothing from the network; size, depth, elements and attributes are bounded.
+The standard library's expat reports line, column and byte offset. DTDs, custom entities and access to the
+network are excluded; size, depth, elements and attributes are limited.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _ENCODINGS = {"utf-8", "utf8", "us-ascii", "ascii", "iso-8859-1", "latin-1", "wi
 
 @dataclass(slots=True, eq=False)
 class Element:
-    """One element with the byte offsets of its parts; `end` is behind its last byte."""
+    """One element with the byte offsets of its parts; `end` is the offset after its last byte."""
 
     tag: str
     attributes: dict[str, str]
@@ -38,7 +38,7 @@ class Element:
     text: str = ""
 
     def walk(self) -> Iterator[Element]:
-        """Yields the element and all below it, in order of the document."""
+        """Yields the element and all its descendants, in the order of the document."""
         stack = [self]
         while stack:
             element = stack.pop()
@@ -48,7 +48,7 @@ class Element:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Source:
-    """A parsed document: its bytes as UTF-8 (to which the offsets refer), and how to write them back."""
+    """A parsed document: its bytes as UTF-8, to which offsets refer, and its original encoding."""
 
     file: str
     data: bytes
@@ -71,7 +71,7 @@ def parse_source(raw: bytes | str, *, file: str) -> Source:
     """Parses a document.
 
     Raises:
-        TranslatorError: If it is not well formed, or exceeds the limits for foreign files.
+        TranslatorError: If the document is not well formed, or exceeds the limits for foreign files.
     """
     if len(raw) > XML_BYTES:
         place, limit = Place(file, line=1, column=1), megabytes(XML_BYTES)
@@ -89,7 +89,7 @@ def parse_source(raw: bytes | str, *, file: str) -> Source:
 
 
 def repair_source(raw: bytes) -> bytes:
-    """Returns the file with bare characters in attributes escaped if that makes it readable, else as is."""
+    """Returns the file with bare characters in attributes escaped, if it can then be read; else unchanged."""
     try:
         text, encoding, bom = _decode(raw, "")
         _Builder("", text.encode("utf-8")).parse()

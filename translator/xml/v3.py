@@ -33,7 +33,7 @@ Change = tuple[str, str]
 
 @dataclass(frozen=True, slots=True)
 class Upgraded:
-    """A node in the form of v4, and the changes."""
+    """A node in the form of v4, with notes about the changes."""
 
     type: str
     attributes: Mapping[str, str]

@@ -1,4 +1,4 @@
-"""Writes BehaviorTree.CPP v4 XML: deterministic, one node a line."""
+"""Writes BehaviorTree.CPP v4 XML; the output is deterministic, with one line for each node."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def ordered_trees(project: Project) -> list[Tree]:
 
 
 def tree_lines(tree: Tree, project: Project, *, depth: int, indent: str = INDENT) -> list[str]:
-    """Returns one `<BehaviorTree>`."""
+    """Returns the lines of one `<BehaviorTree>`."""
     values = {"ID": tree.id, **{name: text for name, text in tree.attributes.items() if is_free(name)}}
     if tree.layout and tree.layout != "vertical":
         values[LAYOUT] = tree.layout
@@ -70,7 +70,7 @@ def tree_lines(tree: Tree, project: Project, *, depth: int, indent: str = INDENT
 def node_lines(
     tree: Tree, start: str, project: Project, *, depth: int, indent: str = INDENT
 ) -> Iterator[str]:
-    """Yields the lines of a branch, without recursion: trees may be deep."""
+    """Yields the lines of a branch, without recursion, since trees may be deep."""
     stack: list[tuple[str, int, bool]] = [(start, depth, False)]
     while stack:
         node_id, level, closing = stack.pop()
@@ -91,7 +91,7 @@ def node_lines(
 
 
 def tag_of(node: Node, project: Project) -> str:
-    """Returns the tag: the type itself, or the explicit form where the type is not a valid XML name."""
+    """Returns the tag of a node: its type, or the explicit form if the type is not a valid XML name."""
     if node.type == SUBTREE or is_xml_name(node.type):
         return node.type
     model = project.model(node.type) or project.imported_model(node.type)
@@ -105,7 +105,7 @@ def _written(values: dict[str, str]) -> str:
 
 
 def model_lines(project: Project, trees: list[Tree]) -> list[str]:
-    """Returns `<TreeNodesModel>` with the ports of the nodes used that are not built in."""
+    """Returns the lines of `<TreeNodesModel>`, with the ports of the used nodes that are not built in."""
     seen = _ports_seen(trees)
     lines: list[str] = []
     for type_ in sorted(seen):

@@ -1,4 +1,4 @@
-"""Runs one case and compares."""
+"""Runs one case, and compares the run with its expectation."""
 
 import collections
 import dataclasses
@@ -28,9 +28,9 @@ class Outcome:
     """The result of a case.
 
     Attributes:
-        name: of the case.
+        name: the name of the case.
         differences: each point that differs from BehaviorTree.CPP.
-        deviation: the name of the known reason of the differences (`DEVIATIONS`), or "".
+        deviation: the name of the known reason for the differences (`DEVIATIONS`), or "".
     """
 
     name: str
@@ -49,7 +49,7 @@ class Outcome:
 
 
 def run_file(path: str | pathlib.Path) -> Iterator[Outcome]:
-    """Runs all cases of a file: JSON lines, perhaps compressed, or one JSON list (the table of scripts)."""
+    """Runs all cases of a file: JSON lines (perhaps compressed), or one JSON list (the table of scripts)."""
     path = pathlib.Path(path)
     raw = path.read_bytes()
     text = (gzip.decompress(raw) if path.suffix == ".gz" else raw).decode("utf-8")
@@ -63,7 +63,7 @@ def run_file(path: str | pathlib.Path) -> Iterator[Outcome]:
 
 
 def run_case(case: dict[str, Any]) -> Outcome:
-    """Runs a case of any of the kinds."""
+    """Runs one case of any kind."""
     if "rejected_410" in case:
         return _run_load_case(case)
     try:
@@ -102,7 +102,7 @@ def _run_load_case(case: dict[str, Any]) -> Outcome:
 
 
 class _Run:
-    """One case while it runs."""
+    """One case in progress."""
 
     def __init__(self, case: dict[str, Any]) -> None:
         self.case = case
@@ -127,7 +127,7 @@ class _Run:
         self.expected_board: dict[str, Any] = {}
 
     def tick(self) -> Status:
-        """Ticks as the case says."""
+        """Ticks the tree in the way that the case says."""
         mode = self.case.get("tick_mode", "exactly_once")
         if mode == "once":
             return self.tree.tick_once()
@@ -136,7 +136,7 @@ class _Run:
         return self.tree.tick_exactly_once()
 
     def differences(self) -> Iterator[str]:
-        """Runs the case and returns what differs from its expectation."""
+        """Runs the case and yields each difference from its expectation."""
         yield from self.compare_nodes()
         for index, expected in enumerate(self.case["expected"]):
             self.before(index)
@@ -161,7 +161,7 @@ class _Run:
             yield from self.compare_state("halt", self.case["final_halt"])
 
     def before(self, index: int) -> None:
-        """Applies the case's steps that come before a tick."""
+        """Applies the steps of the case that come before a tick."""
         for operation in self.case.get("before", {}).get(str(index), []):
             kind = operation["op"]
             if kind == "script":
@@ -178,7 +178,7 @@ class _Run:
                 self.tree.fire_timers()
 
     def compare_nodes(self) -> Iterator[str]:
-        """Compares each node's place, type and name with the case."""
+        """Compares the place, type and name of each node with the case; yields each difference."""
         for expected, node in zip(self.case.get("nodes", []), self.tree.nodes, strict=False):
             found = {
                 "uid": node.uid,
@@ -193,7 +193,7 @@ class _Run:
             yield from _compare("number of nodes", len(self.case["nodes"]), len(self.tree.nodes))
 
     def compare_state(self, place: str, expected: dict[str, Any]) -> Iterator[str]:
-        """Compares statuses, events and the blackboard."""
+        """Compares statuses, events and the blackboard with the case; yields each difference."""
         statuses = "".join(node.status.letter for node in self.tree.nodes)
         yield from _compare(f"{place}: statuses", expected["status"], statuses)
         yield from _compare(f"{place}: events", expected.get("events", []), self.trace.take())
@@ -267,7 +267,7 @@ _TABLE_SCRIPT = "i:=3; j:=2; d:=2.5; s:='abc'; n:='42'; t:=true"
 
 
 def run_expression(row: dict[str, Any]) -> Outcome:
-    """Compares an expression's value, and its result as a condition, with the table's."""
+    """Compares the value of an expression, and its result as a condition, with the table."""
     text = row["expr"]
     differences = [
         *_compare(

@@ -1,6 +1,6 @@
 """The deliberate differences from BehaviorTree.CPP, and the way to recognise them in a run.
 
-A case whose differences have such a reason is no failure: its outcome carries the reason's name.
+A case whose differences have such a reason does not fail; its outcome has the name of the reason.
 """
 
 from typing import Final
@@ -26,7 +26,7 @@ class WatchedBlackboard(Blackboard):
         self.deviations: set[str] = parent.deviations if isinstance(parent, WatchedBlackboard) else set()
 
     def create(self, key: str, kind: ValueType | None) -> Entry:
-        """Declares an entry, and records a remap that leads to a global entry."""
+        """Declares an entry, and records if a remapping leads to a global entry."""
         if _leads_to_global(self, key):
             self.deviations.add("global-through-remap")
         return super().create(key, kind)

@@ -1,4 +1,4 @@
-"""The leaves that the cases are made of. Each callback records an event."""
+"""The leaves of which the conformance cases consist. Each callback records an event."""
 
 from typing import Any, ClassVar
 
@@ -26,7 +26,7 @@ class Trace:
         self.events: list[str] = []
 
     def take(self) -> list[str]:
-        """Returns the events since the last call, and forgets them."""
+        """Returns the events since the last call, and removes them."""
         events, self.events = self.events, []
         return events
 
@@ -45,7 +45,7 @@ class Traced(Behaviour):
 
 
 class _Scripted(Traced):
-    """Returns the letters of its script one after the other; the last one repeats."""
+    """Returns the statuses of its script's letters one after the other; the last one repeats."""
 
     INPUT_PORTS: ClassVar = {"script": Port(str, default="S")}
 
@@ -55,7 +55,7 @@ class _Scripted(Traced):
         self.word = ""
 
     def next_result(self) -> Any:
-        """Returns the status of the next letter."""
+        """Returns the status of the next letter of the script."""
         script = get_input(self, "script")
         letter = script[min(self.cursor, len(script) - 1)]
         self.cursor += 1
@@ -153,7 +153,7 @@ _TYPES = {"Int": int, "Str": str, "Double": float, "Bool": bool}
 
 
 def leaves(trace: Trace) -> dict[str, type[Traced]]:
-    """Returns the classes of the corpus, which write to this trace."""
+    """Returns the leaf classes of the cases; the leaves write to this trace."""
     classes: dict[str, type[Traced]] = {cls.__name__: cls for cls in (Leaf, SyncLeaf, Cond, Inc)}
     for word, kind in _TYPES.items():
         classes[f"Get{word}"] = type(f"Get{word}", (_Get,), {"INPUT_PORTS": {"value": Port(kind)}})

@@ -1,8 +1,9 @@
 """Composites and decorators of py_trees as control nodes.
 
-A composite of py_trees ticks its children through generators. Here its children are stand-ins, each of which
-ticks a child of the engine. py_trees knows no SKIPPED: a skipped child reads INVALID. A composite whose own
-result is INVALID is SKIPPED if a child was skipped in the tick; else it failed, as with actions.
+A composite of py_trees ticks its children through generators. Here the composite gets stand-ins as children,
+each of which ticks a child of the engine. py_trees has no SKIPPED: a skipped child has the status INVALID. A
+composite whose own result is INVALID is SKIPPED if a child was skipped in the tick; otherwise it fails, as an
+action does.
 """
 
 from collections.abc import Iterator
@@ -21,7 +22,7 @@ INVALID = PyTreesStatus.INVALID
 
 
 class _Child(Behaviour):
-    """Stands for a child of the node."""
+    """A py_trees behaviour that represents a child of the node."""
 
     def __init__(self, name: str, owner: "_Adapter", index: int) -> None:
         super().__init__(name)
@@ -29,11 +30,11 @@ class _Child(Behaviour):
         self.index = index
 
     def update(self) -> PyTreesStatus:
-        """Returns the child's result; `tick` does the work."""
+        """Returns the result of the child, which `tick` has ticked."""
         return self.status
 
     def tick(self) -> Iterator[Any]:
-        """Ticks the child once; one that rests in a result starts again, as in py_trees."""
+        """Ticks the child once; a child that has a result starts again, as in py_trees."""
         if self.owner.child_status(self.index).is_completed:
             self.owner.halt_child(self.index)
         result = self.owner.tick_child(self.index)
@@ -42,7 +43,7 @@ class _Child(Behaviour):
         yield self
 
     def stop(self, new_status: PyTreesStatus = INVALID) -> None:
-        """Halts the child if it is running; its result, if it has one, is forgotten."""
+        """Halts the child if it is running, and removes its stored result."""
         if new_status is INVALID:
             self.owner.halt_child(self.index)
         self.status = new_status
@@ -75,7 +76,7 @@ class _Adapter(ControlNode):
             rebind(self.adapted)
 
     def adopt(self) -> None:
-        """Gives the composite its children, at the first use."""
+        """Gives the composite its children, at its first use."""
         children = self.tree_gardener_node.children
         self.stand_ins = [_Child(child.name, self, index) for index, child in enumerate(children)]
         self.adapted.add_children(self.stand_ins)
@@ -109,13 +110,13 @@ class _DecoratorAdapter(_Adapter, DecoratorNode):
     """Ticks a decorator of py_trees."""
 
     def make(self, name: str) -> Any:
-        """Makes the user's object round the stand-in of its child."""
+        """Makes the user's object with the stand-in of its child."""
         self.stand_ins = [_Child(name, self, 0)]
         return self.CLASS(name, child=self.stand_ins[0])
 
 
 def adapted(cls: type) -> type[ControlNode] | None:
-    """Returns the control node that ticks a py_trees class; None if it is no composite or decorator."""
+    """Returns the control node that ticks a py_trees class; None if it is not a composite or decorator."""
     base = (
         _Adapter if issubclass(cls, Composite) else _DecoratorAdapter if issubclass(cls, Decorator) else None
     )

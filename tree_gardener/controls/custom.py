@@ -1,13 +1,13 @@
-"""Control nodes and decorators that users write: what the engine does round their `update`.
+"""Runs control nodes and decorators that users write: calls `update`, and handles its result.
 
-After `update`: SUCCESS and FAILURE set the node's status, a control resets nothing by itself, and a
-decorator's child that is done becomes IDLE. SKIPPED leaves the status as it is. Faults against the contract
-are TickErrors with a code:
+After `update`, SUCCESS and FAILURE set the node's status. A control node resets no children by itself; the
+child of a decorator becomes IDLE if it is done. SKIPPED does not change the node's status. Violations of the
+contract are TickErrors with a code:
 
-* TG701: there is no such child;
-* TG702: `update` returned no result of a tick;
+* TG701: the child does not exist;
+* TG702: `update` returned a value that is not a result of a tick;
 * TG703: a child was ticked or halted outside of the node's own tick, or ticked after the node was halted;
-* TG704: the same from another thread;
+* TG704: a child was ticked or halted from another thread;
 * TG705: the node, or one of its children, was ticked while it was being ticked.
 """
 
@@ -39,7 +39,7 @@ class CustomControl(Control):
 
     Attributes:
         instance_behaviour: the user's object.
-        thread: the thread that runs the user's code now, or 0.
+        thread: the id of the thread that runs the user's code now, or 0.
         is_ticking: whether that code is `update`.
         is_in_child: whether a child is being ticked.
         was_halted: whether the node was halted from outside within its tick.
@@ -80,7 +80,7 @@ class CustomControl(Control):
         return self.settle(status)
 
     def run(self) -> Status:
-        """Runs `update` and returns its result, which is no longer anything else than a result."""
+        """Runs `update`, and returns its result after a check that it is a valid one."""
         if self.thread:
             hint = "do not tick the tree from its own nodes"
             raise self.fault("TG705", f"{self.type} is ticked while its own code runs", hint)
@@ -102,7 +102,7 @@ class CustomControl(Control):
             self.is_ticking = False
 
     def result_of(self, returned: Any) -> Status:
-        """Converts what `update` returned."""
+        """Converts the value that `update` returned to a status."""
         try:
             status = _RESULTS.get(returned)
         except TypeError:  # not hashable
@@ -123,12 +123,12 @@ class CustomControl(Control):
         return status
 
     def warn_of(self, status: Status, child: Node) -> None:
-        """Reports once that the node is done before its child is."""
+        """Warns once if the node is done before its child is done."""
         sentence = f"{self.type} returned {status.name} while its child '{child.local_path}' is RUNNING"
         self.tree.warn(self, f"{sentence}: halt it, or it continues unseen")
 
     def settle(self, status: Status) -> Status:
-        """Sets the status to a result."""
+        """Sets the node's status to a result, and returns the result."""
         if status is RUNNING:
             if self.status is not RUNNING:
                 self.start()
@@ -136,7 +136,10 @@ class CustomControl(Control):
         return self.skipped() if status is SKIPPED else self.complete(status)
 
     def failed(self, error: TickError) -> Status:
-        """Handles a fault of the user's code: the tick ends with it, or the node fails, as is configured."""
+        """Handles a fault of the user's code.
+
+        The tick ends with the error, or the node fails, as configured.
+        """
         if self.tree.on_error is None:
             raise error from error.cause
         self.tree.on_error(error)
@@ -146,7 +149,7 @@ class CustomControl(Control):
     # -- halting ------------------------------------------------------------------------------------
 
     def halt(self) -> None:
-        """Runs the user's `halt`, then halts the children, even if that raised."""
+        """Runs the user's `halt`, then halts the children, even after an exception."""
         self.was_halted = self.is_ticking
         first: TickError | None = None
         if self.own_halt is not None:
@@ -163,7 +166,7 @@ class CustomControl(Control):
             raise first from first.cause
 
     def halt_by_itself(self) -> None:
-        """Halts the children and makes the node IDLE, as its own code asked for."""
+        """Halts the children and makes the node IDLE, at the request of the node's own code."""
         self.require_own_call("halts itself")
         self.reset_children()
         self.status = IDLE
@@ -171,7 +174,7 @@ class CustomControl(Control):
             self.journal.touched.append(self)
 
     def call(self, function: Callable[[], Any]) -> None:
-        """Calls the user's code outside of `update`: it may halt children, and tick none."""
+        """Calls the user's code outside of `update`; this code may halt children, but not tick them."""
         before = self.thread, self.is_ticking, self.is_in_child
         self.thread, self.is_ticking, self.is_in_child = get_ident(), False, False
         try:
@@ -184,13 +187,13 @@ class CustomControl(Control):
             self.thread, self.is_ticking, self.is_in_child = before
 
     def start_timer(self, delay_s: float, callback: Callable[[], None]) -> Timer:
-        """Starts a timer of the tree whose call is the user's code."""
+        """Starts a timer of the tree that calls the user's code."""
         return self.tree.timers.start(delay_s, lambda: self.call(callback))
 
     # -- what the user's code calls -----------------------------------------------------------------
 
     def child_at(self, index: int) -> Node:
-        """Returns a child."""
+        """Returns the child with this index."""
         if type(index) is not int or not 0 <= index < len(self.children):
             raise self.no_such_child(index)
         return self.children[index]
@@ -232,7 +235,7 @@ class CustomControl(Control):
     # -- faults -------------------------------------------------------------------------------------
 
     def require_own_call(self, what: str) -> None:
-        """Raises unless the call comes from the node's own code, while no child is being ticked."""
+        """Raises a TickError unless the node's own code makes the call while no child is being ticked."""
         if self.thread != get_ident() or self.is_in_child:
             raise self.misplaced(what, _FROM_OWN_CALLS)
 
@@ -249,7 +252,7 @@ class CustomControl(Control):
         return self.fault("TG703", f"{self.type} {what} outside of its own tick", hint)
 
     def no_such_child(self, index: object) -> TickError:
-        """Returns the fault of a wrong index."""
+        """Returns the fault of an invalid index of a child."""
         count = len(self.children)
         known = "its only child is 0" if count == 1 else f"its children are 0 to {count - 1}"
         return self.fault("TG701", f"{self.type} has no child {index!r}", known)

@@ -6,9 +6,9 @@ from tree_gardener.status import FAILURE, RUNNING, SKIPPED, SUCCESS, Status
 class IfThenElse(Control):
     """Ticks its first child as a condition, then one of the others.
 
-    When the condition succeeds the second child is chosen, when it fails the third; without a third child it
-    fails. The choice holds until that child is done: the condition is not ticked again while it is RUNNING. A
-    condition that is SKIPPED is an error.
+    When the condition succeeds the second child is chosen, when it fails the third; without a third child the
+    node fails. The choice holds until that child is done: the condition is not ticked again while it is
+    RUNNING. A condition that is SKIPPED is an error.
     """
 
     __slots__ = ("chosen",)

@@ -7,11 +7,11 @@ from tree_gardener.status import IDLE, RUNNING, Status
 
 
 class Ordered(Control):
-    """Ticks its children in order: after `GOES_ON` of a child it continues, `ENDS` ends it.
+    """Ticks its children in order: a child's result `GOES_ON` continues, `ENDS` ends the node.
 
-    A RUNNING child is resumed at the next tick. When a child ends it, all are reset, and the next tick starts
-    at the first. SKIPPED children are passed over; if all of them were, over all ticks of this activation, it
-    is SKIPPED, else `GOES_ON`.
+    A RUNNING child is resumed at the next tick. When a child ends the node, all children are reset, and the
+    next tick starts at the first. SKIPPED children are passed over. If all children were skipped, over all
+    ticks of this activation, the result is SKIPPED, else `GOES_ON`.
     """
 
     __slots__ = ("index", "skips")
@@ -77,9 +77,9 @@ class Ordered(Control):
 
 
 class Yielding(Ordered):
-    """Yields between children: after `GOES_ON` of one at once it wakes the tree and is RUNNING.
+    """Yields after a child that returned `GOES_ON` within one tick: wakes the tree up and is RUNNING.
 
-    It does not yield after the last child, after one that was RUNNING before, nor after a skipped one.
+    It does not yield after the last child, after a child that was RUNNING before, or after a skipped child.
     """
 
     __slots__ = ()

@@ -18,7 +18,7 @@ class _Parallel(Control):
         self.failures = 0
 
     def threshold(self, value: int) -> int:
-        """Returns a count of children; a negative one counts from the number of children: -1 means all."""
+        """Returns a count of children; a negative value counts from their number: -1 means all."""
         return value if value >= 0 else max(len(self.children) + value + 1, 0)
 
     def halt(self) -> None:
@@ -29,12 +29,12 @@ class _Parallel(Control):
 class Parallel(_Parallel):
     """Ticks all its children at every tick until enough of them succeeded or failed.
 
-    After each child it is tested whether `success_count` children succeeded, then whether that became
-    impossible or exactly `failure_count` failed; the result comes at once, later children are not ticked and
-    all are reset. Negative counts are from the end: -1 means all. With a negative `success_count` children
-    skipped in this tick count as successes. Children that are done are not ticked again. If all are skipped
-    and the success threshold is not met, it is SKIPPED. A threshold larger than the number of children is an
-    error when it is ticked.
+    After each child the node tests if `success_count` children have succeeded; then if that has become
+    impossible, or exactly `failure_count` have failed. If so, it returns the result immediately: later
+    children are not ticked, and all are reset. Negative counts are from the end: -1 means all. With a
+    negative `success_count` children skipped in this tick count as successes. Children that are done are not
+    ticked again. If all are skipped and the success threshold is not met, the node is SKIPPED. A threshold
+    larger than the number of children is an error when the node is ticked.
     """
 
     __slots__ = ()
@@ -82,9 +82,9 @@ class Parallel(_Parallel):
 class ParallelAll(_Parallel):
     """Ticks all its children until every one is done, then decides.
 
-    Every child that is not done is ticked at every tick. When each was skipped in this tick or is done, it
-    fails if at least `max_failures` failed, else it succeeds. If all were skipped in this tick, it is
-    SKIPPED. A negative `max_failures` counts from the end, 0 always fails.
+    Every child that is not done is ticked at every tick. When each child is done or was skipped in this tick,
+    the node fails if at least `max_failures` children failed, else it succeeds. If all were skipped in this
+    tick, it is SKIPPED. A negative `max_failures` counts from the end, 0 always fails.
     """
 
     __slots__ = ()

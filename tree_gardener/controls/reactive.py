@@ -7,8 +7,8 @@ from tree_gardener.status import FAILURE, IDLE, RUNNING, SUCCESS, Status
 class _Reactive(Control):
     """Ticks its children from the first at every tick.
 
-    It continues after one that returned `GOES_ON`, and ends at one that returned `ENDS`. A SKIPPED child is
-    halted at once; if all were skipped in this tick, it is SKIPPED, else `GOES_ON`.
+    It continues after a child that returned `GOES_ON`, and ends at a child that returned `ENDS`. A SKIPPED
+    child is halted immediately; if all were skipped in this tick, the result is SKIPPED, else `GOES_ON`.
     """
 
     __slots__ = ()
@@ -35,7 +35,7 @@ class _Reactive(Control):
         return self.finish_skipped() if all_skipped else self.finish(goes_on)
 
     def running_at(self, index: int) -> Status:
-        """Halts all children but the RUNNING one: the earlier ones too, so that they start again."""
+        """Halts all children except the RUNNING one; the earlier ones too, so that they start again."""
         if self.journal is not None:
             self.journal.reset([child for position, child in enumerate(self.children) if position != index])
             return RUNNING
@@ -50,8 +50,9 @@ class _Reactive(Control):
 class ReactiveSequence(_Reactive):
     """A Sequence that ticks all its children from the first at every tick.
 
-    When one is RUNNING, all others are halted and it is RUNNING. When one fails, all are reset and it fails.
-    A SKIPPED child is halted at once; if all were skipped in this tick, it is SKIPPED, else SUCCESS.
+    When a child is RUNNING, all others are halted and the node is RUNNING. When a child fails, all are reset
+    and the node fails. A SKIPPED child is halted immediately. If all were skipped in this tick, the node is
+    SKIPPED, else it succeeds.
     """
 
     __slots__ = ()
@@ -62,9 +63,9 @@ class ReactiveSequence(_Reactive):
 class ReactiveFallback(_Reactive):
     """A Fallback that tries all its children from the first at every tick.
 
-    When one is RUNNING, all others are halted and it is RUNNING. When one succeeds, all are reset and it
-    succeeds. A SKIPPED child is halted at once; if all were skipped in this tick, it is SKIPPED, else
-    FAILURE.
+    When a child is RUNNING, all others are halted and the node is RUNNING. When a child succeeds, all are
+    reset and the node succeeds. A SKIPPED child is halted immediately. If all were skipped in this tick, the
+    node is SKIPPED, else it fails.
     """
 
     __slots__ = ()

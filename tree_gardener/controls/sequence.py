@@ -5,9 +5,9 @@ from tree_gardener.status import FAILURE, IDLE, SUCCESS, Status
 class Sequence(Ordered):
     """Ticks its children in order.
 
-    A RUNNING child is resumed at the next tick. When a child fails, all are reset and it fails; the next tick
-    starts at the first child. SKIPPED children are passed over; if all of them were, over all ticks of this
-    activation, it is SKIPPED, else SUCCESS.
+    A RUNNING child is resumed at the next tick. When a child fails, all children are reset and the Sequence
+    fails; the next tick starts at the first child. SKIPPED children are passed over. If all children were
+    skipped, over all ticks of this activation, the Sequence is SKIPPED, else it succeeds.
     """
 
     __slots__ = ()
@@ -18,9 +18,9 @@ class Sequence(Ordered):
 class AsyncSequence(Yielding):
     """A Sequence that returns RUNNING between its children.
 
-    After each child that succeeded within the tick and is not the last, it wakes the tree up and returns
-    RUNNING, so that the tree stays responsive; under ``tick_once`` it still runs through. It does not yield
-    after a child that was RUNNING before, nor after a skipped one.
+    After each child that succeeded within the tick, except the last one, the node wakes the tree up and
+    returns RUNNING, so that the tree stays responsive. Under ``tick_once`` it still runs to its end. It does
+    not yield after a child that was RUNNING before, or after a skipped child.
     """
 
     __slots__ = ()

@@ -18,7 +18,7 @@ class Switch(Control):
     Variable and cases are read as strings at every tick. They are equal as strings, else as integers, else as
     real numbers with a small tolerance; names of enum constants count as their numbers. If no case matches,
     or the variable cannot be read, the last child is ticked. When the choice changes, a RUNNING child is
-    halted. A SKIPPED child makes the Switch SKIPPED. It needs one child more than it has cases.
+    halted. A SKIPPED child makes the Switch SKIPPED. A Switch needs one child more than it has cases.
     """
 
     __slots__ = ("running",)

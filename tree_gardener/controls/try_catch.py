@@ -5,9 +5,9 @@ from tree_gardener.status import FAILURE, IDLE, RUNNING, SUCCESS, Status
 class TryCatch(Control):
     """Ticks all but its last child as a Sequence; when one fails, ticks the last, then fails.
 
-    The last child is ticked in the same tick and until it is not RUNNING; the result is FAILURE whatever it
-    returned. If all the others were skipped, it is SKIPPED. With `catch_on_halt`, halting it during the first
-    children halts them and ticks the last child once.
+    The last child is ticked in the same tick, and until it is not RUNNING; the result is FAILURE for every
+    result of this child. If all other children were skipped, the node is SKIPPED. With `catch_on_halt`, a
+    halt of the node during the first children halts them and ticks the last child once.
     """
 
     __slots__ = ("catching", "index", "skips")

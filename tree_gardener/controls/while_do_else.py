@@ -7,8 +7,8 @@ class WhileDoElse(Control):
     """Ticks its first child as a condition at every tick, then one of the others.
 
     While the condition succeeds the second child is ticked, when it fails the third, and the other one is
-    halted; without a third child it fails. While the condition itself is RUNNING, a RUNNING branch is neither
-    ticked nor halted. A condition that is SKIPPED is an error.
+    halted; without a third child the node fails. While the condition itself is RUNNING, a RUNNING branch is
+    neither ticked nor halted. A condition that is SKIPPED is an error.
     """
 
     __slots__ = ()

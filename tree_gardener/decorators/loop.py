@@ -13,10 +13,10 @@ class Loop(Decorator):
     """Ticks its child once for each element of a queue.
 
     When the child is not RUNNING, one element is taken from `queue` and written to `value`; then the child is
-    ticked. FAILURE of the child ends the loop, all other results return RUNNING. When the queue is empty,
-    `if_empty` is returned, on the tick after the last element. A constant queue is copied when the loop
-    starts, and so are lists and texts on the blackboard; a ``collections.deque`` on the blackboard is
-    consumed in place.
+    ticked. A FAILURE of the child ends the loop; after all other results the loop returns RUNNING. When the
+    queue is empty, at the tick after the last element, the loop returns `if_empty`. A constant queue is
+    copied when the loop starts, and so are lists and texts on the blackboard; a ``collections.deque`` on the
+    blackboard is consumed in place.
     """
 
     __slots__ = ("busy", "queue", "ticked")
@@ -56,7 +56,7 @@ class Loop(Decorator):
         return RUNNING if self.ticked else before
 
     def refill(self, starts: bool) -> None:  # noqa: FBT001 - private to this rule
-        """Sets the queue that the next element is taken from."""
+        """Sets the queue from which the next element is taken."""
         text = self.ports.get("queue", "")
         key = pointer_key(text, "queue")
         if key is None:
@@ -78,7 +78,7 @@ class Loop(Decorator):
                 raise TickError(self, f"port 'queue': the entry '{key}': {error}") from None
 
     def empty(self) -> Status:
-        """Ends the loop: no element is left."""
+        """Ends the loop, since no element is left."""
         result: Status = self.get("if_empty")
         if result is SUCCESS or result is FAILURE:
             # A child that was skipped in the middle of its work is not halted here, as in BehaviorTree.CPP.

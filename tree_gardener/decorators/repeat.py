@@ -16,12 +16,15 @@ class _Counting(Decorator):
         super().halt()
 
     def end(self, status: Status) -> Status:
-        """Handles the result that the cycle counts."""
+        """Handles the child's result that is counted."""
         self.count = 0
         return self.finish(status)
 
     def exhausted(self, status: Status) -> Status:
-        """Ends without a reset: the child was reset already, or keeps its status as in BehaviorTree.CPP."""
+        """Ends without resetting the child.
+
+        It was reset already, or keeps its status as in BehaviorTree.CPP.
+        """
         self.count = 0
         return self.complete(status)
 
@@ -34,10 +37,10 @@ class _Counting(Decorator):
 class Repeat(_Counting):
     """Ticks its child again each time it succeeds, `num_cycles` times.
 
-    -1 repeats endlessly, 0 succeeds immediately. Between two cycles it wakes the tree up and returns RUNNING
-    if the child succeeded within one tick; a child that was RUNNING before starts its next cycle in the same
-    tick. A failure ends it. A skipped child makes it SKIPPED and keeps the count. The port is read at every
-    tick.
+    -1 repeats endlessly, 0 succeeds immediately. Between two cycles the node wakes the tree up and returns
+    RUNNING if the child succeeded within one tick; a child that was RUNNING before starts its next cycle in
+    the same tick. A failure of the child ends the node. A skipped child makes the node SKIPPED and keeps the
+    count. The port is read at every tick.
     """
 
     __slots__ = ()
@@ -67,10 +70,10 @@ class Repeat(_Counting):
 class RetryUntilSuccessful(_Counting):
     """Ticks its child again each time it fails, `num_attempts` times.
 
-    -1 retries endlessly, 0 fails immediately. Between two attempts it wakes the tree up and returns RUNNING
-    if the child failed within one tick; a child that was RUNNING before starts its next attempt in the same
-    tick. A success ends it. A skipped child makes it SKIPPED and keeps the count. The port is read at every
-    tick and after every failure.
+    -1 retries endlessly, 0 fails immediately. Between two attempts the node wakes the tree up and returns
+    RUNNING if the child failed within one tick; a child that was RUNNING before starts its next attempt in
+    the same tick. A success of the child ends the node. A skipped child makes the node SKIPPED and keeps the
+    count. The port is read at every tick and after every failure.
     """
 
     __slots__ = ()

@@ -5,7 +5,7 @@ from tree_gardener.status import FAILURE, RUNNING, SUCCESS, Status
 
 
 class Inverter(Decorator):
-    """Turns SUCCESS into FAILURE and FAILURE into SUCCESS; RUNNING and SKIPPED pass."""
+    """Turns SUCCESS into FAILURE and FAILURE into SUCCESS; RUNNING and SKIPPED are returned unchanged."""
 
     __slots__ = ()
 
@@ -24,7 +24,7 @@ class Inverter(Decorator):
 
 
 class ForceSuccess(Decorator):
-    """Succeeds whether its child succeeds or fails; RUNNING and SKIPPED pass."""
+    """Succeeds whether its child succeeds or fails; RUNNING and SKIPPED are returned unchanged."""
 
     __slots__ = ()
 
@@ -39,7 +39,7 @@ class ForceSuccess(Decorator):
 
 
 class ForceFailure(Decorator):
-    """Fails whether its child succeeds or fails; RUNNING and SKIPPED pass."""
+    """Fails whether its child succeeds or fails; RUNNING and SKIPPED are returned unchanged."""
 
     __slots__ = ()
 

@@ -5,8 +5,8 @@ from tree_gardener.status import FAILURE, RUNNING, SUCCESS, Status
 class RunOnce(Decorator):
     """Ticks its child until it is done once, and never again.
 
-    Afterwards, also over halts and new activations, it is SKIPPED, or with `then_skip` false returns that
-    first result again. A child that was halted while RUNNING is not done.
+    Afterwards, also after halts and in new activations, the node is SKIPPED; if `then_skip` is false, it
+    returns the first result again. A child that was halted while RUNNING is not done.
     """
 
     __slots__ = ("result",)

@@ -5,10 +5,10 @@ from tree_gardener.status import IDLE, RUNNING, SKIPPED, Status
 class SubTree(Decorator):
     """Ticks another tree, with a blackboard of its own.
 
-    Its attributes connect names: ``inner="{outer}"`` makes one entry of two names, in both directions;
-    ``{=}`` the same name; ``{@name}`` an entry of the root; any other text is a constant. With ``_autoremap``
-    all names that are not found inside are those of the caller, except names that begin with ``_``. Its pre-
-    and post-conditions are evaluated in the caller's blackboard.
+    Its attributes connect names: ``inner="{outer}"`` gives one entry two names, for reading and writing.
+    ``{=}`` means the same name in both trees, ``{@name}`` an entry of the root; any other text is a constant.
+    With ``_autoremap`` all names that are not found in the SubTree are those of the caller, except names that
+    begin with ``_``. The pre- and post-conditions of the node are evaluated in the caller's blackboard.
     """
 
     __slots__ = ()

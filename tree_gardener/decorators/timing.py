@@ -55,8 +55,8 @@ class Delay(Decorator):
 class Timeout(Decorator):
     """Halts its child and fails when it is RUNNING for longer than `msec` milliseconds; 0 means no limit.
 
-    When the time is over a RUNNING child is halted at once, the tree is woken up, and the next tick returns
-    FAILURE. The time is measured from the first tick; a skipped child does not stop it.
+    When the time is over a RUNNING child is halted immediately, the tree is woken up, and the next tick
+    returns FAILURE. The time is measured from the first tick; a skipped child does not stop it.
     """
 
     __slots__ = ("expired", "started", "timer")

@@ -6,7 +6,7 @@ from tree_gardener.status import FAILURE, RUNNING, SKIPPED, SUCCESS, Status
 
 
 class _WhenUpdated(Decorator):
-    """Ticks its child if an entry was written since the last look."""
+    """Ticks its child if an entry was written since the last test."""
 
     __slots__ = ("busy", "key", "seen")
     MARKS_RUNNING = ()
@@ -38,7 +38,7 @@ class _WhenUpdated(Decorator):
         return self.skipped()
 
     def is_updated(self) -> bool:
-        """Whether the entry was written since the last look; remembers this look."""
+        """Whether the entry was written since the last test."""
         entry = self.board.find(self.key)
         if entry is None:
             return False
@@ -51,9 +51,9 @@ class _WhenUpdated(Decorator):
 
 
 class SkipUnlessUpdated(_WhenUpdated):
-    """Is SKIPPED unless a blackboard entry was written since the last look.
+    """Is SKIPPED unless a blackboard entry was written since the last test.
 
-    Any write counts, also of an equal value. While the child is RUNNING it is ticked without another look.
+    Any write counts, also of an equal value. A RUNNING child is ticked without another test.
     """
 
     __slots__ = ()
@@ -61,9 +61,9 @@ class SkipUnlessUpdated(_WhenUpdated):
 
 
 class WaitValueUpdate(_WhenUpdated):
-    """Is RUNNING until a blackboard entry was written since the last look, then ticks its child.
+    """Is RUNNING until a blackboard entry was written since the last test, then ticks its child.
 
-    Any write counts, also of an equal value. While the child is RUNNING it is ticked without another look.
+    Any write counts, also of an equal value. A RUNNING child is ticked without another test.
     """
 
     __slots__ = ()

@@ -21,7 +21,7 @@ PY_FAILURE, PY_INVALID = PyTreesStatus.FAILURE, PyTreesStatus.INVALID
 class BehaviourLeaf(Leaf):
     """Ticks a py_trees behaviour.
 
-    `initialise` and `terminate` are None where the class does not override py_trees' own, which do nothing.
+    `initialise` and `terminate` are None if the class does not override those of py_trees, which do nothing.
     """
 
     __slots__ = ("initialise", "instance_behaviour", "terminate", "update")
@@ -55,7 +55,7 @@ class BehaviourLeaf(Leaf):
         self.status = IDLE
 
     def end(self, result: Status) -> Status:
-        """Ends the activation: the behaviour succeeded or failed."""
+        """Ends the activation, since the behaviour succeeded or failed."""
         py_status = PY_SUCCESS if result is SUCCESS else PY_FAILURE
         if self.terminate is not None:
             self.terminate(py_status)
@@ -63,7 +63,7 @@ class BehaviourLeaf(Leaf):
         return self.complete(result)
 
     def translate(self, returned: Any) -> Status:
-        """Converts what update() returned to one of our statuses, in the rare cases."""
+        """Converts the value that `update()` returned to a status of the engine, in the rare cases."""
         if returned is PY_FAILURE:
             return FAILURE
         if returned is PY_SUCCESS:
@@ -83,7 +83,7 @@ class BehaviourLeaf(Leaf):
         raise TickError(self, f"{name}.update() returned {returned!r}, which is no result of a tick")
 
     def failed(self, error: Exception | SystemExit) -> Status:
-        """Handles an exception: the tick ends with an error, or the node fails, as the tree is configured."""
+        """Handles an exception. The tick ends with an error, or the node fails, as the tree is configured."""
         located = error if isinstance(error, TickError) else TickError(self, describe(error), error)
         if self.tree.on_error is None:
             raise located from error
@@ -100,8 +100,7 @@ class StatefulLeaf(BehaviourLeaf):
     """A StatefulAction: ``initialise()`` and ``update()`` to start, ``update()`` while RUNNING.
 
     ``terminate(status)`` is called after SUCCESS or FAILURE, ``terminate(INVALID)`` when it is halted. A leaf
-    that rests in SUCCESS or FAILURE, because its parent did not reset it, returns that again without any
-    call.
+    that has kept SUCCESS or FAILURE, because its parent did not reset it, returns it again without any call.
     """
 
     __slots__ = ()
@@ -142,7 +141,7 @@ class StatefulLeaf(BehaviourLeaf):
 
 
 class ImmediateLeaf(BehaviourLeaf):
-    """A SyncAction: each tick is a whole activation, in any status; RUNNING is an error."""
+    """A SyncAction: each tick is a whole activation, from any status; RUNNING is an error."""
 
     __slots__ = ()
     ALLOWS_RUNNING = False
@@ -170,7 +169,7 @@ class ImmediateLeaf(BehaviourLeaf):
 
 
 class ConditionLeaf(ImmediateLeaf):
-    """A Condition: evaluated at every tick, in any status."""
+    """A Condition: it is evaluated at every tick, from any status."""
 
     __slots__ = ()
     KIND = Kind.CONDITION

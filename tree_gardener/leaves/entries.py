@@ -12,9 +12,9 @@ class SetBlackboard(SyncLeaf):
     """Writes a value, or a copy of an entry, to the blackboard.
 
     A literal is stored as a string if the entry is new, and converted if the entry has a type.
-    ``value="{source}"`` copies value and type; a source without a value makes it fail. `output_key` is the
-    entry's name; ``"{key}"`` there means the entry whose name is stored in `key`. A literal written to an
-    entry that a script made leaves that entry without a value, as in BehaviorTree.CPP.
+    ``value="{source}"`` copies value and type; a source without a value makes the node fail. `output_key` is
+    the entry's name; in it, ``"{key}"`` means the entry whose name is stored in `key`. A literal written to
+    an entry that a script made leaves that entry without a value, as in BehaviorTree.CPP.
     """
 
     __slots__ = ()
@@ -64,7 +64,7 @@ class SetBlackboard(SyncLeaf):
 
 
 def _copied_type(value: Any, kind: ValueType | None) -> ValueType | None:
-    """Returns the type of a copied value: that of its entry, or the type that scripts give it."""
+    """Returns the type of a copied value: that of its entry, or the type that scripts would give it."""
     if kind is not None and kind.is_strong:
         return kind
     if isinstance(value, str):
@@ -75,7 +75,7 @@ def _copied_type(value: Any, kind: ValueType | None) -> ValueType | None:
 
 
 class UnsetBlackboard(SyncLeaf):
-    """Removes an entry from the blackboard and succeeds, also if there is none.
+    """Removes an entry from the blackboard and succeeds, also if the entry does not exist.
 
     Only an entry of the tree's own blackboard is removed, never one that a SubTree's attributes lead to.
     """
@@ -88,7 +88,7 @@ class UnsetBlackboard(SyncLeaf):
 
 
 class WasEntryUpdated(SyncLeaf):
-    """Succeeds if a blackboard entry was written since the last look, else fails."""
+    """Succeeds if a blackboard entry was written since the last test, else fails."""
 
     __slots__ = ("key", "seen")
     NEEDS = "entry"

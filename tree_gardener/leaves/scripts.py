@@ -11,7 +11,7 @@ class Script(SyncLeaf):
     """Runs a script on the blackboard and succeeds.
 
     The text may come from an entry, ``code="{key}"``, which must have a value when the tree is built, such as
-    a constant that the SubTree is given. An empty script does nothing.
+    a constant that the SubTree receives. An empty script does nothing.
     """
 
     __slots__ = ("script",)
@@ -62,4 +62,4 @@ def _bind_any(text: str, environment: Environment) -> Callable[[], object]:
 
 
 def _nothing() -> None:
-    """Runs an empty script."""
+    """Does nothing; used for an empty script."""

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
 
 
 class Sleep(Leaf):
-    """Is RUNNING for `msec` milliseconds, then succeeds; 0 succeeds at once."""
+    """Is RUNNING for `msec` milliseconds, then succeeds; 0 succeeds immediately."""
 
     __slots__ = ("is_over", "timer")
 

@@ -20,10 +20,10 @@ class TestConfig:
     """The configuration of a TestNode.
 
     Attributes:
-        return_status: its result.
-        return_status_script: a script whose value is the result, by name or number; goes before
+        return_status: the result of the node.
+        return_status_script: a script whose value is the result, by name or number; it overrides
             `return_status`.
-        async_delay_s: how long it is RUNNING before.
+        async_delay_s: the seconds for which the node is RUNNING before the result.
         success_script: runs when the result is SUCCESS.
         failure_script: runs when the result is FAILURE.
         post_script: runs in either case.
@@ -40,7 +40,7 @@ class TestConfig:
 
 
 class TestNode(Leaf):
-    """Stands in for another node in tests; made by substitution rules.
+    """Replaces another node in tests; substitution rules create it.
 
     It is RUNNING for `async_delay` milliseconds, then runs its scripts and returns the configured status.
     """

@@ -1,8 +1,8 @@
-"""Nodes of Nav2 that need no action and no service of ROS.
+"""Nodes of Nav2 that need neither an action nor a service of ROS.
 
 Each module is a node, written with the public classes, so that its source can also be a project's
-``actions/<Name>.py``. Helpers that several share are modules beside it, and travel in exported packages with
-the engine. ``Tree.from_xml(text, nodes=NODES)`` runs trees that use them. `nav2_nodes.json` beside the folder
+``actions/<Name>.py``. Modules for helpers are in the same folder, and are exported in packages with the
+engine. ``Tree.from_xml(text, nodes=NODES)`` runs trees that use them. `nav2_nodes.json` beside the folder
 lists all of Nav2's nodes with their ports. The tests compare the control nodes and RateController with Nav2's
 own C++ in BehaviorTree.CPP 4.10.
 """

@@ -9,7 +9,7 @@ from tree_gardener.ports import Port
 
 
 class AppendGoalPoseToGoals(Behaviour):
-    """Writes the goals with one more pose at the end. It fails where there are no goals or no pose.
+    """Writes the goals with one more pose at the end. It fails if there are no goals or no pose.
 
     Rule: Nav2's plugins/action/append_goal_pose_to_goals_action.cpp, which appends an empty pose instead.
     """

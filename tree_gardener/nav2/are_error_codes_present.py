@@ -12,8 +12,8 @@ from tree_gardener.ports import Port
 class AreErrorCodesPresent(Behaviour):
     """Succeeds if the error code is one of those to check.
 
-    The list is read once, before the first tick. A code that cannot be read leaves the last one, 0 at first.
-    Rule: Nav2's plugins/condition/are_error_codes_present_condition.hpp.
+    The list is read once, before the first tick. If the code cannot be read, the last code counts; at first
+    it is 0. Rule: Nav2's plugins/condition/are_error_codes_present_condition.hpp.
     """
 
     NODE_KIND = "Condition"

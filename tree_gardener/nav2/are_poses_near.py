@@ -14,7 +14,7 @@ from tree_gardener.ports import Port
 class ArePosesNear(Behaviour):
     """Succeeds if two poses are at most `tolerance` apart in the plane.
 
-    Poses of different frames are compared in the global frame; it fails where they cannot be transformed.
+    Poses of different frames are compared in the global frame; it fails if they cannot be transformed.
     Rule: Nav2's plugins/condition/are_poses_near_condition.cpp.
     """
 

@@ -13,8 +13,8 @@ from tree_gardener.ports import Port
 class CheckStopStatus(Behaviour):
     """Succeeds when the robot has been slower than the threshold for `duration_stopped`; fails when it moves.
 
-    While it is stopped for less, it is RUNNING. A robot without odometry counts as stopped. The time counts
-    over halts too. Rule: Nav2's plugins/action/check_stop_status_action.cpp.
+    While it is stopped for less, it is RUNNING. A robot without odometry counts as stopped. The time
+    continues during halts. Rule: Nav2's plugins/action/check_stop_status_action.cpp.
     """
 
     NODE_KIND = "Action"

@@ -11,9 +11,9 @@ from tree_gardener.nav2.reading import input_or
 class DistanceController(DecoratorNode):
     """Ticks its child when it starts, and then each time that the robot has moved by `distance`.
 
-    In between it is RUNNING; a child that is RUNNING is ticked at every tick. The way counts in a straight
-    line from the start, and then from the child's last success. It fails while the robot's pose is not known.
-    Rule: Nav2's plugins/decorator/distance_controller.cpp.
+    In between it is RUNNING; a child that is RUNNING is ticked at every tick. The distance is measured in a
+    straight line from the start, and later from the place of the child's last success. It fails while the
+    robot's pose is not known. Rule: Nav2's plugins/decorator/distance_controller.cpp.
     """
 
     INPUT_PORTS = {

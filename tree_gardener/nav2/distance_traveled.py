@@ -14,8 +14,9 @@ from tree_gardener.ports import Port
 class DistanceTraveled(Behaviour):
     """Succeeds once each time that the robot has moved by `distance`; in between it fails.
 
-    The way counts in a straight line from the start, where it fails, and then from each success. It fails
-    while the robot's pose is not known. Rule: Nav2's plugins/condition/distance_traveled_condition.cpp.
+    The distance is measured in a straight line from the start, at which the node fails, and later from the
+    place of each success. It fails while the robot's pose is not known. Rule: Nav2's
+    plugins/condition/distance_traveled_condition.cpp.
     """
 
     NODE_KIND = "Condition"

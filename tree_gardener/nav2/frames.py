@@ -1,7 +1,7 @@
-"""Where the robot is, by tf. All nodes of one ROS node share a buffer of transforms.
+"""Computes the pose of the robot by tf. All nodes of one ROS node share a buffer of transforms.
 
 Nav2 waits for a transform up to `transform_tolerance`; here a tick does not wait, since messages arrive only
-between ticks: a pose that is not there yet is there at a later tick.
+between ticks: a pose that is not known yet may be known at a later tick.
 """
 
 from typing import Any, Final
@@ -30,7 +30,7 @@ class Frames:
         return str(input_or(self._node, port, "") or parameter(self._ros_node, port, FRAMES[port]))
 
     def can_transform(self, target: str, source: str) -> bool:
-        """Whether there is a transform between two frames."""
+        """Whether a transform between two frames is known."""
         if self._buffer is None:
             return False
         from rclpy.time import Time  # noqa: PLC0415 - only where ROS is
@@ -38,7 +38,7 @@ class Frames:
         return bool(self._buffer.can_transform(target, source, Time()))
 
     def robot_pose(self, frame: str = "", base: str = "") -> Any:
-        """Returns the robot's pose in a frame as a PoseStamped, or None."""
+        """Returns the robot's pose in a frame as a PoseStamped; None if it is not known."""
         frame, base = frame or self.frame("global_frame"), base or self.frame("robot_base_frame")
         if self._buffer is None:
             return None
@@ -56,7 +56,7 @@ class Frames:
         return pose
 
     def transformed(self, pose: Any, frame: str) -> Any:
-        """Returns a stamped pose in another frame, or None."""
+        """Returns a stamped pose in another frame; None if the transform is not known."""
         if pose.header.frame_id == frame:
             return pose
         if self._buffer is None:
@@ -71,7 +71,7 @@ class Frames:
 
 
 def _buffer_of(ros_node: Any) -> Any:
-    """Returns the buffer of a ROS node, which is made and filled from the first request on."""
+    """Returns the buffer of a ROS node; creates it at the first request."""
     buffer = getattr(ros_node, "nav2_buffer", None)
     if buffer is None:
         from tf2_ros import Buffer, TransformListener  # noqa: PLC0415 - only where ROS is

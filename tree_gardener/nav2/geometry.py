@@ -9,7 +9,7 @@ from typing import Any
 
 
 def distance(first: Any, second: Any) -> float:
-    """Returns the distance of two stamped poses in the plane."""
+    """Returns the distance between two stamped poses in the plane."""
     a, b = first.pose.position, second.pose.position
     return math.hypot(a.x - b.x, a.y - b.y)
 
@@ -20,7 +20,7 @@ def path_length(poses: Sequence[Any], start: int = 0) -> float:
 
 
 def first_beyond(poses: Sequence[Any], begin: int, way: float) -> int:
-    """Returns the index of the first pose that is further along the path than `way`; else their number."""
+    """Returns the index of the first pose further along the path than `way`; if none, the number of poses."""
     length = 0.0
     for index in range(begin, len(poses) - 1):
         length += distance(poses[index], poses[index + 1])
@@ -30,7 +30,7 @@ def first_beyond(poses: Sequence[Any], begin: int, way: float) -> int:
 
 
 def nearest(begin: int, end: int, measure: Callable[[int], float]) -> int:
-    """Returns the index in ``begin..end-1`` with the least measure; of several the last one."""
+    """Returns the index in ``begin..end-1`` with the smallest measure; if there are several, the last one."""
     return min(range(begin, end), key=lambda index: (measure(index), -index), default=end)
 
 
@@ -44,6 +44,6 @@ def turn_between(first: Any, second: Any) -> float:
 
 
 def copied(message: Any, **changes: Any) -> Any:
-    """Returns a message of the same class with the same fields, some of them changed."""
+    """Returns a message of the same class and with the same fields, except for the changes."""
     fields = message.get_fields_and_field_types()
     return type(message)(**{name: changes.get(name, getattr(message, name)) for name in fields})

@@ -9,9 +9,9 @@ from tree_gardener.ports import Port
 
 
 class GetPoseFromPath(Behaviour):
-    """Writes a pose of the path; negative indices count from the end. It fails where there is no such pose.
+    """Writes a pose of the path; negative indices count from the end. It fails if there is no such pose.
 
-    A pose without a frame takes that of the path. Rule: Nav2's plugins/action/get_pose_from_path_action.cpp.
+    A pose without a frame gets that of the path. Rule: Nav2's plugins/action/get_pose_from_path_action.cpp.
     """
 
     NODE_KIND = "SyncAction"

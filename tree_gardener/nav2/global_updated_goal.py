@@ -12,8 +12,8 @@ from tree_gardener.ports import Port
 class GlobalUpdatedGoal(Behaviour):
     """Succeeds once each time that the goal or the goals change, and at its first tick.
 
-    It remembers them for the life of the tree, also when it is reset or halted. Where a port is not given,
-    the blackboard's entry of its name is read. Rule: Nav2's
+    It remembers them for the life of the tree, even after a reset or halt. If a port is not given, the
+    blackboard entry with the port's name is read. Rule: Nav2's
     plugins/condition/globally_updated_goal_condition.cpp.
     """
 

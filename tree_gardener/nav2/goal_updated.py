@@ -12,8 +12,8 @@ from tree_gardener.ports import Port
 class GoalUpdated(Behaviour):
     """Succeeds once each time that the goal or the goals change.
 
-    When it starts it remembers them and fails. Where a port is not given, the blackboard's entry of its name
-    is read. Rule: Nav2's plugins/condition/goal_updated_condition.cpp.
+    When it starts it remembers them and fails. If a port is not given, the blackboard entry with the port's
+    name is read. Rule: Nav2's plugins/condition/goal_updated_condition.cpp.
     """
 
     NODE_KIND = "Condition"

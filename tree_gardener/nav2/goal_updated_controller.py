@@ -9,8 +9,8 @@ from tree_gardener.nav2.reading import goals_of
 class GoalUpdatedController(DecoratorNode):
     """Ticks its child when it starts and each time that the goal or the goals change.
 
-    In between it is RUNNING; a child that is RUNNING is ticked at every tick. Where a port is not given, the
-    blackboard's entry of its name is read. Rule: Nav2's plugins/decorator/goal_updated_controller.cpp.
+    In between it is RUNNING; a child that is RUNNING is ticked at every tick. If a port is not given, the
+    blackboard entry with the port's name is read. Rule: Nav2's plugins/decorator/goal_updated_controller.cpp.
     """
 
     INPUT_PORTS = {

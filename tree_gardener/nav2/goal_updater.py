@@ -11,7 +11,7 @@ class GoalUpdater(DecoratorNode):
     """Writes the goal, and the goals, that were received by topic, and ticks its child.
 
     A received goal replaces the input if its stamp is not zero and not older than the input's; else the input
-    is written. The same holds for goals, of which an empty message is ignored. Without ROS the inputs are
+    is written. The same holds for goals; an empty message of goals is ignored. Without ROS the inputs are
     written. Topics: the ROS node's parameters `goal_updater_topic` (goal_update) and `goals_updater_topic`
     (goals_update). Rule: Nav2's plugins/decorator/goal_updater_node.cpp.
     """
@@ -46,7 +46,7 @@ class GoalUpdater(DecoratorNode):
         return self.tick_child()
 
     def write(self, what: str, received: Any, kind: tuple[str, str]) -> None:
-        """Writes the received message, or the input where that is newer."""
+        """Writes the received message, or the input if that is newer."""
         given = input_or(self, f"input_{what}", None)
         if received is not None and _time(received) != (0, 0) and _time(received) >= _time(given):
             give(self, f"output_{what}", received)
@@ -61,5 +61,5 @@ class GoalUpdater(DecoratorNode):
 
 
 def _time(message: Any) -> tuple[int, int]:
-    """Returns the stamp of a message; that of none is zero."""
+    """Returns the stamp of a message; zero without a message."""
     return (0, 0) if message is None else (message.header.stamp.sec, message.header.stamp.nanosec)

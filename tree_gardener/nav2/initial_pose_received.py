@@ -10,8 +10,8 @@ from tree_gardener.ports import Port
 class InitialPoseReceived(Behaviour):
     """Succeeds if `initial_pose_received` is true.
 
-    Where the port is not given, the blackboard's entry of its name is read; without one it fails.
-    Rule: Nav2's plugins/condition/initial_pose_received_condition.cpp.
+    If the port is not given, the blackboard entry with the port's name is read; without such an entry the
+    node fails. Rule: Nav2's plugins/condition/initial_pose_received_condition.cpp.
     """
 
     NODE_KIND = "Condition"

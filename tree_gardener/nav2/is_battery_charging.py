@@ -13,7 +13,7 @@ from tree_gardener.ports import Port
 class IsBatteryCharging(Behaviour):
     """Succeeds if the last message says that the battery is charging.
 
-    It fails until a message is received. At the start a new topic is subscribed to.
+    It fails until a message is received. When it starts, it subscribes to the topic if that has changed.
     Rule: Nav2's plugins/condition/is_battery_charging_condition.cpp.
     """
 
@@ -28,7 +28,7 @@ class IsBatteryCharging(Behaviour):
         self.initialise_ports()
 
     def initialise_ports(self) -> None:
-        """Follows the topic."""
+        """Subscribes to the topic of the port."""
         self.battery.follow(input_or(self, "battery_topic", ""))
 
     def update(self) -> Status:

@@ -14,7 +14,7 @@ class IsBatteryLow(Behaviour):
     """Succeeds if the last message says that the battery is at or below `min_battery`.
 
     It compares the percentage, or with `is_voltage` the voltage. It fails until a message is received. The
-    ports are read at the start; a new topic is then subscribed to. Rule: Nav2's
+    ports are read when it starts; it then subscribes to the topic if that has changed. Rule: Nav2's
     plugins/condition/is_battery_low_condition.cpp.
     """
 
@@ -33,7 +33,7 @@ class IsBatteryLow(Behaviour):
         self.initialise_ports()
 
     def initialise_ports(self) -> None:
-        """Reads the ports, and follows the topic."""
+        """Reads the ports, and subscribes to the topic."""
         self.min_battery = input_or(self, "min_battery", self.min_battery)
         self.is_voltage = input_or(self, "is_voltage", self.is_voltage)
         self.battery.follow(input_or(self, "battery_topic", ""))

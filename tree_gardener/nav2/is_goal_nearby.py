@@ -14,9 +14,9 @@ from tree_gardener.ports import Port
 class IsGoalNearby(Behaviour):
     """Succeeds if the rest of the path, from the pose nearest to the robot, is shorter than the threshold.
 
-    With `max_robot_pose_search_dist` of 0 or more the search begins where the last one of the same path
-    ended, and ends so far ahead. It fails while the path is empty or the robot's pose is not known. Rule:
-    Nav2's plugins/condition/is_goal_nearby_condition.cpp.
+    With a `max_robot_pose_search_dist` of 0 or more, the search for the nearest pose begins where the last
+    search in the same path ended, and covers only this distance. It fails while the path is empty or the
+    robot's pose is not known. Rule: Nav2's plugins/condition/is_goal_nearby_condition.cpp.
     """
 
     NODE_KIND = "Condition"

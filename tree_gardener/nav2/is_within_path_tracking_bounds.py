@@ -10,9 +10,9 @@ from tree_gardener.ports import Port
 class IsWithinPathTrackingBounds(Behaviour):
     """Succeeds if the robot follows its path closely.
 
-    Within the bounds to the left, to the right, and in heading. A positive error of position is to the left.
-    A negative bound counts as positive; bounds are read at the start. Without feedback it succeeds. Rule:
-    Nav2's plugins/condition/is_within_path_tracking_bounds_condition.cpp.
+    It does so if its errors are within the bounds to the left, to the right, and in heading. A positive error
+    of position is to the left. A negative bound counts as positive; bounds are read at the start. Without
+    feedback it succeeds. Rule: Nav2's plugins/condition/is_within_path_tracking_bounds_condition.cpp.
     """
 
     NODE_KIND = "Condition"

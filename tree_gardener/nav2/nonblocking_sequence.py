@@ -6,7 +6,7 @@ from tree_gardener import ControlNode, Status
 class NonblockingSequence(ControlNode):
     """Ticks all its children at every tick, and succeeds when all succeed in one tick.
 
-    A child that fails ends it. A child that is skipped is an error, as in Nav2.
+    A child that fails ends the node. A child that is skipped is an error, as in Nav2.
     """
 
     def update(self) -> Status:

@@ -12,8 +12,8 @@ from tree_gardener.ports import Port
 class PathExpiringTimer(Behaviour):
     """Succeeds once each time that `seconds` have passed without a new path; in between it fails.
 
-    The time counts from its first tick in the life of the tree, where it fails, from each change of the path,
-    and from each success. Its length is read at the first tick. Rule: Nav2's
+    The time counts from the node's first tick in the life of the tree, at which it fails, and again from each
+    change of the path and each success. `seconds` is read at the first tick. Rule: Nav2's
     plugins/condition/path_expiring_timer_condition.cpp.
     """
 

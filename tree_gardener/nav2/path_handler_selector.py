@@ -7,7 +7,7 @@ from tree_gardener.ports import Port
 class PathHandlerSelector(Selector):
     """Writes the name of the path handler that was last received by topic, or the default until then.
 
-    It fails without both. Rule: Nav2's plugins/action/path_handler_selector_node.cpp.
+    It fails if there is neither. Rule: Nav2's plugins/action/path_handler_selector_node.cpp.
     """
 
     NODE_KIND = "SyncAction"

@@ -28,12 +28,12 @@ class PersistentSequence(ControlNode):
         return self.end(Status.SUCCESS)
 
     def end(self, status: Status) -> Status:
-        """Resets the children and the position."""
+        """Resets the children and the position, and returns the status."""
         self.reset_children()
         self.store(0)
         return status
 
     def store(self, index: int) -> None:
-        """Writes the position; a literal at the port cannot be written, which Nav2 ignores."""
+        """Writes the position; if the port is a literal, nothing is written, as in Nav2."""
         with contextlib.suppress(PortError):
             self.set_output("current_child_idx", index)

@@ -6,8 +6,8 @@ from tree_gardener import ControlNode, Status
 class PipelineSequence(ControlNode):
     """A Sequence that ticks all children again up to the one that runs.
 
-    Earlier children may run again while a later one does; only the furthest that ever ran makes the node
-    RUNNING. A child that fails ends it; it succeeds when the last one is done.
+    Earlier children may run again while a later one runs; only the furthest child that has run makes the node
+    RUNNING. A child that fails ends the node; it succeeds when the last child is done.
     """
 
     def __init__(self, name: str) -> None:
@@ -28,7 +28,7 @@ class PipelineSequence(ControlNode):
         return self.end(Status.SKIPPED if skipped == self.child_count else Status.SUCCESS)
 
     def end(self, status: Status) -> Status:
-        """Resets everything."""
+        """Resets the children and the state, and returns the status."""
         self.halt_children()
         self.furthest = 0
         return status

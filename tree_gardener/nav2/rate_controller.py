@@ -8,8 +8,8 @@ from tree_gardener import DecoratorNode, Port, PortError, Status
 class RateController(DecoratorNode):
     """Ticks its child at most `hz` times a second; in between it is RUNNING.
 
-    The child is ticked at once when the node starts, and at every tick while it is RUNNING. The time counts
-    from the start, and then from the child's last success.
+    The child is ticked immediately when the node starts, and at every tick while it is RUNNING. The time
+    counts from the start, and later from the child's last success.
     """
 
     INPUT_PORTS = {"hz": Port(float, default=10.0, description="Times a second.")}
@@ -35,7 +35,7 @@ class RateController(DecoratorNode):
         return status
 
     def begin(self) -> None:
-        """Reads the rate, which holds until the node is IDLE again, and starts the time."""
+        """Reads the rate, which is valid until the node is IDLE again, and starts the time."""
         try:
             hz = self.get_input("hz")
         except PortError:

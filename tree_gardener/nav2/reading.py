@@ -1,4 +1,4 @@
-"""Reads activity, time and ports that may be missing, as all of Nav2's nodes do."""
+"""Reads the activity of a node, the time, and ports that may be missing, as all nodes of Nav2 do."""
 
 from typing import Any
 
@@ -19,7 +19,7 @@ def now(node: Any) -> float:
 
 
 def input_or(node: Any, port: str, otherwise: Any) -> Any:
-    """Reads a port; one that cannot be read gives `otherwise`, as Nav2's nodes keep the last value."""
+    """Reads a port; returns `otherwise` if it cannot be read, as Nav2's nodes keep the last value."""
     try:
         return get_input(node, port)
     except PortError:
@@ -27,7 +27,7 @@ def input_or(node: Any, port: str, otherwise: Any) -> Any:
 
 
 def input_or_entry(node: Any, port: str, otherwise: Any = None) -> Any:
-    """Reads a port, or else the blackboard's entry of that name: ``getInputOrBlackboard`` in bt_utils.hpp."""
+    """Reads a port, or else the blackboard entry with its name: ``getInputOrBlackboard`` in bt_utils.hpp."""
     try:
         return get_input(node, port)
     except PortError:
@@ -36,11 +36,11 @@ def input_or_entry(node: Any, port: str, otherwise: Any = None) -> Any:
 
 
 def goals_of(node: Any, last: tuple[Any, Any] = (None, None)) -> tuple[Any, Any]:
-    """Returns the goal and the goals; where neither port nor entry is there, that of `last`."""
+    """Returns the goal and the goals; without a port and an entry, those of `last`."""
     return input_or_entry(node, "goal", last[0]), input_or_entry(node, "goals", last[1])
 
 
 def give(node: Any, port: str, value: Any) -> None:
-    """Writes an output port that leads somewhere; Nav2 ignores one that does not."""
+    """Writes an output port, if it leads to an entry; otherwise does nothing, as Nav2 does."""
     if port in node_of(node).ports:
         set_output(node, port, value)

@@ -21,7 +21,7 @@ class RecoveryNode(ControlNode):
         self.forget()
 
     def forget(self) -> None:
-        """Starts again from nothing."""
+        """Resets the state, so that the node starts again."""
         self.index = 0
         self.retries = 0
 
@@ -37,7 +37,7 @@ class RecoveryNode(ControlNode):
         return self.end(Status.FAILURE)
 
     def read_limit(self) -> None:
-        """Reads the port; an unreadable or negative number leaves the last one, as in Nav2."""
+        """Reads the port; after an unreadable or negative number the last value stays, as in Nav2."""
         try:
             limit = self.get_input("number_of_retries")
         except PortError:
@@ -65,7 +65,7 @@ class RecoveryNode(ControlNode):
         return None
 
     def end(self, status: Status) -> Status:
-        """Resets everything."""
+        """Resets the children and the state, and returns the status."""
         self.halt()
         return status
 

@@ -14,9 +14,9 @@ from tree_gardener.ports import Port
 class RemovePassedGoals(Behaviour):
     """Removes the goals at the beginning that the robot is within `radius` of; the last goal always stays.
 
-    Of given `input_waypoint_statuses`, the first pending one of a removed goal becomes completed; where there
-    is none it fails. It fails while the robot's pose is not known. No goals at all succeed. Rule: Nav2's
-    plugins/action/remove_passed_goals_action.cpp.
+    If `input_waypoint_statuses` is given, the first pending status of each removed goal becomes completed; if
+    there is none, the node fails. It fails while the robot's pose is not known, and succeeds if there are no
+    goals. Rule: Nav2's plugins/action/remove_passed_goals_action.cpp.
     """
 
     NODE_KIND = "SyncAction"

@@ -12,8 +12,9 @@ from tree_gardener.nav2.topics import Topic
 class Selector(Behaviour):
     """Writes the name that was last received by topic, or the default until then.
 
-    It fails if nothing was received and there is no default. A default that was used once stays, until a name
-    is received. At the start a new topic is subscribed to; messages from before the subscription count.
+    It fails if nothing was received and there is no default. A default that was used once stays valid until a
+    name is received. When it starts, it subscribes to the topic if that has changed; messages from before the
+    subscription count.
 
     Attributes:
         WHAT: the kind of plugin, which the names of the ports contain.

@@ -4,7 +4,7 @@ from tree_gardener import DecoratorNode, Status
 
 
 class SingleTrigger(DecoratorNode):
-    """Ticks its child until that succeeds or fails, once; from then on it fails.
+    """Ticks its child until the child succeeds or fails, once; from then on the node fails.
 
     It starts again when its parent resets it, or halts it. Rule: Nav2's
     plugins/decorator/single_trigger_node.cpp.

@@ -10,7 +10,7 @@ from tree_gardener.nav2.topics import Odometer
 class SpeedController(DecoratorNode):
     """Ticks its child at a rate that grows with the robot's speed, from `min_rate` to `max_rate`.
 
-    The child is ticked at once when the node starts or the goal changes, and at every tick while it is
+    The child is ticked immediately when the node starts or the goal changes, and at every tick while it is
     RUNNING; in between the node is RUNNING. After each period the rate is set by the smoothed odometry:
     `min_rate` at `min_speed` and below, `max_rate` at `max_speed` and above, linear between. A rate of zero
     or less is an error. Rule: Nav2's plugins/decorator/speed_controller.cpp.
@@ -63,7 +63,7 @@ class SpeedController(DecoratorNode):
         self.is_first = True
 
     def rate(self) -> float:
-        """Returns the rate for the speed of now."""
+        """Returns the rate for the current speed."""
         above = self.odometer.speed() - self.min_speed
         range_ = self.max_speed - self.min_speed
         if range_ == 0.0:

@@ -10,8 +10,8 @@ from tree_gardener.ports import Port
 class TimeExpired(Behaviour):
     """Succeeds once each time that `seconds` have passed; in between it fails.
 
-    The time counts from the start, where it fails, and then from each success. Its length is read at the
-    start. Rule: Nav2's plugins/condition/time_expired_condition.cpp.
+    The time counts from the start, at which the node fails, and later from each success. `seconds` is read at
+    the start. Rule: Nav2's plugins/condition/time_expired_condition.cpp.
     """
 
     NODE_KIND = "Condition"

@@ -30,7 +30,7 @@ class Topic:
     Args:
         ros_node: The ROS node, or None.
         package: The package of the message.
-        name: Its name.
+        name: The name of the message type.
         latched: Whether messages from before the subscription are wanted.
     """
 
@@ -43,7 +43,7 @@ class Topic:
         self.message: Any = None
 
     def follow(self, topic: str, received: Callable[[Any], None] | None = None) -> None:
-        """Subscribes to a topic, unless it is the one that is followed already."""
+        """Subscribes to a topic, unless it is already subscribed to this topic."""
         if self._node is None or topic == self.topic or not topic:
             return
         self.close()
@@ -57,7 +57,7 @@ class Topic:
         self._subscription = self._node.create_subscription(kind, topic, received or self._received, qos)
 
     def take(self) -> Any:
-        """Returns the latest message that was not taken yet, or None."""
+        """Returns the latest message that was not returned before, or None."""
         message, self.message = self.message, None
         return message
 
@@ -74,7 +74,7 @@ class Topic:
 class Odometer:
     """The robot's velocity, latest and smoothed over 0.3 s, as ``nav2_util/odometry_utils``.
 
-    The topic is the ROS node's parameter `odom_topic` (`odom`), the time is `filter_duration`.
+    The ROS node's parameters `odom_topic` (default `odom`) and `filter_duration` set the topic and the time.
     """
 
     def __init__(self, ros_node: Any) -> None:
@@ -110,5 +110,5 @@ class Odometer:
 
 
 def stamp_s(stamp: Any) -> float:
-    """Returns seconds of a stamp."""
+    """Returns a stamp in seconds."""
     return float(stamp.sec) + float(stamp.nanosec) * 1e-9

@@ -11,7 +11,7 @@ from tree_gardener.ports import Port
 
 
 class TransformAvailable(Behaviour):
-    """Succeeds if there is a transform between two frames, and from then on always.
+    """Succeeds if a transform between two frames is known; after the first success it always succeeds.
 
     Frames that are missing or empty are an error. Rule: Nav2's
     plugins/condition/transform_available_condition.cpp.

@@ -13,8 +13,8 @@ from tree_gardener.ports import Port
 class TruncatePath(Behaviour):
     """Writes the path without its end: poses nearer to the last one than `distance` are removed.
 
-    At least two poses stay, where there were as many. The new last pose looks at the old one. An empty path
-    is written as it is. Rule: Nav2's plugins/action/truncate_path_action.cpp.
+    At least two poses stay, if the path had so many. The new last pose is turned towards the old last pose.
+    An empty path is written unchanged. Rule: Nav2's plugins/action/truncate_path_action.cpp.
     """
 
     NODE_KIND = "SyncAction"

@@ -13,13 +13,13 @@ from tree_gardener.ports import Port
 
 
 class TruncatePathLocal(Behaviour):
-    """Writes the part of the path around the robot, so far ahead and so far behind.
+    """Writes the part of the path around the robot, up to the given distances ahead and behind.
 
-    The robot is at the pose of the path that is nearest to `pose`, or to its pose by tf;
-    `angular_distance_weight` counts a turn in metres a radian. A negative `distance_forward` means to the
-    end. With a finite `max_robot_pose_search_dist` the search begins where the last one of the same path
-    ended, and ends so far ahead. It fails while the robot's pose is not known. Rule: Nav2's
-    plugins/action/truncate_path_local_action.cpp.
+    The robot is at the pose of the path that is nearest to `pose`, or to the pose by tf;
+    `angular_distance_weight` is the weight of a turn in metres per radian. A negative `distance_forward`
+    means to the end. With a finite `max_robot_pose_search_dist` the search begins where the last search in
+    the same path ended, and covers only this distance. It fails while the robot's pose is not known. Rule:
+    Nav2's plugins/action/truncate_path_local_action.cpp.
     """
 
     NODE_KIND = "SyncAction"

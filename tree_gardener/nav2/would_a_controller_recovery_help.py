@@ -7,8 +7,9 @@ from tree_gardener.ports import Port
 class WouldAControllerRecoveryHelp(AreErrorCodesPresent):
     """Succeeds if a recovery may help the controller.
 
-    Unknown, patience exceeded, no progress, no valid control. The codes are fixed; those of the port are not
-    read, as in Nav2. Rule: Nav2's plugins/condition/would_a_controller_recovery_help_condition.cpp.
+    The error must be one of: unknown, patience exceeded, no progress, no valid control. The codes are fixed;
+    those of the port are not read, as in Nav2. Rule: Nav2's
+    plugins/condition/would_a_controller_recovery_help_condition.cpp.
     """
 
     NODE_KIND = "Condition"

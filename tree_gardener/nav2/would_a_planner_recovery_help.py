@@ -7,8 +7,9 @@ from tree_gardener.ports import Port
 class WouldAPlannerRecoveryHelp(AreErrorCodesPresent):
     """Succeeds if a recovery may help the planner.
 
-    Unknown, timeout, no valid path, to a pose and through poses. The codes are fixed; those of the port are
-    not read, as in Nav2. Rule: Nav2's plugins/condition/would_a_planner_recovery_help_condition.cpp.
+    The error must be one of: unknown, timeout, no valid path; each to a pose or through poses. The codes are
+    fixed; those of the port are not read, as in Nav2. Rule: Nav2's
+    plugins/condition/would_a_planner_recovery_help_condition.cpp.
     """
 
     NODE_KIND = "Condition"

@@ -1,8 +1,8 @@
 """Compiled scripts: Python functions without arguments, one for each place where a script runs.
 
 `bind_run` and `bind_test` return a function that runs a script in its environment. Places with the same
-script share the code; it is freed with the last function. Scripts beyond the bounds of `generator`, and
-blackboards with another way to find entries, use the evaluator.
+script share the code, which is freed with the last function. Scripts beyond the limits of `generator`, and
+blackboards that find entries in another way, use the evaluator.
 """
 
 import ast
@@ -47,7 +47,7 @@ def bind_run(text: str, environment: Environment) -> Callable[[], Any]:
     """Returns a function that runs a script and returns its value.
 
     Raises:
-        ScriptError: it does not parse.
+        ScriptError: the script cannot be parsed.
     """
     script = compile_script(text)
     code = _code(script, environment, is_condition=False)
@@ -58,7 +58,7 @@ def bind_test(text: str, environment: Environment) -> Callable[[], bool]:
     """Returns a function that runs a script as a condition.
 
     Raises:
-        ScriptError: it does not parse.
+        ScriptError: the script cannot be parsed.
     """
     script = compile_script(text)
     code = _code(script, environment, is_condition=True)
@@ -66,10 +66,10 @@ def bind_test(text: str, environment: Environment) -> Callable[[], bool]:
 
 
 def generated_source(text: str, enums: Mapping[str, int] | None = None, *, is_condition: bool = False) -> str:
-    """Returns the generated Python of a script, to look at; "" if the evaluator runs it.
+    """Returns the generated Python of a script, for inspection; "" if the evaluator runs it.
 
     Raises:
-        ScriptError: it does not parse.
+        ScriptError: the script cannot be parsed.
     """
     generator = Generator(compile_script(text).program, enums or {})
     try:

@@ -73,7 +73,7 @@ class Script:
         """Runs the script as a condition.
 
         Raises:
-            ScriptError: it cannot be evaluated, or its value is not true or false.
+            ScriptError: the script cannot be evaluated, or its value is neither true nor false.
         """
         return truth(self.program, self.run(environment))
 
@@ -83,7 +83,7 @@ def compile_script(text: str) -> Script:
     """Parses and compiles a script.
 
     Raises:
-        ScriptError: it does not parse.
+        ScriptError: the script cannot be parsed.
     """
     return Script(parse(text))
 
@@ -92,7 +92,7 @@ def truth(program: Program, value: Any) -> bool:
     """Returns the value of a script as true or false.
 
     Raises:
-        ScriptError: it is neither.
+        ScriptError: the value is neither.
     """
     span = (0, len(program.text))
     if value is EMPTY:
@@ -144,7 +144,7 @@ def _name(expression: Name) -> Evaluator:
 
 
 def entry_of(environment: Environment, expression: Name) -> Entry:
-    """Returns the entry that a name stands for, along all remappings."""
+    """Returns the entry that a name means, after all remappings."""
     entry = environment.board.find(expression.name)
     if entry is None:
         raise ScriptError(
@@ -361,7 +361,7 @@ def _conditional(expression: Conditional) -> Evaluator:
 
 
 def decision(expression: Conditional, value: Any) -> float:
-    """Returns the number that decides between the branches; 0 is for the second."""
+    """Returns the number that decides between the branches; 0 selects the second one."""
     span = expression.condition.span
     number = as_number(value)
     if number is None:
@@ -391,7 +391,7 @@ def _assignment(expression: Assignment) -> Evaluator:
 
 
 def no_target(expression: Assignment) -> ScriptError:
-    """Returns the error of an assignment to something that is no entry."""
+    """Returns the error of an assignment to something that is not an entry."""
     return ScriptError(
         expression.target.span, "only a blackboard entry can be assigned to", "compare with =="
     )
@@ -410,7 +410,7 @@ def target_of(environment: Environment, expression: Assignment) -> Entry:
 
 
 def assign(environment: Environment, expression: Assignment, entry: Entry, right: Any) -> Any:
-    """Assigns a value to an entry, and returns what it got."""
+    """Assigns a value to an entry, and returns the value that was stored."""
     span, symbol = expression.span, expression.operator
     if right is EMPTY:
         assert isinstance(expression.target, Name)
@@ -449,7 +449,7 @@ def _assigned(entry: Entry, value: Any, environment: Environment, span: Span) ->
 
 
 def _copied(entry: Entry, value: Any, span: Span) -> Any:
-    """Converts to the kind of number that the entry holds, as BT.CPP's ``Any::copyInto``."""
+    """Converts a value to the kind of number that the entry holds, as BT.CPP's ``Any::copyInto``."""
     old = entry.value
     if old is EMPTY or type(old) is type(value):
         return value

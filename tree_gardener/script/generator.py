@@ -1,11 +1,11 @@
-"""Makes Python syntax of a script: one function with a fast path for each step.
+"""Generates Python syntax from a script: one function with a fast path for each step.
 
 The syntax is built of `ast` nodes, and nothing of the script's text gets into it. Variables are ``t0``,
 ``t1`` …; keys, literals, enum constants and everything else from the document are parameters ``c0``, ``c1``
 … whose defaults are bound by position. The attributes that the code reads are `ATTRIBUTES` of `writer`.
 
-A step computes directly where the exact types of its values allow it, and calls a function of `remedies`
-otherwise. So rare values, and all errors, are the evaluator's.
+A step computes directly if the exact types of its values permit it; otherwise it calls a function of
+`remedies`. So the evaluator handles rare values and all errors.
 """
 
 import ast
@@ -45,7 +45,7 @@ from tree_gardener.script.writer import (
 
 MAX_PARTS: Final = 400
 MAX_DEPTH: Final = 40
-"""Scripts with more parts, or with deeper nesting, are left to the evaluator."""
+"""The deepest nesting of compiled scripts. Deeper or longer scripts are left to the evaluator."""
 _OPERATORS: Final[dict[str, type[ast.operator]]] = {
     "+": ast.Add,
     "-": ast.Sub,
@@ -60,10 +60,10 @@ class TooLargeError(Exception):
 
 
 def check_size(program: Program) -> None:
-    """Refuses a script that Python's compiler might not digest; needs no recursion itself.
+    """Refuses a script that may be too large for Python's compiler; uses no recursion itself.
 
     Raises:
-        TooLargeError: it has too many parts, or they are nested too deeply.
+        TooLargeError: the script has too many parts, or they are nested too deeply.
     """
     count = 0
     waiting = [(statement, 1) for statement in program.statements]
@@ -106,7 +106,7 @@ class Generator(Writer):
     # -- expressions ----------------------------------------------------------------------------------
 
     def value(self, expression: Expression) -> Value:
-        """Adds the statements that compute an expression."""
+        """Adds the statements that compute an expression; returns its value."""
         if not isinstance(expression, (Literal, Name, Assignment)) and self.is_fixed(expression):
             # What cannot be computed is an error when it runs, and not before.
             with contextlib.suppress(ScriptError):
@@ -117,7 +117,7 @@ class Generator(Writer):
         return self.known(expression.value)
 
     def is_fixed(self, expression: Expression) -> bool:
-        """Whether no entry takes part in an expression."""
+        """Whether an expression uses no entry."""
         if isinstance(expression, Name):
             return self.enums.get(expression.name) is not None
         return not isinstance(expression, Assignment) and all(map(self.is_fixed, parts(expression)))
@@ -130,7 +130,7 @@ class Generator(Writer):
         return Value(self.set(ast.Attribute(found, "value", ast.Load())), ANY)
 
     def local(self, key: str) -> ast.expr:
-        """Looks an entry up in the script's own scope, which is searched first, or the root's for ``@``."""
+        """Returns the look-up of an entry in the script's own scope, or for ``@`` in the root's scope."""
         is_global = key[:1] == "@"
         scope = self.fixed("GLOBAL" if is_global else "LOCAL")
         return call(scope, load(self.constant(key[1:] if is_global else key)))
@@ -164,7 +164,7 @@ class Generator(Writer):
         )
 
     def join(self, left: Value, right: Value, remedy: ast.expr) -> Value:
-        """Joins texts, and integers with texts."""
+        """Adds the joining of texts, and of integers with texts; returns its value."""
         if TEXT not in (left.kind, right.kind):
             return Value(self.set(remedy), ANY)
         other = right if left.kind is TEXT else left
@@ -212,7 +212,7 @@ class Generator(Writer):
         return Value(self.either(both(*tests), combined, remedy), TRUTH)
 
     def castable(self, value: Value) -> ast.expr:
-        """Tests for a bool, 0, 1, or a float that is not negative."""
+        """Returns a test for a bool, 0, 1, or a float that is not negative."""
         positive = compare(load(value.name), ast.GtE, self.fixed("ZERO"))
         if value.kind is REAL:
             return positive
@@ -225,7 +225,7 @@ class Generator(Writer):
         return Value(self.chain(expression, self.value(expression.first), 0), TRUTH)
 
     def chain(self, expression: Comparison, left: Value, index: int) -> str:
-        """Compares from one pair on; the right sides after a false pair are not evaluated."""
+        """Adds the comparisons from one pair on; right sides after a false pair are not evaluated."""
         symbol, following = expression.rest[index]
         right = self.value(following)
         result = self.pair(expression, symbol, left, right)
@@ -302,7 +302,10 @@ class Generator(Writer):
         return Value(result, ANY)
 
     def step(self, expression: Assignment) -> tuple[str, float] | None:
-        """Returns operator and number of an entry that counts, as ``n += 1`` and ``n := n + 1`` do."""
+        """Returns operator and number of an assignment that counts, as ``n += 1`` and ``n := n + 1``.
+
+        Else None.
+        """
         symbol, value = expression.operator[0], expression.value
         if expression.operator in (":=", "="):
             if not isinstance(value, Binary) or not isinstance(value.left, Name):
@@ -326,7 +329,10 @@ class Generator(Writer):
         is_integer: bool,
         otherwise: list[ast.stmt],
     ) -> list[ast.stmt]:
-        """Steps an entry of the step's type; integers only as far as a double holds them exactly."""
+        """Returns statements that step an entry of the step's type.
+
+        Integers only if a double holds them exactly.
+        """
         with self.block() as exact:
             self.fill(entry, result)
         with self.block() as then:
@@ -339,7 +345,7 @@ class Generator(Writer):
         return [ast.If(self.has_type(old, "INT" if is_integer else "FLOAT"), then, otherwise)]
 
     def general(self, expression: Assignment, entry: str) -> Value:
-        """Assigns any value to an entry."""
+        """Adds an assignment of any value to an entry; returns the assigned value."""
         value = self.value(expression.value)
         right = self.raw(value)
         if expression.operator in (":=", "="):
@@ -353,7 +359,7 @@ class Generator(Writer):
         return self.store(expression, entry, Value(result, ANY), right)
 
     def store(self, expression: Assignment, entry: str, new: Value, right: str) -> Value:
-        """Writes to an entry that holds a value of the same type, or an integer where the value is whole."""
+        """Adds a write to an entry with a value of the same type, or an integer if the value is whole."""
         remedy = self.call(remedies.assign, expression, entry, right)
         old = self.set(ast.Attribute(load(entry), "value", ast.Load()))
         is_integer = new.is_constant and type(self.parameters[new.name]) is int
@@ -378,7 +384,7 @@ class Generator(Writer):
         return Value(result, new.kind if new.kind is TEXT else ANY)
 
     def whole(self, entry: str, old: str, new: Value, otherwise: list[ast.stmt]) -> list[ast.stmt]:
-        """Writes a whole number to an entry that holds an integer."""
+        """Returns statements that write a whole number to an entry that holds an integer."""
         result = new.name
         with self.block() as then:
             number = self.set(call(self.fixed("INT"), load(result)))
@@ -391,7 +397,7 @@ class Generator(Writer):
         return [ast.If(test, then, otherwise)]
 
     def give_truth(self, value: Value) -> None:
-        """Returns the value of a condition."""
+        """Adds the statement that returns the value of a condition."""
         name = value.name
         if value.kind is not TRUTH:
             remedy = self.call(remedies.truth, self.program, name)

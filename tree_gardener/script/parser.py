@@ -41,7 +41,7 @@ _BINARY: Final = {
 }
 
 MAX_NESTING: Final = 100
-"""Parentheses and prefixes deeper than this are refused: nobody writes them by hand."""
+"""The deepest nesting of parentheses and prefixes; deeper scripts are refused."""
 
 
 @functools.lru_cache(maxsize=4096)
@@ -49,7 +49,7 @@ def parse(text: str) -> Program:
     """Parses a script.
 
     Raises:
-        ScriptError: with the span, what is wrong, and a hint.
+        ScriptError: the script cannot be parsed; the error has the span, the reason and a hint.
     """
     return _Parser(text).program()
 
@@ -141,7 +141,7 @@ class _Parser:
         return _atom(token)
 
     def prefixed(self) -> Expression:
-        """Reads prefixes in a loop: recursion would overflow on a long row of them."""
+        """Reads prefixes in a loop, since recursion would overflow with a long row of them."""
         prefixes = []
         while self.token.kind == "operator" and self.token.text in PREFIXES:
             prefixes.append(self.token)

@@ -1,8 +1,8 @@
-"""The ways that compiled scripts take where their fast path does not apply.
+"""Functions that compiled scripts call if their fast path does not apply.
 
-Compiled code tests the exact types of its values first. Anything rare, and every error, comes here, to the
-functions of the evaluator, so that both ways of running a script have one set of rules and texts. Each
-function takes the environment and the part of the syntax tree that it stands for.
+Compiled code tests the exact types of its values first. Rare values and all errors are handled here, by
+functions of the evaluator; so both ways of running a script have the same rules and texts. The arguments of
+each function are the environment and the part of the syntax tree that it handles.
 """
 
 from typing import Any, Final
@@ -14,7 +14,7 @@ from tree_gardener.script.syntax import Assignment, Binary, Comparison, Conditio
 
 
 def read(environment: Environment, name: Name) -> Entry:
-    """Returns the entry that a name stands for, along all remappings."""
+    """Returns the entry that a name means, after all remappings."""
     return evaluator.entry_of(environment, name)
 
 
@@ -49,17 +49,17 @@ def choice(_environment: Environment, expression: Conditional, value: Any) -> fl
 
 
 def target(environment: Environment, expression: Assignment) -> Entry:
-    """Returns the entry that is assigned to; ``:=`` creates it."""
+    """Returns the entry to which a value is assigned; ``:=`` creates it."""
     return evaluator.target_of(environment, expression)
 
 
 def assign(environment: Environment, expression: Assignment, entry: Entry, value: Any) -> Any:
-    """Assigns to an entry and returns what it got."""
+    """Assigns a value to an entry, and returns the value that was stored."""
     return evaluator.assign(environment, expression, entry, value)
 
 
 def refuse(_environment: Environment, expression: Assignment) -> Any:
-    """Raises the error of an assignment to something that is no entry."""
+    """Raises the error of an assignment to something that is not an entry."""
     raise evaluator.no_target(expression)
 
 

@@ -1,4 +1,4 @@
-"""The syntax tree of a script. Each node knows the span of text that it comes from."""
+"""The syntax tree of a script. Each node has the span of its text."""
 
 import dataclasses
 from collections.abc import Iterator
@@ -63,7 +63,7 @@ class Conditional(Expression):
 
 @dataclasses.dataclass(frozen=True)
 class Assignment(Expression):
-    """``target := value`` and its relatives; whether the target is a name is tested only when it runs."""
+    """``target := value`` and similar operators; whether the target is a name is tested only when it runs."""
 
     operator: str
     target: Expression
@@ -111,7 +111,7 @@ def names_written(program: Program) -> list[Name]:
 
 
 def names_read(program: Program) -> list[Name]:
-    """Returns the names whose value the script needs, without those that it only creates by ``:=``."""
+    """Returns the names whose value the script needs, without names that it only creates by ``:=``."""
     created = {
         id(part.target)
         for statement in program.statements

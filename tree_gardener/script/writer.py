@@ -1,4 +1,4 @@
-"""The ground of generated scripts: variables, parameters and statements."""
+"""The basis of generated scripts: variables, parameters and statements."""
 
 import ast
 import contextlib
@@ -13,7 +13,7 @@ from tree_gardener.script.evaluator import EXACT, TOLERANCE, Environment
 ATTRIBUTES: Final = frozenset(("board", "journal", "sequence", "type", "value"))
 
 REAL, TRUTH, TEXT, ANY = "real", "truth", "text", "any"
-"""What is known of a value: exactly a float; a Python bool for 1.0 or 0.0; exactly a str; nothing."""
+"""The known type of a value: exactly a float; a Python bool for 1.0 or 0.0; exactly a str; unknown."""
 
 FIXED: Final[Mapping[str, Any]] = {
     "TYPE": type,
@@ -55,8 +55,8 @@ class Writer:
     """Collects the statements of one function.
 
     Attributes:
-        parameters: name and value of each, in the order of the function's defaults; a value in `BOUND` is
-            made for the environment.
+        parameters: name and value of each parameter, in the order of the function's defaults; a value in
+            `BOUND` is made for each environment.
     """
 
     def __init__(self) -> None:
@@ -67,24 +67,24 @@ class Writer:
     # -- names and statements -------------------------------------------------------------------------
 
     def fixed(self, name: str) -> ast.Name:
-        """Reads a parameter that all scripts have alike."""
+        """Returns a read of a parameter that all scripts have."""
         self.parameters.setdefault(name, FIXED.get(name))
         return load(name)
 
     def constant(self, value: Any) -> str:
-        """Makes a parameter of a value."""
+        """Makes a parameter for a value; returns its name."""
         name = f"c{len(self.parameters)}"
         self.parameters[name] = value
         return name
 
     def call(self, remedy: Callable[..., Any], *arguments: Any) -> ast.Call:
-        """Calls a remedy; an argument is the name of a variable, or a part of the script."""
+        """Returns a call of a remedy; each argument is the name of a variable, or a part of the script."""
         names = [part if isinstance(part, str) else self.constant(part) for part in arguments]
         values = [self.fixed("ENVIRONMENT"), *map(load, names)]
         return call(self.fixed(remedy.__name__.upper()), *values)
 
     def set(self, value: ast.expr, name: str = "") -> str:
-        """Assigns to a variable, a new one unless `name` is given."""
+        """Adds an assignment to a variable, a new one unless `name` is given; returns its name."""
         if not name:
             name = f"t{self.variables}"
             self.variables += 1
@@ -93,7 +93,7 @@ class Writer:
 
     @contextlib.contextmanager
     def block(self) -> Iterator[list[ast.stmt]]:
-        """Collects statements apart."""
+        """Collects the statements of the context in a separate list, and yields the list."""
         outer, self.body = self.body, []
         try:
             yield self.body
@@ -101,38 +101,38 @@ class Writer:
             self.body = outer
 
     def either(self, test: ast.expr, then: ast.expr, otherwise: ast.expr) -> str:
-        """Sets a new variable in one of two ways."""
+        """Adds the assignment of one of two values to a new variable; returns its name."""
         return self.set(ast.IfExp(test, then, otherwise))
 
     # -- what is known of values ----------------------------------------------------------------------
 
     def has_type(self, name: str, kind: str) -> ast.expr:
-        """Tests the exact type of a variable."""
+        """Returns a test of the exact type of a variable."""
         return compare(call(self.fixed("TYPE"), load(name)), ast.Is, self.fixed(kind))
 
     def is_number(self, name: str) -> ast.expr:
-        """Tests for a float, or an integer that a double holds exactly."""
+        """Returns a test for a float, or for an integer that a double holds exactly."""
         kind = self.set(call(self.fixed("TYPE"), load(name)))
         is_real, is_integer = (compare(load(kind), ast.Is, self.fixed(each)) for each in ("FLOAT", "INT"))
         return either(is_real, both(is_integer, self.is_small(name)))
 
     def is_small(self, name: str) -> ast.expr:
-        """Tests a number for being smaller than those that a double rounds."""
+        """Returns a test that a number is smaller than those that a double rounds."""
         return ast.Compare(self.fixed("LOW"), [ast.Lt(), ast.Lt()], [load(name), self.fixed("HIGH")])
 
     def known(self, value: Any) -> Value:
-        """Makes a constant of the script."""
+        """Returns the value of a constant of the script."""
         kind = REAL if type(value) is float else TEXT if type(value) is str else ANY
         return Value(self.constant(value), kind, is_constant=True)
 
     def raw(self, value: Value) -> str:
-        """Returns the variable that holds the value as the evaluator has it."""
+        """Returns the variable that holds the value in the form of the evaluator."""
         if value.kind is not TRUTH:
             return value.name
         return self.either(load(value.name), self.fixed("ONE"), self.fixed("ZERO"))
 
     def numeric(self, value: Value) -> Value:
-        """Makes a float of a value where that is known to be possible."""
+        """Converts a value to a float, if that is known to be possible."""
         if value.kind is TRUTH:
             return Value(self.raw(value), REAL)
         if value.is_constant and type(number := self.parameters[value.name]) is int and abs(number) < EXACT:
@@ -140,12 +140,12 @@ class Writer:
         return value
 
     def numbers(self, *values: Value) -> ast.expr | None:
-        """Tests that all values are numbers; None if that is known."""
+        """Returns a test that all values are numbers; None if that is known."""
         tests = [self.is_number(value.name) for value in values if value.kind is not REAL]
         return both(*tests) if tests else None
 
     def fill(self, entry: str, value: str) -> None:
-        """Does what `Entry.write` does, without the call."""
+        """Adds the statements of `Entry.write`, without the call."""
 
         def attribute(owner: ast.expr, name: str, context: ast.expr_context) -> ast.Attribute:
             return ast.Attribute(owner, name, context)
@@ -160,25 +160,25 @@ class Writer:
 
 
 def load(name: str) -> ast.Name:
-    """Reads a variable."""
+    """Returns a read of a variable."""
     return ast.Name(name, ast.Load())
 
 
 def call(function: ast.expr, *arguments: ast.expr) -> ast.Call:
-    """Calls a function."""
+    """Returns a call of a function."""
     return ast.Call(function, list(arguments), [])
 
 
 def compare(left: ast.expr, operator: type[ast.cmpop], right: ast.expr) -> ast.Compare:
-    """Compares two values."""
+    """Returns a comparison of two values."""
     return ast.Compare(left, [operator()], [right])
 
 
 def both(*tests: ast.expr) -> ast.expr:
-    """Tests that all hold."""
+    """Returns the expression `a and b and …`."""
     return tests[0] if len(tests) == 1 else ast.BoolOp(ast.And(), list(tests))
 
 
 def either(*tests: ast.expr) -> ast.expr:
-    """Tests that one holds, or takes the first that is there."""
+    """Returns the expression `a or b or …`."""
     return ast.BoolOp(ast.Or(), list(tests))

@@ -24,7 +24,7 @@ import { cancelSplitters } from './cancelSplitters';
 import { PanelBadge } from './PanelBadge';
 import { Popouts, titleOf } from './popouts';
 import { cameraOf } from '@/workspace/cameraViews';
-import { documentOf, followFront, keepOpen, useTabs } from '@/workspace/tabs';
+import { documentOf, folderOf, followFront, keepOpen, openDocuments, useTabs } from '@/workspace/tabs';
 
 const KEEP_AFTER_MS = 300;
 
@@ -43,6 +43,11 @@ function renderTabButton(node: TabNode, values: ITabRenderValues): void {
     ) : (
       <IconFileText size={15} aria-hidden="true" />
     );
+  }
+  const folder = tab ? folderOf(tab, openDocuments(node.getModel())) : null;
+  if (folder !== null) {
+    const name = `${node.getName()} · ${folder}`;
+    Object.assign(values, { content: name, name });
   }
   const camera = cameraOf(node);
   const title = `${titleOf(node)} · ${camera}`;

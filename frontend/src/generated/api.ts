@@ -860,7 +860,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Formats a source. The answer is 422 if it is not valid Python. */
+        /** @description Formats a source; one that does not parse comes back unchanged, with its errors. */
         post: operations["format_python"];
         delete?: never;
         options?: never;
@@ -1197,9 +1197,10 @@ export interface components {
             message: string;
             edits: components["schemas"]["Edit"][];
         };
-        /** @description A formatted source. */
+        /** @description A formatted source; one that does not parse is unchanged, with its errors. */
         Formatted: {
             source: string;
+            findings: components["schemas"]["Finding"][];
         };
         /** @description A group; its members and invitations are shown to its managers only. */
         Group: {

@@ -47,6 +47,14 @@ function nameOf(tab: DocumentTab): string {
   return robot ?? tab.path.split('/').at(-1) ?? tab.path;
 }
 
+/** The folder of a file whose tab has the name of another open tab; null if its name says enough. */
+export function folderOf(tab: DocumentTab, open: readonly DocumentTab[]): string | null {
+  if (tab.kind !== 'file') return null;
+  const name = nameOf(tab);
+  const isAlone = open.every((other) => tabId(other) === tabId(tab) || nameOf(other) !== name);
+  return isAlone ? null : tab.path.split('/').slice(0, -1).join('/') || '/';
+}
+
 /** The icon and name of a document's tab. */
 function faceOf(tab: DocumentTab): Pick<IJsonTabNode, 'name' | 'config' | 'helpText'> {
   const name = nameOf(tab);

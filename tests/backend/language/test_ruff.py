@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 
 import pytest
 
 from backend.config.environment import REPOSITORY
 from backend.language import ruff
 
+TEMPLATES = sorted(Path(__file__).parents[3].glob("frontend/src/features/code/templates/*.py"))
+
 
 def test_a_source_is_formatted(api):
     answer = api.post("python/format", {"source": "x = {  'a':1 }\n", "filename": "actions/Go.py"})
-    assert answer == {"source": 'x = {"a": 1}\n'}
+    assert answer == {"source": 'x = {"a": 1}\n', "findings": []}
 
 
-def test_a_source_with_a_syntax_error_is_refused_with_its_place(api):
-    problem = api.post("python/format", {"source": "def go(:\n    pass\n"}, expect=422)
-    assert problem["code"] == "python_refused"
-    assert problem["diagnostics"][0]["start"]["line"] == 1
+def test_a_source_with_a_syntax_error_stays_as_it_is_with_its_place(api):
+    source = "def go(:\n    pass\n"
+    answer = api.post("python/format", {"source": source})
+    assert answer["source"] == source
+    assert {each["severity"] for each in answer["findings"]} == {"error"}
+    assert answer["findings"][0]["start"]["line"] == 1
 
 
 def test_findings_come_with_the_edits_that_fix_them(api):
@@ -34,7 +39,7 @@ def test_a_configuration_beside_it_has_no_say(tmp_path, monkeypatch):
     (tmp_path / "ruff.toml").write_text("[format]\nquote-style = 'single'\n")
     monkeypatch.chdir(tmp_path)
     formatted = ruff.format_source("x = 'a'\n", str(tmp_path / "Go.py"), ruff.run_beside)
-    assert formatted == 'x = "a"\n'
+    assert formatted["source"] == 'x = "a"\n'
 
 
 @pytest.mark.parametrize("path", ["python/format", "python/lint"])
@@ -65,6 +70,13 @@ def test_what_is_shipped_stays_as_it_is_when_a_user_formats_it():
     changed = []
     for path in SHIPPED:
         source = path.read_text(encoding="utf-8")
-        if ruff.format_source(source, path.name, ruff.run_beside) != source:
+        if ruff.format_source(source, path.name, ruff.run_beside)["source"] != source:
             changed.append(path.relative_to(REPOSITORY).as_posix())
     assert changed == []
+
+
+@pytest.mark.parametrize("path", TEMPLATES, ids=lambda path: path.stem)
+def test_a_template_is_born_without_a_finding_and_formatted(path):
+    source = path.read_text(encoding="utf-8")
+    assert ruff.findings(source, "actions/NewAction.py", ruff.run_beside) == []
+    assert ruff.format_source(source, "actions/NewAction.py", ruff.run_beside)["source"] == source

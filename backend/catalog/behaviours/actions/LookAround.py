@@ -5,7 +5,7 @@ from tree_gardener.ports import Port, get_input
 
 
 class LookAround(py_trees.behaviour.Behaviour):
-    """Turns on the spot until it is halted; it fails after a timeout."""
+    """Turns on the spot until it is halted; it fails after a time."""
 
     INPUT_PORTS = {
         "speed": Port(float, default=0.6, description="Turning speed in rad/s; positive turns left."),

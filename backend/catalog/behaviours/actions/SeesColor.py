@@ -33,7 +33,7 @@ class SeesColor(py_trees.behaviour.Behaviour):
         self.image = image
 
     def mask(self):
-        """Returns the pixels with the colour, independent of the brightness; it tests every second pixel."""
+        """Returns the pixels with the colour, whatever the light; it tests every second one."""
         image = self.image
         pixels = np.frombuffer(image.data, np.uint8).reshape(image.height, image.step)
         pixels = (

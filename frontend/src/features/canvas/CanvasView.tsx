@@ -195,7 +195,10 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
       }}
       onDragOver={palette.onDragOver}
       onDragLeave={palette.onDragLeave}
-      onDrop={palette.onDrop}
+      onDrop={(event) => {
+        palette.onDrop(event);
+        focus();
+      }}
       onDoubleClick={(event) => {
         if (!(event.target as HTMLElement).classList.contains('react-flow__pane')) return;
         const { x, y } = flow.screenToFlowPosition({ x: event.clientX, y: event.clientY });

@@ -2,7 +2,7 @@ import { fireEvent, screen, within } from '@testing-library/react';
 import { describe, expect, it } from 'vitest';
 import type { Diagnostic, PackagePreview } from '@/api/types';
 import { refusal } from '../../../harness/requests';
-import { fakeServer, show, user } from '../../../harness/testing';
+import { fakeServer, openProject, show, user } from '../../../harness/testing';
 import { PackageSection } from './PackageSection';
 
 const preview = (more: Partial<PackagePreview> = {}): PackagePreview => ({
@@ -120,6 +120,14 @@ describe('PackageSection', () => {
     ).toEqual(['Go is missing. Add it.']);
     expect(alert).not.toHaveTextContent('The project has errors.');
     expect(screen.queryByRole('link')).toBeNull();
+  });
+
+  it('does not ask for a package of a project with errors', async () => {
+    const { requests } = fakeServer({ [PREVIEW]: preview() });
+    openProject({ diagnostics: [{ ...note('Go is missing.', 'Add it.'), severity: 'error' }] });
+    show(<PackageSection projectId="p" />);
+    expect(await screen.findByTestId('take-away-refused')).toHaveTextContent('Go is missing. Add it.');
+    expect(requests).toEqual([]);
   });
 
   it('shows the reason of any other refusal', async () => {

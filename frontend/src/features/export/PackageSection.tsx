@@ -13,11 +13,13 @@ import {
 import { useDebouncedValue } from '@mantine/hooks';
 import { IconAlertTriangle, IconCheck, IconCopy, IconDownload } from '@tabler/icons-react';
 import { keepPreviousData, useQuery } from '@tanstack/react-query';
-import { useState } from 'react';
+import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import { ApiError } from '@/api/errors';
 import type { Diagnostic } from '@/api/types';
+import { errorsOf } from '@/store/project/problems';
+import { useProjectStore } from '@/store/project';
 import { findingText } from '@/ui/findingText';
 import classes from './export.module.css';
 import { dependenciesOf, PACKAGE_NAME } from './manifest';
@@ -93,23 +95,26 @@ function Commands({ name }: { readonly name: string }) {
 /** The ROS 2 package: name, files, dependencies, notes, and instructions to run it. */
 export function PackageSection({ projectId }: PackageSectionProps) {
   const { t, i18n } = useTranslation('export');
+  const diagnostics = useProjectStore((state) => state.diagnostics);
+  const errors = useMemo(() => errorsOf(diagnostics), [diagnostics]);
   const [typed, setTyped] = useState('');
   const [name] = useDebouncedValue(typed.trim(), 300);
   const isValid = typed.trim() === '' || PACKAGE_NAME.test(typed.trim());
   const { data, error } = useQuery({
     queryKey: ['package', projectId, name],
     queryFn: ({ signal }) => api.previewPackage(projectId, name, signal),
-    enabled: isValid,
+    // The last save found errors: the server would refuse the package.
+    enabled: isValid && errors.length === 0,
     placeholderData: keepPreviousData,
     gcTime: 0,
     retry: false,
   });
-  const refusals = error instanceof ApiError ? error.diagnostics : [];
+  const refusals = error instanceof ApiError ? error.diagnostics : errors;
 
-  if (error) {
+  if (error || errors.length > 0) {
     return (
       <Alert color="red" icon={<IconAlertTriangle />} title={t('refused')} data-testid="take-away-refused">
-        {refusals.length === 0 ? <Text size="sm">{error.message}</Text> : null}
+        {error && refusals.length === 0 ? <Text size="sm">{error.message}</Text> : null}
         <ul className={classes['findings']}>
           {refusals.map((each, index) => (
             <li key={index}>{sentences(each)}</li>

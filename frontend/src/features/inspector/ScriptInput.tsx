@@ -17,7 +17,7 @@ const ScriptEditor = lazyPart(async () => (await import('./ScriptEditor')).Scrip
  * loaded.
  */
 export function ScriptInput(props: ScriptEditorProps) {
-  const { value, testId, labelledBy, label, isNew = false, onChange } = props;
+  const { value, testId, labelledBy, label, isNew = false, onChange, onCancel } = props;
   const { t } = useTranslation();
   const problem = useMemo(() => {
     const facts = readScript(value);
@@ -37,6 +37,9 @@ export function ScriptInput(props: ScriptEditorProps) {
             {...(isNew ? { ref: focus } : {})}
             onChange={(event) => {
               onChange(event.currentTarget.value);
+            }}
+            onKeyDown={({ key }) => {
+              if (key === 'Escape' && value === '') onCancel?.();
             }}
           />
         }

@@ -65,7 +65,26 @@ describe('useFileSides', () => {
     const asked = open({ [`${FILE}/5/files/a.png`]: text('\u0000') });
     show(<Sides path="a.png" older={0} />);
     expect(await screen.findByText('null | null')).toBeInTheDocument();
-    expect(asked()).toEqual([`${FILE}/5/files/a.png`]);
+    expect(asked()).toEqual([`${FILE}/5/diff?against=0`, `${FILE}/5/files/a.png`]);
+  });
+
+  it('asks for no file of a revision that does not have it', async () => {
+    const diff = `${FILE}/5/diff?against=2`;
+    const asked = open({
+      [diff]: {
+        files: [
+          { path: 'new.py', change: 'added' },
+          { path: 'old.py', change: 'removed' },
+        ],
+      },
+      [`${FILE}/5/files/new.py`]: text('new'),
+      [`${FILE}/2/files/old.py`]: text('old'),
+    });
+    show(<Sides path="new.py" />);
+    expect(await screen.findByText('null | new')).toBeInTheDocument();
+    show(<Sides path="old.py" />);
+    expect(await screen.findByText('old | null')).toBeInTheDocument();
+    expect(asked()).toEqual([diff, `${FILE}/5/files/new.py`, `${FILE}/2/files/old.py`]);
   });
 
   it('passes a refusal on', async () => {

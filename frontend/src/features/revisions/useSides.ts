@@ -8,11 +8,12 @@ import { useProjectStore } from '@/store/project';
 type Sides = readonly [older: number, newer: number];
 
 /** The files that differ between two revisions. */
-export function useDifferences([older, newer]: Sides) {
+export function useDifferences([older, newer]: Sides, enabled = true) {
   const projectId = useProjectStore((state) => state.projectId) ?? '';
   return useQuery({
     queryKey: ['differences', projectId, older, newer],
     queryFn: ({ signal }) => revisions.differences(projectId, newer, older, signal),
+    enabled,
     // Revisions never change.
     staleTime: Infinity,
     placeholderData: keepPreviousData,
@@ -27,15 +28,21 @@ export interface FileSides {
 /** A file in two revisions; null if it does not exist there or is not text. */
 export function useFileSides(path: string | null, [older, newer]: Sides) {
   const projectId = useProjectStore((state) => state.projectId) ?? '';
+  const differences = useDifferences([older, newer], path !== null);
+  const change = differences.data?.find((each) => each.path === path)?.change;
   return useQuery({
     queryKey: ['file-sides', projectId, path, older, newer],
     queryFn: async ({ signal }): Promise<FileSides> => {
       const text = (number: number) => revisions.text(projectId, number, path ?? '', signal);
-      const [before, after] = await Promise.all([text(older), text(newer)]);
+      // A file that is not in a revision is not asked for.
+      const [before, after] = await Promise.all([
+        change === 'added' ? null : text(older),
+        change === 'removed' ? null : text(newer),
+      ]);
       return { before, after };
     },
     staleTime: Infinity,
-    enabled: path !== null,
+    enabled: path !== null && !differences.isPending && !differences.isPlaceholderData,
   });
 }
 

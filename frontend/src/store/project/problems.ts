@@ -80,6 +80,10 @@ export function problemsOf(
   return [...own, ...server];
 }
 
+/** The errors among the findings of a check. */
+export const errorsOf = (diagnostics: readonly Diagnostic[]): Diagnostic[] =>
+  diagnostics.filter(({ severity }) => severity === 'error');
+
 /** The worst finding of each node. */
 export function worstByNode(problems: readonly ShownProblem[]): ReadonlyMap<NodeId, ShownProblem> {
   const worst = new Map<NodeId, ShownProblem>();

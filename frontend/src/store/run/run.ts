@@ -1,8 +1,9 @@
 import { api } from '@/api/client';
 import { ApiError } from '@/api/errors';
-import type { AppBundle } from '@/api/types';
+import type { AppBundle, Diagnostic } from '@/api/types';
 import type { Commands } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
+import { errorsOf } from '@/store/project/problems';
 import { saveNow } from '@/store/saving/autosave';
 import { abandonStart, ensureConnected, send } from '@/store/session/connection';
 import { CommandError, isUnconnected } from '@/store/session/control';
@@ -32,6 +33,8 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
     await saveNow();
     useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter });
     enter('checking');
+    const errors = errorsOf(useProjectStore.getState().diagnostics);
+    if (errors.length > 0) throw new UnsoundError(errors);
     const app = await api.app(projectId, useUniverseChoice.getState().universe);
     enter('starting');
     await ensureConnected(projectId);
@@ -45,6 +48,13 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
   } finally {
     useRunStore.setState({ stage: null });
     useSessionStore.setState({ isLaunching: false, progress: null });
+  }
+}
+
+/** The last save found errors: the server would refuse the program. */
+class UnsoundError extends Error {
+  constructor(readonly diagnostics: Diagnostic[]) {
+    super(diagnostics[0]?.message ?? '');
   }
 }
 
@@ -87,6 +97,10 @@ function failureOf(error: unknown): LaunchFailure {
   }
   if (error instanceof CommandError) {
     return { stage, code: error.code, message: error.message, hint: error.hint, diagnostics: [] };
+  }
+  if (error instanceof UnsoundError) {
+    const { message, diagnostics } = error;
+    return { stage, code: 'check_failed', message, hint: diagnostics[0]?.hint ?? '', diagnostics };
   }
   const message = error instanceof Error ? error.message : String(error);
   return { stage, code: 'unknown', message, hint: '', diagnostics: [] };

@@ -5,8 +5,8 @@ import type { Box, Layout } from '@/model/layout';
 import { disconnect } from '@/store/project/edits/blocks';
 import type { BlockNode, TreeEdge } from '../flow';
 
-/** The last view of each tree, until the page closes. */
-const viewports = new Map<string, Viewport>();
+/** The last view of each tree, with the width of its canvas, until the page closes. */
+const viewports = new Map<string, Viewport & { readonly width: number }>();
 
 /** So far out that the largest tree is seen as a whole. */
 export const LEAST_ZOOM = 0.004;
@@ -33,12 +33,16 @@ export function useViewport(treeId: string, layout: Layout, diagram: Diagram) {
   const store = useStoreApi();
   const known = viewports.get(treeId);
   const isEmpty = layout.width === 0;
-  const initial = useMemo(() => known ?? { x: 80, y: 80, zoom: 1 }, [known]);
+  const initial = useMemo(
+    () => (known ? { x: known.x, y: known.y, zoom: known.zoom } : { x: 80, y: 80, zoom: 1 }),
+    [known],
+  );
 
   const onInit = useCallback(
     (flow: ReactFlowInstance<BlockNode, TreeEdge>) => {
-      if (viewports.has(treeId) || isEmpty) return;
       const pane = store.getState();
+      // In a frame of another width the remembered place may be out of sight.
+      if (viewports.get(treeId)?.width === pane.width || isEmpty) return;
       const fits = Math.min(pane.width / layout.width, pane.height / layout.height) / (1 + FIT.padding);
       const root = layout.positions[diagram.root ?? ''];
       if (fits >= READABLE || !root) void flow.fitView(FIT);
@@ -49,9 +53,9 @@ export function useViewport(treeId: string, layout: Layout, diagram: Diagram) {
 
   const onMoveEnd = useCallback(
     (_event: unknown, viewport: Viewport) => {
-      viewports.set(treeId, viewport);
+      viewports.set(treeId, { ...viewport, width: store.getState().width });
     },
-    [treeId],
+    [store, treeId],
   );
 
   /** Disconnects a block from its parent and leaves it where it is drawn. */

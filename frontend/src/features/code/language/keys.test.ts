@@ -10,7 +10,7 @@ let requests: ReturnType<typeof fakeServer>['requests'];
 
 beforeEach(() => {
   save.mockClear();
-  ({ requests } = fakeServer({ 'POST /python/format': { source: 'x = 1\n' } }));
+  ({ requests } = fakeServer({ 'POST /python/format': { source: 'x = 1\n', findings: [] } }));
   onTestFinished(registerCommands([{ id: 'project.save', group: 'project', labelKey: '', run: save }]));
   onTestFinished(() => localStorage.clear());
 });

@@ -66,7 +66,7 @@ describe('changesBetween', () => {
 
 describe('formatPython', () => {
   it('formats as one step of undo', async () => {
-    const { requests } = fakeServer({ [FORMAT]: { source: 'x = 1\ny = 2\n' } });
+    const { requests } = fakeServer({ [FORMAT]: { source: 'x = 1\ny = 2\n', findings: [] } });
     const view = editor('x=1\ny=2\n');
     await formatPython(view, 'actions/Go.py', 'asked');
     expect(text(view)).toBe('x = 1\ny = 2\n');
@@ -76,7 +76,7 @@ describe('formatPython', () => {
   });
 
   it('leaves a text that changed meanwhile', async () => {
-    fakeServer({ [FORMAT]: { source: 'x = 1\n' } });
+    fakeServer({ [FORMAT]: { source: 'x = 1\n', findings: [] } });
     const view = editor('x=1\n');
     const formatted = formatPython(view, 'a.py', 'asked');
     view.dispatch({ changes: { from: 0, insert: '#' } });
@@ -94,12 +94,24 @@ describe('formatPython', () => {
     expect(text(view)).toBe('x=(');
   });
 
-  it('is silent while saving', async () => {
-    fakeServer({ [FORMAT]: refusal('A syntax error in line 1.') });
+  it('leaves a text with a syntax error, and says so', async () => {
+    fakeServer({ [FORMAT]: { source: 'x=(', findings: [{}] } });
     show(<p />);
-    await formatPython(editor('x=('), 'a.py', 'saving');
-    expect(screen.queryByText('Not formatted')).toBeNull();
+    const view = editor('x=(');
+    await formatPython(view, 'a.py', 'asked');
+    expect(await screen.findByText(/The file has a syntax error/)).toBeInTheDocument();
+    expect(text(view)).toBe('x=(');
   });
+
+  it.each([refusal('The formatter did not answer.'), { source: 'x=(', findings: [{}] }])(
+    'is silent while saving',
+    async (answer) => {
+      fakeServer({ [FORMAT]: answer });
+      show(<p />);
+      await formatPython(editor('x=('), 'a.py', 'saving');
+      expect(screen.queryByText('Not formatted')).toBeNull();
+    },
+  );
 });
 
 describe('applyFix', () => {

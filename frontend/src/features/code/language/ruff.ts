@@ -38,6 +38,10 @@ export function changesBetween(before: string, after: string): ChangeSpec[] {
   }));
 }
 
+function refuse(message: string): void {
+  notifications.show({ color: 'yellow', title: t('code:format.failed'), message });
+}
+
 /**
  * Formats the text with ruff, as one step of undo. A text with a syntax error, or one that changed meanwhile,
  * stays unchanged.
@@ -45,14 +49,14 @@ export function changesBetween(before: string, after: string): ChangeSpec[] {
 export async function formatPython(view: EditorView, path: string, how: 'asked' | 'saving'): Promise<void> {
   const before = view.state.doc;
   try {
-    const { source } = await api.formatPython(before.toString(), path);
+    const { source, findings } = await api.formatPython(before.toString(), path);
+    // Saving continues without formatting: the editor's marks show the errors.
+    if (findings.length > 0 && how === 'asked') refuse(t('code:format.syntaxError'));
     if (!view.state.doc.eq(before) || source === before.toString()) return;
     view.dispatch({ changes: changesBetween(before.toString(), source), userEvent: 'format' });
   } catch (error) {
-    // Saving continues without formatting: the editor's marks show the errors.
     if (how === 'saving') return;
-    const message = error instanceof ApiError ? error.message : String(error);
-    notifications.show({ color: 'yellow', title: t('code:format.failed'), message });
+    refuse(error instanceof ApiError ? error.message : String(error));
   }
 }
 

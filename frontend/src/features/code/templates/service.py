@@ -8,7 +8,7 @@ from tree_gardener.ports import Port, get_input, set_output
 class NewAction(py_trees.behaviour.Behaviour):
     """Calls a ROS service and waits for its answer."""
 
-    INPUT_PORTS = {"service": Port(str, default="/trigger", description="What the service is called.")}
+    INPUT_PORTS = {"service": Port(str, default="/trigger", description="Name of the service.")}
     OUTPUT_PORTS = {"answer": Port(str, default="{=}", description="What the service says.")}
 
     def setup(self, **kwargs):

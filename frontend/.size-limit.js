@@ -29,7 +29,7 @@ const studio = readdirSync(assets).filter((name) => /^Studio-.*\.js$/.test(name)
 const paths = (names) => names.map((name) => join(assets, name));
 
 export default [
-  { name: 'first page', path: paths(closure(entry)), limit: '300 kB', gzip: true },
+  { name: 'first page', path: paths(closure(entry)), limit: '270 kB', gzip: true },
   {
     name: 'editor, with the first page, without 3D and code editor',
     path: paths(closure([...entry, ...studio])),

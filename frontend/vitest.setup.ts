@@ -1,4 +1,5 @@
 import './harness/sentBodies';
+import './src/i18n/editorTexts';
 import '@testing-library/jest-dom/vitest';
 import { cleanup, configure } from '@testing-library/react';
 import { afterEach } from 'vitest';

@@ -42,6 +42,10 @@ class TemplateSerializer(NamedSerializer):
 
     universe = serializers.CharField()
     root_diagram = ObjectField(allow_null=True)
+    conditions = serializers.ListField(
+        child=serializers.CharField(),
+        help_text="Types of the tree that are conditions.",
+    )
 
 
 class TemplateListSerializer(serializers.Serializer[Any]):

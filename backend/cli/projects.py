@@ -22,7 +22,7 @@ def projects(
 
         rows = list(find(user=local_user(), search=search))
         if as_json:
-            print(json.dumps([summary(row, None) for row in rows], ensure_ascii=False, indent=2))
+            print(json.dumps([summary(row, None, []) for row in rows], ensure_ascii=False, indent=2))
             return
         for row in rows:
             print(f"{row.id}  {row.updated_at:%Y-%m-%d %H:%M}  {row.name}")

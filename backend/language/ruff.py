@@ -16,7 +16,7 @@ from typing import Any, Final
 
 from backend.language.errors import PythonRefusedError
 
-LINE_LENGTH: Final = 100
+LINE_LENGTH: Final = 110
 TIMEOUT_S: Final = 5
 MAX_SOURCE_BYTES: Final = 1024 * 1024
 # Rules for probable errors. The formatter handles style; the language server finds undefined names, too.
@@ -46,7 +46,7 @@ def findings(source: str, filename: str, run: Run) -> list[dict[str, Any]]:
 
     Lines and columns count from 1; columns are in code points.
     """
-    options = ["--output-format", "json", "--select", RULES, "--ignore", IGNORED, "--line-length", "110"]
+    options = ["--output-format", "json", "--select", RULES, "--ignore", IGNORED]
     _, output = _run(run, ["check", "--exit-zero", "--no-fix", *options], source, filename)
     try:
         found = json.loads(output or "[]")

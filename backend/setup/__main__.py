@@ -216,7 +216,8 @@ def ram_client_step() -> Step:
 def front_end_step() -> Step:
     """Returns the step that builds the front end."""
     sources = [*sorted((FRONTEND / "src").rglob("*")), *sorted((FRONTEND / "public").rglob("*"))]
-    configuration = [FRONTEND / name for name in ("index.html", "vite.config.ts", "package-lock.json")]
+    names = ("index.html", "vite.config.ts", "compressed.ts", "package-lock.json")
+    configuration = [FRONTEND / name for name in names]
     catalog = ROOT / "tree_gardener" / "catalog.json"
     return Step(
         "front-end",

@@ -53,5 +53,6 @@ export const summary = (id: string, more: Partial<ProjectSummary> = {}): Project
   created_at: '2026-01-01T00:00:00Z',
   updated_at: '2026-01-01T00:00:00Z',
   root_diagram: null,
+  conditions: [],
   ...more,
 });

@@ -168,7 +168,7 @@ TASKS: tuple[tuple[str, str, Callable[[Hand], None]], ...] = (
     ("run it in another world", BUMP_AND_GO, go_elsewhere),
     ("use a behaviour that somebody has made", BUMP_AND_GO, use_what_others_made),
     ("take a part of the tree to another project", BUMP_AND_GO, reuse_in_another_project),
-    ("take it away as a ROS 2 package", BUMP_AND_GO, take_it_to_a_robot),
+    ("download it as a ROS 2 package", BUMP_AND_GO, take_it_to_a_robot),
 )
 
 

@@ -66,11 +66,18 @@ class Studio:
     def open(self) -> None:
         """Follows the link with the token to the start page."""
         self.page.goto(self.server.url)
-        expect(self.page.get_by_test_id("new-from-laser_bump_and_go")).to_be_visible()
+        expect(self.page.get_by_test_id("projects")).to_be_attached()
+        expect(self.page.get_by_test_id("fold-templates")).to_be_visible()
 
     def new_from(self, template: str) -> None:
         """Makes a project from a template and waits for its tree on the canvas."""
-        self.at(f"new-from-{template}").click()
+        fold = self.at("fold-templates")
+        card = self.at(f"new-from-{template}")
+        # They fold once the list of projects has come.
+        expect(self.page.locator("[data-testid=fold-templates][aria-busy=false]")).to_be_visible()
+        if fold.get_attribute("aria-expanded") == "false" and not card.is_visible():
+            fold.click()
+        card.click()
         expect(self.at("canvas")).to_be_visible()
         expect(self.at("node-n1")).to_be_visible()
 

@@ -179,7 +179,7 @@ def invites_to_a_class(ada: Someone, bob: Someone, mails: Mailbox) -> None:
     bob.press("button", "Confirm")
     bob.comes_to("/accounts/login/")
     bob.sign_in("bob")
-    expect(bob.at("new-from-laser_bump_and_go")).to_be_visible()
+    expect(bob.at("projects")).to_be_attached()
 
 
 def shares_a_project_and_gives_it_away(ada: Someone, bob: Someone, guest: Someone) -> None:
@@ -262,7 +262,7 @@ def forgets_the_password(bob: Someone, mails: Mailbox) -> None:
     expect(bob.page.get_by_text("not correct")).to_be_visible()
     bob.go("/accounts/login/")
     bob.sign_in("bob", ANOTHER)
-    expect(bob.at("new-from-laser_bump_and_go")).to_be_visible()
+    expect(bob.at("projects")).to_be_attached()
 
 
 def takes_everything_along_and_goes(bob: Someone) -> None:

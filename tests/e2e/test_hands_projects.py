@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import pytest
 from playwright.sync_api import expect
 
-from tests.e2e.accessibility import expect_accessible
+from tests.e2e.accessibility import expect_accessible, expect_no_findings
 from tests.fakes.react_diagrams import chain
 
 if TYPE_CHECKING:
@@ -25,6 +25,12 @@ pytestmark = [pytest.mark.e2e, pytest.mark.timeout(600)]
 
 BTCPP = b"""<root BTCPP_format="4" main_tree_to_execute="Patrol">
   <BehaviorTree ID="Patrol"><Sequence><AlwaysSuccess/><Sleep msec="10"/></Sequence></BehaviorTree>
+</root>"""
+UNKNOWN = b"""<root BTCPP_format="4" main_tree_to_execute="Main">
+  <BehaviorTree ID="Main"><Sequence>
+    <Grab object="cup"/><Twice><AlwaysSuccess/></Twice><Race><AlwaysSuccess/></Race><SubTree ID="Elsewhere"/>
+  </Sequence></BehaviorTree>
+  <TreeNodesModel><Decorator ID="Twice"/><Control ID="Race"/></TreeNodesModel>
 </root>"""
 ACTION = b"""import py_trees
 
@@ -68,6 +74,34 @@ def drop(studio: Studio, filename: str, data: bytes) -> None:
     studio.page.dispatch_event("body", "dragover", {"dataTransfer": transfer})
     expect(studio.page.get_by_text("Drop a project zip")).to_be_visible()
     studio.page.dispatch_event("body", "drop", {"dataTransfer": transfer})
+
+
+def report(studio: Studio, filename: str) -> None:
+    """Reads what came in with an import, and closes it."""
+    dialog = studio.page.get_by_role("dialog", name=f"Imported from {filename}")
+    expect(dialog.get_by_test_id("import-report")).to_contain_text("1 tree")
+    dialog.get_by_role("button", name="Done").click()
+    expect(dialog).to_have_count(0)
+
+
+def what_is_missing_is_said(studio: Studio) -> None:
+    """A tree of unknown nodes: stubs of each kind, a missing subtree, and the way to the first of them."""
+    drop(studio, "unknown.xml", UNKNOWN)
+    dialog = studio.page.get_by_role("dialog", name="Imported from unknown.xml")
+    for words in ("Grab action", "Twice decorator", "Race control node", "Elsewhere"):
+        expect(dialog).to_contain_text(words)
+    for scheme in ("dark", "light"):
+        studio.page.evaluate(
+            "s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme
+        )
+        expect_no_findings(studio.page, f"import report, {scheme}")
+        studio.picture(f"import-report-{scheme}")
+    dialog.get_by_role("button", name="Open the first problem").click()
+    expect(dialog).to_have_count(0)
+    expect(studio.page.locator("[data-type=SubTree].selected, .selected [data-type=SubTree]")).to_have_count(
+        1
+    )
+    home(studio)
 
 
 def home(studio: Studio) -> None:
@@ -205,9 +239,12 @@ def test_long_lists_are_searched_sorted_and_paged(shared_studio: Studio) -> None
 def test_what_falls_onto_the_page_becomes_a_project(shared_studio: Studio) -> None:
     shared_studio.may_be_refused(r"4\d\d POST /api/v1/projects/import")
     studio = shared_studio
-    drop(studio, "patrol.xml", BTCPP)
+    drop(studio, "Night patrol.xml", BTCPP)
+    report(studio, "Night patrol.xml")
     expect(studio.at("canvas")).to_have_attribute("data-tree", "Patrol")
+    expect(studio.page.get_by_text("Night patrol", exact=True)).to_be_visible()
     home(studio)
+    what_is_missing_is_said(studio)
 
     graph = chain("Sequence", "Wave")
     drop(
@@ -215,12 +252,14 @@ def test_what_falls_onto_the_page_becomes_a_project(shared_studio: Studio) -> No
         "old.zip",
         zipped({"old/graph.json": graph.to_bytes(), "old/actions/Wave.py": ACTION}),
     )
+    report(studio, "old.zip")
     expect(studio.page.locator("[data-type=Wave]")).to_be_visible()
     project = studio.page.url.rstrip("/").split("/")[-1]
     exported = studio.page.request.get(f"{studio.server.origin}/api/v1/projects/{project}/export").body()
     home(studio)
 
     drop(studio, "again.zip", exported)
+    report(studio, "again.zip")
     expect(studio.page.locator("[data-type=Wave]")).to_be_visible()
     home(studio)
 
@@ -231,6 +270,7 @@ def test_what_falls_onto_the_page_becomes_a_project(shared_studio: Studio) -> No
     expect(studio.at("projects")).to_be_visible()
     drop(studio, "bare.xml", BTCPP.replace(b"<Sequence", b'<Sequence _description="1 < 2 & 3"', 1))
     studio.at("repair").click()
+    report(studio, "bare.xml")
     expect(studio.at("canvas")).to_have_attribute("data-tree", "Patrol")
     home(studio)
 

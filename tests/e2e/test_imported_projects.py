@@ -9,7 +9,7 @@ from playwright.sync_api import expect
 
 from tests.budget import count
 from tests.e2e.server import wait_until
-from tests.e2e.test_hands_projects import drop, zipped
+from tests.e2e.test_hands_projects import drop, report, zipped
 from tests.fakes.jderobot_projects import write_follower, write_wanderer
 
 if TYPE_CHECKING:
@@ -30,6 +30,7 @@ def test_an_imported_project_drives_in_the_universe_that_its_topics_ask_for(
     folder = write(tmp_path / write.__name__)
     files = {str(path.relative_to(tmp_path)): path.read_bytes() for path in folder.rglob("*.*")}
     drop(studio, f"{folder.name}.zip", zipped(files))
+    report(studio, f"{folder.name}.zip")
     expect(studio.at("canvas")).to_be_visible()
     studio.run()
     observer = studio.observe()

@@ -5,16 +5,21 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from backend.projects.storage import queries
+from backend.projects.storage.conditions import conditions
 from backend.projects.storage.manifest import MANIFEST, read
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from backend.projects.models import ChangeSet, Draft, Project
     from backend.projects.storage.changes import Existing
     from backend.projects.storage.queries import StoredFile
 
 
-def summary(project: Project, root_diagram: dict[str, Any] | None) -> dict[str, Any]:
-    """Returns a project in the form for lists."""
+def summary(
+    project: Project, root_diagram: dict[str, Any] | None, conditions: Sequence[str]
+) -> dict[str, Any]:
+    """Returns a project in the form of a list."""
     return {
         "id": str(project.id),
         "name": project.name,
@@ -28,6 +33,7 @@ def summary(project: Project, root_diagram: dict[str, Any] | None) -> dict[str, 
         "archived_at": project.archived_at and project.archived_at.isoformat(),
         "deleted_at": project.deleted_at and project.deleted_at.isoformat(),
         "root_diagram": root_diagram,
+        "conditions": conditions,
         "role": project.role.label,
         "owner": project.owner.username,
     }
@@ -67,7 +73,8 @@ def opened(project: Project) -> Opened:
     files = queries.current_files(project)
     main = files.get(f"trees/{project.main_tree}.json")
     diagram = queries.root_diagram(main.data) if main is not None else None
-    rows = summary(project, diagram) | {
+    types = conditions(diagram, lambda path: files[path].data if path in files else None)
+    rows = summary(project, diagram, types) | {
         "settings": dict(read(files[MANIFEST].data).document),
         "files": [file(stored) for stored in files.values()],
     }

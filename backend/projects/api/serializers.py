@@ -171,6 +171,10 @@ class ProjectSummarySerializer(serializers.Serializer[Any]):
     )
     owner = serializers.CharField()
     root_diagram = ObjectField(allow_null=True)
+    conditions = serializers.ListField(
+        child=serializers.CharField(),
+        help_text="Types of the tree that are conditions.",
+    )
 
 
 class ProjectListSerializer(serializers.Serializer[Any]):

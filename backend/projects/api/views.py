@@ -79,7 +79,11 @@ class Projects(ResourceViewSet):
         end = asked["offset"] + asked["limit"]
         page, total = queries.page(rows, asked["offset"], end, user=user)
         diagrams = queries.root_diagrams(page)
-        items = [presentation.summary(project, diagrams.get(project.id)) for project in page]
+        types = queries.conditions_of(diagrams)
+        items = [
+            presentation.summary(project, diagrams.get(project.id), types.get(project.id, []))
+            for project in page
+        ]
         return Response({"items": items, "total": total, "next_offset": end if end < total else None})
 
     @extend_schema(

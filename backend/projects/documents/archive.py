@@ -9,6 +9,7 @@ from pathlib import PurePosixPath
 from typing import IO, TYPE_CHECKING, Final, NamedTuple
 
 from backend.config.environment import environment
+from backend.core.problems import InvalidInputError
 from backend.projects.errors import ArchiveError, QuotaExceededError
 from backend.projects.storage import names
 from backend.projects.storage.manifest import MANIFEST
@@ -115,6 +116,15 @@ class Upload(NamedTuple):
     name: str
 
 
+def _named(name: PurePosixPath) -> str:
+    """Returns the path of a single file: its own, after which the project is named, if it is allowed."""
+    suffix = name.suffix.lower()
+    try:
+        return names.file_path(f"{name.stem}{suffix}")
+    except InvalidInputError:
+        return f"import{suffix}"
+
+
 def read_upload(data: IO[bytes], filename: str) -> Upload:
     """Returns the files of an upload: a zip of BT Studio, JdeRobot or Groot2, or one XML file.
 
@@ -126,6 +136,6 @@ def read_upload(data: IO[bytes], filename: str) -> Upload:
         content = data.read(environment().max_file_bytes + 1)
         if len(content) > environment().max_file_bytes:
             raise QuotaExceededError(f"“{names.shown(filename)}” is larger than a file may be.", field="file")
-        return Upload({f"import{name.suffix.lower()}": content}, is_ours=False, name=name.stem)
+        return Upload({_named(name): content}, is_ours=False, name=name.stem)
     files = unpack(data)
     return Upload(files, MANIFEST in files, name.stem)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from backend.config.environment import environment
 from backend.core.problems import InvalidInputError
+from backend.projects.storage.conditions import conditions
 from backend.projects.storage.manifest import MANIFEST, write
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ class Template:
     description: str
     universe: str
     root_diagram: dict[str, Any] | None
+    conditions: list[str]
 
 
 def templates() -> list[Template]:
@@ -93,11 +95,13 @@ def _describe(template_id: str) -> Template:
     files = files_of(template_id)
     manifest = json.loads(files[MANIFEST])
     diagram = files.get(f"trees/{manifest.get('main_tree', 'MainTree')}.json")
+    tree = json.loads(diagram) if diagram else None
     name = "Empty project" if template_id == EMPTY else manifest["name"]
     return Template(
         id=template_id,
         name=name,
         description=manifest.get("description", ""),
         universe=manifest.get("universe", ""),
-        root_diagram=json.loads(diagram) if diagram else None,
+        root_diagram=tree,
+        conditions=conditions(tree, files.get),
     )

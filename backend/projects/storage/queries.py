@@ -16,6 +16,7 @@ from backend.projects.choices import Role
 from backend.projects.models import ChangeSet, CurrentFile, Draft, FileRevision, Project
 from backend.projects.storage import access, cache, names, rows
 from backend.projects.storage.access import Need
+from backend.projects.storage.conditions import all_paths, conditions
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -152,6 +153,17 @@ def root_diagrams(found: Iterable[Project]) -> dict[UUID, dict[str, Any]]:
     data = cache.contents(blobs.values())
     diagrams = {project_id: root_diagram(data.get(sha256, b"")) for project_id, sha256 in blobs.items()}
     return {project_id: diagram for project_id, diagram in diagrams.items() if diagram is not None}
+
+
+def conditions_of(diagrams: Mapping[UUID, dict[str, Any]]) -> dict[UUID, list[str]]:
+    """Returns the types of each project's tree that its own code makes conditions."""
+    paths = sorted(all_paths(diagrams.values()))
+    blobs = rows.action_blobs(list(diagrams), paths) if paths else {}
+    data = cache.contents(blobs.values())
+    files: dict[UUID, dict[str, bytes]] = {project: {} for project in diagrams}
+    for (project, path), blob in blobs.items():
+        files[project][path] = data[blob]
+    return {project: conditions(diagram, files[project].get) for project, diagram in diagrams.items()}
 
 
 def root_diagram(data: bytes) -> dict[str, Any] | None:

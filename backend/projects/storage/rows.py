@@ -71,6 +71,12 @@ def root_trees(projects: Sequence[UUID], largest: int) -> dict[UUID, str]:
     return dict(found.values_list("project_id", "blob_id"))
 
 
+def action_blobs(projects: Sequence[UUID], paths: Sequence[str]) -> dict[tuple[UUID, str], str]:
+    """Returns the blobs of these projects' files at these paths, by project and path."""
+    found = CurrentFile.objects.filter(project__in=projects, path__in=paths[:ROWS])
+    return {(row[0], row[1]): row[2] for row in found.values_list("project_id", "path", "blob_id")}
+
+
 def taken_by_others(project: Project) -> int:
     """Returns the bytes of all other projects of the owner."""
     known = at_once.taken_by_others(project)

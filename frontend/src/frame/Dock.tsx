@@ -8,13 +8,16 @@ import {
   type TabNode,
 } from 'flexlayout-react';
 import { IconChevronsDown, IconFileCode, IconFileText, IconGitFork, IconHistory } from '@tabler/icons-react';
-import { useCallback, useEffect, useMemo, useRef } from 'react';
+import { useCallback, useEffect, useMemo, useRef, type RefObject } from 'react';
 import { useTranslation } from 'react-i18next';
 import 'flexlayout-react/style/light.css';
 import './dock.css';
+import classes from './frame.module.css';
 import { t, translates } from '@/i18n';
 import { useProjectStore } from '@/store/project';
 import { forgetLayouts, keepLayout, type FrameWidth } from '@/workspace/layoutModel';
+import { markCutTabs } from './cutTabs';
+import { panelIcon } from './panelIcons';
 import { keepLesson } from '@/workspace/lessons';
 import { renderTab } from './panels';
 import { cancelSplitters } from './cancelSplitters';
@@ -58,7 +61,10 @@ function renderTabButton(node: TabNode, values: ITabRenderValues): void {
   const title = `${titleOf(node)} · ${camera}`;
   // The library takes the tab's accessible name from here too, but its type does not say so.
   if (camera !== null) Object.assign(values, { content: title, name: title });
-  if (!tab) values.buttons.push(<PanelBadge key="badge" panel={node.getId()} />);
+  if (tab) return;
+  const Icon = panelIcon(node.getComponent() ?? '');
+  if (Icon) values.leading = <Icon size={16} data-panel-icon aria-hidden="true" />;
+  values.buttons.push(<PanelBadge key="badge" panel={node.getId()} />);
 }
 
 /** The button for tabs that do not fit; it shows their number. */
@@ -124,9 +130,29 @@ function useLater(): (act: () => void) => void {
   };
 }
 
+/** Shows icons on tabs whose names do not fit, after each change of the layout, its size or the language. */
+function useCutTabs(language: string): { root: RefObject<HTMLDivElement | null>; measure: () => void } {
+  const root = useRef<HTMLDivElement>(null);
+  // After the docking library has drawn the change.
+  const measure = useCallback(() => {
+    requestAnimationFrame(() => {
+      if (root.current) markCutTabs(root.current);
+    });
+  }, []);
+  useEffect(() => {
+    if (!root.current) return undefined;
+    const observer = new ResizeObserver(measure);
+    observer.observe(root.current);
+    return () => observer.disconnect();
+  }, [measure]);
+  useEffect(measure, [measure, language]);
+  return { root, measure };
+}
+
 /** The panels, which the user can arrange. */
 export function Dock({ model, width }: DockProps) {
-  useTranslation('frame');
+  const { i18n } = useTranslation('frame');
+  const { root, measure } = useCutTabs(i18n.language);
   const keepSoon = useLater();
 
   useEffect(() => followWindows(model), [model]);
@@ -136,6 +162,7 @@ export function Dock({ model, width }: DockProps) {
   const onModelChange = (changed: Model, _action: Action) => {
     followFront(changed);
     followWindows(changed);
+    measure();
     const { projectId } = useProjectStore.getState();
     keepSoon(() => {
       keepLayout(width, changed);
@@ -146,20 +173,22 @@ export function Dock({ model, width }: DockProps) {
   };
 
   return (
-    <Layout
-      model={model}
-      factory={renderTab}
-      icons={ICONS}
-      onRenderTab={renderTabButton}
-      onModelChange={onModelChange}
-      onAction={popouts.onAction}
-      onPopoutOpen={popouts.onOpen}
-      onPopoutClose={popouts.onClose}
-      popoutURL="/popout.html"
-      i18nTranslator={translated}
-      invalidateTabContentOnParentRender={false}
-      realtimeResize
-    />
+    <div ref={root} className={classes['dockRoot']}>
+      <Layout
+        model={model}
+        factory={renderTab}
+        icons={ICONS}
+        onRenderTab={renderTabButton}
+        onModelChange={onModelChange}
+        onAction={popouts.onAction}
+        onPopoutOpen={popouts.onOpen}
+        onPopoutClose={popouts.onClose}
+        popoutURL="/popout.html"
+        i18nTranslator={translated}
+        invalidateTabContentOnParentRender={false}
+        realtimeResize
+      />
+    </div>
   );
 }
 

@@ -36,7 +36,9 @@ export function SaveIndicator() {
         <Icon size={16} aria-hidden="true" />
         <span className={classes['saveText']}>
           {state.kind === 'failed'
-            ? `${t('save.failed')}: ${state.code === 'offline' ? t('save.noServer') : state.reason}`
+            ? state.code === 'offline'
+              ? t('save.keptOffline')
+              : `${t('save.failed')}: ${state.reason}`
             : t(`save.${state.kind}`)}
         </span>
       </UnstyledButton>

@@ -1,3 +1,4 @@
+import '@/i18n/editorTexts';
 import { Button, Center, Stack, Text, Title } from '@mantine/core';
 import { useMediaQuery } from '@mantine/hooks';
 import { useEffect } from 'react';
@@ -9,6 +10,7 @@ import { registerCanvasCommands } from '@/features/canvas/commands/canvasCommand
 import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
 import { ExportDialog } from '@/features/export/ExportDialog';
+import { ImportReport } from '@/features/importReport/ImportReport';
 import { Shortcuts } from '@/features/onboarding/Shortcuts';
 import { RunStrip } from '@/features/run/strip/RunStrip';
 import { registerRunCommands } from '@/features/run/commands';
@@ -153,6 +155,7 @@ function Workbench({ projectId }: StudioProps) {
       <ConnectDialog />
       <RenameKeyDialog />
       <RestoredNotice />
+      <ImportReport projectId={projectId} />
     </div>
   );
 }

@@ -1384,6 +1384,8 @@ export interface components {
             root_diagram: {
                 [key: string]: unknown;
             } | null;
+            /** @description Types of the tree that are conditions. */
+            conditions: string[];
             settings: {
                 [key: string]: unknown;
             };
@@ -1425,6 +1427,8 @@ export interface components {
             root_diagram: {
                 [key: string]: unknown;
             } | null;
+            /** @description Types of the tree that are conditions. */
+            conditions: string[];
         };
         /** @description The tree that was read from a text. */
         ReadTreeDone: {
@@ -1544,6 +1548,8 @@ export interface components {
             root_diagram: {
                 [key: string]: unknown;
             } | null;
+            /** @description Types of the tree that are conditions. */
+            conditions: string[];
         };
         /** @description Templates, the empty project first. */
         TemplateList: {

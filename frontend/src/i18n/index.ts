@@ -3,19 +3,19 @@ import { initReactI18next } from 'react-i18next';
 
 /**
  * One JSON file for each feature and language, `locales/<language>/<feature>.json`; the namespace is the
- * feature.
+ * feature. The start page has these texts; those of the editor come with it (`editorTexts`).
  */
-const files = import.meta.glob<Record<string, unknown>>('./locales/*/*.json', {
-  eager: true,
-  import: 'default',
-});
+const files = import.meta.glob<Record<string, unknown>>(
+  './locales/*/{accounts,editor,frame,projects,settings}.json',
+  { eager: true, import: 'default' },
+);
 
 export const LANGUAGES = { en: 'English', es: 'Español' } as const;
 export type Language = keyof typeof LANGUAGES;
 
 const STORAGE_KEY = 'bts.language';
 
-function resourcesFrom(modules: Record<string, Record<string, unknown>>) {
+export function resourcesFrom(modules: Record<string, Record<string, unknown>>) {
   const resources: Record<string, Record<string, Record<string, unknown>>> = {};
   for (const [path, texts] of Object.entries(modules)) {
     const [language = '', file = ''] = path.split('/').slice(-2);

@@ -41,6 +41,7 @@ export const projectDetail = (
   role: 'owner',
   owner: '',
   root_diagram: null,
+  conditions: [],
   settings: { name: 'Test', main_tree: mainTree },
   files: [...files],
   actions: [],

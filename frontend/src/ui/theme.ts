@@ -53,6 +53,8 @@ export const theme = createTheme({
         styles: { description: { color: 'var(--bts-muted)' } },
       },
     },
+    // The heading of a dialogue is not the banner of the page.
+    ModalHeader: { defaultProps: { role: 'none' } },
     Modal: { defaultProps: { closeButtonProps: { 'aria-label': t('frame:close') } } },
     Tooltip: { defaultProps: { openDelay: 350, withArrow: true, fz: 'xs' } },
     ActionIcon: { defaultProps: { variant: 'subtle', color: 'gray' } },

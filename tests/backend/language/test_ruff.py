@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from backend.config.environment import REPOSITORY
 from backend.language import ruff
 
 TEMPLATES = sorted(Path(__file__).parents[3].glob("frontend/src/features/code/templates/*.py"))
@@ -54,6 +55,24 @@ def test_a_checker_that_hangs_is_given_up(monkeypatch, api, tmp_path):
     monkeypatch.setattr(sys, "executable", str(tmp_path / "python"))
     monkeypatch.setattr(ruff, "TIMEOUT_S", 0.2)
     assert api.post("python/lint", {"source": "x"}, expect=422)["code"] == "python_refused"
+
+
+SHIPPED = sorted(
+    path
+    for folder in ("examples", "backend/catalog/behaviours", "tree_gardener/nav2")
+    for path in (REPOSITORY / folder).rglob("*.py")
+)
+
+
+def test_what_is_shipped_stays_as_it_is_when_a_user_formats_it():
+    """A save of an example, a behaviour of the library or a node of Nav2 changes nothing by itself."""
+    assert len(SHIPPED) > 20
+    changed = []
+    for path in SHIPPED:
+        source = path.read_text(encoding="utf-8")
+        if ruff.format_source(source, path.name, ruff.run_beside)["source"] != source:
+            changed.append(path.relative_to(REPOSITORY).as_posix())
+    assert changed == []
 
 
 @pytest.mark.parametrize("path", TEMPLATES, ids=lambda path: path.stem)

@@ -65,7 +65,10 @@ describe('a file', () => {
     open(path);
     expect(item(path)).toBeDisabled();
     expect(await menu(path)).toEqual([
+      ['Open', true],
       ['Rename', false],
+      ['Duplicate', true],
+      ['Copy path', false],
       ['History', true],
       ['Delete', false],
     ]);
@@ -77,8 +80,11 @@ describe('the menu', () => {
     open('trees/Dock.json', true);
     expect(screen.queryByRole('img')).toBeNull();
     expect(await menu('Dock')).toEqual([
+      ['Open', false],
       ['Make it the main tree', false],
       ['Rename', false],
+      ['Duplicate', false],
+      ['Copy path', false],
       ['History', false],
       ['Delete', false],
     ]);
@@ -90,7 +96,10 @@ describe('the menu', () => {
   it('of the main tree keeps it', async () => {
     open('trees/Main.json', true);
     expect(await menu('Main')).toEqual([
+      ['Open', false],
       ['Rename', false],
+      ['Duplicate', false],
+      ['Copy path', false],
       ['History', false],
       ['Delete', true],
     ]);

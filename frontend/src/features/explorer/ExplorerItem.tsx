@@ -1,28 +1,16 @@
-import { ActionIcon, Menu, Tooltip } from '@mantine/core';
-import {
-  IconDots,
-  IconFileCode,
-  IconFileText,
-  IconGitFork,
-  IconHistory,
-  IconPencil,
-  IconRobot,
-  IconStar,
-  IconTrash,
-  IconWorld,
-} from '@tabler/icons-react';
+import { Tooltip } from '@mantine/core';
+import { IconFileCode, IconFileText, IconGitFork, IconRobot, IconStar, IconWorld } from '@tabler/icons-react';
+import { useState, type MouseEvent } from 'react';
 import { useTranslation } from 'react-i18next';
-import { openRename } from '@/store/dialogs/files';
-import { setScope } from '@/store/revisions/scope';
 import { ROBOT_FILE } from '@/store/dialogs/newRobot';
 import { UNIVERSE_FILE } from '@/store/dialogs/newUniverse';
 import type { Worst } from '@/store/problems/list';
 import { useProjectStore } from '@/store/project';
 import { treeIdOf } from '@/store/project/state';
+import { ExplorerMenu } from './ExplorerMenu';
 import classes from './explorer.module.css';
-import { removeDocument } from './removing';
 import type { DocumentTab } from '@/workspace/documents';
-import { openTab, showPanel } from '@/workspace/tabs';
+import { openTab } from '@/workspace/tabs';
 
 interface ExplorerItemProps {
   readonly path: string;
@@ -38,6 +26,7 @@ function nameOf(path: string): string {
 
 export function ExplorerItem({ path, isTree, isAction, worst }: ExplorerItemProps) {
   const { t } = useTranslation('frame');
+  const [isMenuOpen, setMenuOpen] = useState(false);
   const treeId = treeIdOf(path);
   const isDiagram = useProjectStore((state) => state.files[path]?.kind === 'tree');
   const isBinary = useProjectStore((state) => state.files[path]?.kind === 'binary');
@@ -54,10 +43,11 @@ export function ExplorerItem({ path, isTree, isAction, worst }: ExplorerItemProp
           ? IconRobot
           : IconFileText;
 
-  const showHistory = () => {
-    openTab(tab);
-    setScope('file');
-    showPanel('history');
+  // Also Shift+F10 and the menu key, which make the same event.
+  const onContextMenu = (event: MouseEvent) => {
+    if (path === 'project.json') return;
+    event.preventDefault();
+    setMenuOpen(true);
   };
 
   return (
@@ -68,6 +58,7 @@ export function ExplorerItem({ path, isTree, isAction, worst }: ExplorerItemProp
         data-testid={`file-${path}`}
         disabled={isBinary}
         title={path}
+        onContextMenu={onContextMenu}
         onClick={() => openTab(tab)}
       >
         <Icon size={16} stroke={1.6} aria-hidden="true" />
@@ -79,41 +70,13 @@ export function ExplorerItem({ path, isTree, isAction, worst }: ExplorerItemProp
         ) : null}
       </button>
       {path === 'project.json' ? null : (
-        <Menu position="bottom-end">
-          <Menu.Target>
-            <ActionIcon
-              size="sm"
-              className={classes['more']}
-              aria-label={t('explorer.moreFor', { name: nameOf(path) })}
-            >
-              <IconDots size={15} />
-            </ActionIcon>
-          </Menu.Target>
-          <Menu.Dropdown>
-            {isDiagram && treeId !== null && !isMain ? (
-              <Menu.Item
-                leftSection={<IconStar size={16} />}
-                onClick={() => useProjectStore.getState().setSettings({ main_tree: treeId })}
-              >
-                {t('explorer.makeMain')}
-              </Menu.Item>
-            ) : null}
-            <Menu.Item leftSection={<IconPencil size={16} />} onClick={() => openRename(path)}>
-              {t('explorer.rename')}
-            </Menu.Item>
-            <Menu.Item disabled={isBinary} leftSection={<IconHistory size={16} />} onClick={showHistory}>
-              {t('explorer.history')}
-            </Menu.Item>
-            <Menu.Item
-              color="red"
-              disabled={isMain}
-              leftSection={<IconTrash size={16} />}
-              onClick={() => void removeDocument(path)}
-            >
-              {t('explorer.delete')}
-            </Menu.Item>
-          </Menu.Dropdown>
-        </Menu>
+        <ExplorerMenu
+          path={path}
+          name={nameOf(path)}
+          isOpened={isMenuOpen}
+          onChange={setMenuOpen}
+          onOpen={() => openTab(tab)}
+        />
       )}
     </div>
   );

@@ -11,7 +11,7 @@ it('opens on demand, and closes', async () => {
   show(<ExportDialog />);
   expect(screen.queryByRole('dialog')).toBeNull();
   act(openExportDialog);
-  expect(screen.getByRole('dialog', { name: 'Take it away' })).toBeInTheDocument();
+  expect(screen.getByRole('dialog', { name: 'Download' })).toBeInTheDocument();
   expect(await screen.findByTestId('take-away')).toBeInTheDocument();
   await user.click(screen.getByRole('button', { name: 'Close' }));
   expect(useExportDialog.getState().isOpen).toBe(false);

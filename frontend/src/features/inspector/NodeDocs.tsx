@@ -1,4 +1,5 @@
 import { useTranslation } from 'react-i18next';
+import { shippedDoc } from '@/i18n/shipped';
 import type { NodeSpec } from '@/model/vocabulary';
 import { Section } from './Section';
 import classes from './Inspector.module.css';
@@ -14,7 +15,7 @@ export function NodeDocs({ spec }: { readonly spec: NodeSpec | undefined }) {
   if (!spec?.summary) return null;
   return (
     <Section title={t('doc')}>
-      <p className={classes['doc']}>{spec.summary}</p>
+      <p className={classes['doc']}>{shippedDoc(spec.type, spec.summary)}</p>
       {spec.maxChildren > 0 && (
         <p className={classes['none']}>{t('children', { text: childrenText(spec) })}</p>
       )}

@@ -91,7 +91,7 @@ export function PortField(props: PortFieldProps) {
         {port.direction !== 'output' && (
           <Tooltip label={t(isKey ? 'toLiteral' : 'toKey')}>
             <ActionIcon
-              size={20}
+              size={24}
               aria-label={t(isKey ? 'toLiteral' : 'toKey')}
               aria-pressed={isKey}
               onClick={() => {
@@ -112,7 +112,7 @@ export function PortField(props: PortFieldProps) {
         {onRename && (
           <Tooltip label={t('renameHint')}>
             <ActionIcon
-              size={20}
+              size={24}
               aria-label={t('rename', { name: port.name })}
               onClick={() => {
                 setIsRenaming(true);
@@ -124,7 +124,7 @@ export function PortField(props: PortFieldProps) {
         )}
         {onRemove && (
           <Tooltip label={t(onRename ? 'removeEverywhere' : 'remove', { name: port.name })}>
-            <ActionIcon size={20} aria-label={t('remove', { name: port.name })} onClick={onRemove}>
+            <ActionIcon size={24} aria-label={t('remove', { name: port.name })} onClick={onRemove}>
               <IconTrash size={14} aria-hidden="true" />
             </ActionIcon>
           </Tooltip>
@@ -132,7 +132,7 @@ export function PortField(props: PortFieldProps) {
         {!isExtra && value !== null && !port.required && (
           <Tooltip label={t('reset')}>
             <ActionIcon
-              size={20}
+              size={24}
               aria-label={t('reset')}
               onClick={() => {
                 onChange(null);

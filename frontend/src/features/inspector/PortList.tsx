@@ -13,6 +13,7 @@ import { portsInUse, shared } from '@/store/project/edits/ports';
 import { problemsOf } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
 import { useProblemText } from '@/ui/useProblemText';
+import { shippedPort } from '@/i18n/shipped';
 import { OutdatedPorts } from './ports/OutdatedPorts';
 import { PortField } from './PortField';
 import { PortNameInput } from './PortNameInput';
@@ -73,7 +74,7 @@ export function PortList(target: Target) {
             action: (
               <Tooltip label={t('addPort')}>
                 <ActionIcon
-                  size={22}
+                  size={24}
                   aria-label={t('addPort')}
                   onClick={() => {
                     setIsAdding(true);
@@ -91,7 +92,7 @@ export function PortList(target: Target) {
       {[...declared, ...extra.map(extraPort)].map((port) => (
         <PortField
           key={`${id} ${port.name}`}
-          port={port}
+          port={{ ...port, description: shippedPort(node.type, port.name, port.description) }}
           value={node.ports?.[port.name] ?? null}
           keys={keys}
           isNew={fresh?.id === id && fresh.name === port.name}

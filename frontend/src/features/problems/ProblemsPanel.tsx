@@ -4,23 +4,14 @@ import { useTranslation } from 'react-i18next';
 import { displayName } from '@/model/diagram';
 import { fixesFor } from '@/model/fixes';
 import { useProjectStore } from '@/store/project';
-import { openFile, openTree } from '@/store/project/navigation';
 import type { ListedProblem } from '@/store/problems/list';
+import { openProblem } from '@/store/problems/open';
 import { useProblems } from '@/store/problems/useProblems';
 import { QuickFixes } from '@/ui/QuickFixes';
 import { useProblemText } from '@/ui/useProblemText';
 import classes from './problems.module.css';
 
 const ICONS = { error: IconCircleX, warning: IconAlertTriangle, note: IconInfoCircle };
-
-/** Shows the place of a finding: of a fault its line, of a finding in a tree its block. */
-function go({ isFault, tree, node, file, line }: ListedProblem): void {
-  if (file !== null && (isFault || tree === null || node === null)) openFile(file, line ?? undefined);
-  else if (tree !== null) {
-    openTree(tree);
-    if (node !== null) useProjectStore.getState().reveal(tree, node);
-  }
-}
 
 export function ProblemsPanel() {
   const { t } = useTranslation('problems');
@@ -64,7 +55,7 @@ function Row({ item }: { readonly item: ListedProblem }) {
         className={classes['row']}
         data-severity={item.severity}
         data-code={item.code}
-        onClick={() => go(item)}
+        onClick={() => openProblem(item)}
       >
         <Icon size={16} role="img" aria-label={t(`severity.${item.severity}`)} />
         <span className={classes['text']}>

@@ -65,7 +65,7 @@ export function ProjectCard({ project, shelf, actions }: ProjectCardProps) {
   return (
     <article className={classes['card']} data-testid="project-card">
       <a href={path} onClick={follow} className={classes['cardPicture']} tabIndex={-1} aria-hidden="true">
-        <TreePicture diagram={project.root_diagram} />
+        <TreePicture diagram={project.root_diagram} conditions={project.conditions} />
       </a>
       <div className={classes['cardText']}>
         <div className={classes['cardName']}>

@@ -1,4 +1,4 @@
-import { Button, FileButton, Group, Loader, Overlay, Text, Title, Tooltip } from '@mantine/core';
+import { Group, Loader, Overlay, Text } from '@mantine/core';
 import { IconUpload } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { Suspense, useEffect, useRef } from 'react';
@@ -8,21 +8,17 @@ import { UserMenu } from '@/features/accounts/UserMenu';
 import { ThemeToggle } from '@/ui/ThemeToggle';
 import { Logo } from '@/ui/Logo';
 import { lazyPart } from '@/ui/parts';
-import { ExampleShelf } from './examples/ExampleShelf';
 import { LanguageMenu } from './LanguageMenu';
+import { NewProject } from './NewProject';
 import { ProjectList } from './ProjectList';
 import classes from './projects.module.css';
 import { RepairDialog } from './RepairDialog';
-import { TemplateCards } from './TemplateCards';
 import { useFileDrop } from './useFileDrop';
 import { useImport } from './useImport';
 import { useProjectCommands } from './useProjects';
 import { useStartCommands } from './useStartCommands';
 
 const CommandPalette = lazyPart(async () => (await import('@/workspace/CommandPalette')).CommandPalette);
-
-/** Project zips of BT Studio and of JdeRobot, trees as XML, and projects of Groot2. */
-const IMPORTS = '.zip,.xml,.btproj,application/zip,text/xml';
 
 /** The page that lists the projects and creates new ones. */
 export function StartPage() {
@@ -71,38 +67,13 @@ export function StartPage() {
         </Group>
       </header>
       <main className={classes['main']}>
-        <section aria-labelledby="new-heading">
-          <Group justify="space-between" align="end" mb="md">
-            <div>
-              <Title order={1} size={26} id="new-heading">
-                {t('heading')}
-              </Title>
-              <Text c="dimmed" mt={4}>
-                {t('intro')}
-              </Text>
-            </div>
-            <Tooltip label={t('importHint')} multiline maw={300} position="bottom-end">
-              <div>
-                <FileButton accept={IMPORTS} onChange={(file) => file && importFile(file)}>
-                  {(props) => (
-                    <Button
-                      {...props}
-                      ref={importButton}
-                      variant="default"
-                      data-testid="import"
-                      loading={isImporting}
-                      leftSection={<IconUpload size={16} />}
-                    >
-                      {t('import')}
-                    </Button>
-                  )}
-                </FileButton>
-              </div>
-            </Tooltip>
-          </Group>
-          <TemplateCards onCreate={(template) => actions.create.mutate(template)} pending={pending} />
-        </section>
-        <ExampleShelf onCreate={(template) => actions.create.mutate(template)} pending={pending} />
+        <NewProject
+          onCreate={(template) => actions.create.mutate(template)}
+          pending={pending}
+          onImport={importFile}
+          isImporting={isImporting}
+          importButton={importButton}
+        />
         <ProjectList actions={actions} searchField={searchField} />
         {isImporting ? (
           <Group gap="sm" role="status">

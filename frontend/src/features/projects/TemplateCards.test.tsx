@@ -1,50 +1,27 @@
 import { screen } from '@testing-library/react';
-import { beforeEach, describe, expect, it, vi } from 'vitest';
-import { fakeServer, show, user } from '../../../harness/testing';
+import { expect, it, vi } from 'vitest';
+import { show, user } from '../../../harness/testing';
 import { TemplateCards } from './TemplateCards';
 
 const onCreate = vi.fn();
-const diagram = {
-  format: 'bt-studio/diagram',
-  version: 1,
-  id: 'Main',
-  root: 'a',
-  nodes: { a: { type: 'Sequence' } },
-  drafts: [],
-};
+const templates = [
+  { id: 'empty', name: '', description: '' },
+  { id: 'mine', name: 'My own', description: 'Mine.' },
+].map((each) => ({ ...each, universe: '', root_diagram: null, conditions: [] }));
+const open = (pending: string | null = null) =>
+  show(<TemplateCards templates={templates} onCreate={onCreate} pending={pending} />);
+const card = (id: string) => screen.getByTestId(`new-from-${id}`);
 
-beforeEach(() => {
-  fakeServer({
-    'GET /catalog/templates': [
-      { id: 'laser_bump_and_go', name: 'x', description: 'y', root_diagram: diagram },
-      { id: 'mine', name: 'My own', description: 'Mine.', root_diagram: diagram },
-    ],
-  });
+it('makes a project of a template', async () => {
+  open();
+  expect(card('empty')).toHaveTextContent(/^Empty projectA blank canvas/);
+  await user.click(card('mine'));
+  expect(onCreate).toHaveBeenCalledExactlyOnceWith('mine');
 });
 
-const card = (id: string) => screen.findByTestId(`new-from-${id}`);
-
-describe('TemplateCards', () => {
-  it('shows each template with its tree, and no example', async () => {
-    show(<TemplateCards onCreate={onCreate} pending={null} />);
-    expect(await card('mine')).toHaveTextContent('My ownMine.');
-    expect((await card('mine')).querySelectorAll('rect')).toHaveLength(1);
-    expect((await card('empty')).querySelector('.tabler-icon-plus')).not.toBeNull();
-    expect(screen.queryByTestId('new-from-laser_bump_and_go')).toBeNull();
-  });
-
-  it('makes a project', async () => {
-    show(<TemplateCards onCreate={onCreate} pending={null} />);
-    await user.click(await card('mine'));
-    expect(onCreate).toHaveBeenCalledExactlyOnceWith('mine');
-  });
-
-  it('makes no other while one is being made', async () => {
-    onCreate.mockClear();
-    show(<TemplateCards onCreate={onCreate} pending="empty" />);
-    expect(await card('mine')).toBeDisabled();
-    expect(await card('empty')).toBeDisabled();
-    expect((await card('empty')).querySelector('.mantine-Loader-root')).not.toBeNull();
-    expect((await card('mine')).querySelector('.mantine-Loader-root')).toBeNull();
-  });
+it('makes no other while one is being made', () => {
+  open('empty');
+  expect(card('mine')).toBeDisabled();
+  expect(card('empty').querySelector('.mantine-Loader-root')).not.toBeNull();
+  expect(card('mine').querySelector('.mantine-Loader-root')).toBeNull();
 });

@@ -2,48 +2,42 @@ import { Loader, Text, UnstyledButton } from '@mantine/core';
 import { IconPlus } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import type { TemplateInfo } from '@/api/types';
-import { isExample } from './examples/shelf';
 import classes from './projects.module.css';
-import { templateText, useSortedTemplates } from './templates';
-import { TreePicture } from './TreePicture';
+import { templateText } from './templates';
 
 interface TemplateCardsProps {
+  readonly templates: readonly TemplateInfo[];
   readonly onCreate: (template: string) => void;
   /** The template from which a project is being created. */
   readonly pending: string | null;
 }
 
-/** The templates that are no examples: the empty project, and those of the server. */
-export function TemplateCards({ onCreate, pending }: TemplateCardsProps) {
+/** The shelf of templates: beginnings to build on, which do nothing by themselves. */
+export function TemplateCards({ templates, onCreate, pending }: TemplateCardsProps) {
   const { t } = useTranslation('projects');
-  const templates = useSortedTemplates().filter(({ id }) => !isExample(id));
   return (
     <div className={classes['templates']}>
       {templates.map((template) => (
         <UnstyledButton
           key={template.id}
-          className={classes['template']}
+          className={classes['beginning']}
           data-testid={`new-from-${template.id}`}
           disabled={pending !== null}
           onClick={() => onCreate(template.id)}
         >
-          <div className={classes['templatePicture']}>
-            <Picture template={template} isPending={pending === template.id} />
-          </div>
-          <div className={classes['templateText']}>
-            <Text fw={600}>{templateText(t, template, 'name')}</Text>
-            <Text size="sm" c="dimmed" lineClamp={2}>
+          <span className={classes['beginningIcon']}>
+            {pending === template.id ? <Loader size="sm" /> : <IconPlus size={22} stroke={1.6} />}
+          </span>
+          <span>
+            <Text fw={600} span display="block">
+              {templateText(t, template, 'name')}
+            </Text>
+            <Text size="sm" c="dimmed" lineClamp={2} span>
               {templateText(t, template, 'description')}
             </Text>
-          </div>
+          </span>
         </UnstyledButton>
       ))}
     </div>
   );
-}
-
-function Picture({ template, isPending }: { readonly template: TemplateInfo; readonly isPending: boolean }) {
-  if (isPending) return <Loader size="sm" />;
-  if (template.id === 'empty') return <IconPlus size={30} stroke={1.5} />;
-  return <TreePicture diagram={template.root_diagram} />;
 }

@@ -1,17 +1,19 @@
 import catalog from '@catalog';
 import { memo, useMemo } from 'react';
 import { parseDiagram } from '@/model/serialize';
-import { childrenOf, type Diagram } from '@/model/diagram';
+import { childrenOf, type Diagram, type DiagramNode } from '@/model/diagram';
 import { layoutTree, type Box, type Layout } from '@/model/layout';
-import { makeVocabulary, readCatalog, specOf } from '@/model/vocabulary';
+import { makeVocabulary, readCatalog, specOf, type Family } from '@/model/vocabulary';
+import { isInside, pictureFrame } from './pictureFrame';
 import classes from './projects.module.css';
 
 interface TreePictureProps {
   readonly diagram: unknown;
+  /** Types that the project's own code makes conditions. */
+  readonly conditions?: readonly string[] | undefined;
 }
 
 const vocabulary = makeVocabulary(readCatalog(catalog));
-const MARGIN = 16;
 
 interface Picture {
   diagram: Diagram;
@@ -42,22 +44,27 @@ function edgePath(from: Box, to: Box, isVertical: boolean): string {
     : `M${x1} ${y1}C${middle} ${y1} ${middle} ${y2} ${x2} ${y2}`;
 }
 
-/** A small picture of a tree: shapes and colours only. */
-export const TreePicture = memo(function TreePicture({ diagram: document }: TreePictureProps) {
+function familyOf(node: DiagramNode | undefined, conditions: readonly string[] = []): Family {
+  if (!node) return 'action';
+  return specOf(vocabulary, node)?.family ?? (conditions.includes(node.type) ? 'condition' : 'action');
+}
+
+/** A small picture of a tree: shapes and colours only; of a large tree, its top. */
+export const TreePicture = memo(function TreePicture({ diagram: document, conditions }: TreePictureProps) {
   const picture = useMemo(() => read(document), [document]);
-  if (!picture) return <div className={classes['noPicture']} aria-hidden="true" />;
+  const root = picture && picture.layout.positions[picture.diagram.root ?? ''];
+  if (!picture || !root) return <div className={classes['noPicture']} aria-hidden="true" />;
   const { diagram, layout } = picture;
-  const boxes = Object.entries(layout.positions);
-  const left = Math.min(...boxes.map(([, box]) => box.x)) - MARGIN;
-  const top = Math.min(...boxes.map(([, box]) => box.y)) - MARGIN;
-  const right = Math.max(...boxes.map(([, box]) => box.x + box.width)) + MARGIN;
-  const bottom = Math.max(...boxes.map(([, box]) => box.y + box.height)) + MARGIN;
+  const isVertical = diagram.layout === 'vertical';
+  const frame = pictureFrame(Object.values(layout.positions), root, isVertical);
+  const boxes = Object.entries(layout.positions).filter(([, box]) => isInside(frame, box));
   return (
     <svg
       className={classes['picture']}
-      viewBox={`${left} ${top} ${right - left} ${bottom - top}`}
+      viewBox={`${frame.x} ${frame.y} ${frame.width} ${frame.height}`}
       aria-hidden="true"
       preserveAspectRatio="xMidYMid meet"
+      data-cropped={frame.cropped ?? undefined}
     >
       {boxes.flatMap(([id, box]) =>
         childrenOf(diagram, id).map((child) => {
@@ -65,15 +72,14 @@ export const TreePicture = memo(function TreePicture({ diagram: document }: Tree
           return to ? (
             <path
               key={`${id}-${child}`}
-              d={edgePath(box, to, diagram.layout === 'vertical')}
+              d={edgePath(box, to, isVertical)}
               className={classes['pictureEdge']}
             />
           ) : null;
         }),
       )}
       {boxes.map(([id, box]) => {
-        const node = diagram.nodes[id];
-        const family = node ? (specOf(vocabulary, node)?.family ?? 'action') : 'action';
+        const family = familyOf(diagram.nodes[id], conditions);
         return (
           <rect
             key={id}

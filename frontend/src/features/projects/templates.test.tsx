@@ -11,7 +11,7 @@ function Ids() {
   return (
     <p>
       {useSortedTemplates()
-        .map(({ id }) => id)
+        .all.map(({ id }) => id)
         .join(' ')}
     </p>
   );

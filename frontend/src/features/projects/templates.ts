@@ -9,7 +9,7 @@ import { SHELF } from './examples/shelf';
 /** The order of known templates; others follow. */
 const ORDER: readonly string[] = [...SHELF.map(([id]) => id), 'empty'];
 
-const EMPTY: TemplateInfo = { id: 'empty', name: '', description: '' };
+const EMPTY: TemplateInfo = { id: 'empty', name: '', description: '', conditions: [] };
 
 function sorted(templates: readonly TemplateInfo[]): TemplateInfo[] {
   const all = templates.some(({ id }) => id === 'empty') ? [...templates] : [...templates, EMPTY];
@@ -17,10 +17,11 @@ function sorted(templates: readonly TemplateInfo[]): TemplateInfo[] {
   return all.sort((a, b) => place(a) - place(b));
 }
 
-/** The templates of new projects; an empty list before the server has answered. */
-export function useSortedTemplates(): readonly TemplateInfo[] {
+/** Templates and examples; before the server has answered, the empty project alone. */
+export function useSortedTemplates(): { readonly all: readonly TemplateInfo[]; readonly isKnown: boolean } {
   const { data } = useQuery({ queryKey: ['templates'], queryFn: api.templates, staleTime: Infinity });
-  return useMemo(() => sorted(data ?? []), [data]);
+  const all = useMemo(() => sorted(data ?? []), [data]);
+  return { all, isKnown: data !== undefined };
 }
 
 /** The texts of a template, in the user's language if there is a translation. */

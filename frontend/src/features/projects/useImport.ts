@@ -5,6 +5,7 @@ import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import { ApiError } from '@/api/errors';
 import type { Diagnostic } from '@/api/types';
+import { announceImport } from '@/store/dialogs/importReport';
 import { navigate, projectPath } from '@/store/route';
 import { reasonOf } from './reason';
 
@@ -28,7 +29,10 @@ export function useImport() {
   const [offer, setOffer] = useState<RepairOffer | null>(null);
   const { mutate, isPending } = useMutation({
     mutationFn: api.importProject,
-    onSuccess: (project) => navigate(projectPath(project.id)),
+    onSuccess: (project, { file }) => {
+      announceImport(project.id, file.name);
+      navigate(projectPath(project.id));
+    },
     onError: (error, { file }) => {
       const changes = repairsOf(error);
       if (changes.length > 0) setOffer({ file, changes });

@@ -14,7 +14,7 @@ interface StartCommands {
 /** The commands of the start page's buttons, for the command palette and for keys. */
 export function useStartCommands(actions: StartCommands): void {
   const { t } = useTranslation('projects');
-  const templates = useSortedTemplates();
+  const { all: templates } = useSortedTemplates();
   const create = useEffectEvent((template: string) => actions.create(template));
   const chooseFile = useEffectEvent(() => actions.chooseFile());
   const search = useEffectEvent(() => actions.search());

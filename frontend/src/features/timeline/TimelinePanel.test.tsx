@@ -168,9 +168,9 @@ describe('the pointer', () => {
     expect(timeAt(0.2)).toBe('1:16');
     fireEvent.pointerMove(rows(), { clientX: 400, clientY: 500 });
     expect(screen.queryByRole('presentation')).toBeNull();
-    fireEvent.pointerMove(rows(), { clientX: 400, clientY: 45 });
+    fireEvent.pointerMove(rows(), { clientX: 400, clientY: 49 });
     expect(screen.getByRole('presentation')).toHaveTextContent('Turn idle at 1:32');
-    fireEvent.pointerMove(rows(), { clientX: 50, clientY: 45 });
+    fireEvent.pointerMove(rows(), { clientX: 50, clientY: 49 });
     expect(screen.queryByRole('presentation')).toBeNull();
   });
 

@@ -116,14 +116,14 @@ describe('the picture', () => {
 
   it('shows the rows in the span', () => {
     // A second has 10 px; node 1 runs throughout, in the first row below the axis.
-    expect(rects).toContainEqual([0, 25, 300, 16]);
+    expect(rects).toContainEqual([0, 25, 300, 18]);
     scroller.scrollTop = 10;
     view.redraw();
     pass(20);
-    expect(rects).toContainEqual([0, 15, 300, 16]);
+    expect(rects).toContainEqual([0, 15, 300, 18]);
     view.setRows([]);
     pass(20);
-    expect(rects).not.toContainEqual([0, 15, 300, 16]);
+    expect(rects).not.toContainEqual([0, 15, 300, 18]);
   });
 
   it('is as sharp as the screen', () => {

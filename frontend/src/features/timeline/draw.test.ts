@@ -86,10 +86,10 @@ const strips = ({ rects }: Recorder) => rects.filter(([color]) => color !== 'lin
 
 describe('drawTimeline', () => {
   it.each([
-    ['RUNNING', 'running', 25, 16],
-    ['SUCCESS', 'success', 32, 9],
-    ['FAILURE', 'failure', 25, 9],
-    ['SKIPPED', 'skipped', 32, 2],
+    ['RUNNING', 'running', 25, 18],
+    ['SUCCESS', 'success', 33, 10],
+    ['FAILURE', 'failure', 25, 10],
+    ['SKIPPED', 'skipped', 33, 2],
   ] as const)('draws %s at a height of its own', (status, color, y, height) => {
     expect(strips(drawn({ trace: traceOf(status) }))).toEqual([[color, 200, y, 200, height]]);
   });
@@ -100,7 +100,7 @@ describe('drawTimeline', () => {
 
   it('cuts what began before, and shows what is shorter than a pixel', () => {
     const trace = traceOf('RUNNING');
-    expect(strips(drawn({ trace, span: { from: 3, to: 5 } }))).toEqual([['running', 0, 25, 500, 16]]);
+    expect(strips(drawn({ trace, span: { from: 3, to: 5 } }))).toEqual([['running', 0, 25, 500, 18]]);
     const long = { from: 0, to: 10_000 };
     expect(strips(drawn({ trace, span: long }))[0]?.[3]).toBe(1);
   });
@@ -117,9 +117,9 @@ describe('drawTimeline', () => {
     trace.advance(10);
     const tops = (scrollTop: number, height: number) =>
       strips(drawn({ trace, uids, scrollTop, height })).map(([, , y]) => y);
-    expect(tops(0, 22 + 2 * ROW_PX)).toEqual([25, 47]);
-    expect(tops(30, 22 + 2 * ROW_PX)).toEqual([17, 39, 61]);
-    expect(tops(18 * ROW_PX, 1000)).toEqual([25, 47]);
+    expect(tops(0, 22 + 2 * ROW_PX)).toEqual([25, 49]);
+    expect(tops(30, 22 + 2 * ROW_PX)).toEqual([19, 43, 67]);
+    expect(tops(18 * ROW_PX, 1000)).toEqual([25, 49]);
   });
 
   it('marks round times on the axis', () => {

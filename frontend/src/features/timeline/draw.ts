@@ -2,7 +2,7 @@ import { BIT } from '@/store/session/trace/nodeTrace';
 import type { Trace } from '@/store/session/trace/trace';
 import { marks, timeLabel, type Span } from './span';
 
-export const ROW_PX = 22;
+export const ROW_PX = 24;
 export const AXIS_PX = 22;
 const PADDING_PX = 3;
 

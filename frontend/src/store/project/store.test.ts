@@ -41,6 +41,7 @@ const project: ProjectDetail = {
   created_at: '',
   updated_at: '',
   root_diagram: null,
+  conditions: [],
   settings: { name: 'P', main_tree: 'MainTree' },
   files: [
     file('trees/MainTree.json', JSON.stringify(tree)),

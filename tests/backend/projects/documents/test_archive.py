@@ -34,3 +34,12 @@ def test_an_upload_is_a_zip_or_a_tree():
     assert read_upload(zipped({"a": "1"}), "x.zip").files == {"a": b"1"}
     tree = read_upload(io.BytesIO(b"<root/>"), "t.xml")
     assert list(tree.files.values()) == [b"<root/>"]
+
+
+@pytest.mark.parametrize(
+    ("filename", "path"),
+    [("Night patrol.XML", "Night patrol.xml"), ("a/b.btproj", "b.btproj"), ("con.xml", "import.xml")],
+)
+def test_a_single_file_keeps_its_name_if_a_project_may_have_it(filename, path):
+    upload = read_upload(io.BytesIO(b"<root/>"), filename)
+    assert list(upload.files) == [path]

@@ -24,3 +24,10 @@ def test_what_is_no_text_is_none():
     assert queries.as_text(b"\xff") is None
     assert queries.as_text("ü".encode()) == "ü"
     assert queries.root_diagram(b"nonsense") is None
+
+
+def test_each_project_has_the_conditions_of_its_own_tree(api):
+    made = [api.post("projects", {"template": name}, expect=201) for name in ("laser_bump_and_go", "empty")]
+    found = {row["id"]: row["conditions"] for row in api.get("projects")["items"]}
+    assert [found[row["id"]] for row in made] == [["CheckObstacle"], []]
+    assert made[0]["conditions"] == ["CheckObstacle"]

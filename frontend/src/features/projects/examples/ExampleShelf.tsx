@@ -14,7 +14,7 @@ interface ExampleShelfProps {
 /** The examples as graded cards, each with a picture of its world and what it teaches. */
 export function ExampleShelf({ onCreate, pending }: ExampleShelfProps) {
   const { t } = useTranslation('projects');
-  const templates = useSortedTemplates();
+  const { all: templates } = useSortedTemplates();
   const examples = useMemo(() => examplesOf(templates), [templates]);
   if (examples.length === 0) return null;
   return (

@@ -1,0 +1,38 @@
+import { fireEvent, screen } from '@testing-library/react';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
+import { useProjectStore } from '@/store/project';
+import { openProject, show, user } from '../../../harness/testing';
+import { ExplorerItem } from './ExplorerItem';
+import { ExplorerMenu } from './ExplorerMenu';
+
+const choose = async (name: string) => user.click(await screen.findByRole('menuitem', { name }));
+const paths = () => Object.keys(useProjectStore.getState().files);
+
+beforeEach(() => {
+  openProject({ trees: { Main: { r: { type: 'Sequence' } } }, texts: { 'notes/a.md': 'Hello' } });
+  show(<ExplorerItem path="notes/a.md" isTree={false} isAction={false} worst={undefined} />);
+  fireEvent.contextMenu(screen.getByTestId('file-notes/a.md'));
+});
+
+describe('a right click, or the menu key', () => {
+  it('duplicates, and takes it back', async () => {
+    await choose('Duplicate');
+    expect(paths()).toContain('notes/a_copy.md');
+    await user.click(await screen.findByRole('button', { name: 'Undo' }));
+    expect(paths()).not.toContain('notes/a_copy.md');
+  });
+
+  it('copies the path', async () => {
+    const writeText = vi.fn(async () => undefined);
+    vi.stubGlobal('navigator', { ...navigator, clipboard: { writeText } });
+    await choose('Copy path');
+    expect(writeText).toHaveBeenCalledExactlyOnceWith('notes/a.md');
+    expect(await screen.findByText('The path is in the clipboard: notes/a.md')).toBeInTheDocument();
+    vi.unstubAllGlobals();
+  });
+});
+
+it('is shut until it is asked for', () => {
+  show(<ExplorerMenu path="b.md" name="b.md" isOpened={false} onChange={vi.fn()} onOpen={vi.fn()} />);
+  expect(screen.getByRole('button', { name: 'More for b.md' })).toHaveAttribute('aria-expanded', 'false');
+});

@@ -1,0 +1,101 @@
+import { ActionIcon, Menu } from '@mantine/core';
+import { notifications } from '@mantine/notifications';
+import {
+  IconClipboard,
+  IconCopy,
+  IconDots,
+  IconFolderOpen,
+  IconHistory,
+  IconPencil,
+  IconStar,
+  IconTrash,
+} from '@tabler/icons-react';
+import { useTranslation } from 'react-i18next';
+import { openRename } from '@/store/dialogs/files';
+import { useProjectStore } from '@/store/project';
+import { canDuplicate, duplicateDocument } from '@/store/project/duplicating';
+import { treeIdOf } from '@/store/project/state';
+import { setScope } from '@/store/revisions/scope';
+import { undoNotification } from '@/ui/undoNotification';
+import { showPanel } from '@/workspace/tabs';
+import classes from './explorer.module.css';
+import { removeDocument } from './removing';
+
+interface ExplorerMenuProps {
+  readonly path: string;
+  readonly name: string;
+  readonly isOpened: boolean;
+  readonly onChange: (isOpened: boolean) => void;
+  readonly onOpen: () => void;
+}
+
+/** What can be done with a file; its button, a right click, Shift+F10 and the menu key open it. */
+export function ExplorerMenu({ path, name, isOpened, onChange, onOpen }: ExplorerMenuProps) {
+  const { t } = useTranslation('frame');
+  const treeId = treeIdOf(path);
+  const isDiagram = useProjectStore((state) => state.files[path]?.kind === 'tree');
+  const isBinary = useProjectStore((state) => state.files[path]?.kind === 'binary');
+  const isMain = useProjectStore((state) => treeId !== null && state.mainTree === treeId);
+
+  const showHistory = () => {
+    onOpen();
+    setScope('file');
+    showPanel('history');
+  };
+  const duplicate = () => {
+    const copy = duplicateDocument(path);
+    if (copy === null) return;
+    undoNotification({
+      message: t('explorer.duplicated', { name: copy, from: name }),
+      undoLabel: t('undo'),
+      undo: () => useProjectStore.getState().deleteFile(copy),
+    });
+  };
+  const copyPath = async () => {
+    await navigator.clipboard.writeText(path);
+    notifications.show({ message: t('explorer.copied', { path }) });
+  };
+
+  return (
+    <Menu position="bottom-end" opened={isOpened} onChange={onChange}>
+      <Menu.Target>
+        <ActionIcon size="sm" className={classes['more']} aria-label={t('explorer.moreFor', { name })}>
+          <IconDots size={15} />
+        </ActionIcon>
+      </Menu.Target>
+      <Menu.Dropdown>
+        <Menu.Item disabled={isBinary} leftSection={<IconFolderOpen size={16} />} onClick={onOpen}>
+          {t('explorer.open')}
+        </Menu.Item>
+        {isDiagram && treeId !== null && !isMain ? (
+          <Menu.Item
+            leftSection={<IconStar size={16} />}
+            onClick={() => useProjectStore.getState().setSettings({ main_tree: treeId })}
+          >
+            {t('explorer.makeMain')}
+          </Menu.Item>
+        ) : null}
+        <Menu.Item leftSection={<IconPencil size={16} />} onClick={() => openRename(path)}>
+          {t('explorer.rename')}
+        </Menu.Item>
+        <Menu.Item disabled={!canDuplicate(path)} leftSection={<IconCopy size={16} />} onClick={duplicate}>
+          {t('explorer.duplicate')}
+        </Menu.Item>
+        <Menu.Item leftSection={<IconClipboard size={16} />} onClick={() => void copyPath()}>
+          {t('explorer.copyPath')}
+        </Menu.Item>
+        <Menu.Item disabled={isBinary} leftSection={<IconHistory size={16} />} onClick={showHistory}>
+          {t('explorer.history')}
+        </Menu.Item>
+        <Menu.Item
+          color="red"
+          disabled={isMain}
+          leftSection={<IconTrash size={16} />}
+          onClick={() => void removeDocument(path)}
+        >
+          {t('explorer.delete')}
+        </Menu.Item>
+      </Menu.Dropdown>
+    </Menu>
+  );
+}

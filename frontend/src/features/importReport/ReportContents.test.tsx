@@ -1,0 +1,78 @@
+import { screen } from '@testing-library/react';
+import { beforeEach, describe, expect, it } from 'vitest';
+import { announceImport, useImportReport } from '@/store/dialogs/importReport';
+import { useUniverseChooser } from '@/store/dialogs/universeChooser';
+import type { Diagnostic } from '@/api/types';
+import { action, openProject, show, user, watchNavigation } from '../../../harness/testing';
+import { ReportContents } from './ReportContents';
+import { ImportReport } from './ImportReport';
+
+const stub: Diagnostic = {
+  code: 'BT0613',
+  severity: 'warning',
+  message: 'The action Grab is only a stub.',
+  file: 'actions/Grab.py',
+  line: 4,
+};
+const nodes = { a: { type: 'Sequence', children: ['b'] }, b: { type: 'AlwaysSuccess' } };
+
+function open(diagnostics: readonly Diagnostic[] = []) {
+  openProject({
+    trees: { Main: nodes },
+    actions: [action('Grab', { kind: 'Condition' })],
+    texts: { 'actions/Grab.py': 'class Grab: pass\n', 'imports/patrol.xml': '<root/>' },
+    diagnostics,
+  });
+  announceImport('p1', 'patrol.xml');
+  show(<ImportReport projectId="p1" />);
+}
+
+beforeEach(() => useImportReport.setState({ projectId: null, file: '' }));
+
+describe('ReportContents', () => {
+  it('says what came in, and that nothing is missing', async () => {
+    open();
+    expect(screen.getByRole('dialog', { name: 'Imported from patrol.xml' })).toBeInTheDocument();
+    expect(screen.getByTestId('import-report')).toHaveTextContent('1 tree1 action1 other file');
+    expect(screen.getByText('Nothing is missing: press Run.')).toBeInTheDocument();
+    expect(screen.queryByTestId('open-first-problem')).toBeNull();
+    await user.click(screen.getByRole('button', { name: 'Done' }));
+    expect(useImportReport.getState().projectId).toBeNull();
+  });
+
+  it('lists the stubs with their kinds, and opens the first', async () => {
+    const { openFile } = watchNavigation();
+    open([stub]);
+    expect(screen.getByRole('button', { name: 'Grab condition' })).toBeInTheDocument();
+    await user.click(screen.getByTestId('open-first-problem'));
+    expect(openFile).toHaveBeenCalledExactlyOnceWith('actions/Grab.py', 4);
+    expect(useImportReport.getState().projectId).toBeNull();
+  });
+
+  it('names what is wrong before what is to be written, each with what to do', async () => {
+    const { openTree } = watchNavigation();
+    const missing = {
+      code: 'X1',
+      severity: 'error',
+      message: 'No such tree.',
+      hint: 'Make it.',
+      tree: 'Main',
+    } as const;
+    open([stub, { ...missing, node: 'b' }]);
+    await user.click(screen.getByRole('button', { name: 'No such tree. Make it.' }));
+    expect(openTree).toHaveBeenCalledWith('Main');
+  });
+
+  it('offers another universe', async () => {
+    open();
+    await user.click(screen.getByRole('button', { name: 'Choose another universe…' }));
+    expect(useUniverseChooser.getState().isOpen).toBe(true);
+    expect(useImportReport.getState().projectId).toBeNull();
+  });
+});
+
+it('stands for itself', () => {
+  openProject({ trees: { Main: nodes } });
+  show(<ReportContents />);
+  expect(screen.getByTestId('import-report')).toHaveTextContent('1 tree');
+});

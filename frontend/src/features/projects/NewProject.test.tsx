@@ -1,0 +1,60 @@
+import { screen, waitFor } from '@testing-library/react';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
+import { summary } from '../../../harness/requests';
+import { fakeServer, show, user } from '../../../harness/testing';
+import { NewProject } from './NewProject';
+
+const LIST = 'GET /projects?search=&sort=-updated_at&shelf=current&offset=0&limit=48';
+const template = (id: string) => ({
+  id,
+  name: id,
+  description: '',
+  universe: '',
+  root_diagram: null,
+  conditions: [],
+});
+const onCreate = vi.fn();
+
+function open(projects: number) {
+  const items = Array.from({ length: projects }, (_, i) => summary(`p${i}`));
+  fakeServer({
+    'GET /catalog/templates': [template('empty'), template('laser_bump_and_go')],
+    [LIST]: { items, total: projects, next_offset: null },
+  });
+  show(
+    <NewProject
+      onCreate={onCreate}
+      pending={null}
+      onImport={vi.fn()}
+      isImporting={false}
+      importButton={{ current: null }}
+    />,
+  );
+}
+
+beforeEach(() => localStorage.clear());
+
+describe('NewProject', () => {
+  it('shows templates and examples apart, with places for those that still come', async () => {
+    open(0);
+    expect(screen.getByTestId('examples-loading')).toBeInTheDocument();
+    expect(await screen.findByTestId('new-from-laser_bump_and_go')).toBeInTheDocument();
+    expect(screen.queryByTestId('examples-loading')).toBeNull();
+    const headings = screen.getAllByRole('heading', { level: 2 }).map((each) => each.textContent);
+    expect(headings).toEqual(['Templates', 'Examples that teach']);
+  });
+
+  it('folds them once there are projects; an empty one is a click away', async () => {
+    open(1);
+    await screen.findByRole('button', { name: 'Empty project' });
+    await waitFor(() => expect(screen.queryByTestId('examples-loading')).toBeNull());
+    expect(screen.queryByTestId('new-from-laser_bump_and_go')).toBeNull();
+    const fold = screen.getByRole('button', { name: 'Templates and examples' });
+    expect(fold).toHaveAttribute('aria-expanded', 'false');
+    await user.click(screen.getByRole('button', { name: 'Empty project' }));
+    expect(onCreate).toHaveBeenCalledExactlyOnceWith('empty');
+    await user.click(fold);
+    expect(await screen.findByTestId('new-from-laser_bump_and_go')).toBeInTheDocument();
+    expect(fold).toHaveAttribute('aria-expanded', 'true');
+  });
+});

@@ -1,0 +1,19 @@
+import { useEffect, useState } from 'react';
+import { useProjects } from './useProjects';
+
+const KEY = 'bts.start.folded';
+
+/**
+ * Whether templates and examples are folded: as the user left them in this visit, else once there are projects.
+ * Until the server has answered, they are as at the last visit, so that nothing moves.
+ */
+export function useFold(): { isFolded: boolean; isKnown: boolean; toggle: () => void } {
+  const { data } = useProjects('', '-updated_at', 'current');
+  const [chosen, setChosen] = useState<boolean | null>(null);
+  const hasProjects = data?.pages[0] ? data.pages[0].total > 0 : null;
+  useEffect(() => {
+    if (hasProjects !== null) localStorage.setItem(KEY, String(hasProjects));
+  }, [hasProjects]);
+  const isFolded = chosen ?? hasProjects ?? localStorage.getItem(KEY) === 'true';
+  return { isFolded, isKnown: hasProjects !== null, toggle: () => setChosen(!isFolded) };
+}

@@ -1,0 +1,37 @@
+import { describe, expect, it } from 'vitest';
+import { markCutTabs } from './cutTabs';
+
+/** A bar of tabs with a width for its names, and one that they need. */
+function bar(root: HTMLElement, has: number, needs: number): HTMLElement {
+  const outer = document.createElement('div');
+  const inner = document.createElement('div');
+  outer.className = 'flexlayout__tabset_tabbar_outer';
+  inner.className = 'flexlayout__tabset_tabbar_inner';
+  Object.defineProperty(inner, 'clientWidth', { value: has, writable: true });
+  Object.defineProperty(inner, 'scrollWidth', {
+    // Icons need less room than names do.
+    get: () => (outer.hasAttribute('data-cut') ? 10 : needs),
+  });
+  outer.append(inner);
+  root.append(outer);
+  return outer;
+}
+
+describe('markCutTabs', () => {
+  it('marks the bars whose names do not fit, and keeps the mark while they do not', () => {
+    const root = document.createElement('div');
+    const [cut, whole] = [bar(root, 200, 260), bar(root, 200, 200)];
+    markCutTabs(root);
+    markCutTabs(root);
+    expect([cut.hasAttribute('data-cut'), whole.hasAttribute('data-cut')]).toEqual([true, false]);
+  });
+
+  it('takes the mark off where there is room again', () => {
+    const root = document.createElement('div');
+    const outer = bar(root, 200, 260);
+    markCutTabs(root);
+    Object.assign(outer.firstElementChild as object, { clientWidth: 300 });
+    markCutTabs(root);
+    expect(outer.hasAttribute('data-cut')).toBe(false);
+  });
+});

@@ -1,0 +1,17 @@
+const BARS = '.flexlayout__tabset_tabbar_outer';
+const INNER = '.flexlayout__tabset_tabbar_inner';
+
+/**
+ * Marks each bar of tabs that has no room for the names of its tabs; a style sheet then shows icons.
+ *
+ * The names are measured as they are written out, so the mark is taken off first.
+ */
+export function markCutTabs(root: ParentNode): void {
+  const bars = [...root.querySelectorAll<HTMLElement>(BARS)];
+  for (const bar of bars) bar.removeAttribute('data-cut');
+  const cut = bars.filter((bar) => {
+    const inner = bar.querySelector<HTMLElement>(INNER);
+    return inner !== null && inner.scrollWidth > inner.clientWidth;
+  });
+  for (const bar of cut) bar.setAttribute('data-cut', '');
+}

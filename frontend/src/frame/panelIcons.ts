@@ -1,0 +1,45 @@
+import {
+  IconAlertTriangle,
+  IconApps,
+  IconAdjustments,
+  IconBook2,
+  IconBroadcast,
+  IconCamera,
+  IconChalkboard,
+  IconCode,
+  IconCube,
+  IconFolder,
+  IconHistory,
+  IconListTree,
+  IconSchool,
+  IconSearch,
+  IconTerminal2,
+  IconTimeline,
+  IconVideo,
+  type Icon,
+} from '@tabler/icons-react';
+import type { PanelId } from '@/workspace/layoutModel';
+
+/** What the tab of a panel shows where there is no room for its name. */
+export const PANEL_ICONS: Readonly<Record<PanelId, Icon>> = {
+  explorer: IconFolder,
+  outline: IconListTree,
+  search: IconSearch,
+  palette: IconApps,
+  library: IconBook2,
+  inspector: IconAdjustments,
+  blackboard: IconChalkboard,
+  viewer3d: IconCube,
+  video: IconVideo,
+  camera: IconCamera,
+  console: IconTerminal2,
+  problems: IconAlertTriangle,
+  timeline: IconTimeline,
+  topics: IconBroadcast,
+  history: IconHistory,
+  lesson: IconSchool,
+  xml: IconCode,
+};
+
+export const panelIcon = (id: string): Icon | undefined =>
+  Object.hasOwn(PANEL_ICONS, id) ? PANEL_ICONS[id as PanelId] : undefined;

@@ -1,0 +1,23 @@
+import i18next from 'i18next';
+
+interface Described {
+  readonly doc?: string;
+  readonly ports?: Readonly<Record<string, string>>;
+}
+
+/**
+ * What an action of a shipped example says of itself, in the language of the page. A text that the user changed
+ * is not ours any more, and shown as it is.
+ */
+function shipped(type: string, text: string, pick: (described: Described) => string | undefined): string {
+  const ours = (language: string) =>
+    i18next.getResource(language, 'shipped', type) as readonly Described[] | undefined;
+  const at = (ours('en') ?? []).findIndex((each) => pick(each) === text);
+  const found = at < 0 ? undefined : ours(i18next.language.startsWith('es') ? 'es' : 'en')?.[at];
+  return (found && pick(found)) ?? text;
+}
+
+export const shippedDoc = (type: string, text: string): string => shipped(type, text, ({ doc }) => doc);
+
+export const shippedPort = (type: string, port: string, text: string): string =>
+  shipped(type, text, ({ ports }) => ports?.[port]);

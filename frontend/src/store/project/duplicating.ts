@@ -1,0 +1,35 @@
+import { useProjectStore } from '.';
+import { documentName, kindOf } from './moving';
+
+/** The text of a copy: a tree has its id in it, an action its class. */
+function renamedIn(path: string, text: string, name: string): string {
+  const kind = kindOf(path);
+  if (kind === 'tree') return JSON.stringify({ ...(JSON.parse(text) as object), id: name }, null, 2);
+  if (kind !== 'action') return text;
+  return text.replace(new RegExp(`^class ${documentName(path)}\\b`, 'm'), `class ${name}`);
+}
+
+/** The path of a copy, beside the document, with a name that is free. */
+function copyPath(path: string, taken: ReadonlySet<string>): string {
+  const [, stem = path, suffix = ''] = /^(.*?)(\.[^./]+)?$/.exec(path) ?? [];
+  for (let number = 1; ; number += 1) {
+    const copy = `${stem}_copy${number === 1 ? '' : number}${suffix}`;
+    if (!taken.has(copy.toLowerCase())) return copy;
+  }
+}
+
+/** Whether a document can be duplicated: its text is here, and it is one file. */
+export function canDuplicate(path: string): boolean {
+  const { currentText } = useProjectStore.getState();
+  return kindOf(path) !== 'robot' && currentText(path) !== null;
+}
+
+/** Adds a copy of a document; returns its path, or null if it cannot be copied. */
+export function duplicateDocument(path: string): string | null {
+  const { files, currentText, addFile } = useProjectStore.getState();
+  const text = currentText(path);
+  if (text === null || !canDuplicate(path)) return null;
+  const copy = copyPath(path, new Set(Object.keys(files).map((each) => each.toLowerCase())));
+  addFile(copy, renamedIn(path, text, documentName(copy)));
+  return copy;
+}

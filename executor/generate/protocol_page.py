@@ -72,6 +72,7 @@ _ERRORS: Final = {
     "bad_topic": "this is no name of a topic",
     "type_differs": "the topic is there with another type",
     "bad_message": "a field of the message does not fit; the text names it",
+    "world_paused": "time is paused, so a published message would have no effect",
     "too_many": "more topics are echoed or published on than a session may",
     "too_fast": "this client sends more commands than a session takes; the hint says how long to wait",
     "bad_request": "the world cannot do it; the text says why",

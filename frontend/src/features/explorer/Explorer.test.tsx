@@ -30,7 +30,7 @@ describe('Explorer', () => {
         'README.md': 'Hello',
       },
       diagnostics: [
-        { code: 'BT0101', severity: 'warning', message: 'odd', tree: 'Dock' },
+        { code: 'BT0114', severity: 'warning', message: 'odd', tree: 'Dock' },
         { code: 'BT0301', severity: 'warning', message: 'odd', file: 'actions/Turn.py' },
         { code: 'BT0302', severity: 'error', message: 'bad', file: 'actions/Turn.py' },
       ],

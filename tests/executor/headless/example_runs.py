@@ -154,7 +154,7 @@ def _gap(place: Place, box: tuple[float, float, float, float, float]) -> float:
 
 def drive(example: Example, seed: int) -> Drive:
     """Drives an example once."""
-    seen = Drive(report=None)  # type: ignore[arg-type]  # the run gives it
+    seen = Drive(report=None)
 
     def watch(world: Any) -> None:
         for robot in world.robots:

@@ -35,7 +35,7 @@ def leads_somewhere(name: str, address: str) -> bool:
     if verb == "select":
         return find(name, rest) is not None
     if verb == "set":
-        block, port = re.fullmatch(r"([^=]+)\.(\w+)=.*", rest).groups()  # type: ignore[union-attr]
+        block, port = re.fullmatch(r"([^=]+)\.(\w+)=.*", rest).groups()
         node = find(name, block)
         return node is not None and port in node.get("ports", {})
     if verb == "open":

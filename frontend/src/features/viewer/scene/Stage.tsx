@@ -92,7 +92,7 @@ export function Stage({ scene, options, isDark, isVisible, onMoved, onSlow }: St
   const view = useMemo(
     () => ({ kind: options.viewpoint.kind, of: scene.name }),
     // The request counts as an object, also to the place of the previous one.
-     
+
     [options.viewpoint, scene.name],
   );
   useSight(controls, view, () => ({

@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from playwright.sync_api import expect
+
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
@@ -20,6 +22,9 @@ def expect_accessible(studio: Studio, scheme: str) -> None:
     if studio.page.locator("html").get_attribute("data-mantine-color-scheme") != scheme:
         studio.at("theme-toggle").click()
         studio.page.wait_for_selector(f"html[data-mantine-color-scheme={scheme}]")
+        # The button's tooltip is in no landmark.
+        studio.page.mouse.move(0, 0)
+        expect(studio.page.get_by_role("tooltip")).to_have_count(0)
     expect_no_findings(studio.page, scheme)
 
 

@@ -31,6 +31,8 @@ EXPECTED_NOTES = re.compile(
 )
 # The one refusal of normal use: a file was saved elsewhere meanwhile, and is merged.
 STALE_SAVE = r"409 POST /api/v1/projects/[^/]+/changes"
+# Run, of a project with errors: for walks about them.
+NOT_RUNNABLE = r"422 GET /api/v1/projects/[^/]+/app"
 
 
 class Studio:

@@ -9,6 +9,7 @@ from playwright.sync_api import expect
 
 from tests.e2e.canvas_by_hand import block, children, middle, paste, place, rest, selected, takes_back
 from tests.e2e.server import wait_until
+from tests.e2e.studio import NOT_RUNNABLE
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator
@@ -148,6 +149,7 @@ def test_an_empty_project_begins_with_a_ghost(shared_studio: Studio) -> None:
     problems = studio.page.locator(".flexlayout__tab_button", has_text="Problems")
     expect(problems.locator("[data-severity]")).to_have_count(0)
     studio.picture("empty-project")
+    studio.may_be_refused(NOT_RUNNABLE)
     studio.at("run").click()
     expect(studio.at("banner")).to_contain_text("there is nothing to run")
     expect(studio.at("banner")).to_contain_text("Drop a block from the palette")

@@ -382,6 +382,7 @@ def choose_source(studio: Studio, name: str) -> None:
 
 
 def a_tree_is_reused(studio: Studio, source: str) -> None:
+    studio.at("palette-Sequence").click()
     block(studio, "Sequence").click()
     tab(studio, "Library").click()
     choose_source(studio, source)

@@ -14,6 +14,7 @@ from playwright.sync_api import expect
 from tests.e2e.accessibility import expect_accessible
 from tests.e2e.canvas_by_hand import block, children, focused, the_tree_is_changed_by_hand
 from tests.e2e.server import wait_until
+from tests.e2e.studio import NOT_RUNNABLE
 from translator.importer import from_xml
 
 if TYPE_CHECKING:
@@ -234,6 +235,7 @@ def fault_is_found_and_fixed(studio: Studio) -> None:
     bad = source("Turn").replace("twist.angular.z", "twist.angular.zz")
     line = bad.splitlines().index('        twist.angular.zz = get_input(self, "ang_speed")') + 1
     edit(studio, path, bad)
+    studio.may_be_refused(NOT_RUNNABLE)
     studio.at("run").click()
     expect(studio.at("banner")).to_contain_text(f"Turn.py:{line}")
     edit(studio, path, source("Turn"))

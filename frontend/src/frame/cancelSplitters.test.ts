@@ -1,6 +1,6 @@
 import { fireEvent } from '@testing-library/react';
 import type { RowNode } from 'flexlayout-react';
-import { Actions, type Model } from 'flexlayout-react';
+import { Actions, type Action, type Model } from 'flexlayout-react';
 import { expect, it, onTestFinished, vi } from 'vitest';
 import { loadLayout } from '@/workspace/layoutModel';
 import { cancelSplitters } from './cancelSplitters';
@@ -43,6 +43,15 @@ it('Escape gives the panels their sizes of before, and ends the drag', () => {
   expect(weights(model)).toEqual(before);
   expect(lost).toHaveBeenCalledOnce();
   expect(splitter.releasePointerCapture).toHaveBeenCalledExactlyOnceWith(4);
+});
+
+it('the sizes are set as they are while the line is dragged, and then drawn', () => {
+  const { model, drag } = begin();
+  drag();
+  const listener = vi.fn((action: Action) => action.isAdjusting());
+  model.addChangeListener(listener);
+  fireEvent.keyDown(document.body, { key: 'Escape' });
+  expect(listener.mock.results.map(({ value }) => value as boolean)).toEqual([true, false]);
 });
 
 it('a line that is dropped stays', () => {

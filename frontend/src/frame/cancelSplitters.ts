@@ -19,8 +19,10 @@ function restore(model: Model, weights: ReadonlyMap<string, readonly number[]>):
   for (const [id, before] of weights) {
     const row = model.getNodeById(id);
     if (!(row instanceof RowNode)) continue;
-    if (childWeights(row).some((weight, at) => weight !== before[at]))
-      model.doAction(Actions.adjustWeights(id, [...before]));
+    if (childWeights(row).every((weight, at) => weight === before[at])) continue;
+    // On the way the library sets the sizes past React, which then sees no change to what it drew before.
+    model.doAction(Actions.adjustWeights(id, [...before]).setAdjusting(true));
+    model.doAction(Actions.adjustWeights(id, [...before]));
   }
 }
 

@@ -245,7 +245,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
         zoomOnDoubleClick={false}
         onlyRenderVisibleElements={nodes.length > 150}
         elevateNodesOnSelect={false}
-        attributionPosition="bottom-center"
+        attributionPosition="bottom-right"
       >
         <Dots />
         <SlotMark />

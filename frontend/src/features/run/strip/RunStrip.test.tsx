@@ -40,7 +40,7 @@ beforeEach(async () => {
 describe('RunStrip', () => {
   it('tells the state of the executor while all is well, at the same height', () => {
     expect(screen.queryByTestId('banner')).toBeNull();
-    expect(screen.getByTestId('run-strip')).not.toBeEmptyDOMElement();
+    expect(screen.getByRole('region', { name: 'Messages of the run' })).not.toBeEmptyDOMElement();
   });
 
   it('shows the most important of several messages, and all of them on demand', async () => {

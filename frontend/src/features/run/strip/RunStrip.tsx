@@ -22,7 +22,12 @@ export function RunStrip() {
   const [first] = messages;
   const isCutOff = first?.kind === 'connection' || first?.kind === 'silence';
   return (
-    <div className={classes['strip']} data-testid="run-strip" data-tone={first?.tone ?? 'calm'}>
+    <section
+      className={classes['strip']}
+      aria-label={t('messages')}
+      data-testid="run-strip"
+      data-tone={first?.tone ?? 'calm'}
+    >
       {isStarting && !isCutOff ? (
         <RunProgress />
       ) : first ? (
@@ -33,7 +38,7 @@ export function RunStrip() {
       ) : (
         <p className={classes['calm']}>{t(`stateHelp.${shown}`)}</p>
       )}
-    </div>
+    </section>
   );
 }
 

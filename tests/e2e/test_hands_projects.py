@@ -200,7 +200,7 @@ def test_everything_on_the_start_page_is_a_command(shared_studio: Studio) -> Non
     with studio.page.expect_file_chooser():
         studio.command("import")
     studio.command("new project: empty")
-    expect(studio.page.locator("[data-type=Sequence]")).to_be_visible()
+    expect(studio.at("ghost-block")).to_be_visible()
     expect(studio.at("canvas")).to_be_focused()
 
 

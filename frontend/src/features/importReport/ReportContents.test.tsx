@@ -11,15 +11,18 @@ const stub: Diagnostic = {
   code: 'BT0613',
   severity: 'warning',
   message: 'The action Grab is only a stub.',
-  file: 'actions/Grab.py',
-  line: 4,
+  file: 'trees/Main.json',
+  line: 8,
+  tree: 'Main',
+  node: 'b',
+  values: { name: 'Grab', path: 'actions/Grab.py' },
 };
 const nodes = { a: { type: 'Sequence', children: ['b'] }, b: { type: 'AlwaysSuccess' } };
 
 function open(diagnostics: readonly Diagnostic[] = []) {
   openProject({
     trees: { Main: nodes },
-    actions: [action('Grab', { kind: 'Condition' })],
+    actions: [action('Grab', { kind: 'condition' })],
     texts: { 'actions/Grab.py': 'class Grab: pass\n', 'imports/patrol.xml': '<root/>' },
     diagnostics,
   });
@@ -45,7 +48,7 @@ describe('ReportContents', () => {
     open([stub]);
     expect(screen.getByRole('button', { name: 'Grab condition' })).toBeInTheDocument();
     await user.click(screen.getByTestId('open-first-problem'));
-    expect(openFile).toHaveBeenCalledExactlyOnceWith('actions/Grab.py', 4);
+    expect(openFile).toHaveBeenCalledExactlyOnceWith('actions/Grab.py');
     expect(useImportReport.getState().projectId).toBeNull();
   });
 

@@ -4,21 +4,29 @@ import { useTranslation } from 'react-i18next';
 import { closeImportReport } from '@/store/dialogs/importReport';
 import { openUniverseChooser } from '@/store/dialogs/universeChooser';
 import { useProjectStore } from '@/store/project';
+import { openAction } from '@/store/project/navigation';
 import type { ListedProblem } from '@/store/problems/list';
 import { openProblem } from '@/store/problems/open';
 import { useProblems } from '@/store/problems/useProblems';
 import { useProblemText } from '@/ui/useProblemText';
 import classes from './importReport.module.css';
 
-/** The finding that an action is still the stub which the import made. */
+/** The finding that an action is still the stub which the import made; it is at a block of this action. */
 const STUB = 'BT0613';
 /** More are in the panel of problems. */
 const SHOWN = 8;
 
-/** Leaves the report for the place of a finding. */
-function look(problem: ListedProblem): void {
+/** The action that is still to be written, if this is what was found. */
+function stubOf({ code, problem }: ListedProblem): string | undefined {
+  return code === STUB && problem.source === 'server' ? problem.values?.['name'] : undefined;
+}
+
+/** Leaves the report for the place of a finding; of a stub, for the source to be written. */
+function look(row: ListedProblem): void {
   closeImportReport();
-  openProblem(problem);
+  const stub = stubOf(row);
+  if (stub === undefined) openProblem(row);
+  else openAction(stub);
 }
 
 export function ReportContents() {
@@ -107,16 +115,15 @@ function Rows({ heading, rows }: { readonly heading: string; readonly rows: read
 function Row({ row }: { readonly row: ListedProblem }) {
   const { t } = useTranslation('importReport');
   const { message, hint } = useProblemText()(row.problem);
-  const name = /^actions\/(\w+)\.py$/.exec(row.file ?? '')?.[1];
-  const kind = useProjectStore((state) => state.actions.find((each) => each.name === name)?.kind);
-  const isStub = row.code === STUB;
-  const Icon = isStub ? IconPencil : IconAlertTriangle;
+  const stub = stubOf(row);
+  const family = useProjectStore((state) => stub && state.vocabulary.specs.get(stub)?.family);
+  const Icon = stub ? IconPencil : IconAlertTriangle;
   return (
     <UnstyledButton className={classes['row']} data-severity={row.severity} onClick={() => look(row)}>
       <Icon size={16} aria-hidden="true" />
-      {isStub && name ? (
+      {stub ? (
         <span>
-          <strong>{name}</strong> <span className={classes['hint']}>{kind ? t(`kind.${kind}`) : ''}</span>
+          <strong>{stub}</strong> <span className={classes['hint']}>{t(`kind.${family ?? 'action'}`)}</span>
         </span>
       ) : (
         <span>

@@ -93,7 +93,7 @@ function Shelves({ onCreate, pending }: Pick<NewProjectProps, 'onCreate' | 'pend
   const templates = all.filter(({ id }) => !isExample(id));
   return (
     <>
-      <Title order={2} size={16} mt="md" mb="sm">
+      <Title order={2} size={18} mt="lg" mb="sm">
         {t('templates')}
       </Title>
       <TemplateCards templates={templates} onCreate={onCreate} pending={pending} />

@@ -82,11 +82,12 @@ export function ProjectCard({ project, shelf, actions }: ProjectCardProps) {
               onKeyDown={onKey}
             />
           ) : isDeleted ? (
-            <Text fw={600} truncate="end" title={project.name}>
+            <Text className={classes['projectName']} fw={600} truncate="end" title={project.name}>
               {project.name}
             </Text>
           ) : (
             <Anchor
+              className={classes['projectName']}
               href={path}
               onClick={follow}
               c="var(--bts-text)"

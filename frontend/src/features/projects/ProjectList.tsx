@@ -61,6 +61,7 @@ export function ProjectList({ actions, searchField }: ProjectListProps) {
             type="search"
             ref={searchField}
             value={search}
+            flex="1 1 170px"
             placeholder={t('search')}
             aria-label={t('search')}
             leftSection={<IconSearch size={16} />}
@@ -88,7 +89,7 @@ export function ProjectList({ actions, searchField }: ProjectListProps) {
       {!isKnown && !error && projects.length === 0 ? (
         <div className={classes['grid']} aria-hidden="true">
           {[1, 2, 3].map((key) => (
-            <Skeleton key={key} height={194} radius="lg" />
+            <Skeleton key={key} height={196} radius="lg" />
           ))}
         </div>
       ) : null}

@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-/** The project that was just imported, and the file that it came from; its report is still to be read. */
+/** The project whose report is still to be read, and the file that was imported last. */
 interface ImportReport {
   readonly projectId: string | null;
   readonly file: string;
@@ -10,4 +10,5 @@ export const useImportReport = create<ImportReport>(() => ({ projectId: null, fi
 
 export const announceImport = (projectId: string, file: string) =>
   useImportReport.setState({ projectId, file });
-export const closeImportReport = () => useImportReport.setState({ projectId: null, file: '' });
+/** The name of the file stays: it is in the title while the report fades out. */
+export const closeImportReport = () => useImportReport.setState({ projectId: null });

@@ -27,10 +27,9 @@ def test_the_last_tick_stays(shared_studio: Studio) -> None:
 
 
 def a_tree_that_waits_and_fails(studio: Studio) -> None:
-    keys = studio.page.keyboard
     studio.at("new-from-empty").click()
     focused(studio, "canvas")
-    keys.press("Home")
+    quick(studio, "Tab", "Sequence")
     quick(studio, "Tab", "Sleep")
     studio.at("port-msec").fill("300")
     studio.at("port-msec").press("Enter")

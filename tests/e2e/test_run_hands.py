@@ -271,7 +271,7 @@ def the_blackboard_is_written(studio: Studio) -> None:
 
 def flashes(studio: Studio, key: str) -> bool:
     """Returns whether a value of the blackboard is highlighted."""
-    lights = "row => row.querySelector('span').getAnimations().length > 0"
+    lights = "row => row.querySelector('td span').getAnimations().length > 0"
     return bool(studio.at(f"blackboard-{key}").evaluate(lights))
 
 

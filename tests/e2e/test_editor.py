@@ -239,12 +239,15 @@ def the_view_goes_to_what_is_wanted(studio: Studio) -> None:
     minimap = studio.at("minimap")
     rest(block(studio, "Turn"))
     before = view.get_attribute("style")
-    minimap.click(position={"x": 20, "y": 20})
+    # Towards the last blocks, which then lie beside the overview.
+    minimap.click(position={"x": 130, "y": 80})
     wait_until(lambda: view.get_attribute("style") != before, "a press on the overview goes there")
+    rest(block(studio, "Turn"))
     block(studio, "Turn").click()
+    wait_until(partial(is_selected, studio, "Turn"), "the block is selected")
     for _ in range(3):
         page.get_by_role("button", name="Zoom out").click()
-    page.wait_for_timeout(400)  # the page ignores another change of the view during this one
+    rest(block(studio, "Turn"))  # the page ignores another change of the view during this one
     keys.press("Shift+Digit2")
     expect(zoom).to_have_text("110%")
     page.get_by_role("button", name="Overview", exact=True).click()

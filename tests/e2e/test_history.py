@@ -59,6 +59,7 @@ def text_and_canvas_stay_in_step_and_every_state_comes_back(studio: Studio) -> N
     studio.picture("xml-broken-light")
 
     # The canvas changes meanwhile: the user is asked, and takes the tree; the comment is still in the text.
+    studio.at("toolbar-toggle").click()  # beside the text, the canvas is narrow and its tools are folded
     studio.at("orientation").click()
     expect_xml(studio, "parted")
     expect_accessible(studio, "dark")

@@ -44,6 +44,9 @@ class DriveCell(py_trees.behaviour.Behaviour):
         ]
 
     def update(self):
+        self.start = self.start or self.place
+        if self.start is None or self.place is None:
+            return py_trees.common.Status.RUNNING  # nothing of the wheels has come yet
         left = get_input(self, "length") - math.dist(self.start, self.place)
         if self.at(0) < 1.2:  # the wall ahead says it better than the wheels
             left = self.at(0) - MIDDLE

@@ -31,7 +31,7 @@ class Drive(py_trees.behaviour.Behaviour):
 
     def update(self):
         self.start = self.start or self.place
-        if self.start is None:
+        if self.start is None or self.place is None:
             return py_trees.common.Status.RUNNING
         distance, speed = get_input(self, "distance"), get_input(self, "speed")
         left = abs(distance) - math.dist(self.start, self.place)

@@ -73,9 +73,8 @@ export function SearchForm({ wrong, onReplaceAll, onDown }: SearchFormProps) {
                 aria-label={t(name)}
                 aria-pressed={query[name]}
                 onClick={() => setSearch({ [name]: !query[name] })}
-              >
-                {face}
-              </button>
+                data-face={face}
+              />
             </Tooltip>
           ))}
         </div>

@@ -186,11 +186,15 @@ def test_a_wide_tree_is_seen_as_a_whole(shared_studio: Studio) -> None:
     studio.page.reload()
     expect(studio.at("compact")).to_have_attribute("aria-pressed", "true")
     studio.at("compact").click()
+    wait_until(lambda: zoom(studio) == wide, "the whole tree is seen again")
     studio.command("collapse to level 1")
     expect(block(studio, "AlwaysSuccess")).to_have_count(0)
     expect(block(studio, "Sequence").first).to_be_visible()
     studio.command("unfold all levels")
-    block(studio, "Fallback").click()
+    # Its blocks are dots now: a key selects the root.
+    canvas.focus()
+    studio.page.keyboard.press("Home")
+    wait_until(lambda: selected(studio) == ["Fallback"], "the root is selected")
     a_new_block_is_not_hidden(studio)
 
 
@@ -198,6 +202,7 @@ def a_new_block_is_not_hidden(studio: Studio) -> None:
     """Neither below the overview nor outside: the view moves just so far."""
     keys, added = studio.page.keyboard, block(studio, "Sleep")
     keys.press("Shift+Digit2")
+    wait_until(lambda: zoom(studio) == 110, "the selection is seen large")
     rest(block(studio, "Fallback"))
     keys.press("Tab")
     studio.writing()

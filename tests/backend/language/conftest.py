@@ -52,6 +52,10 @@ def limits(settings_of, tmp_path):
     return lambda **values: settings_of(data_dir=tmp_path, **values)
 
 
+CONTENT_MODIFIED = -32801
+"""The error code of an answer that a change of a file made useless: the question is asked again."""
+
+
 class Page:
     """The editor's side of the socket."""
 
@@ -64,13 +68,19 @@ class Page:
         self.socket.send(json.dumps({"jsonrpc": "2.0", "method": method, "params": params}))
 
     def ask(self, method, **params):
+        while True:
+            answer = self._ask_once(method, params)
+            if answer.get("error", {}).get("code") != CONTENT_MODIFIED:
+                return answer.get("result", answer.get("error"))
+
+    def _ask_once(self, method, params):
         self.last += 1
         message = {"jsonrpc": "2.0", "id": self.last, "method": method, "params": params}
         self.socket.send(json.dumps(message))
         while True:
             answer = json.loads(self.socket.recv(timeout=60))
             if answer.get("id") == self.last:
-                return answer.get("result", answer.get("error"))
+                return answer
             self.told.append(answer)
 
     def begin(self):

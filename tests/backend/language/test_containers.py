@@ -60,7 +60,7 @@ def test_an_editor_knows_neighbours_follows_revisions_and_leaves_nothing(
         assert name.startswith("stack-tools-")
 
     # The same container formats, and one that has gone is replaced unseen.
-    answer = {"source": 'x = {"a": 1}\n'}
+    answer = {"source": 'x = {"a": 1}\n', "findings": []}
     asked = {"source": "x = {  'a':1 }\n", "filename": "actions/Go.py"}
     assert api.post("python/format", asked) == answer
     keeper.docker.children[name].kill()

@@ -3,6 +3,7 @@ import type { ReactFlowInstance } from '@xyflow/react';
 import { describe, expect, it, vi } from 'vitest';
 import { emptyDiagram, type Diagram } from '@/model/diagram';
 import type { Layout } from '@/model/layout';
+import { useProjectStore } from '@/store/project';
 import { inFlow, now, openDiagram } from '../../../../harness/canvas';
 import { nodeOf } from '../../../../harness/testing';
 import type { BlockNode, TreeEdge } from '../flow';
@@ -75,6 +76,13 @@ describe('a view begins', () => {
     expect(again.used().initial).toEqual({ x: 1, y: 2, zoom: 0.5 });
     expect(again.fitView).not.toHaveBeenCalled();
     expect(again.setViewport).not.toHaveBeenCalled();
+  });
+
+  it('as new for a tree of the same name in another project', () => {
+    const { used, id } = begin(layoutOf(100, 100));
+    used().onMoveEnd(null, { x: 1, y: 2, zoom: 0.5 });
+    useProjectStore.setState({ projectId: 'another' });
+    expect(begin(layoutOf(100, 100), diagram(), id).fitView).toHaveBeenCalledOnce();
   });
 });
 

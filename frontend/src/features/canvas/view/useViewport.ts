@@ -2,10 +2,11 @@ import { useStoreApi, type ReactFlowInstance, type Viewport } from '@xyflow/reac
 import { useCallback, useMemo } from 'react';
 import type { Diagram, NodeId } from '@/model/diagram';
 import type { Box, Layout } from '@/model/layout';
+import { useProjectStore } from '@/store/project';
 import { disconnect } from '@/store/project/edits/blocks';
 import type { BlockNode, TreeEdge } from '../flow';
 
-/** The last view of each tree, with the width of its canvas, until the page closes. */
+/** The last view of each tree of each project, with the width of its canvas, until the page closes. */
 const viewports = new Map<string, Viewport & { readonly width: number }>();
 
 /** So far out that the largest tree is seen as a whole. */
@@ -31,7 +32,8 @@ function atRoot(
 
 export function useViewport(treeId: string, layout: Layout, diagram: Diagram) {
   const store = useStoreApi();
-  const known = viewports.get(treeId);
+  const key = useProjectStore((state) => `${state.projectId ?? ''}/${treeId}`);
+  const known = viewports.get(key);
   const isEmpty = layout.width === 0;
   const initial = useMemo(
     () => (known ? { x: known.x, y: known.y, zoom: known.zoom } : { x: 80, y: 80, zoom: 1 }),
@@ -42,20 +44,20 @@ export function useViewport(treeId: string, layout: Layout, diagram: Diagram) {
     (flow: ReactFlowInstance<BlockNode, TreeEdge>) => {
       const pane = store.getState();
       // In a frame of another width the remembered place may be out of sight.
-      if (viewports.get(treeId)?.width === pane.width || isEmpty) return;
+      if (viewports.get(key)?.width === pane.width || isEmpty) return;
       const fits = Math.min(pane.width / layout.width, pane.height / layout.height) / (1 + FIT.padding);
       const root = layout.positions[diagram.root ?? ''];
       if (fits >= READABLE || !root) void flow.fitView(FIT);
       else void flow.setViewport(atRoot(pane, root, diagram.layout === 'horizontal'));
     },
-    [store, treeId, isEmpty, layout, diagram],
+    [store, key, isEmpty, layout, diagram],
   );
 
   const onMoveEnd = useCallback(
     (_event: unknown, viewport: Viewport) => {
-      viewports.set(treeId, { ...viewport, width: store.getState().width });
+      viewports.set(key, { ...viewport, width: store.getState().width });
     },
-    [store, treeId],
+    [store, key],
   );
 
   /** Disconnects a block from its parent and leaves it where it is drawn. */

@@ -32,7 +32,7 @@ def small(monkeypatch):
 
 @pytest.fixture
 def one(api):
-    return api.post("projects", {"name": "Robot"}, expect=201)["id"]  # with a tree of one node
+    return api.post("projects", {"name": "Robot"}, expect=201)["id"]  # with an empty tree
 
 
 @pytest.mark.parametrize(
@@ -41,7 +41,8 @@ def one(api):
         ((8,), True),
         ((9,), False),
         ((8, 8), True),
-        ((8, 8, 4), False),
+        ((8, 8, 4), True),
+        ((8, 8, 5), False),
         ((2, 2, 2), True),
         ((1, 1, 1, 1), False),
     ],

@@ -31,6 +31,21 @@ def test_every_behaviour_is_described_in_both_languages_and_has_its_files(api: A
         assert all(port["description"] for port in item["diagram"]["ports"])
 
 
+def test_examples_hold_the_librarys_files_as_they_are() -> None:
+    """An example is a project of its own, so it has copies; a repair of the library belongs in them, too."""
+    library = {path: text for behaviour in behaviours() for path, text in behaviour.files.items()}
+    copies = {
+        file: file.relative_to(example).as_posix()
+        for example in (ROOT / "examples").iterdir()
+        for file in example.rglob("*.*")
+        if file.relative_to(example).as_posix() in library
+    }
+    assert len(copies) >= 20
+    assert [
+        str(file) for file, path in copies.items() if file.read_text(encoding="utf-8") != library[path]
+    ] == []
+
+
 def test_a_behaviour_brings_the_subtrees_below_it_and_their_actions() -> None:
     assert set(files_of("Docking")) == {
         "actions/ApproachUntilNear.py",

@@ -29,6 +29,11 @@ WORKER = """
         while True:
             put(1, time.monotonic())
             time.sleep(0.01)
+    def wait_for_the_server():
+        put(0, 1)
+        while not os.path.exists(f"{folder}/server-ready"):
+            put(1, time.monotonic())
+            time.sleep(0.01)
 """
 
 
@@ -49,6 +54,7 @@ class Small(parent.Parent):
 
     def _note_ready(self):
         self.ready += 1
+        (self.folder / "server-ready").touch()
 
     def _make_pool(self, folder):  # type: ignore[override]
         return self._child(folder, POOL, "pool", self._pool_lines)
@@ -78,7 +84,7 @@ def _quick(monkeypatch):
 
 
 def test_who_dies_is_started_again_and_nobody_else(caplog):
-    dies_twice = "put(0, 1); time.sleep(0.2); lives < 3 and sys.exit(4); serve()"
+    dies_twice = "wait_for_the_server(); lives < 3 and sys.exit(4); serve()"
     family = Small("serve()", dies_twice, until="0111")
     assert family.run() is signal.SIGTERM
     assert (family.ready, family.log.count("0"), family.log.count("1")) == (1, 1, 3)
@@ -88,7 +94,7 @@ def test_who_dies_is_started_again_and_nobody_else(caplog):
 @pytest.mark.parametrize("how", ["time.sleep(1000)", "put(3, 1000); serve()"])
 def test_who_hangs_is_replaced(monkeypatch, caplog, how):
     monkeypatch.setattr(parent, "HUNG_S", 3.0)  # on a busy machine one starts so much later
-    family = Small("serve()", f"put(0, 1)\nif lives < 2:\n    {how}\nserve()", until="011")
+    family = Small("serve()", f"wait_for_the_server()\nif lives < 2:\n    {how}\nserve()", until="011")
     family.run()
     assert family.log.count("0") == 1
     assert "the web worker 1 hangs and is replaced" in caplog.text
@@ -96,7 +102,7 @@ def test_who_hangs_is_replaced(monkeypatch, caplog, how):
 
 def test_a_pool_that_hangs_is_replaced(monkeypatch, caplog):
     monkeypatch.setattr(parent, "HUNG_S", 3.0)
-    family = Small("serve()", until="099", pool="put(0, 1)\nif lives < 2:\n    time.sleep(1000)\nserve()")
+    family = Small("serve()", until="099", pool="wait_for_the_server()\nif lives < 2:\n    time.sleep(1000)\nserve()")
     family.run()
     assert (family.ready, family.log.count("0")) == (1, 1)
     assert "the pool hangs and is replaced" in caplog.text
@@ -110,7 +116,7 @@ def test_a_worker_that_cannot_start_ends_the_start(caplog):
 
 
 def test_a_server_of_which_no_worker_starts_any_more_ends(caplog):
-    once = "lives > 1 and sys.exit(3)\nput(0, 1)\ntime.sleep(0.5)"
+    once = "lives > 1 and sys.exit(3)\nwait_for_the_server()"
     with pytest.raises(
         ServeError, match="No web worker can start any more; the last one ended with status 3"
     ):

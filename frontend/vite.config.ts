@@ -34,11 +34,13 @@ export default defineConfig({
   },
   test: {
     environment: 'jsdom',
-    // Tests of modules share what is loaded, which takes most of their time. Each file of components has its own.
     projects: [
-      { extends: true, test: { name: 'modules', include: ['src/**/*.test.ts'], isolate: false } },
+      { extends: true, test: { name: 'modules', include: ['src/**/*.test.ts'] } },
       { extends: true, test: { name: 'components', include: ['src/**/*.test.tsx'] } },
     ],
+    // Files share a process with the libraries that it has loaded, which takes most of the time of a process of
+    // their own. `harness/sharedPage.ts` takes away what a file leaves behind.
+    isolate: false,
     setupFiles: ['./vitest.setup.ts'],
     // Styles are left out, but for the colours that pictures are drawn with.
     css: { include: [/tokens\.css\?raw$/] },

@@ -4,7 +4,7 @@ import { QueryClientProvider } from '@tanstack/react-query';
 import { act, cleanup, render } from '@testing-library/react';
 import userEvent, { PointerEventsCheckLevel } from '@testing-library/user-event';
 import type { ReactElement, ReactNode } from 'react';
-import { onTestFinished, vi } from 'vitest';
+import { afterAll, onTestFinished, vi } from 'vitest';
 import { queries } from '@/api/queries';
 import type { ActionModel, Diagnostic } from '@/api/types';
 import type { Commands, Events, Introspection, ServerMessage } from '@/generated/messages';
@@ -24,6 +24,12 @@ import { sentBodies } from './sentBodies';
 
 // A refused request is an answer, and not to be tried again after a second.
 queries.setDefaultOptions({ queries: { retry: false } });
+
+// Notifications are kept in their library, which all files share.
+afterAll(() => {
+  notifications.clean();
+  notifications.cleanQueue();
+});
 
 /** Types and clicks without waiting, and without computing styles before each click. */
 export const user = userEvent.setup({ delay: null, pointerEventsCheck: PointerEventsCheckLevel.Never });

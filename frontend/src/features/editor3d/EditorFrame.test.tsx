@@ -29,6 +29,13 @@ function frame(more: Partial<Parameters<typeof EditorFrame>[0]> = {}, isTextShow
 const texts = () => screen.queryAllByRole('radio').map((radio) => (radio as HTMLInputElement).value);
 
 describe('EditorFrame', () => {
+  // The first, since the editor is loaded once.
+  it('offers no choice of one text, and says that its editor loads', () => {
+    frame({ paths: [ROBOT] }, true);
+    expect(texts()).toEqual([]);
+    expect(screen.getByText('Loading the text editor')).toBeInTheDocument();
+  });
+
   it('shows tools and view, and no text until it is wanted', () => {
     const editor = frame();
     expect(screen.getByTestId('frame')).toHaveAttribute('data-path', ROBOT);
@@ -46,12 +53,6 @@ describe('EditorFrame', () => {
     await user.click(screen.getByRole('radio', { name: 'robot.urdf' }));
     expect(editor.store.getState().shownText).toBe(1);
     expect(screen.getByRole('radio', { name: 'robot.urdf' })).toBeChecked();
-  });
-
-  it('offers no choice of one text, and says that its editor loads', () => {
-    frame({ paths: [ROBOT] }, true);
-    expect(texts()).toEqual([]);
-    expect(screen.getByText('Loading the text editor')).toBeInTheDocument();
   });
 
   it('shows the first text where the chosen one is gone', () => {

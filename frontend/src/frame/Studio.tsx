@@ -106,6 +106,7 @@ function Workbench({ projectId }: StudioProps) {
     setNavigator({
       openTree: (id) => openTab({ kind: 'tree', id }),
       openFile: (path, line) => openTab({ kind: 'file', path }, line),
+      openTopics: () => showPanel('topics'),
       renamed: (kind, from, to) =>
         kind === 'tree'
           ? followRename({ kind, id: from }, { kind, id: to })

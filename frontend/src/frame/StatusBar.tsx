@@ -46,7 +46,7 @@ function ConnectionStatus() {
   );
 }
 
-/** The readable form of an id such as `walled_room`. */
+/** Returns the readable form of an id such as `walled_room`. */
 function titleOf(universe: string): string {
   const words = universe.replaceAll('_', ' ');
   return words.charAt(0).toUpperCase() + words.slice(1);

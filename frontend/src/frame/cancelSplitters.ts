@@ -1,7 +1,7 @@
 import { Actions, RowNode, TabSetNode, type Model } from 'flexlayout-react';
 import { cancellable } from '@/ui/cancellable';
 
-/** The weights of the children of each row of panels. */
+/** Returns the weights of the children of each row of panels. */
 function weightsOf(model: Model): ReadonlyMap<string, readonly number[]> {
   const weights = new Map<string, readonly number[]>();
   model.visitNodes((node) => {

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { markCutTabs } from './cutTabs';
 
-/** A bar of tabs with a width for its names, and one that they need. */
+/** Returns a bar of tabs with a width for its names, and one that they need. */
 function bar(root: HTMLElement, has: number, needs: number): HTMLElement {
   const outer = document.createElement('div');
   const inner = document.createElement('div');

@@ -95,7 +95,7 @@ function FileTab({ path }: { readonly path: string }) {
   return UNIVERSE_FILE.test(path) ? <UniverseTab key={path} path={path} /> : <CodeTab path={path} />;
 }
 
-/** The content of a tab; an exception in one panel does not affect the others. */
+/** Returns the content of a tab; an exception in one panel does not affect the others. */
 export function renderTab(node: TabNode): ReactNode {
   const content = documentOf(node) ? <Document node={node} /> : panels[node.getComponent() as PanelId](node);
   return (

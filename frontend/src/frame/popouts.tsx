@@ -24,7 +24,7 @@ function tabsIn(model: Model, layoutId: string): TabNode[] {
   return found;
 }
 
-/** The title of a panel's tab. */
+/** Returns the title of a panel's tab. */
 export const titleOf = (tab: TabNode): string => t(`frame:${tab.getName()}`);
 
 /** Opens a panel in its own window. */
@@ -46,7 +46,7 @@ function rememberHome(model: Model, id: string): void {
   model.doAction(Actions.updateNodeAttributes(id, { config: { ...configOf(tab), home } }));
 }
 
-/** The place to which a panel returns: its old one, or beside a panel of its kind if that is gone. */
+/** Returns the place to which a panel returns: its old one, or beside a panel of its kind if that is gone. */
 function placeFor(model: Model, tab: TabNode): Home | null {
   const { home } = configOf(tab);
   if (home && model.getNodeById(home.tabset) instanceof TabSetNode) return home;

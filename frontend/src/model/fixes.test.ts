@@ -13,7 +13,7 @@ const tree = (nodes: Record<string, DiagramNode>): Diagram => ({
 });
 const under = (node: DiagramNode) => tree({ r: { type: 'Sequence', children: ['x'] }, x: node });
 
-/** The fixes of the only problem. */
+/** Returns the fixes of the only problem. */
 function fixesOf(diagram: Diagram) {
   const [problem] = findProblems(diagram, vocabulary);
   return problem ? fixesFor(problem, diagram, vocabulary) : [];

@@ -3,7 +3,7 @@ import { tidyTree, type Spot } from './tidy';
 
 type Shape = readonly [breadth: number, ...children: Shape[]];
 
-/** Lays a tree of levels 10 deep out, and returns the middles in pre-order. */
+/** Lays out a tree whose levels are 10 deep, and returns the middles in pre-order. */
 function middles(shape: Shape, gap = 2): number[] {
   const spots: Spot<number>[] = [];
   const grow = ([breadth, ...children]: Shape, parent: number): void => {

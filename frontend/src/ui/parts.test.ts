@@ -3,7 +3,7 @@ import { loadPart, PartMissing, stylesArrive } from './parts';
 
 let server: MutationObserver | null = null;
 
-/** A style sheet that comes at the `attempts`-th request, as the page sees it: jsdom fetches none. */
+/** Returns a style sheet that comes at the `attempts`-th request, as the page sees it: jsdom fetches none. */
 function styleThatComes(attempts: number): HTMLLinkElement {
   const link = document.createElement('link');
   link.rel = 'stylesheet';

@@ -22,7 +22,7 @@ async function insist<T>(ask: () => Promise<T>): Promise<T> {
   return ask();
 }
 
-/** Whether a style sheet failed to load: browsers give it no rules then. */
+/** Returns whether a style sheet failed to load: browsers give it no rules then. */
 function isMissing({ sheet }: HTMLLinkElement): boolean {
   try {
     return !sheet || sheet.cssRules.length === 0;
@@ -68,7 +68,7 @@ export async function loadPart<T>(load: () => Promise<T>): Promise<T> {
   }
 }
 
-/** A component that is loaded when it is first shown. */
+/** Returns a component that is loaded when it is first shown. */
 export function lazyPart<Props>(
   load: () => Promise<ComponentType<Props>>,
 ): LazyExoticComponent<ComponentType<Props>> {

@@ -25,7 +25,7 @@ interface Command {
   readonly run: () => void;
 }
 
-/** All commands, and all files. */
+/** Returns all commands, and all files. */
 function useCommands(page: Document): Command[] {
   const { t } = useTranslation('frame');
   const table = useCommandTable((state) => state.commands);

@@ -6,7 +6,7 @@ interface CameraConfig {
   readonly camera?: string;
 }
 
-/** The camera that was chosen for a view; null as long as none was. */
+/** Returns the camera that was chosen for a view; null as long as none was. */
 export const cameraOf = (view: TabNode): string | null =>
   (view.getConfig() as CameraConfig | undefined)?.camera ?? null;
 

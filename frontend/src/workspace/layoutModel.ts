@@ -46,13 +46,13 @@ const LOOKING: readonly (readonly PanelId[])[] = [
 export const WINDOWED: readonly PanelId[] = LOOKING.flat();
 const NEIGHBOURS: readonly PanelId[] = ['problems', 'inspector', 'explorer'];
 
-/** The panels beside which a panel belongs, the most similar first. */
+/** Returns the panels beside which a panel belongs, the most similar first. */
 export const companionsOf = (id: PanelId): readonly PanelId[] => [
   ...(LOOKING.find((kind) => kind.includes(id)) ?? []).filter((other) => other !== id),
   ...NEIGHBOURS,
 ];
 
-/** The docking options of a panel that can have its own window. */
+/** Returns the docking options of a panel that can have its own window. */
 const windowed = (id: PanelId): Partial<IJsonTabNode> =>
   WINDOWED.includes(id)
     ? // A WebGL canvas cannot move between documents: it is created again in the other one.
@@ -77,7 +77,7 @@ const panel = (id: PanelId): IJsonTabNode => ({
   ...windowed(id),
 });
 
-/** A panel that is open already, once more: with an id of its own, and to be closed by the user. */
+/** Returns a panel that is open already, once more: with an id of its own, and to be closed by the user. */
 export const furtherPanel = (component: PanelId, id: string): IJsonTabNode => ({
   ...panel(component),
   id,
@@ -203,11 +203,11 @@ interface KeptNode {
 /** Documents and the lesson belong to a project, the layout to the user. */
 const isOfProject = ({ id, config }: KeptNode): boolean => config?.document === true || id === 'lesson';
 
-/** Whether a node shows nothing but a lesson: no empty set of tabs remains where it was. */
+/** Returns whether a node shows nothing but a lesson: no empty set of tabs remains where it was. */
 const isForLesson = ({ children = [] }: KeptNode): boolean =>
   children.length > 0 && children.every(({ id }) => id === 'lesson');
 
-/** The layout without what belongs to a project. */
+/** Returns the layout without what belongs to a project. */
 function withoutDocuments(json: IJsonModel): IJsonModel {
   const text = JSON.stringify(json, (key, value: unknown) => {
     if (key !== 'children' || !Array.isArray(value)) return value;

@@ -52,7 +52,7 @@ function nameOf(tab: DocumentTab): string {
   return robot ?? tab.path.split('/').at(-1) ?? tab.path;
 }
 
-/** The folder of a file whose tab has the name of another open tab; null if its name says enough. */
+/** Returns the folder of a file whose tab has the name of another open tab; null if its name says enough. */
 export function folderOf(tab: DocumentTab, open: readonly DocumentTab[]): string | null {
   if (tab.kind !== 'file') return null;
   const name = nameOf(tab);
@@ -60,7 +60,7 @@ export function folderOf(tab: DocumentTab, open: readonly DocumentTab[]): string
   return isAlone ? null : tab.path.split('/').slice(0, -1).join('/') || '/';
 }
 
-/** The icon and name of a document's tab. */
+/** Returns the icon and name of a document's tab. */
 function faceOf(tab: DocumentTab): Pick<IJsonTabNode, 'name' | 'config' | 'helpText'> {
   const name = nameOf(tab);
   const helpText = tab.kind === 'file' ? tab.path : tab.kind === 'tree' ? name : '';
@@ -70,7 +70,7 @@ function faceOf(tab: DocumentTab): Pick<IJsonTabNode, 'name' | 'config' | 'helpT
 export const documentOf = (node: TabNode): DocumentTab | undefined =>
   (node.getConfig() as { tab?: DocumentTab } | undefined)?.tab;
 
-/** The tab of a document, also if it was opened under an earlier name. */
+/** Returns the tab of a document, also if it was opened under an earlier name. */
 function nodeOf(model: Model | null, tab: DocumentTab): TabNode | null {
   let found: TabNode | null = null;
   model?.visitNodes((node) => {
@@ -160,7 +160,7 @@ export function openDocuments(model: Model): DocumentTab[] {
   return found;
 }
 
-/** The document in front, in the tab set of the editors or in the active one. */
+/** Returns the document in front, in the tab set of the editors or in the active one. */
 export function frontDocument(model: Model): DocumentTab | null {
   const active = model.getActiveTabset();
   for (const tabset of [active, model.getNodeById(EDITORS)]) {

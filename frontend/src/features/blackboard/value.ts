@@ -1,4 +1,4 @@
-/** A value for display: short numbers, and JSON for lists and objects. */
+/** Returns a value for display: short numbers, and JSON for lists and objects. */
 export function showValue(value: unknown): string {
   if (value === null || value === undefined) return '—';
   if (typeof value === 'number')

@@ -41,7 +41,7 @@ interface Item {
 
 const byId = new Map([...blockCommands, ...levelCommands].map((action) => [action.id, action]));
 
-/** The commands that are available now, in groups. */
+/** Returns the commands that are available now, in groups. */
 function itemsFor(isOnBlock: boolean): Item[][] {
   const offered = (id: string): Item[] => {
     const action = byId.get(id);

@@ -19,7 +19,7 @@ function nameOf(diagram: Diagram | undefined, id: NodeId): string {
   return node ? displayName(node) : id;
 }
 
-/** The trees above this one, up to the main tree. */
+/** Returns the trees above this one, up to the main tree. */
 function ownersOf(diagrams: Readonly<Record<string, Diagram>>, treeId: string, main: string): string[] {
   const owners: string[] = [];
   let tree = treeId;

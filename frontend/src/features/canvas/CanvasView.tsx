@@ -45,7 +45,7 @@ const NAMES = 0.65;
 const FAR = 0.42;
 const DELETE_KEYS: string[] = [];
 const MULTI_KEYS = ['Meta', 'Control', 'Shift'];
-/** A press on a tool or a breadcrumb must leave the keyboard focus on the blocks. */
+/** Returns a press on a tool or a breadcrumb must leave the keyboard focus on the blocks. */
 const isTool = (target: HTMLElement): boolean => target.closest('[role="toolbar"], nav') !== null;
 
 export function CanvasView({ treeId }: { readonly treeId: string }) {

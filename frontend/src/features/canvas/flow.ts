@@ -42,8 +42,8 @@ export interface FlowInput {
 }
 
 /**
- * The ends of connections. They are computed and not measured, so that they are right as soon as blocks
- * change.
+ * Returns the ends of connections. They are computed and not measured, so that they are right as soon as
+ * blocks change.
  */
 function handlesOf({ width, height }: Box, isHorizontal: boolean): NodeHandle[] {
   const end = (type: 'source' | 'target', position: Position, x: number, y: number): NodeHandle => ({
@@ -192,7 +192,7 @@ export function withHeld(nodes: readonly BlockNode[], held: NodeId | null): Bloc
   return nodes.map((node) => (node.id === held ? { ...node, dragging: true } : node));
 }
 
-/** The position of a node for screen readers: "2 of 3". */
+/** Returns the position of a node for screen readers: "2 of 3". */
 export function ordinal(
   diagram: Diagram,
   parent: NodeId | null,

@@ -25,7 +25,7 @@ const NONE: readonly string[] = [];
 const CLOSED: ReadonlySet<string> = new Set();
 const NO_TREES: Readonly<Record<string, Diagram>> = {};
 
-/** All data of a tree that the canvas draws, computed once for each change. */
+/** Returns all data of a tree that the canvas draws, computed once for each change. */
 export function useTree(treeId: string): TreeOnCanvas {
   const stored = useProjectStore((state) => state.diagrams[treeId]);
   const vocabulary = useProjectStore((state) => state.vocabulary);

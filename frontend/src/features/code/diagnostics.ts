@@ -6,7 +6,7 @@ import { findingText } from '@/ui/findingText';
 
 const SEVERITY = { error: 'error', warning: 'warning', note: 'info' } as const;
 
-/** The range from a position to the end of its word or line. */
+/** Returns the range from a position to the end of its word or line. */
 function spanAt(doc: Text, line: number, column: number): { from: number; to: number } {
   const { from, to, text } = doc.line(Math.min(Math.max(line, 1), doc.lines));
   const indent = text.length - text.trimStart().length;

@@ -10,7 +10,7 @@ function offset(doc: Text, { line, character }: CodeFinding['from']): number {
   return Math.min(from + character, to);
 }
 
-/** A finding of the language server, mapped to the present text. */
+/** Returns a finding of the language server, mapped to the present text. */
 export function servedMark(doc: Text, finding: CodeFinding): Mark {
   const from = offset(doc, finding.from);
   return {
@@ -22,7 +22,9 @@ export function servedMark(doc: Text, finding: CodeFinding): Mark {
   };
 }
 
-/** Whether findings refer to the text that the editor shows; it counts each line end as one character. */
+/**
+ * Returns whether findings refer to the text that the editor shows; it counts each line end as one character.
+ */
 export function isOf(doc: Text, found: { readonly text: string } | undefined): boolean {
   return found !== undefined && Text.of(found.text.split(/\r\n?|\n/)).eq(doc);
 }

@@ -17,7 +17,7 @@ interface Taken {
   types: ReadonlySet<string>;
 }
 
-/** The reason why a file cannot have this name; null if it can. */
+/** Returns the reason why a file cannot have this name; null if it can. */
 export function nameProblem(kind: NamedKind, name: string, { paths, types }: Taken): NameProblem | null {
   if (name.trim() === '') return 'empty';
   if (kind === 'action' && !isPythonName(name)) return 'notIdentifier';

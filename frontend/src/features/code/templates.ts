@@ -12,6 +12,6 @@ export type ActionTemplate = keyof typeof TEMPLATES;
 
 export const ACTION_TEMPLATES = Object.keys(TEMPLATES) as readonly ActionTemplate[];
 
-/** A template whose class has the action's name. */
+/** Returns a template whose class has the action's name. */
 export const actionSource = (name: string, template: ActionTemplate): string =>
   TEMPLATES[template].replaceAll('NewAction', name);

@@ -58,7 +58,7 @@ function placesOf(path: string, text: string): Place[] {
   return isXml(path) ? xmlErrors(text) : [];
 }
 
-/** The syntax errors of a JSON, YAML or XML file. */
+/** Returns the syntax errors of a JSON, YAML or XML file. */
 export function textErrors(path: string, text: string): readonly TextError[] {
   if (text.length > LONGEST) return [];
   return placesOf(path, text).map(({ offset, message }) => ({

@@ -166,14 +166,15 @@ function useHand() {
   return {
     /** A finger or a mouse button is down: the lines must not move until it is released. */
     isHeld,
-    /** Whether the user is scrolling. */
+    /** Returns whether the user is scrolling. */
     isScrolling: () => isHeld || performance.now() - lastMove.current < HAND_MS,
     onHand: { onPointerDown: hold, onWheel: move, onTouchMove: move, onKeyDown: move },
   };
 }
 
 /**
- * The sources to choose from, with each launch node of the run; the chosen source stays even if it has ended.
+ * Returns the sources to choose from, with each launch node of the run; the chosen source stays even if it
+ * has ended.
  */
 function useSources(names: ReadonlyMap<string, string>, chosen: string): { value: string; label: string }[] {
   const { t } = useTranslation('console');

@@ -23,8 +23,8 @@ interface ThingListProps {
   readonly onDuplicate: () => void;
   readonly onDelete: () => void;
   /**
-   * The reason why a name is invalid; null if it is valid. Without this function, things cannot be renamed
-   * here.
+   * Returns the reason why a name is invalid; null if it is valid. Without this function, things cannot be
+   * renamed here.
    */
   readonly nameProblem?: (key: string, name: string) => string | null;
   readonly onRename?: (key: string, name: string) => void;

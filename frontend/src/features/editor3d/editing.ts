@@ -13,9 +13,9 @@ export const TURN_STEP = Math.PI / 12;
 
 /** Operations of a view for keys and for placing things. */
 export interface ViewHandle {
-  /** The middle of the visible floor. */
+  /** Returns the middle of the visible floor. */
   center(): Point;
-  /** The direction away from the camera, along the nearest axis. */
+  /** Returns the direction away from the camera, along the nearest axis. */
   forward(): Point;
   /** Cancels a gesture under way; returns whether there was one. */
   cancel(): boolean;
@@ -38,7 +38,7 @@ export interface EditorData {
 
 /** A kind of document: how its files and its things are found. */
 interface Kind {
-  /** The paths of all files; the first is fixed, its text can name the others. */
+  /** Returns the paths of all files; the first is fixed, its text can name the others. */
   readonly pathsOf: (first: string) => readonly string[];
   /** Keys of the things that can be selected. */
   readonly keysOf: (texts: readonly string[]) => Iterable<string>;
@@ -58,7 +58,7 @@ const known = new Map<string, Editor>();
 
 const keyOf = (path: string): string => `${useProjectStore.getState().projectId ?? ''}:${path}`;
 
-/** The editor of a document of the open project; it stays when the document's tab is closed. */
+/** Returns the editor of a document of the open project; it stays when the document's tab is closed. */
 export function editorFor(path: string, kind: Kind): Editor {
   const key = keyOf(path);
   let editor = known.get(key);
@@ -86,7 +86,7 @@ function textsAt(path: string, kind: Kind): readonly string[] {
   return [first, ...kind.pathsOf(first).map((other) => currentText(other) ?? '')];
 }
 
-/** The present texts. */
+/** Returns the present texts. */
 export const textsOf = ({ path, kind }: Editor): readonly string[] => textsAt(path, kind);
 
 export const isReadOnly = (): boolean => useProjectStore.getState().role === 'viewer';

@@ -72,7 +72,7 @@ interface TextFieldProps {
   readonly value: string;
   readonly testId?: string;
   readonly placeholder?: string;
-  /** The reason why the text is invalid; null if it is valid. */
+  /** Returns the reason why the text is invalid; null if it is valid. */
   readonly problem?: (value: string) => string | null;
   readonly onCommit: (value: string) => void;
 }

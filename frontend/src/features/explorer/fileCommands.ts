@@ -7,7 +7,7 @@ import { treeIdOf, treePath } from '@/store/project/state';
 import { removeDocument } from './removing';
 import { showPanel, useTabs } from '@/workspace/tabs';
 
-/** The file of the document in front. */
+/** Returns the file of the document in front. */
 function pathInFront(): string | null {
   const { front } = useTabs.getState();
   if (front?.kind === 'tree') return treePath(front.id);

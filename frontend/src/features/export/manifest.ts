@@ -1,4 +1,4 @@
-/** The packages that a `package.xml` depends on, sorted, each once. */
+/** Returns the packages that a `package.xml` depends on, sorted, each once. */
 export function dependenciesOf(manifest: string): string[] {
   const document = new DOMParser().parseFromString(manifest, 'application/xml');
   const found = [...document.querySelectorAll('depend, exec_depend')].map(

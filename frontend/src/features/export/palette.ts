@@ -17,7 +17,10 @@ const [lightBlock = '', darkBlock = ''] = tokens.split(DARK);
 const light = read(lightBlock);
 const dark = read(darkBlock);
 
-/** The colours of a theme, even of the one that the page does not show, since pictures are used elsewhere. */
+/**
+ * Returns the colours of a theme, even of the one that the page does not show, since pictures are used
+ * elsewhere.
+ */
 export function paletteOf(theme: Theme): Palette {
   return (name) => (theme === 'dark' ? dark.get(name) : undefined) ?? light.get(name) ?? 'currentColor';
 }

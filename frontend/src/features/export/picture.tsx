@@ -11,7 +11,7 @@ const SCALE = 2;
 /** Browsers refuse larger canvases; larger trees are drawn at a smaller scale. */
 const MAX_PIXELS = 8192;
 
-/** A tree as a standalone SVG document. */
+/** Returns a tree as a standalone SVG document. */
 export function svgOf(diagram: Diagram, vocabulary: Vocabulary, theme: Theme): string {
   const host = document.createElement('div');
   const root = createRoot(host);
@@ -27,7 +27,7 @@ export function svgOf(diagram: Diagram, vocabulary: Vocabulary, theme: Theme): s
   return `<?xml version="1.0" encoding="UTF-8"?>\n${text}\n`;
 }
 
-/** An SVG document as a PNG. */
+/** Returns an SVG document as a PNG. */
 export async function pngOf(svg: string): Promise<Blob> {
   const image = new Image();
   image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;

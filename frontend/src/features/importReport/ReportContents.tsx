@@ -16,7 +16,7 @@ const STUB = 'BT0613';
 /** More are in the panel of problems. */
 const SHOWN = 8;
 
-/** The action that is still to be written, if this is what was found. */
+/** Returns the action that is still to be written, if this is what was found. */
 function stubOf({ code, problem }: ListedProblem): string | undefined {
   return code === STUB && problem.source === 'server' ? problem.values?.['name'] : undefined;
 }

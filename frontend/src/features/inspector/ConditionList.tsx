@@ -26,8 +26,8 @@ const CONDITIONS = [
 type Condition = (typeof CONDITIONS)[number];
 
 /**
- * The condition that was just added, until the user leaves its field: while it is empty there, the tree does
- * not have it, so that nothing reports an empty script.
+ * Returns the condition that was just added, until the user leaves its field: while it is empty there, the
+ * tree does not have it, so that nothing reports an empty script.
  */
 function useNewCondition(id: NodeId) {
   const [added, setAdded] = useState<{ readonly id: NodeId; readonly name: Condition } | null>(null);

@@ -31,8 +31,8 @@ const extraPort = (name: string): PortSpec => ({
 });
 
 /**
- * Whether all blocks of the type have the same ports: of an action that declares none, or that is not written
- * yet.
+ * Returns whether all blocks of the type have the same ports: of an action that declares none, or that is not
+ * written yet.
  */
 const isShared = ({ node, spec }: Pick<Target, 'node' | 'spec'>): boolean =>
   node.type !== 'SubTree' && (spec === undefined || (spec.source === 'action' && spec.open));

@@ -16,7 +16,7 @@ interface RenameKeyFormProps {
 
 const idOf = ({ board, name }: Key): string => `${board} ${name}`;
 
-/** The key of the project's list that is the same entry as another one. */
+/** Returns the key of the project's list that is the same entry as another one. */
 function listed(keys: readonly Key[], start: Key | null, forest: Forest): Key | undefined {
   if (!start) return undefined;
   const scope = scopeOf(forest, start.board, start.name);

@@ -10,7 +10,7 @@ import { cancellable } from '@/ui/cancellable';
 /** A smaller movement is a click. */
 const CLICK_PX = 5;
 
-/** The selected blocks, if the pressed one is one of them. */
+/** Returns the selected blocks, if the pressed one is one of them. */
 function movedBy(diagram: Diagram, id: NodeId): readonly NodeId[] {
   const { selection } = useProjectStore.getState();
   return selection.length > 1 && selection.includes(id) ? topmost(diagram, selection) : [id];

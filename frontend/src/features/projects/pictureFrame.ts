@@ -9,7 +9,9 @@ const MARGIN = 16;
 /** The largest part of a tree that a card shows, in the units of the layout: more would be dots. */
 const LARGEST = { width: 1500, height: 720 } as const;
 
-/** The part of a tree that its small picture shows: all of it, or its top with the root in the middle. */
+/**
+ * Returns the part of a tree that its small picture shows: all of it, or its top with the root in the middle.
+ */
 export function pictureFrame(boxes: readonly Box[], root: Box, isVertical: boolean): PictureFrame {
   const left = Math.min(...boxes.map(({ x }) => x)) - MARGIN;
   const top = Math.min(...boxes.map(({ y }) => y)) - MARGIN;
@@ -27,7 +29,7 @@ export function pictureFrame(boxes: readonly Box[], root: Box, isVertical: boole
     : { ...shown, x: left, y: within(root.y + root.height / 2, shown.height, top, height), cropped: 'right' };
 }
 
-/** Whether any of a box is inside. */
+/** Returns whether any of a box is inside. */
 export const isInside = (frame: Box, box: Box): boolean =>
   box.x < frame.x + frame.width &&
   box.x + box.width > frame.x &&

@@ -24,7 +24,7 @@ export function useSortedTemplates(): { readonly all: readonly TemplateInfo[]; r
   return { all, isKnown: data !== undefined };
 }
 
-/** The texts of a template, in the user's language if there is a translation. */
+/** Returns the texts of a template, in the user's language if there is a translation. */
 export function templateText(
   t: TFunction<'projects'>,
   template: TemplateInfo,

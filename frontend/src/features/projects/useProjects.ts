@@ -7,7 +7,7 @@ import { navigate, projectPath } from '@/store/route';
 import { reasonOf } from './reason';
 import { undoNotification } from '@/ui/undoNotification';
 
-/** The projects of one shelf, page by page. */
+/** Returns the projects of one shelf, page by page. */
 export function useProjects(search: string, sort: ProjectSort, shelf: ProjectShelf) {
   return useInfiniteQuery({
     queryKey: ['projects', search, sort, shelf],
@@ -19,7 +19,7 @@ export function useProjects(search: string, sort: ProjectSort, shelf: ProjectShe
   });
 }
 
-/** The commands for projects on the start page; failures are shown as notifications. */
+/** Returns the commands for projects on the start page; failures are shown as notifications. */
 export function useProjectCommands() {
   const { t } = useTranslation('projects');
   const queries = useQueryClient();

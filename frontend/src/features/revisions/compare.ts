@@ -21,7 +21,7 @@ export function setComparison(change: Partial<Comparison>): void {
   );
 }
 
-/** The two revisions, the older first. */
+/** Returns the two revisions, the older first. */
 export function sidesOf({ revision, before, against }: Comparison, present: number): [number, number] {
   if (against === 'before') return [before, revision.number];
   const other = against === 'now' ? present : against;

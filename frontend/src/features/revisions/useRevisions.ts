@@ -5,7 +5,7 @@ import { useProjectStore } from '@/store/project';
 
 const keyOf = (projectId: string | null) => ['revisions', projectId] as const;
 
-/** The revisions of a file, or of the project when the path is empty; the newest first. */
+/** Returns the revisions of a file, or of the project when the path is empty; the newest first. */
 export function useRevisions(path: string, isVisible: boolean) {
   const projectId = useProjectStore((state) => state.projectId);
   const revision = useProjectStore((state) => state.revision);

@@ -13,7 +13,7 @@ const KNOWN: readonly (readonly [RegExp, string])[] = [
   [/^Change the settings$/, 'message.settings'],
 ];
 
-/** The message of a revision, translated if it is one of our own. */
+/** Returns the message of a revision, translated if it is one of our own. */
 export function sayRevision({ message, number }: Revision, t: TFunction<'revisions'>): string {
   for (const [pattern, key] of KNOWN) {
     const found = pattern.exec(message);

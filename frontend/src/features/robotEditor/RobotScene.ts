@@ -40,7 +40,7 @@ export class RobotScene extends ThingScene<Part> {
     this.show(robot.parts);
   }
 
-  /** The objects that a gesture moves: the given parts and all parts attached to them. */
+  /** Returns the objects that a gesture moves: the given parts and all parts attached to them. */
   heldNodesOf(keys: readonly string[]): THREE.Object3D[] {
     const { robot } = this;
     if (!robot) return [];
@@ -95,7 +95,7 @@ export class RobotScene extends ThingScene<Part> {
   }
 }
 
-/** The field of view of a sensor in its own frame: a ring or a pyramid. */
+/** Returns the field of view of a sensor in its own frame: a ring or a pyramid. */
 function sightOf({ sensor }: Part): THREE.BufferGeometry | null {
   if (sensor?.kind === 'camera') {
     return pyramidOf({ fov: number(sensor.raw['fov'], 1.047), range: FARTHEST_M / 2 });

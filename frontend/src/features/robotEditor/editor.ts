@@ -11,14 +11,14 @@ export type RobotEditor = Editor;
 
 const folderOf = (path: string): string => path.slice(0, path.lastIndexOf('/') + 1);
 
-/** The path of a robot's URDF beside its `robot.yaml`; null if the URDF cannot be shown. */
+/** Returns the path of a robot's URDF beside its `robot.yaml`; null if the URDF cannot be shown. */
 export function urdfPathOf(path: string, yaml: string): string | null {
   const name = urdfNameOf(yaml);
   const isOurs = /\.urdf$/i.test(name) && !name.startsWith('/') && !name.split('/').includes('..');
   return isOurs ? `${folderOf(path)}${name}` : null;
 }
 
-/** The editor of a robot of the open project; it stays when the robot's tab is closed. */
+/** Returns the editor of a robot of the open project; it stays when the robot's tab is closed. */
 export const editorOf = (path: string): RobotEditor =>
   editorFor(path, {
     pathsOf: (yaml) => {
@@ -29,7 +29,7 @@ export const editorOf = (path: string): RobotEditor =>
     grid: 0.005,
   });
 
-/** The present robot, as far as its texts can be read. */
+/** Returns the present robot, as far as its texts can be read. */
 export function readingOf({ path }: RobotEditor): RobotReading {
   const { currentText } = useProjectStore.getState();
   const yaml = currentText(path) ?? '';

@@ -8,13 +8,13 @@ import { urdfPathOf, type RobotEditor } from './editor';
 const LARGEST_M = 3;
 const MILLIMETRE = 0.001;
 
-/** The folder of the URDF; mesh names are relative to it. */
+/** Returns the folder of the URDF; mesh names are relative to it. */
 export function urdfFolder({ path }: RobotEditor): string {
   const urdf = urdfPathOf(path, useProjectStore.getState().currentText(path) ?? '') ?? path;
   return urdf.slice(0, urdf.lastIndexOf('/') + 1);
 }
 
-/** The meshes beside the URDF, by their names in it. */
+/** Returns the meshes beside the URDF, by their names in it. */
 export function meshesOf(editor: RobotEditor, paths: readonly string[]): string[] {
   const folder = urdfFolder(editor);
   return paths

@@ -35,7 +35,7 @@ export function ExecutorState() {
   );
 }
 
-/** The seconds since the executor's last answer, or since a tick was reported as hanging. */
+/** Returns the seconds since the executor's last answer, or since a tick was reported as hanging. */
 function useSilence(): number {
   const silentS = useSessionStore((state) => state.silentS);
   const isHanging = useSessionStore((state) => state.isHanging);

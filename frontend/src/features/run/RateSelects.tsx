@@ -64,7 +64,7 @@ function Choices({ value, options, format, onChoose }: ChoicesProps) {
   );
 }
 
-/** The tick rate and the speed of simulated time. */
+/** Returns the tick rate and the speed of simulated time. */
 function useRates(): readonly RateSelectProps[] {
   const { t } = useTranslation('run');
   const tickHz = useProjectStore((state) => state.settings?.tick_hz ?? DEFAULT_TICK_HZ);

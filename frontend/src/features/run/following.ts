@@ -17,7 +17,7 @@ export function toggleFollowing(): void {
   useFollowing.setState({ isOn });
 }
 
-/** The first running leaf of the tree: the robot's present activity. */
+/** Returns the first running leaf of the tree: the robot's present activity. */
 export function runningLeaf(
   nodes: readonly TreeNode[],
   isRunning: (node: TreeNode) => boolean,

@@ -33,7 +33,7 @@ export function resultsOf(passages: readonly Passage[], { hits, isCut }: Hits): 
   return { groups: [...groups].map(([path, rows]) => ({ path, rows })), count: hits.length, isCut };
 }
 
-/** The hits that can be replaced, joined by the text where they stand. */
+/** Returns the hits that can be replaced, joined by the text where they stand. */
 export function replacementsOf(rows: readonly Row[]): Replacement[] {
   const byPassage = new Map<Passage, Hit[]>();
   for (const { passage, hit } of rows) {

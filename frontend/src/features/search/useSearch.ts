@@ -20,7 +20,7 @@ export interface Search {
   readonly isFresh: boolean;
 }
 
-/** The hits in the project as it is now; searched again after each edit, a moment later. */
+/** Returns the hits in the project as it is now; searched again after each edit, a moment later. */
 export function useSearch(): Search {
   const { files, diagrams } = useProjectStore(
     useShallow((state) => ({ files: state.files, diagrams: state.diagrams })),

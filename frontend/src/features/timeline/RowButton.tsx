@@ -46,7 +46,7 @@ export const RowButton = memo(function RowButton(props: RowButtonProps) {
   );
 });
 
-/** The present and past statuses of a node, updated once a second. */
+/** Returns the present and past statuses of a node, updated once a second. */
 function useSummary(uid: number): { status: NodeStatus; seconds: number; times: number } {
   const [summary, setSummary] = useState(() => ({ status: trace.status(uid), ...trace.runningOf(uid) }));
   useEffect(() => {

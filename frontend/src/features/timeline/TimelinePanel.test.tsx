@@ -34,7 +34,7 @@ const names = () => [...rows().querySelectorAll('button')].map(({ textContent })
 const tool = (name: RegExp | string) => screen.getByRole('button', { name });
 const isFollowing = () => tool('Follow the run').getAttribute('aria-pressed');
 
-/** The time at a share of the width, as the tip says it. */
+/** Returns the time at a share of the width, as the tip says it. */
 function timeAt(share: number): string | undefined {
   fireEvent.pointerMove(rows(), { clientX: 100 + 400 * share, clientY: 5 });
   const time = /(?:idle at|from) (\S+)/.exec(screen.getByRole('presentation').textContent ?? '')?.[1];
@@ -42,7 +42,7 @@ function timeAt(share: number): string | undefined {
   return time;
 }
 
-/** The span that is shown; the pointer is over a node that was idle all the time. */
+/** Returns the span that is shown; the pointer is over a node that was idle all the time. */
 function span(): (string | undefined)[] {
   const at = (share: number) => {
     fireEvent.pointerMove(rows(), { clientX: 100 + 400 * share, clientY: 30 });

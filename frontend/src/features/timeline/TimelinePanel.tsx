@@ -67,7 +67,7 @@ export function TimelinePanel() {
     return box && box.width > 0 ? (clientX - box.left) / box.width : -1;
   };
 
-  /** A drag pans the span; Escape shows the span of before. */
+  /** Returns a drag pans the span; Escape shows the span of before. */
   const onPress = ({ currentTarget, pointerId, clientX, button }: PointerEvent) => {
     hasPanned.current = false;
     if (button !== 0) return;

@@ -72,7 +72,7 @@ function drawn({
   return recorder;
 }
 
-/** A run until 8 s, in which node 1 has one status from 2 s to 4 s. */
+/** Returns a run until 8 s, in which node 1 has one status from 2 s to 4 s. */
 function traceOf(status: NodeStatus, uid = 1): Trace {
   const trace = new Trace();
   trace.start([], 0);

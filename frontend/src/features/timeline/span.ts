@@ -8,7 +8,7 @@ export const SHORTEST_S = 0.5;
 
 const STEPS = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600];
 
-/** The visible range that ends at a time; null: at the present. */
+/** Returns the visible range that ends at a time; null: at the present. */
 export function spanOf(end: number | null, length: number, begin: number, now: number): Span {
   const to = Math.min(end ?? now, Math.max(now, begin + length));
   const from = Math.max(Math.min(to - length, Math.max(now - length, begin)), begin);
@@ -22,7 +22,7 @@ export function zoomed({ from, to }: Span, factor: number, share: number, longes
   return { from: fixed - length * share, to: fixed + length * (1 - share) };
 }
 
-/** The times of the axis marks, at least this many pixels apart. */
+/** Returns the times of the axis marks, at least this many pixels apart. */
 export function marks({ from, to }: Span, width: number, apart = 70): number[] {
   const wanted = ((to - from) * apart) / Math.max(width, 1);
   const step = STEPS.find((candidate) => candidate >= wanted) ?? 600;

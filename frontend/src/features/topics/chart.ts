@@ -10,7 +10,7 @@ export const colorOf = (index: number) => COLORS[index % COLORS.length] ?? '#007
 
 const isDashed = (index: number): boolean => Math.floor(index / COLORS.length) % 2 === 1;
 
-/** The look of a line in the legend. */
+/** Returns the look of a line in the legend. */
 export const markOf = (index: number) =>
   isDashed(index)
     ? { background: `repeating-linear-gradient(90deg, ${colorOf(index)} 0 4px, transparent 4px 6px)` }
@@ -18,7 +18,7 @@ export const markOf = (index: number) =>
 
 export type Plotted = readonly { readonly topic: string; readonly path: string }[];
 
-/** All series over the union of their times; a series without a sample at a time has none there. */
+/** Returns all series over the union of their times; a series without a sample at a time has none there. */
 export function dataOf(plotted: Plotted): uPlot.AlignedData {
   const tables = plotted.map(({ topic, path }): uPlot.AlignedData => {
     const { times, values } = seriesOf(topic, path);

@@ -3,7 +3,7 @@ import { unitOf } from './plotView';
 
 const quoted = (text: string): string => `"${text.replaceAll('"', '""')}"`;
 
-/** The samples of all plotted fields as CSV: the time in s, and a column a field; a gap is empty. */
+/** Returns the samples of all plotted fields as CSV: the time in s, and a column a field; a gap is empty. */
 export function csvOf(plotted: Plotted): string {
   const [times, ...columns] = dataOf(plotted);
   const names = plotted.map(({ topic, path }) => {

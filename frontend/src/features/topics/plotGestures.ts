@@ -12,7 +12,7 @@ function rangeOf({ scales }: uPlot): TimeRange | null {
   return typeof min === 'number' && typeof max === 'number' && max > min ? { min, max } : null;
 }
 
-/** The range that a key of a plot asks for; undefined for other keys, null for everything. */
+/** Returns the range that a key of a plot asks for; undefined for other keys, null for everything. */
 function rangeAfter(key: string, range: TimeRange): TimeRange | null | undefined {
   const span = range.max - range.min;
   const middle = (range.min + range.max) / 2;

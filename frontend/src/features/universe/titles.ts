@@ -7,7 +7,7 @@ export const OUTSIDE = 'none';
 type Kind = 'universe' | 'robot';
 
 /**
- * The title of one of our universes or robots in the page's language; `t` translates in the namespace
+ * Returns the title of one of our universes or robots in the page's language; `t` translates in the namespace
  * `worlds`.
  */
 export function titled(t: TFunction, kind: Kind, info: UniverseInfo): UniverseInfo {

@@ -10,7 +10,7 @@ import { UniverseScene } from './UniverseScene';
 const URDF = `<robot name="r"><link name="base"><visual><origin xyz="0 0 0.5"/>
   <geometry><box size="0.2 0.2 1"/></geometry></visual></link></robot>`;
 
-/** A scene that shows a text; robots look like a box 1 m high. */
+/** Returns a scene that shows a text; robots look like a box 1 m high. */
 function shown(text: string) {
   fakeServer({ 'GET /catalog/robots/turtle2/urdf': new Response(URDF) });
   openUniverse(text, { 'models/tower.urdf': URDF });

@@ -85,7 +85,7 @@ export function placeThing(editor: UniverseEditor, what: Placeable, at?: Point):
   });
 }
 
-/** The middle of the view, or a place beside it if the middle is occupied. */
+/** Returns the middle of the view, or a place beside it if the middle is occupied. */
 function free(editor: UniverseEditor): Point {
   const [x, y] = editor.view?.center() ?? [0, 0];
   const things = readingOf(editor).universe?.things ?? [];

@@ -13,7 +13,7 @@ import type { WallLine } from './WallLine';
 /** Wider things are floors and rooms: they can be dragged only if they are selected. */
 const LARGEST_M = 3;
 
-/** The results of the pointer's gestures on the things of a universe. */
+/** Returns the results of the pointer's gestures on the things of a universe. */
 export function dragHandlerOf(editor: UniverseEditor, scene: UniverseScene): DragHandler {
   const isLarge = (key: string) => {
     const size = scene.boundsOf([key]).getSize(new THREE.Vector3());

@@ -16,10 +16,10 @@ const KIND = {
   grid: 0.1,
 };
 
-/** The editor of a universe of the open project; it stays when the universe's tab is closed. */
+/** Returns the editor of a universe of the open project; it stays when the universe's tab is closed. */
 export const editorOf = (path: string): UniverseEditor => editorFor(path, KIND);
 
-/** The present universe, as far as its text can be read. */
+/** Returns the present universe, as far as its text can be read. */
 export const readingOf = ({ path }: UniverseEditor): Reading =>
   readUniverse(useProjectStore.getState().currentText(path) ?? '');
 

@@ -57,7 +57,7 @@ export class EditorTextures implements Pictures {
     return [1, image ? image.height / image.width : 1];
   }
 
-  /** Whether a texture has arrived: until then its repetition size may not be known. */
+  /** Returns whether a texture has arrived: until then its repetition size may not be known. */
   has(name: string): boolean {
     const file = fileOf(name);
     return file !== '' && this.pictureOf(file).texture !== null;

@@ -1,6 +1,6 @@
 const KEY = 'bts.keep3d';
 
-/** Whether 3D stays although it draws slowly: the user, or a test, chose so. */
+/** Returns whether 3D stays although it draws slowly: the user, or a test, chose so. */
 export const keeps3d = (): boolean => localStorage.getItem(KEY) !== null;
 
 /** Keeps 3D in this browser from now on. */

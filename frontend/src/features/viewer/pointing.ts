@@ -17,7 +17,7 @@ function aim(event: PointerEvent, canvas: HTMLElement, camera: THREE.Camera): vo
   ray.setFromCamera(new THREE.Vector2(x, y), camera);
 }
 
-/** The object under the pointer: a body of the world, or the ground. */
+/** Returns the object under the pointer: a body of the world, or the ground. */
 export function pointedAt(
   event: PointerEvent,
   canvas: HTMLElement,
@@ -31,7 +31,7 @@ export function pointedAt(
   return point ? { point, objectId: null } : null;
 }
 
-/** The pointer's position at a height above the ground. */
+/** Returns the pointer's position at a height above the ground. */
 export function pointedAtHeight(
   event: PointerEvent,
   canvas: HTMLElement,

@@ -26,7 +26,7 @@ export class Slowness {
     else this.pictures += 1;
   }
 
-  /** The rate of the last `PATIENCE_MS`, 1/s, if it was too low all the time; otherwise null. */
+  /** Returns the rate of the last `PATIENCE_MS`, 1/s, if it was too low all the time; otherwise null. */
   tooSlow(now: number): number | null {
     if (this.since === null || now - this.since < PATIENCE_MS) return null;
     const hz = (this.pictures * 1000) / (now - this.since);

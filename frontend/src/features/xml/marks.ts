@@ -31,7 +31,7 @@ export function problemMarks(
   });
 }
 
-/** The diagnostics of the text, on their lines. */
+/** Returns the diagnostics of the text, on their lines. */
 export function findingMarks(doc: Text, findings: readonly Diagnostic[]): Mark[] {
   const placed = findings.map((finding) => ({ ...finding, file: 'text', line: finding.line ?? 1 }));
   return marksFor(doc, 'text', placed, []);

@@ -62,7 +62,7 @@ export const nodeRanges: Extension = [nodesField, chosenLines];
 
 export const rangesOf = (view: EditorView): readonly NodeRange[] => view.state.field(nodesField).ranges;
 
-/** The innermost node at a place of the text. */
+/** Returns the innermost node at a place of the text. */
 export function nodeAt(ranges: readonly NodeRange[], at: number): string | null {
   let found: NodeRange | null = null;
   for (const range of ranges) {

@@ -6,7 +6,7 @@ import type { Json, JsonObject } from './values';
 
 const universe = (more: JsonObject) =>
   checkSchema({ format: 'bt-studio/universe', version: 1, name: 'U', ...more }, validateUniverse);
-/** What is wrong in a list of one sensor. */
+/** Returns the issues of a robot with this one sensor. */
 const sensors = (sensor: Json) =>
   checkSchema({ sensors: [sensor] }, validateRobot).filter(({ path }) => path[0] === 'sensors');
 const box = { id: 'a', shape: 'box', size: [1, 1, 1] };

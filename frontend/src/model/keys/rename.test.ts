@@ -144,7 +144,7 @@ const calls = (called: string) =>
         >,
       ),
     );
-/** Trees that call those after them. */
+/** Trees, each of which calls only later ones. */
 const forests = fc
   .tuple(
     fc.array(fc.oneof(leaves, calls('Mid'), calls('Low')), { minLength: 1, maxLength: 4 }),
@@ -153,7 +153,10 @@ const forests = fc
   )
   .map(([main, mid, low]) => forest(tree('Main', ...main), tree('Mid', ...mid), tree('Low', ...low)));
 
-/** The entry of each use, numbered by first use: found by following the keys up through every chain of calls. */
+/**
+ * Returns the entry of each use, numbered by first use. An entry is found by following the key up through
+ * every chain of calls.
+ */
 function entries(trees: Forest): number[][] {
   const numbers = new Map<string, number>();
   const found: number[][] = [];

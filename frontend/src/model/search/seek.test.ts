@@ -58,7 +58,7 @@ describe('replaced', () => {
     fc.assert(
       fc.property(letters, templates, (text, template) => {
         const expression = '(a)(?<n>b)?';
-        // A prefix of the text, and a suffix, are no part of our replacements; nor are two digits of one group.
+        // Our replacements support neither the text before and after a match nor groups of two digits.
         fc.pre(!/\$[`']/.test(template) && !/\$\d\d/.test(template));
         expect(swap(text, expression, template)).toBe(text.replace(/(a)(?<n>b)?/gm, template));
       }),

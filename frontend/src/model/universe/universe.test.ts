@@ -244,7 +244,7 @@ describe('edits', () => {
   });
 });
 
-/** Edits that a user may make, in any order, on whatever there is. */
+/** Edits that a user may make, in any order, on any things. */
 const gesture = fc.tuple(
   fc.nat(8),
   fc.nat(9),

@@ -10,5 +10,5 @@ export const useImportReport = create<ImportReport>(() => ({ projectId: null, fi
 
 export const announceImport = (projectId: string, file: string) =>
   useImportReport.setState({ projectId, file });
-/** The name of the file stays: it is in the title while the report fades out. */
+/** Returns the name of the file stays: it is in the title while the report fades out. */
 export const closeImportReport = () => useImportReport.setState({ projectId: null });

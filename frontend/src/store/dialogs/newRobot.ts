@@ -11,6 +11,6 @@ export const closeNewRobot = () => useNewRobot.setState({ base: null });
 
 export const ROBOT_FILE = /^robots\/[^/]+\/robot\.yaml$/;
 
-/** The robots of a project, by id. */
+/** Returns the robots of a project, by id. */
 export const ownRobots = (paths: Iterable<string>): string[] =>
   [...paths].filter((path) => ROBOT_FILE.test(path)).map((path) => path.split('/')[1] ?? '');

@@ -46,7 +46,7 @@ interface Words {
   readonly hint?: string | null;
 }
 
-/** A row with the text of a checker that is not the editor itself. */
+/** Returns a row with the text of a checker that is not the editor itself. */
 function rowOf(
   { severity, code, message, hint }: Words,
   place: Partial<ListedProblem>,
@@ -129,7 +129,9 @@ function fileRows(path: string, sources: ProblemSources): ListedProblem[] {
   ];
 }
 
-/** All findings of the project, the worst first: of the run, the trees, the last save, and the texts. */
+/**
+ * Returns all findings of the project, the worst first: of the run, the trees, the last save, and the texts.
+ */
 export function listProblems(sources: ProblemSources): readonly ListedProblem[] {
   const { faults, diagrams, files, served, linted, errors } = sources;
   const texts = new Set([served, linted, errors].flatMap((found) => Object.keys(found)));
@@ -144,7 +146,7 @@ export function listProblems(sources: ProblemSources): readonly ListedProblem[] 
 
 export type Worst = 'error' | 'warning';
 
-/** The worst error or warning of each file with one; a finding in a tree counts for its file. */
+/** Returns the worst error or warning of each file with one; a finding in a tree counts for its file. */
 export function worstByFile(rows: readonly ListedProblem[]): ReadonlyMap<string, Worst> {
   const worst = new Map<string, Worst>();
   for (const { severity, file, tree } of rows) {

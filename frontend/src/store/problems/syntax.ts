@@ -16,8 +16,8 @@ const servesSyntax = ({ served = [] }: FileFindings): boolean =>
   served.some(({ source }) => source === SYNTAX);
 
 /**
- * Whether a newer check of the text reports the same error as the check of the last save: the language server
- * and ruff for Python, the editor for JSON.
+ * Returns whether a newer check of the text reports the same error as the check of the last save: the
+ * language server and ruff for Python, the editor for JSON.
  */
 export function isSuperseded(item: Pick<Diagnostic, 'code'>, found: FileFindings): boolean {
   if (item.code === 'BT0001') return found.errors !== undefined;

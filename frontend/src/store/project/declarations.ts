@@ -7,8 +7,8 @@ const isUnreadable = ({ diagnostics = [] }: ActionModel): boolean =>
   diagnostics.some(({ code }) => UNREADABLE.includes(code));
 
 /**
- * The actions after a check. An action whose Python cannot be read keeps its last declaration, which is marked
- * as outdated.
+ * Returns the actions after a check. An action whose Python cannot be read keeps its last declaration, which
+ * is marked as outdated.
  */
 export function withLastDeclarations(
   before: readonly ActionModel[],

@@ -10,7 +10,7 @@ export interface OpenedFiles {
   readonly diagrams: Readonly<Record<string, Diagram>>;
 }
 
-/** A diagram; null if the text is invalid: then the user gets the text to repair it. */
+/** Returns a diagram; null if the text is invalid: then the user gets the text to repair it. */
 export function tryParse(id: string, text: string): Diagram | null {
   try {
     return { ...parseDiagram(text), id };

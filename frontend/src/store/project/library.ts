@@ -34,7 +34,7 @@ function isTaken(value: unknown): value is Taken {
   return typeof source === 'string' && typeof version === 'string' && typeof places === 'object';
 }
 
-/** The project's record; an unreadable one counts as empty. */
+/** Returns the project's record; an unreadable one counts as empty. */
 export function takenIn(text: string | null): Readonly<Record<string, Taken>> {
   if (text === null) return {};
   try {
@@ -63,7 +63,7 @@ function write(path: string, text: string): void {
   else addFile(path, text);
 }
 
-/** The ports of a tree as a subtree. */
+/** Returns the ports of a tree as a subtree. */
 function portsOf(text: string | undefined): readonly PortSpec[] {
   return text === undefined ? [] : treeFacts(parseDiagram(text)).ports;
 }
@@ -95,7 +95,7 @@ export interface Difference {
   readonly theirs: string;
 }
 
-/** The changes of an update; empty if the project has the newest version. */
+/** Returns the changes of an update; empty if the project has the newest version. */
 export function differencesOf(behaviour: Reusable): readonly Difference[] {
   const taken = takenNow()[keyOf(behaviour)];
   if (!taken) return [];
@@ -111,7 +111,7 @@ export function updateBehaviour(behaviour: Reusable): void {
   remember(behaviour, takenNow()[keyOf(behaviour)]?.places ?? {});
 }
 
-/** The trees of a project as reusable behaviours, its main tree included. */
+/** Returns the trees of a project as reusable behaviours, its main tree included. */
 export function reusablesOf(project: string, revision: number, files: Sources): readonly Reusable[] {
   return Object.keys(files)
     .map((path) => /^trees\/([^/]+)\.json$/.exec(path)?.[1])

@@ -118,7 +118,7 @@ function isEqual(a: ReadonlyMap<LiveKey, NodeStatus>, b: ReadonlyMap<LiveKey, No
   return a.size === b.size && [...a].every(([key, status]) => b.get(key) === status);
 }
 
-/** The status of a block in the last tick, if it is idle again. */
+/** Returns the status of a block in the last tick, if it is idle again. */
 export function pastOf({ statuses, past }: LiveState, key: LiveKey): NodeStatus | undefined {
   return (statuses.get(key) ?? 'IDLE') === 'IDLE' ? past.get(key) : undefined;
 }

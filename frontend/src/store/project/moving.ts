@@ -13,19 +13,19 @@ export function kindOf(path: string): DocumentKind {
   return ROBOT.test(path) ? 'robot' : 'file';
 }
 
-/** The name of a document; of a robot it is its folder. */
+/** Returns the name of a document; of a robot it is its folder. */
 export const documentName = (path: string): string =>
   (UNIVERSE.exec(path) ?? ROBOT.exec(path))?.[1] ??
   path.replace(/^actions\/(.+)\.py$/, '$1').replace(/^trees\/(.+)\.json$/, '$1');
 
-/** The files of a document; of a robot all files in its folder. */
+/** Returns the files of a document; of a robot all files in its folder. */
 export function filesOf(path: string): string[] {
   const { files } = useProjectStore.getState();
   const folder = kindOf(path) === 'robot' ? path.slice(0, path.lastIndexOf('/') + 1) : null;
   return folder === null ? [path] : Object.keys(files).filter((each) => each.startsWith(folder));
 }
 
-/** The path of a document after renaming. */
+/** Returns the path of a document after renaming. */
 export function pathNamed(path: string, name: string): string {
   const kind = kindOf(path);
   if (kind === 'universe') return `universes/${name}.yaml`;

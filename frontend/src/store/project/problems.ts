@@ -44,7 +44,7 @@ function ownProblems(diagram: Diagram, vocabulary: Vocabulary): readonly Problem
   return problems;
 }
 
-/** All findings of one tree, the editor's first; a finding of both is shown once. */
+/** Returns all findings of one tree, the editor's first; a finding of both is shown once. */
 export function problemsOf(
   diagram: Diagram,
   vocabulary: Vocabulary,
@@ -80,11 +80,11 @@ export function problemsOf(
   return [...own, ...server];
 }
 
-/** The errors among the findings of a check. */
+/** Returns the errors among the findings of a check. */
 export const errorsOf = (diagnostics: readonly Diagnostic[]): Diagnostic[] =>
   diagnostics.filter(({ severity }) => severity === 'error');
 
-/** The worst finding of each node. */
+/** Returns the worst finding of each node. */
 export function worstByNode(problems: readonly ShownProblem[]): ReadonlyMap<NodeId, ShownProblem> {
   const worst = new Map<NodeId, ShownProblem>();
   for (const problem of problems) {

@@ -84,12 +84,12 @@ export interface ProjectActions {
   deleteFile(path: string): void;
   setSettings(patch: Partial<ProjectSettings>): void;
   setChecked(checked: { diagnostics: readonly Diagnostic[]; actions: readonly ActionModel[] }): void;
-  /** The changes to send to the server, each file with its base revision. */
+  /** Returns the changes to send to the server, each file with its base revision. */
   pendingChanges(): FileChange[];
   applySaved(sent: readonly FileChange[], result: ChangesResult): void;
   /** After a conflict: sets the base revision of the file; its text here stays. */
   rebase(path: string, revision: number, savedText: string): void;
-  /** The text of a file as it would be saved; null if it is binary or unknown. */
+  /** Returns the text of a file as it would be saved; null if it is binary or unknown. */
   currentText(path: string): string | null;
 }
 

@@ -48,7 +48,7 @@ function sameTrees(a: Vocabulary['trees'], b: Vocabulary['trees']): boolean {
 
 const lastActions = new WeakMap<Vocabulary, ProjectData['actions']>();
 
-/** The vocabulary of the present data; the same object while its inputs are unchanged. */
+/** Returns the vocabulary of the present data; the same object while its inputs are unchanged. */
 function vocabularyOf(data: ProjectData): Vocabulary {
   const trees = new Map(Object.entries(data.diagrams).map(([id, diagram]) => [id, treeFacts(diagram)]));
   const last = data.vocabulary;
@@ -61,7 +61,7 @@ function vocabularyOf(data: ProjectData): Vocabulary {
 
 const NOT_CHECKED = 'BT0009';
 
-/** The findings after a check; if the check failed, the earlier findings stay. */
+/** Returns the findings after a check; if the check failed, the earlier findings stay. */
 export function findingsAfter(before: Findings, answer: Findings & Pick<CheckResult, 'checked'>): Findings {
   const { checked, diagnostics, actions } = answer;
   if (checked !== false) return { diagnostics, actions: withLastDeclarations(before.actions, actions) };
@@ -74,7 +74,7 @@ export function confirmed<T>(before: T, now: T): T {
   return JSON.stringify(before) === JSON.stringify(now) ? before : now;
 }
 
-/** The actions that the server read from a save, and those that were created here since then. */
+/** Returns the actions that the server read from a save, and those that were created here since then. */
 export function actionsAfter(
   before: ProjectData['actions'],
   saved: ProjectData['actions'],

@@ -22,7 +22,7 @@ async function reported(doing: Promise<unknown>): Promise<void> {
 export const isRunning = () => useSessionStore.getState().executor === 'application_running';
 export const isPaused = () => useSessionStore.getState().executor === 'paused';
 export const hasApplication = () => isRunning() || isPaused();
-/** Whether the program can be started in the world as it is. */
+/** Returns whether the program can be started in the world as it is. */
 export const canRestart = () =>
   hasApplication() || useSessionStore.getState().executor === 'visualization_ready';
 const isWorldUp = () => !['idle', 'connected'].includes(useSessionStore.getState().executor);
@@ -43,7 +43,7 @@ export const canRunWorld = () => {
   const session = useSessionStore.getState();
   return session.executor === 'visualization_ready' && isWorldPaused(session);
 };
-/** Whether there is something to stop: a program, or a world that runs without one. */
+/** Returns whether there is something to stop: a program, or a world that runs without one. */
 export const canStop = () => hasApplication() || doesWorldRunAlone(useSessionStore.getState());
 export const resetWorld = () => reported(send('reset_world', {}));
 /** Takes control of the session; the page that had it becomes a viewer. */

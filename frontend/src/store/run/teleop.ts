@@ -31,8 +31,8 @@ export const useTeleop = create<TeleopData>(() => ({
 let repeating: ReturnType<typeof setInterval> | undefined;
 
 /**
- * Whether the robot can be driven by hand, which needs running time: a pause freezes the world until resume
- * or stop.
+ * Returns whether the robot can be driven by hand, which needs running time: a pause freezes the world until
+ * resume or stop.
  */
 export function canDrive(): boolean {
   const { executor, introspection } = useSessionStore.getState();

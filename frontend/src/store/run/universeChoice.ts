@@ -12,7 +12,9 @@ interface UniverseChoice {
 /** Kept until the page closes: a choice for a trial is not saved in the project. */
 export const useUniverseChoice = create<UniverseChoice>(() => ({ universe: null, robot: null, seed: 0 }));
 
-/** The universe and robot of the next run, in the form in which the server sent them for this choice. */
+/**
+ * Returns the universe and robot of the next run, in the form in which the server sent them for this choice.
+ */
 export function chosenUniverse<T>(own: { universe: T; robot: string | null }): {
   universe: T;
   robot: string | null;

@@ -136,7 +136,7 @@ function onRefused(error: unknown): void {
   if (error instanceof ApiError && (error.isOffline || error.status >= 500)) saveSoon(RETRY_AFTER_MS);
 }
 
-/** The message of this save in the history. */
+/** Returns the message of this save in the history. */
 function messageFor(files: readonly FileChange[]): string {
   const names = files.map((file) => file.path.split('/').at(-1) ?? file.path);
   return names.length <= 3 ? `Edit ${names.join(', ')}` : `Edit ${names.length} files`;

@@ -10,7 +10,7 @@ export interface Binary {
   readonly data: ArrayBuffer;
 }
 
-/** The URL of a file of the open project. */
+/** Returns the URL of a file of the open project. */
 export const fileUrl = (path: string): string => {
   const { projectId } = useProjectStore.getState();
   return urlOf(`/projects/${projectId ?? ''}/files/${path.split('/').map(encodeURIComponent).join('/')}`);

@@ -29,7 +29,8 @@ const STREAMING: readonly State[] = ['visualization_ready', 'application_running
 const isOffline = (error: unknown) => error instanceof ApiError && error.isOffline;
 
 /**
- * The reason for a lost connection; the browser's text of a network error is replaced by a translated one.
+ * Returns the reason for a lost connection; the browser's text of a network error is replaced by a translated
+ * one.
  */
 function reasonOf(error: unknown): string {
   if (isOffline(error)) return t('run:banner.unreachable');
@@ -123,7 +124,7 @@ class SessionConnection {
     resetSession({ projectId: null, logs: [] });
   }
 
-  /** The only place that sets the state; an event without a transition in the table is ignored. */
+  /** Returns the only place that sets the state; an event without a transition in the table is ignored. */
   private go(event: ConnectionEvent, change: Partial<SessionData> = {}): boolean {
     const next = nextConnection(useSessionStore.getState().connection, event);
     if (next === null) return false;
@@ -159,7 +160,7 @@ class SessionConnection {
     resetTopics();
   }
 
-  /** The URL of a session's socket for this page. */
+  /** Returns the URL of a session's socket for this page. */
   private addressFor(path: string): string {
     const query = this.clientId === null ? '' : `?client=${encodeURIComponent(this.clientId)}`;
     return socketUrl(path) + query;

@@ -12,7 +12,7 @@ export class CommandError extends Error {
   }
 }
 
-/** Whether the connection failed and not the command; the banner reports a lost connection itself. */
+/** Returns whether the connection failed and not the command; the banner reports a lost connection itself. */
 export const isUnconnected = (error: unknown) =>
   error instanceof CommandError && ['not_connected', 'connection_lost'].includes(error.code);
 
@@ -57,7 +57,7 @@ export class ControlSocket {
     return this.socket?.readyState === WebSocket.OPEN;
   }
 
-  /** Whether the socket still buffers data to send. */
+  /** Returns whether the socket still buffers data to send. */
   get isSending(): boolean {
     return (this.socket?.bufferedAmount ?? 0) > 0;
   }

@@ -11,7 +11,7 @@ export interface Field {
 /** The number of elements of a list that are shown; the others are left out. */
 const SHOWN_ELEMENTS = 64;
 
-/** The fields of a message as rows, in order; fields below a folded path are left out. */
+/** Returns the fields of a message as rows, in order; fields below a folded path are left out. */
 export function fieldsOf(message: unknown, isFolded: (path: string) => boolean): Field[] {
   const rows: Field[] = [];
   const visit = (value: unknown, path: string, name: string, depth: number) => {
@@ -33,7 +33,7 @@ export function fieldsOf(message: unknown, isFolded: (path: string) => boolean):
   return rows;
 }
 
-/** The number at a path; a boolean is 0 or 1, anything else null. */
+/** Returns the number at a path; a boolean is 0 or 1, anything else null. */
 export function numberAt(message: unknown, path: string): number | null {
   let value: unknown = message;
   for (const [, name, index] of path.matchAll(/([^.[\]]+)|\[(\d+)\]/g)) {

@@ -33,7 +33,7 @@ class FrameBus {
     return (this.latest.get('scene') as Scene | undefined) ?? null;
   }
 
-  /** The latest simulated time in any stream, s. */
+  /** Returns the latest simulated time in any stream, s. */
   newest(): number {
     return Math.max(0, ...[...this.latest.values()].map(({ t }) => t));
   }
@@ -45,7 +45,7 @@ class FrameBus {
 
 export const frames = new FrameBus();
 
-/** The floats of a binary field; copies only if the bytes are not aligned to four. */
+/** Returns the floats of a binary field; copies only if the bytes are not aligned to four. */
 export function floatsOf(bytes: Uint8Array): Float32Array {
   const aligned = bytes.byteOffset % 4 === 0 ? bytes : bytes.slice();
   return new Float32Array(aligned.buffer, aligned.byteOffset, aligned.byteLength >> 2);

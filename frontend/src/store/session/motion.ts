@@ -21,7 +21,7 @@ const STILL_AFTER_MS = 800;
 
 export const useMotion = create<Motion>(() => ({ speed: 0, t: 0 }));
 
-/** The length of the path in the window per simulated second. */
+/** Returns the length of the path in the window per simulated second. */
 export function speedOf(samples: readonly Sample[]): number {
   const first = samples[0];
   const last = samples.at(-1);

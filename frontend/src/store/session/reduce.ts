@@ -154,12 +154,12 @@ function mergeBlackboard(
   return next;
 }
 
-/** Whether a fault is that of one of these launch nodes, by its place in the launch file. */
+/** Returns whether a fault is that of one of these launch nodes, by its place in the launch file. */
 export const isOfLaunchNode = (fault: Fault, nodes: readonly LaunchNode[]): boolean =>
   fault.kind === 'process' &&
   nodes.some(({ file, line }) => file !== '' && file === fault.file && line === fault.line);
 
-/** The faults that do not concern the program: those of launch nodes. */
+/** Returns the faults that do not concern the program: those of launch nodes. */
 export const launchNodeFaults = ({ faults, launchNodes }: Pick<SessionData, 'faults' | 'launchNodes'>) =>
   faults.filter((fault) => isOfLaunchNode(fault, launchNodes));
 
@@ -176,7 +176,7 @@ function beginRun(state: SessionData): Partial<SessionData> {
   };
 }
 
-/** A fault as console lines: its traceback, whose lines can be clicked. */
+/** Returns a fault as console lines: its traceback, whose lines can be clicked. */
 function logOf(fault: Fault, time: number): Log {
   const source = fault.node_id || fault.kind === 'exception' ? 'action' : 'manager';
   const text = fault.traceback || fault.message;
@@ -184,7 +184,7 @@ function logOf(fault: Fault, time: number): Log {
   return { source, level: 'error', text, node_id, node_path, time, launch_node: '' };
 }
 
-/** A console line about a topic whose publishers and subscribers do not match. */
+/** Returns a console line about a topic whose publishers and subscribers do not match. */
 function mismatchLog({ topic, message, hint }: TopicMismatch, time: number): Log {
   const text = `${topic}: ${message} ${hint}`;
   return { source: 'world', level: 'warning', text, node_id: '', node_path: '', time, launch_node: '' };

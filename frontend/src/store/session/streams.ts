@@ -18,7 +18,7 @@ export interface StreamHandle {
 
 type SendSubscription = (stream: StreamName, options: StreamOptions | null, sensor?: string) => void;
 
-/** One subscription for all views of a stream: as often and as wide as any of them wants it. */
+/** Returns one subscription for all views of a stream: as often and as wide as any of them wants it. */
 function together(wants: readonly Want[]): StreamOptions | null {
   const last = wants.at(-1)?.options;
   if (!last) return null;

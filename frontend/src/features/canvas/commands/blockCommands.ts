@@ -43,7 +43,8 @@ import { openQuickAddHere } from '../quickAdd/open';
 export interface BlockCommand extends UserCommand {
   icon: Icon;
   /**
-   * The key in `canvas:menu` of its label for a block or for the free canvas; null if it is not in the menu.
+   * Returns the key in `canvas:menu` of its label for a block or for the free canvas; null if it is not in
+   * the menu.
    */
   inMenu: (isOnBlock: boolean) => string | null;
 }

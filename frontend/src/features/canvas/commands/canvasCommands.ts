@@ -28,7 +28,7 @@ import { fit, fitSelection, isTreeShown, zoomIn, zoomOut, zoomReset } from '../v
 const state = () => useProjectStore.getState();
 const undoStack = () => state().histories[state().activeTree ?? ''];
 const canRedo = () => undoTarget()?.canRedo ?? (undoStack()?.future.length ?? 0) > 0;
-/** A universe or a robot in front has its own steps of undo. */
+/** Returns a universe or a robot in front has its own steps of undo. */
 const undoInFront = () => (undoTarget() ? undoTarget()?.travel('undo') : state().undo());
 const redoInFront = () => (undoTarget() ? undoTarget()?.travel('redo') : state().redo());
 const hasTree = () => activeDiagram() !== null;

@@ -38,8 +38,8 @@ const isTextField = (element: Element | null): boolean =>
   element?.matches('input, textarea, [contenteditable=true]') === true;
 
 /**
- * Whether the clipboard event is for blocks: the canvas has the focus, or nothing has it and no text is
- * selected. Browsers send such events to the last place of the caret, which may be a tab that was pressed
+ * Returns whether the clipboard event is for blocks: the canvas has the focus, or nothing has it and no text
+ * is selected. Browsers send such events to the last place of the caret, which may be a tab that was pressed
  * before.
  */
 function areBlocksMeant(event: Event): boolean {

@@ -26,7 +26,7 @@ const DIRECTIONS: Record<Diagram['layout'], Readonly<Record<string, Direction>>>
   horizontal: { ArrowLeft: 'up', ArrowRight: 'down', ArrowUp: 'before', ArrowDown: 'after' },
 };
 
-/** The next block in a direction: a sibling, or beyond the last sibling the nearest cousin. */
+/** Returns the next block in a direction: a sibling, or beyond the last sibling the nearest cousin. */
 export function neighbour(diagram: Diagram, id: NodeId, direction: Direction): NodeId | null {
   if (direction === 'up') return parentOf(diagram, id);
   if (direction === 'down') return visibleChildren(diagram, id)[0] ?? null;
@@ -93,7 +93,7 @@ function onBlockKey(event: KeyboardEvent, diagram: Diagram, id: NodeId): boolean
   }
 }
 
-/** The context menu key, and Shift+F10 for keyboards without one. */
+/** Returns the context menu key, and Shift+F10 for keyboards without one. */
 export const isMenuKey = ({ key, shiftKey }: KeyboardEvent): boolean =>
   key === 'ContextMenu' || (key === 'F10' && shiftKey);
 

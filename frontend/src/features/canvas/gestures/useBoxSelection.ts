@@ -3,11 +3,11 @@ import { useCallback, useRef, type MouseEvent } from 'react';
 import { useProjectStore } from '@/store/project';
 import { cancellable } from '@/ui/cancellable';
 
-/** The pointer of an event of React Flow, which types it as the mouse's. */
+/** Returns the pointer of an event of React Flow, which types it as the mouse's. */
 const pointerIdOf = ({ nativeEvent }: MouseEvent): number | null =>
   'pointerId' in nativeEvent ? (nativeEvent.pointerId as number) : null;
 
-/** A frame that is drawn around blocks selects them; Escape restores what was selected before. */
+/** Returns a frame that is drawn around blocks selects them; Escape restores what was selected before. */
 export function useBoxSelection(treeId: string) {
   const store = useStoreApi();
   const before = useRef<readonly string[]>([]);

@@ -45,7 +45,7 @@ function begin() {
     const { x, y, width, height } = boxOf(id);
     return { x: x + width / 2, y: y + height / 2 };
   };
-  /** The block as React Flow carries it, off its place by so much, and the pointer. */
+  /** Returns the block as React Flow carries it, off its place by so much, and the pointer. */
   const held = (id: string, dx: number, dy: number, pointer: { x: number; y: number }, altKey: boolean) =>
     [
       { clientX: pointer.x, clientY: pointer.y, altKey } as MouseEvent,

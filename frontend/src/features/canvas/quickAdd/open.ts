@@ -16,7 +16,7 @@ export function openQuickAddBelow(tree: string, parent: NodeId, x: number, y: nu
   openQuickAdd(tree, { does: 'add', place: { at: 'child', parent, index } }, x, y);
 }
 
-/** The position of a block in the window; the middle of the canvas if it is not drawn. */
+/** Returns the position of a block in the window; the middle of the canvas if it is not drawn. */
 export function pointOf(id: NodeId | undefined): { x: number; y: number } {
   const block = id === undefined ? null : document.querySelector(`[data-testid="node-${CSS.escape(id)}"]`);
   const box = (block ?? document.querySelector('[data-testid="canvas"]'))?.getBoundingClientRect();

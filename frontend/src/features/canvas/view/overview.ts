@@ -36,7 +36,7 @@ export function shrink(bounds: Box, picture: Size): Shrinking {
   };
 }
 
-/** The box around all of them. */
+/** Returns the box around all of them. */
 export function boundsOf(boxes: Iterable<Box>): Box {
   let [left, top, right, bottom] = [Infinity, Infinity, -Infinity, -Infinity];
   for (const { x, y, width, height } of boxes) {
@@ -53,7 +53,7 @@ export function boundsOf(boxes: Iterable<Box>): Box {
 /** The smallest size of the view's frame that can still be dragged. */
 const LEAST = 6;
 
-/** The part of a view that lies in the picture, in the picture's coordinates. */
+/** Returns the part of a view that lies in the picture, in the picture's coordinates. */
 export function frameOf(view: Box, { sx, sy, left, top }: Shrinking, picture: Size): Box {
   const span = (from: number, to: number, end: number): [number, number] => {
     const middle = Math.max(LEAST / 2, Math.min(end - LEAST / 2, (from + to) / 2));

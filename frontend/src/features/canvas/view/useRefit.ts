@@ -7,7 +7,7 @@ import { FIT, READABLE } from './useViewport';
 
 const ANIMATED = { ...FIT, duration: 200 };
 
-/** The SubTree that was expanded or closed last, with what is shown inside of it now. */
+/** Returns the SubTree that was expanded or closed last, with what is shown inside of it now. */
 function changedGroup(
   { shown }: TreeOnCanvas,
   before: ReadonlyMap<NodeId, unknown>,
@@ -66,7 +66,7 @@ interface Seen {
   readonly layout: TreeOnCanvas['layout'];
 }
 
-/** Whether all blocks were in the view. */
+/** Returns whether all blocks were in the view. */
 function isWhole({ width, height, layout }: Seen, [x, y, zoom]: readonly [number, number, number]): boolean {
   const boxes = Object.values(layout.positions);
   return (

@@ -19,7 +19,7 @@ const diagram = (layout: Diagram['layout'] = 'vertical'): Diagram => ({
 });
 
 let count = 0;
-/** A tree that nobody has looked at yet. */
+/** Returns a tree that nobody has looked at yet. */
 const fresh = () => `Tree${(count += 1)}`;
 
 /** Opens the view of a tree, and returns how it begins. */

@@ -18,7 +18,9 @@ export const FIT = { padding: 0.14, maxZoom: 1.1, minZoom: LEAST_ZOOM } as const
 export const READABLE = 0.6;
 const EDGE = 48;
 
-/** The initial view of a tree that does not fit: its root, readable, near the edge that it grows from. */
+/**
+ * Returns the initial view of a tree that does not fit: its root, readable, near the edge that it grows from.
+ */
 function atRoot(
   { width, height }: { width: number; height: number },
   root: Box,

@@ -172,7 +172,10 @@ class Connection {
 
 let connection: Connection | null = null;
 
-/** The extensions that connect a Python editor to the language server; all editors share the connection. */
+/**
+ * Returns the extensions that connect a Python editor to the language server; all editors share the
+ * connection.
+ */
 export function languageSupport(path: string): Extension {
   const { projectId } = useProjectStore.getState();
   if (!projectId || !path.endsWith('.py')) return [];

@@ -29,7 +29,7 @@ export function offsetOf(doc: Text, { line, column }: PythonPlace): number {
  */
 const COARSE = { scanLimit: 1000, timeout: 100 };
 
-/** The changes between two texts, so that cursors and marks keep their places. */
+/** Returns the changes between two texts, so that cursors and marks keep their places. */
 export function changesBetween(before: string, after: string): ChangeSpec[] {
   return diff(before, after, COARSE).map(({ fromA, toA, fromB, toB }) => ({
     from: fromA,

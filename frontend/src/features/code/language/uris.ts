@@ -7,6 +7,6 @@ export const uriOf = (path: string): string => PROJECT + path.split('/').map(enc
 export const pathOf = (uri: string): string | null =>
   uri.startsWith(PROJECT) ? decodeURIComponent(uri.slice(PROJECT.length)) : null;
 
-/** The name of the library module that a URI stands for. */
+/** Returns the name of the library module that a URI stands for. */
 export const libraryOf = (uri: string): string | null =>
   uri.startsWith(LIBRARY) ? decodeURIComponent(uri.slice(LIBRARY.length)) : null;

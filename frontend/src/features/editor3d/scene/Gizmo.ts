@@ -34,7 +34,7 @@ export interface Stand {
 export interface Handles {
   /** Null: the selection contains nothing that can be moved. */
   stand(): Stand | null;
-  /** The objects that follow the gizmo while it is dragged. */
+  /** Returns the objects that follow the gizmo while it is dragged. */
   held(): readonly THREE.Object3D[];
   /** Applies the gesture; `start` is the gizmo's pose before it. */
   commit(mode: Mode, pivot: THREE.Object3D, start: THREE.Matrix4): void;

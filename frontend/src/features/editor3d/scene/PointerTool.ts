@@ -44,7 +44,7 @@ interface Parts {
   readonly drawing?: Drawing;
   readonly camera: THREE.Camera;
   readonly canvas: HTMLElement;
-  /** Whether the gizmo handles the pointer at the moment. */
+  /** Returns whether the gizmo handles the pointer at the moment. */
   readonly isTaken: () => boolean;
   readonly hold: (isHeld: boolean) => void;
   readonly redraw: () => void;
@@ -97,7 +97,10 @@ export class PointerTool {
     if (!isAdding(event)) this.take(event);
   };
 
-  /** Whether the pointer is on a thing that is not selected and can be dragged: it wins over the gizmo. */
+  /**
+   * Returns whether the pointer is on a thing that is not selected and can be dragged: it wins over the
+   * gizmo.
+   */
   private isOnAnother(event: PointerEvent): boolean {
     const { scene, camera, canvas, dragHandler, editor } = this.parts;
     const hit = thingAt(event, canvas, camera, scene);

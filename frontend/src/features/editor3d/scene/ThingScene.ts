@@ -10,7 +10,7 @@ import { box } from './marks';
 const PENDING = [0.6, 0.62, 0.66, 0.5];
 const FAILED = [0.85, 0.25, 0.22, 0.6];
 
-/** The parts of `#rrggbb` or `#rrggbbaa`, each from 0 to 1. */
+/** Returns the parts of `#rrggbb` or `#rrggbbaa`, each from 0 to 1. */
 export function rgba(color: string): number[] {
   const parts = [1, 3, 5, 7].map((at) => parseInt(color.slice(at, at + 2), 16) / 255);
   return parts.map((part, index) => (Number.isNaN(part) ? (index === 3 ? 1 : 0.6) : part));
@@ -81,7 +81,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     return this.drawn.get(key)?.node;
   }
 
-  /** The key of the thing that a drawn object belongs to. */
+  /** Returns the key of the thing that a drawn object belongs to. */
   keyOf(part: THREE.Object3D): string | null {
     for (let at: THREE.Object3D | null = part; at; at = at.parent) {
       const key: unknown = at.userData['thing'];
@@ -90,7 +90,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     return null;
   }
 
-  /** The box round some things, without their marks. */
+  /** Returns the box round some things, without their marks. */
   boundsOf(keys: readonly string[]): THREE.Box3 {
     const bounds = new THREE.Box3();
     for (const key of keys) {
@@ -120,7 +120,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     this.assets.dispose();
   }
 
-  /** The values on which a thing's drawing depends; by default all. */
+  /** Returns the values on which a thing's drawing depends; by default all. */
   protected lookOf(thing: T): unknown {
     return thing;
   }
@@ -155,7 +155,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     node.add(mesh);
   }
 
-  /** A text that changes when shapes or their meshes arrive. */
+  /** Returns a text that changes when shapes or their meshes arrive. */
   protected arrivals(entry: Fetched<Shape[]>): string {
     const meshes = (entry.value ?? [])
       .filter(({ mesh }) => mesh)
@@ -174,7 +174,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
   }
 }
 
-/** A copy of a mesh with texture coordinates; its vertices are in m while they are computed. */
+/** Returns a copy of a mesh with texture coordinates; its vertices are in m while they are computed. */
 function painted(
   mesh: THREE.BufferGeometry,
   { size }: Shape,

@@ -20,7 +20,7 @@ function aim(event: At, canvas: HTMLElement, camera: THREE.Camera): void {
   ray.setFromCamera(new THREE.Vector2(x, y), camera);
 }
 
-/** The thing under the pointer. */
+/** Returns the thing under the pointer. */
 export function thingAt(
   event: At,
   canvas: HTMLElement,
@@ -37,7 +37,7 @@ export function thingAt(
   return { key, height: hit.point.z, waypoint: typeof waypoint === 'number' ? waypoint : null };
 }
 
-/** The pointer's position at a height above the floor. */
+/** Returns the pointer's position at a height above the floor. */
 export function pointAt(event: At, canvas: HTMLElement, camera: THREE.Camera, height = 0): Point | null {
   aim(event, canvas, camera);
   const plane = new THREE.Plane(new THREE.Vector3(0, 0, 1), -height);
@@ -52,7 +52,7 @@ const FORWARD: readonly Point[] = [
   [0, -1],
 ];
 
-/** The world axis that points most away from the camera. */
+/** Returns the world axis that points most away from the camera. */
 export function forwardOf(camera: THREE.Camera): Point {
   const ahead = camera.getWorldDirection(new THREE.Vector3());
   // Seen from straight above, the upper edge of the screen is ahead.

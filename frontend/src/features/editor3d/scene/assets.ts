@@ -17,7 +17,7 @@ export class Assets {
 
   constructor(private readonly onArrival: () => void) {}
 
-  /** The geometry of a mesh file of the project. */
+  /** Returns the geometry of a mesh file of the project. */
   mesh(path: string): Fetched<THREE.BufferGeometry> {
     return this.fetched(this.meshes, path, async () => {
       const response = await fetch(fileUrl(path), { credentials: 'same-origin' });
@@ -26,7 +26,7 @@ export class Assets {
     });
   }
 
-  /** The shapes of a robot: one of the project, or one of ours. */
+  /** Returns the shapes of a robot: one of the project, or one of ours. */
   robot(id: string): Fetched<Shape[]> {
     return this.fetched(this.models, `robot:${id}`, async () => {
       const own = ownUrdf(id);
@@ -35,7 +35,7 @@ export class Assets {
     });
   }
 
-  /** The shapes of a URDF in the project. */
+  /** Returns the shapes of a URDF in the project. */
   model(path: string): Fetched<Shape[]> {
     // A promise also where the text is no URDF: the view draws a mark in its place instead of failing.
     return this.fetched(this.models, path, async () => {
@@ -68,7 +68,7 @@ export class Assets {
   }
 }
 
-/** The URDF of a robot in the project; undefined if it cannot be read in its present form. */
+/** Returns the URDF of a robot in the project; undefined if it cannot be read in its present form. */
 function ownUrdf(id: string): string | undefined {
   const { files } = useProjectStore.getState();
   return Object.keys(files).find((path) => path.startsWith(`robots/${id}/`) && path.endsWith('.urdf'));

@@ -23,7 +23,7 @@ const sizeOf = (object: THREE.Object3D) =>
     .toArray()
     .map((part) => Math.round(part * 1e4) / 1e4);
 
-/** Whether a ray along -z through a point of the floor meets it. */
+/** Returns whether a ray along -z through a point of the floor meets it. */
 const isTouched = (object: THREE.Object3D, x: number, y: number): boolean => {
   object.updateMatrixWorld(true);
   const ray = new THREE.Raycaster(new THREE.Vector3(x, y, 5), new THREE.Vector3(0, 0, -1));

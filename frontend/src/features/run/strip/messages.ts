@@ -64,7 +64,7 @@ export interface Situation {
 /** The most faults that are listed. */
 const MAX_FAULTS = 5;
 
-/** All messages of a run, the most important first. */
+/** Returns all messages of a run, the most important first. */
 export function messagesFor(situation: Situation): StripMessage[] {
   const { connection, connectionMessage, silentS, failure, viewer, canRestart, worldRuns } = situation;
   const isLost = connection === 'reconnecting' || connection === 'lost';
@@ -81,7 +81,7 @@ export function messagesFor(situation: Situation): StripMessage[] {
   return messages.sort((a, b) => PRIORITY.indexOf(a.kind) - PRIORITY.indexOf(b.kind));
 }
 
-/** The last faults, each once, the newest first. */
+/** Returns the last faults, each once, the newest first. */
 function faultBanners({ faults, launchNodes }: Situation): StripMessage[] {
   const byText = new Map([...faults].reverse().map((fault) => [fault.message, fault]));
   return [...byText.values()]
@@ -161,7 +161,7 @@ function finishedBanner({ status, message, node_id, tree_id, node_path }: Finish
   };
 }
 
-/** The last name of a path, without the number that the engine gives to unnamed nodes. */
+/** Returns the last name of a path, without the number that the engine gives to unnamed nodes. */
 const nameIn = (path: string) => (path.split('/').at(-1) ?? '').replace(/::\d+$/, '');
 
 function reasonBanner(reason: string): StripMessage {
@@ -241,7 +241,7 @@ function failureBanner(failure: LaunchFailure): StripMessage {
   };
 }
 
-/** The place at the beginning of a message of the simulator: `robots/mine/robot.yaml:10:25: …`. */
+/** Returns the place at the beginning of a message of the simulator: `robots/mine/robot.yaml:10:25: …`. */
 function linkToText(message: string): MessageLink | null {
   const [, file = '', line = ''] = /^([\w./-]+\.\w+):(\d+):(?:\d+:)? /.exec(message) ?? [];
   return file === '' ? null : { file, line: Number(line) };

@@ -29,7 +29,7 @@ export function ModelFields({ editor, thing }: ModelFieldsProps) {
       (now) => setField(now, key, field, value),
       mergeKey === undefined ? {} : { mergeKey },
     );
-  /** A thing without a texture has no repetition size either. */
+  /** Returns a thing without a texture has no repetition size either. */
   const paint = (texture: string | undefined) =>
     edit(editor, 'texture', (now) => {
       const { ops } = setField(now, key, 'texture', texture);

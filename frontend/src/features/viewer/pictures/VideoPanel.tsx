@@ -143,7 +143,7 @@ export function Video() {
   );
 }
 
-/** The smallest width that fills an element. */
+/** Returns the smallest width that fills an element. */
 function usePictureWidth(element: RefObject<HTMLElement | null>): number {
   const [width, setWidth] = useState<number>(WIDTHS[0]);
   useEffect(() => {

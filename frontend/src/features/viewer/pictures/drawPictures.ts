@@ -10,7 +10,7 @@ export interface Shown {
   latencyMs: number | null;
 }
 
-/** The age of time `t` in the simulation, according to the newest message, s. */
+/** Returns the age of time `t` in the simulation, according to the newest message, s. */
 const ageOf = (t: number): number =>
   Math.max(0, Math.max(frames.newest(), useSessionStore.getState().simTime) - t);
 

@@ -7,7 +7,7 @@ const LARGEST_M = 3;
 
 export type BodyPose = MoveBody['pose'];
 
-/** The body of an object if it can be dragged; walls, ground and people cannot. */
+/** Returns the body of an object if it can be dragged; walls, ground and people cannot. */
 export function carriable(world: World, objectId: number | null): string | null {
   const object = objectId === null ? undefined : world.scene.objects.find(({ id }) => id === objectId);
   if (!object || object.kind === 'actor') return null;

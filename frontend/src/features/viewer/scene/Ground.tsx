@@ -33,7 +33,7 @@ export function Ground({ color, isDark, isSimple, picture, textures }: GroundPro
   );
 }
 
-/** The ground's texture with a corner at the origin of the world; null until it has arrived. */
+/** Returns the ground's texture with a corner at the origin of the world; null until it has arrived. */
 function useGroundPicture(textures?: Pictures, name = ''): THREE.Texture | null {
   const [map, setMap] = useState<THREE.Texture | null>(null);
   useEffect(() => {

@@ -34,7 +34,7 @@ const SCAN: Scan = {
   ranges: new Uint8Array(new Float32Array([1, 2]).buffer),
 };
 
-/** The robot at x, as the session packs poses. */
+/** Returns the robot at x, as the session packs poses. */
 function robotAt(x: number, t: number): Poses {
   const poses = new DataView(new ArrayBuffer(16));
   const units = Math.round(x * 1e4);

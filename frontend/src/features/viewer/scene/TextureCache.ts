@@ -7,7 +7,7 @@ type Take = (texture: THREE.Texture) => void;
 export interface Pictures {
   /** Calls back with the repeating picture as soon as it has arrived; never for a damaged one. */
   whenLoaded(name: string, take: Take): void;
-  /** The width and height of a repetition, in m. */
+  /** Returns the width and height of a repetition, in m. */
   tileOf(name: string): readonly [number, number];
   dispose(): void;
 }

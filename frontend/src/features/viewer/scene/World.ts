@@ -87,7 +87,7 @@ export class World {
     return this.moving.get(id)?.object;
   }
 
-  /** The id of the object that a mesh belongs to. */
+  /** Returns the id of the object that a mesh belongs to. */
   idOf(part: THREE.Object3D): number | null {
     for (let at: THREE.Object3D | null = part; at; at = at.parent) {
       const id = this.ids.get(at);
@@ -96,12 +96,14 @@ export class World {
     return null;
   }
 
-  /** The pieces of a body, its base first. */
+  /** Returns the pieces of a body, its base first. */
   objectsOf(body: string): THREE.Object3D[] {
     return [...this.moving.values()].filter((item) => item.body === body).map((item) => item.object);
   }
 
-  /** The bounding box of a body's own shapes; the drawn frustums and axes that hang on it are larger. */
+  /**
+   * Returns the bounding box of a body's own shapes; the drawn frustums and axes that hang on it are larger.
+   */
   boundsOf(body: string): THREE.Box3 {
     const bounds = new THREE.Box3();
     for (const object of this.objectsOf(body)) {

@@ -9,7 +9,7 @@ export class GeometryCache {
 
   constructor(private readonly meshes: Record<string, MeshData>) {}
 
-  /** The triangles of a shape; with the size of a texture, also its texture coordinates. */
+  /** Returns the triangles of a shape; with the size of a texture, also its texture coordinates. */
   get(shape: Shape, tile?: readonly [number, number]): THREE.BufferGeometry {
     const size = shape.shape === 'mesh' && !tile ? '' : shape.size.join();
     const key = `${shape.shape}:${shape.mesh ?? ''}:${size}:${tile?.join() ?? ''}`;

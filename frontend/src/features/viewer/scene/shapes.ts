@@ -44,7 +44,7 @@ export class MaterialCache {
   }
 }
 
-/** The three.js mesh of a shape. */
+/** Returns the three.js mesh of a shape. */
 export function meshOf(shape: Shape, geometries: GeometryCache, materials: MaterialCache): THREE.Mesh {
   const picture = shape.texture ?? '';
   const geometry = geometries.get(shape, picture ? materials.textures?.tileOf(picture) : undefined);

@@ -5,7 +5,7 @@ export type ActionKind = 'Action' | 'Condition' | 'Control' | 'Decorator';
 
 const DECLARED = (port: string): string => `        "${port}": Port(str, description="Say what it is."),`;
 
-/** A control node or decorator: complete, runnable, and short enough to be read at once. */
+/** Returns a control node or decorator: complete, runnable, and short enough to be read at once. */
 function ownNodeSource(name: string, kind: 'Control' | 'Decorator', ports: readonly string[]): string {
   const base = `${kind}Node`;
   const names = [base, ...(ports.length === 0 ? [] : ['Port']), 'Status'].join(', ');
@@ -35,7 +35,7 @@ ${declared}    def update(self):
   return `from tree_gardener import ${names}\n\n\nclass ${name}(${base}):\n${rule}`;
 }
 
-/** The source of a new action: complete, runnable and short. */
+/** Returns the source of a new action: complete, runnable and short. */
 export function actionSource(
   name: string,
   kind: ActionKind,

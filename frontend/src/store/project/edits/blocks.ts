@@ -39,13 +39,13 @@ import type { EditOptions } from '../state';
 
 const store = () => useProjectStore.getState();
 
-/** The active tree; null if none is open. */
+/** Returns the active tree; null if none is open. */
 export function activeDiagram(): Diagram | null {
   const { activeTree, diagrams } = store();
   return activeTree === null ? null : (diagrams[activeTree] ?? null);
 }
 
-/** Whether a block of the active tree has a problem, found by the editor or the server. */
+/** Returns whether a block of the active tree has a problem, found by the editor or the server. */
 export function hasProblem(id: NodeId | undefined): boolean {
   const diagram = activeDiagram();
   const { vocabulary, diagnostics } = store();
@@ -99,7 +99,7 @@ export function achieve(goal: QuickAddGoal, kind: Kind): void {
   }
 }
 
-/** The block to select after these are removed: the next sibling, the previous one, or the parent. */
+/** Returns the block to select after these are removed: the next sibling, the previous one, or the parent. */
 function neighbourOf(diagram: Diagram, ids: readonly NodeId[]): NodeId[] {
   const [first] = topmost(diagram, ids);
   if (first === undefined) return [];
@@ -142,7 +142,7 @@ interface Company {
   readonly ids: readonly NodeId[];
 }
 
-/** The selected blocks that keys move together: all if they are siblings, else the first one. */
+/** Returns the selected blocks that keys move together: all if they are siblings, else the first one. */
 function selectedSiblings(): Company | null {
   const diagram = activeDiagram();
   const { selection } = store();
@@ -202,7 +202,7 @@ export function disconnect(id: NodeId, position: readonly [number, number]): voi
   change('disconnect', [moveNode(id, { at: 'draft', position })], { select: [id] });
 }
 
-/** The place after the selected block, or the best other place. */
+/** Returns the place after the selected block, or the best other place. */
 export function placeAfter(diagram: Diagram, id: NodeId): Placement {
   const parent = parentOf(diagram, id);
   const { vocabulary } = store();

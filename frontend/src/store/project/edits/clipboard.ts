@@ -8,7 +8,7 @@ import { useProjectStore } from '../index';
 /** The last copied text, for browsers that do not allow reading the clipboard. */
 let remembered = '';
 
-/** The selected blocks as XML; null if there are none. */
+/** Returns the selected blocks as XML; null if there are none. */
 export function copiedText(): string | null {
   const diagram = activeDiagram();
   const { selection } = useProjectStore.getState();
@@ -31,7 +31,7 @@ export async function cutSelection(): Promise<void> {
   if (await copySelection()) deleteSelection();
 }
 
-/** The content of the clipboard: for a menu, which gets no paste event. */
+/** Returns the content of the clipboard: for a menu, which gets no paste event. */
 export async function clipboardText(): Promise<string> {
   try {
     return await navigator.clipboard.readText();

@@ -17,7 +17,7 @@ export const shared = {
   remove: (type: string, name: string): void => changeEverywhere(removePort(type, name)),
 };
 
-/** The ports that blocks of a type have, in the order of their first use. */
+/** Returns the ports that blocks of a type have, in the order of their first use. */
 export function portsInUse(type: string): readonly string[] {
   const diagrams = Object.values(useProjectStore.getState().diagrams);
   const nodes = diagrams.flatMap((diagram) => Object.values(diagram.nodes));

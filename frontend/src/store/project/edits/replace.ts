@@ -3,7 +3,7 @@ import { replaced, type Hit } from '@/model/search/seek';
 import { useProjectStore } from '../index';
 import { treeIdOf, type ProjectData } from '../state';
 
-/** All texts of the project that can be searched, trees first. */
+/** Returns all texts of the project that can be searched, trees first. */
 export function allPassages({ files, diagrams }: Pick<ProjectData, 'files' | 'diagrams'>): Passage[] {
   const paths = Object.keys(files).sort();
   const trees = paths.flatMap((path) => {

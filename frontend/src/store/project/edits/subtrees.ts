@@ -3,7 +3,7 @@ import { areNeighbours, extractSubtree, inlineSubtree } from '@/model/edits';
 import { activeDiagram, change } from './blocks';
 import { useProjectStore } from '../index';
 
-/** A tree name from a block's name: letters and digits, not used by a tree or a type. */
+/** Returns a tree name from a block's name: letters and digits, not used by a tree or a type. */
 function freeTreeId(wanted: string): string {
   const { diagrams, vocabulary } = useProjectStore.getState();
   const words = wanted.split(/[^\p{L}\p{N}]+/u).filter(Boolean);

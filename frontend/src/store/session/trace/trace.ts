@@ -101,7 +101,7 @@ export class Trace {
     return found;
   }
 
-  /** The seconds that a node was running, and the number of times that it started. */
+  /** Returns the seconds that a node was running, and the number of times that it started. */
   runningOf(uid: number): { seconds: number; times: number } {
     let seconds = 0;
     let times = 0;
@@ -177,7 +177,7 @@ export class Trace {
 
 const round = (seconds: number) => Math.round(seconds * 100) / 100;
 
-/** A text that is equal for equal trees. */
+/** Returns a text that is equal for equal trees. */
 function signature(nodes: readonly TreeNode[]): string {
   return nodes.map((node) => `${node.uid}:${node.tree_id}/${node.node_id}:${node.type}`).join(';');
 }

@@ -27,7 +27,7 @@ function begin() {
     document.removeEventListener('pointercancel', lost);
   });
   const before = weights(model);
-  /** Returns the docking library resizes the panels while the line is dragged. */
+  /** Drags the line between two panels; the docking library resizes the panels meanwhile. */
   const drag = () => {
     fireEvent.pointerDown(splitter, { pointerId: 4, button: 0 });
     model.doAction(Actions.adjustWeights(model.getRootRow()!.getId(), [40, 30, 30]));

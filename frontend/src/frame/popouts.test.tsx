@@ -20,7 +20,7 @@ const neighboursOf = (id: string) =>
     .getParent()
     ?.getChildren()
     .map((each) => each.getId());
-/** What the docking library does when a window has opened, and when it closes. */
+/** Calls the handlers that the docking library calls when a window has opened, and when it closes. */
 const opened = (id: string) => {
   const page = document.implementation.createHTMLDocument();
   popouts.onOpen({ getLayoutId: () => tab(id).getLayoutId() }, window, page);

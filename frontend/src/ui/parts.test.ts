@@ -3,7 +3,9 @@ import { loadPart, PartMissing, stylesArrive } from './parts';
 
 let server: MutationObserver | null = null;
 
-/** Returns a style sheet that comes at the `attempts`-th request, as the page sees it: jsdom fetches none. */
+/**
+ * Returns a style sheet as the page sees one that loads at the `attempts`-th request; jsdom requests none.
+ */
 function styleThatComes(attempts: number): HTMLLinkElement {
   const link = document.createElement('link');
   link.rel = 'stylesheet';
@@ -34,7 +36,7 @@ afterEach(() => {
   document.head.replaceChildren();
 });
 
-/** What becomes of it when all waiting is over. */
+/** Returns the outcome of a promise after all retries. */
 async function outcome<T>(promise: Promise<T>): Promise<PromiseSettledResult<T>> {
   const settled = Promise.allSettled([promise]);
   await vi.advanceTimersByTimeAsync(20_000);

@@ -6,7 +6,7 @@ const button = (): HTMLElement => document.querySelector('button')!;
 
 beforeEach(() => {
   vi.useFakeTimers();
-  // jsdom lays nothing out: whatever is in the page counts as seen.
+  // jsdom has no layout, so every element in the page counts as visible.
   Element.prototype.checkVisibility = () => true;
   document.body.innerHTML =
     '<button>Run</button><div data-testid="canvas" data-tree="Main" tabindex="0"></div>';

@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest';
 
-/** Names that browsers of users hold: a renamed one loses drafts, layouts or settings. */
+/** Keys of the browser's storage: if one were renamed, users would lose drafts, layouts or settings. */
 const STORAGE_KEYS = [
   "'bts.codeSize'",
   "'bts.compactTrees'",

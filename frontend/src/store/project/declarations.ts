@@ -1,6 +1,9 @@
 import type { ActionModel } from '@/api/types';
 
-/** The Python has a syntax error, or does not have the class: while one types, both come and go. */
+/**
+ * The codes of an action that cannot be read: its Python has a syntax error, or lacks the class. Both come
+ * and go while the user types.
+ */
 const UNREADABLE: readonly string[] = ['BT0601', 'BT0602'];
 
 const isUnreadable = ({ diagnostics = [] }: ActionModel): boolean =>

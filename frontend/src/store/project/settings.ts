@@ -24,7 +24,7 @@ const areSettings = (settings: Readonly<Record<string, unknown>>): settings is P
   Object.entries(settings).every(([key, value]) => fits(key, value));
 
 /**
- * Returns a project's settings as the page uses them: one of a wrong type has its default, as for the
+ * Returns a project's settings as the page uses them. A setting of the wrong type gets its default, as in the
  * translator.
  */
 export function readSettings({

@@ -16,7 +16,7 @@ export const fileUrl = (path: string): string => {
   return urlOf(`/projects/${projectId ?? ''}/files/${path.split('/').map(encodeURIComponent).join('/')}`);
 };
 
-/** Fetches files that the browser does not hold. */
+/** Fetches files whose content the page does not have. */
 export async function fetchBinaries(paths: readonly string[]): Promise<Binary[]> {
   return Promise.all(
     paths.map(async (path) => {

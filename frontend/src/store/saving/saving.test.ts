@@ -14,7 +14,7 @@ const PATH = 'actions/Go.py';
 const detail = (revision = 1, content = 'first') =>
   projectDetail(revision, [projectFile(PATH, revision, content)]);
 
-/** Returns a server that keeps revisions and refuses stale bases, as ours does. */
+/** Returns a server that counts revisions and refuses stale bases, like the real one. */
 function fakeServer(initial: string) {
   const file = { revision: 1, content: initial };
   const save = vi.spyOn(api, 'saveChanges').mockImplementation((_id, { files }) => {

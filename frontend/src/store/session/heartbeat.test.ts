@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { Heartbeat } from './heartbeat';
 
-/** What is shown at each of these times, in s, while no answer comes. */
+/** Returns the displayed silence at each of these times, in s, while no answer comes. */
 const silence = (heartbeat: Heartbeat, ...times: number[]) =>
   times.map((time) => heartbeat.beat(time * 1000));
 

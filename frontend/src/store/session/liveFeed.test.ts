@@ -21,7 +21,7 @@ beforeAll(() => {
 
 beforeEach(() => {
   setStatusRate(0);
-  // Long after whatever was shown before.
+  // This is long after any update of an earlier test.
   vi.advanceTimersByTime(10_000);
   hear('tree', { nodes: [{ ...NODE, tree_id: 'Main', node_id: 'n1' }] });
 });

@@ -6,7 +6,7 @@ import { currentPoses } from './poses';
 
 const bytes = (array: Uint16Array) => new Uint8Array(array.buffer);
 
-/** Returns a pose at x m, turned by 2 asin(0.6) about z, packed as `executor/stream/pose_codec.py` says. */
+/** Returns a pose at x m, turned by 2 asin(0.6) about z, packed like `executor/stream/pose_codec.py` does. */
 function packed(x: number): Uint8Array {
   const record = new DataView(new ArrayBuffer(16));
   const units = Math.round(x * 10_000);

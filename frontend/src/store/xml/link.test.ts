@@ -11,7 +11,7 @@ const TREE = 'MainTree';
 
 const project = () => projectDetail(1, [projectFile(`trees/${TREE}.json`, 1, oneBlock(TREE, 'A'))]);
 
-/** Returns a translator for trees of one block: `<type/>`, with a comment that stays in the text. */
+/** Returns a fake translator for trees of one block: `<type/>`, with a comment that the text keeps. */
 function translate() {
   const typeIn = (xml: string) => /^(?:<!--.*-->)?<(\w+)\/>$/.exec(xml)?.[1];
   const rangesOf = (xml: string) => [{ node: 'n1', start: 0, open_end: xml.length, end: xml.length }];

@@ -22,7 +22,7 @@ export async function copySelection(): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(remembered);
   } catch {
-    // The browser refused: pasting in this tab uses the remembered text.
+    // The browser refused. Pasting in this tab uses the remembered text.
   }
   return true;
 }
@@ -31,7 +31,7 @@ export async function cutSelection(): Promise<void> {
   if (await copySelection()) deleteSelection();
 }
 
-/** Returns the content of the clipboard: for a menu, which gets no paste event. */
+/** Returns the content of the clipboard. A menu needs this function, since it gets no paste event. */
 export async function clipboardText(): Promise<string> {
   try {
     return await navigator.clipboard.readText();
@@ -40,7 +40,7 @@ export async function clipboardText(): Promise<string> {
   }
 }
 
-/** Pastes under the selected block if it accepts children, else after it, else as a draft. */
+/** Pastes under the selected block if it accepts children, otherwise after it, otherwise as a draft. */
 export function pasteText(text: string): boolean {
   const fragment = xmlToFragment(text);
   const diagram = activeDiagram();

@@ -29,7 +29,7 @@ beforeEach(() => {
   );
 });
 
-/** What replaces a text everywhere, in the project as it is now. */
+/** Returns the replacements of a text everywhere in the current project. */
 function plan(text: string, replacement: string): Replacement[] {
   const passages = allPassages(store());
   const query = { text, matchesCase: true, isWholeWord: false, isRegex: false };

@@ -29,7 +29,7 @@ function open(selected: readonly string[], point: Partial<MenuPoint> = {}) {
   return onClose;
 }
 
-/** Returns the items, a list for each group. */
+/** Returns the labels of the menu's items, one list for each group. */
 function groups(): string[][] {
   const menu = screen.getByRole('menu');
   const found: string[][] = [[]];

@@ -11,7 +11,7 @@ export interface MenuPoint {
   readonly isOnBlock: boolean;
 }
 
-/** The groups of the menu, by command `id`. */
+/** The groups of a block's menu, by the `id` of the commands. */
 const ON_BLOCK = [
   ['canvas.fix'],
   ['canvas.look'],
@@ -57,7 +57,7 @@ interface BlockMenuProps {
   readonly onClose: () => void;
 }
 
-/** The context menu of the canvas. */
+/** The context menu of the canvas and its blocks. */
 export function BlockMenu({ point, onClose }: BlockMenuProps) {
   const { t } = useTranslation('canvas');
   if (!point) return null;

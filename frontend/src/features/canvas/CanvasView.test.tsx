@@ -24,7 +24,7 @@ const store = () => useProjectStore.getState();
 const canvas = () => screen.getByTestId('canvas');
 const block = (id: string) => screen.getByTestId(`node-${id}`);
 const edge = (id: string) => document.querySelector<SVGElement>(`.react-flow__edge[data-id="${id}"]`)!;
-/** The menu of the free canvas. */
+/** The commands in the menu of the empty canvas. */
 const FREE = ['addBlock', 'paste', 'collapse1', 'collapse2', 'collapse3', 'collapse4'];
 const pane = () => document.querySelector<HTMLElement>('.react-flow__pane')!;
 const select = (...ids: string[]) => act(() => store().select('Main', ids));
@@ -36,7 +36,7 @@ function open(more: Partial<Diagram> = {}) {
 }
 
 beforeEach(() => {
-  // jsdom lays nothing out: whatever is in the page counts as seen.
+  // jsdom has no layout, so every element in the page counts as visible.
   Element.prototype.checkVisibility = () => true;
 });
 
@@ -135,7 +135,7 @@ describe('a press', () => {
       const button = screen.getByRole('button', { name: place });
       fireEvent.pointerDown(button);
       expect(canvas()).toHaveFocus();
-      // False: the button does not take the focus.
+      // False: the default action, which moves the focus, was prevented.
       expect(fireEvent.mouseDown(button)).toBe(false);
     }
     expect(fireEvent.mouseDown(canvas())).toBe(true);
@@ -338,7 +338,7 @@ it('draws only what is in view of a large tree', () => {
 
 it('brings a block into view that is asked for', async () => {
   const { view, store: flow } = open();
-  // In place of the view that React Flow has made.
+  // This replaces the view that React Flow has made.
   act(() => flow.setState({ panZoom: view as unknown as ReactFlowState['panZoom'] }));
   act(() => store().reveal('Main', 'b'));
   await waitFor(() => expect(view.setViewport).toHaveBeenCalled());

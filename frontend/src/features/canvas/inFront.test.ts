@@ -7,7 +7,7 @@ let isVisible = true;
 
 beforeEach(() => {
   isVisible = true;
-  // jsdom lays nothing out.
+  // jsdom has no layout.
   Element.prototype.checkVisibility = () => isVisible;
   document.body.innerHTML = `
     <div data-testid="canvas" data-tree="Main" tabindex="0"><input id="inner"></div>

@@ -13,7 +13,7 @@ export function pathFor(kind: NamedKind, name: string): string {
 
 interface Taken {
   paths: Iterable<string>;
-  /** The node types of the catalogue and of the project. */
+  /** The node types in the catalogue and in the project. */
   types: ReadonlySet<string>;
 }
 

@@ -24,7 +24,7 @@ const log = (text: string, more: Partial<Log> = {}): Log => ({
 
 describe('ConsolePanel', () => {
   beforeEach(() => {
-    // jsdom has no layout; the list of visible rows needs a height to fill.
+    // jsdom has no layout, but the list of visible rows needs a height.
     vi.spyOn(Element.prototype, 'clientHeight', 'get').mockReturnValue(300);
     vi.spyOn(Element.prototype, 'clientWidth', 'get').mockReturnValue(600);
     useSessionStore.setState(initialSession, true);
@@ -80,7 +80,7 @@ describe('ConsolePanel', () => {
     scroll(400, 500);
     scroll(410, 900);
     expect(toEnd()).toBeNull();
-    // Fewer lines after a search, or a panel that was hidden.
+    // The list became shorter by a search or because the panel was hidden.
     scroll(300, 900);
     expect(toEnd()).toBeNull();
     fireEvent.wheel(scroller);

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { parseAnsi, plainText } from './ansi';
 
-/** Returns a line with sequences written as `{1;31}`. */
+/** Returns a line in which `{1;31}` is replaced by the escape sequence. */
 const line = (text: string) => text.replace(/\{([\d;]*)\}/g, '\u001b[$1m');
 const styles = (codes: string) => parseAnsi(line(`${codes}x`)).at(-1)?.styles;
 

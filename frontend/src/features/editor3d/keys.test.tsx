@@ -28,7 +28,7 @@ beforeEach(() => {
 });
 
 describe('the keys of a view', () => {
-  /** Presses a key; returns whether the editor took it. */
+  /** Presses a key; returns whether the editor handled it. */
   const press = (key: string, more: object = {}) =>
     !fireEvent.keyDown(screen.getByTestId('view'), { key, ...more });
 

@@ -57,7 +57,7 @@ function draw(
 }
 
 const box = (x: number, y: number, width = 140, height = 44): Box => ({ x, y, width, height });
-/** Returns the texts of a drawing: words, place, size and colour. */
+/** Returns the texts of a drawing, each with its place, size and colour. */
 const texts = (svg: SVGSVGElement) =>
   [...svg.querySelectorAll('text')].map((text) =>
     [

@@ -7,5 +7,5 @@ export function dependenciesOf(manifest: string): string[] {
   return [...new Set(found.filter(Boolean))].sort();
 }
 
-/** The names that ROS accepts for packages. */
+/** The package names that ROS accepts. */
 export const PACKAGE_NAME = /^[a-z][a-z0-9]*(_[a-z0-9]+)*$/;

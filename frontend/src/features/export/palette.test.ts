@@ -2,7 +2,7 @@ import { expect, it } from 'vitest';
 import tokens from '@/ui/tokens.css?raw';
 import { paletteOf } from './palette';
 
-/** Returns the values of a token in the style sheet, the light theme first. */
+/** Returns the values of a token in the style sheet; that of the light theme is first. */
 const valuesOf = (name: string) =>
   [...tokens.matchAll(new RegExp(`--bts-${name}: ([^;]+);`, 'g'))].map(([, value]) => value);
 

@@ -2,7 +2,7 @@ import tokens from '@/ui/tokens.css?raw';
 
 export type Theme = 'light' | 'dark';
 
-/** The value of a colour token (`--bts-<name>`) in a theme. */
+/** A function that returns the value of a colour token (`--bts-<name>`) in a theme. */
 export type Palette = (name: string) => string;
 
 const DARK = "[data-mantine-color-scheme='dark'] {";
@@ -18,7 +18,7 @@ const light = read(lightBlock);
 const dark = read(darkBlock);
 
 /**
- * Returns the colours of a theme, even of the one that the page does not show, since pictures are used
+ * Returns the colours of a theme, also of the theme that the page does not show, since pictures are used
  * elsewhere.
  */
 export function paletteOf(theme: Theme): Palette {

@@ -24,7 +24,7 @@ beforeEach(async () => {
   await vi.waitUntil(() => document.querySelectorAll('.cm-content').length === 2);
 });
 
-/** Adds a condition, whose field has the caret. */
+/** Adds a condition; its field then has the caret. */
 async function added() {
   await user.click(screen.getByRole('button', { name: 'Add condition' }));
   await user.click(await screen.findByRole('menuitem', { name: /On halt/ }));

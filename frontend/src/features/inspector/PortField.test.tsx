@@ -32,7 +32,7 @@ function Field({ spec, start = null, onChange }: FieldProps) {
 
 const onRenameKey = vi.fn();
 
-/** Shows the field, and returns its input and the last value it reported. */
+/** Shows the field; returns its input and a function for the last reported value. */
 function field(spec: Partial<PortSpec>, start: string | null = null) {
   const onChange = vi.fn();
   show(<Field spec={{ ...port('x', 'double'), ...spec } as PortSpec} start={start} onChange={onChange} />);

@@ -24,7 +24,7 @@ function open(start: string, more: { labelledBy?: string; label?: string } = { l
   const { unmount } = show(<Field />);
   const field = screen.getByRole('textbox');
   const view = EditorView.findFromDOM(field)!;
-  /** Types at the end. */
+  /** Types text at the end of the script. */
   const type = (insert: string) =>
     act(() => {
       const from = view.state.doc.length;
@@ -137,5 +137,5 @@ describe('ScriptEditor', () => {
   });
 });
 
-/** The class of each kind of word, as it is first met. */
+/** The CSS class of each kind of word, in the order of appearance. */
 const colours: Record<string, Record<string, string>> = {};

@@ -11,11 +11,11 @@ const outline = () => screen.getByTestId('outline');
 const ids = () => screen.queryAllByRole('treeitem').map(({ id }) => id.slice('outline-'.length));
 const select = (...chosen: string[]) => act(() => store().select('Main', chosen));
 const chosen = () => screen.getAllByRole('treeitem', { selected: true }).map(({ id }) => id);
-/** Presses a key; returns whether the outline took it. */
+/** Presses a key; returns whether the outline handled it. */
 const press = (key: string) => !fireEvent.keyDown(outline(), { key });
 
 function open(height = 560) {
-  // jsdom has no layout: the height of the list decides how many lines are drawn.
+  // jsdom has no layout; the height of the list determines how many lines are drawn.
   vi.spyOn(Element.prototype, 'clientHeight', 'get').mockReturnValue(height);
   vi.spyOn(Element.prototype, 'clientWidth', 'get').mockReturnValue(240);
   show(<Outline />);

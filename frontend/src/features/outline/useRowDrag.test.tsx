@@ -9,7 +9,7 @@ import { useRowDrag } from './useRowDrag';
 
 const row = (id: string) => document.getElementById(`outline-${id}`)!;
 const lines = ['r', 'a', 'b', 'f', 'x'];
-/** Returns the height in the list of a share of a line. */
+/** Returns the height in the list, in px, of a place within a line; `share` is from 0 to 1. */
 const yOf = (id: string, share: number) => 28 * (lines.indexOf(id) + share);
 
 beforeEach(() => {

@@ -51,7 +51,7 @@ describe('ProjectCard', () => {
       let isTaken = true;
       const leave = (event: Event) => {
         isTaken = event.defaultPrevented;
-        // jsdom opens no page.
+        // jsdom cannot open pages.
         event.preventDefault();
       };
       window.addEventListener('click', leave, { once: true });

@@ -13,7 +13,7 @@ function Page() {
 const files = { types: ['Files'], files: [file] };
 const words = { types: ['text/plain'], files: [] };
 const state = () => screen.getByText(/over|away/).textContent;
-/** Returns whether the page took the event from the browser. */
+/** Fires a drag event; returns whether the page handled it. */
 const fire = (type: 'dragOver' | 'drop', dataTransfer?: object) => !fireEvent[type](window, { dataTransfer });
 
 function leave(to: Element | null): void {

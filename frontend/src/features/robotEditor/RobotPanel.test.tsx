@@ -13,7 +13,7 @@ const PATH = 'robots/mine/robot.yaml';
 let editor: RobotEditor;
 let runs = 0;
 
-/** The panel with the robot as it is now. */
+/** The panel, with the current robot. */
 function Panel() {
   useProjectStore((state) => state.files);
   const { robot } = readingOf(editor);
@@ -30,7 +30,7 @@ const write = (testId: string, text: string) => type(testId, `${text}{Enter}`);
 
 beforeEach(() => {
   openProject({ texts: { [PATH]: robotYaml, 'robots/mine/robot.urdf': robotUrdf } });
-  // An editor outlives its tab, and belongs to one project.
+  // An editor outlives its tab but belongs to one project, so each test needs a new project.
   useProjectStore.setState({ projectId: `p${(runs += 1)}` });
   editor = editorOf(PATH);
   show(<Panel />);

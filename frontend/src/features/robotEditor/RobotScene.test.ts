@@ -23,7 +23,7 @@ const size = (scene: RobotScene, key: string) =>
     .toArray()
     .map((part) => Math.round(part * 1e3) / 1e3);
 
-/** What is seen of a sensor's sight: the lines after the frame. */
+/** Returns the drawn field of view of a sensor: the lines after the frame. */
 const sight = (scene: RobotScene, key: string) => objectsOf(scene.nodeOf(key)!, THREE.LineSegments).at(1);
 const reach = (lines: THREE.LineSegments) =>
   Math.max(...valuesOf(lines.geometry).filter((_, at) => at % 3 === 0));
@@ -35,7 +35,7 @@ describe('RobotScene', () => {
     expect(size(scene, 'link base_link')).toEqual([0.3, 0.22, 0.1]);
     expect(size(scene, 'sensor scan')).toEqual([0.07, 0.07, 0.04]);
     expect(scene.nodeOf('sensor camera')?.position.toArray()).toEqual([0.162, 0, 0.11]);
-    // A wheel lies on its side.
+    // The wheel's cylinder lies on its side.
     expect(size(scene, 'link wheel_left_link')).toEqual([0.1, 0.032, 0.1]);
   });
 
@@ -73,7 +73,7 @@ describe('RobotScene', () => {
     expect(Math.min(...axis(0))).toBeCloseTo(0);
     expect([Math.min(...axis(1)), Math.max(...axis(1))]).toEqual([expect.closeTo(-0.8), expect.closeTo(0.8)]);
     expect(axis(2).every((z) => z === 0)).toBe(true);
-    // 72 pieces of the rim, and 13 rays.
+    // The ring has 72 pieces, and there are 13 rays.
     expect(points).toHaveLength((72 + 13) * 2 * 3);
   });
 

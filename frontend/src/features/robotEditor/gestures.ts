@@ -14,7 +14,7 @@ function movable(editor: RobotEditor): Part[] {
   return robot ? robot.parts.filter((part) => selection.includes(part.key) && jointOf(robot, part)) : [];
 }
 
-/** Returns the results of the gizmo's gestures on the parts of a robot. */
+/** Returns the handlers of the gizmo's gestures on the parts of a robot. */
 export function handlesOf(editor: RobotEditor, scene: RobotScene): Handles {
   return {
     stand: () => {
@@ -57,8 +57,8 @@ export function handlesOf(editor: RobotEditor, scene: RobotScene): Handles {
 }
 
 /**
- * Returns the results of the pointer's gestures on the parts of a robot: the base is fixed, other parts move
- * at their height.
+ * Returns the handlers of the pointer's drags of a robot's parts: the base is fixed, and other parts move at
+ * their height.
  */
 export function dragHandlerOf(editor: RobotEditor, scene: RobotScene): DragHandler {
   return {

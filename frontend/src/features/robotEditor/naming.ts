@@ -3,8 +3,8 @@ import { nameProblem, type Named } from '@/model/robot/names';
 import type { Robot, Sensor } from '@/model/robot/types';
 
 /**
- * Returns the reason why a link's or a joint's name is invalid; `t` translates in the namespace
- * `robotEditor`.
+ * Returns a function that gives the reason why a link's or a joint's name is invalid; `t` translates in the
+ * namespace `robotEditor`.
  */
 export const nameWords =
   (robot: Robot, what: Named, now: string, t: TFunction<'robotEditor'>) =>
@@ -14,7 +14,7 @@ export const nameWords =
     return problem === 'form' ? t('badName') : t('editor3d:problem.sameId', { id: wish });
   };
 
-/** Returns the reason why a sensor's name is invalid. */
+/** Returns a function that gives the reason why a sensor's name is invalid. */
 export const sensorWords =
   (robot: Robot, sensor: Sensor, t: TFunction<'robotEditor'>) =>
   (wish: string): string | null => {

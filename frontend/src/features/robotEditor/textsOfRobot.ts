@@ -12,7 +12,7 @@ interface RobotTexts {
 }
 
 /**
- * Returns the files of a new robot, copied from the template or from one of our robots; its name is that of
+ * Returns the files of a new robot, copied from the template or from a built-in robot; its name is that of
  * its folder.
  */
 export async function textsOfRobot(base: string, name: string): Promise<RobotTexts> {

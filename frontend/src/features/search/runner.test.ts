@@ -2,7 +2,7 @@ import { describe, expect, it, vi } from 'vitest';
 import { seek, type SearchAnswer, type SearchRequest } from '@/model/search/seek';
 import { DEADLINE_MS, SearchRunner } from './runner';
 
-/** A worker of this thread; `hangs` never answers. */
+/** A worker that runs in the test's thread; with `hangs` it never answers. */
 class FakeWorker {
   isEnded = false;
   onmessage: ((event: { data: SearchAnswer }) => void) | null = null;

@@ -90,7 +90,7 @@ describe('the picture', () => {
   let scroller: HTMLElement;
   let detach: () => void;
 
-  /** Lets time pass on the page: frames come every 16 ms. */
+  /** Advances the page's time; frames come every 16 ms. */
   const pass = (ms: number) => {
     const before = count;
     vi.advanceTimersByTime(ms);
@@ -115,7 +115,7 @@ describe('the picture', () => {
   });
 
   it('shows the rows in the span', () => {
-    // A second has 10 px; node 1 runs throughout, in the first row below the axis.
+    // A second is 10 px wide; node 1 runs all the time, in the first row below the axis.
     expect(rects).toContainEqual([0, 25, 300, 18]);
     scroller.scrollTop = 10;
     view.redraw();

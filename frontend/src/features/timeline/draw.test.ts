@@ -15,7 +15,7 @@ const palette = {
 
 type Rect = readonly [color: string, x: number, y: number, width: number, height: number];
 
-/** A canvas that records: each rectangle with its colour, and each text with its place. */
+/** A canvas that records each rectangle with its colour, and each text with its place. */
 class Recorder {
   fillStyle = '';
   font = '';

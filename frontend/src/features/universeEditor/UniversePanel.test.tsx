@@ -22,7 +22,7 @@ actors:
 let editor: UniverseEditor;
 let runs = 0;
 
-/** The panel with the document as it is now. */
+/** The panel, with the current document. */
 function Panel() {
   useProjectStore((state) => state.files[PATH]?.text);
   const { universe } = readingOf(editor);
@@ -47,7 +47,7 @@ const choose = (id: string) => {
 beforeEach(() => {
   fakeServer({ 'GET /catalog/robots': [], 'GET /catalog/universes': [] });
   openProject({ texts: { [PATH]: HALL } });
-  // An editor outlives its tab, and belongs to one project.
+  // An editor outlives its tab but belongs to one project, so each test needs a new project.
   useProjectStore.setState({ projectId: `p${(runs += 1)}` });
   editor = editorOf(PATH);
   show(<Panel />);

@@ -10,7 +10,7 @@ import { UniverseScene } from './UniverseScene';
 const URDF = `<robot name="r"><link name="base"><visual><origin xyz="0 0 0.5"/>
   <geometry><box size="0.2 0.2 1"/></geometry></visual></link></robot>`;
 
-/** Returns a scene that shows a text; robots look like a box 1 m high. */
+/** Returns a scene that shows a universe's text; robots look like a box 1 m high. */
 function shown(text: string) {
   fakeServer({ 'GET /catalog/robots/turtle2/urdf': new Response(URDF) });
   openUniverse(text, { 'models/tower.urdf': URDF });
@@ -47,7 +47,7 @@ describe('UniverseScene', () => {
     expect(node.position.toArray()).toEqual([0, 0, 0]);
     expect(person.position.toArray()).toEqual([1, 1, 0]);
     expect(person.rotation.z).toBeCloseTo(Math.PI / 2);
-    // The frame stands round the person, not round the whole way.
+    // The frame surrounds the person, not the whole path.
     const bounds = new THREE.Box3().setFromObject(frame(node));
     expect(bounds.max.y).toBeLessThan(1.5);
     expect(bounds.min.y).toBeGreaterThan(0.5);

@@ -16,7 +16,7 @@ function begin(text = HALL) {
   const handles = handlesOf(editor, scene);
   handles.show();
   const thing = (id: string) => readingOf(editor).universe!.things.find((each) => each.id === id);
-  /** Returns a gesture of the gizmo: from where it stands to where `change` puts it. */
+  /** Performs a gesture of the gizmo: from its place to the one that `change` sets. */
   const gesture = (mode: Mode, change: (pivot: THREE.Object3D) => void) => {
     const pivot = new THREE.Object3D();
     setThingPose(pivot, handles.stand()!.pose);

@@ -5,7 +5,7 @@ const color = [0.5, 0.25, 1, 1];
 
 describe('personShapes', () => {
   const shapes = personShapes(color);
-  /** Lowest and highest point along z of a shape, as far as it stands upright. */
+  /** Returns the lowest and the highest point of an upright shape along z. */
   const reach = ({ shape, size, pose }: (typeof shapes)[number]): [number, number] => {
     const [a = 0, b = 0, c = 0] = size;
     const isLevel = pose[3] !== 0;

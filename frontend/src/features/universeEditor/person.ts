@@ -14,7 +14,8 @@ const shape = (
 ): Shape => ({ shape: kind, size, pose: [...at, ...rotation], color });
 
 /**
- * Returns a standing person, 1.75 m tall, facing along x; the same as in `executor/world/geometry/person.py`.
+ * Returns the shapes of a standing person, 1.75 m tall and facing along x, as in
+ * `executor/world/geometry/person.py`.
  */
 export function personShapes(color: number[]): Shape[] {
   const trousers = [...color.slice(0, 3).map((channel) => channel * 0.8), 1];

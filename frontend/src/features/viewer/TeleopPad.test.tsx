@@ -22,7 +22,7 @@ async function pad(introduction: Partial<Introspection> = {}) {
 
 const direction = () => useTeleop.getState().direction;
 const STILL = { linear: 0, angular: 0 };
-/** Presses a key; returns whether the pad took it. */
+/** Presses a key; returns whether the pad handled it. */
 const down = (code: string, more: object = {}, target: Element | Window = window) =>
   !fireEvent.keyDown(target, { code, ...more });
 const up = (code: string) => fireEvent.keyUp(window, { code });

@@ -8,7 +8,7 @@ const LARGEST_SHARE = 0.25;
 export const isCramped = (width: number, height: number): boolean =>
   width * height > 0 && PAD_AREA / (width * height) > LARGEST_SHARE;
 
-/** Returns whether the view round an element is too small for the open driving pad. */
+/** Returns whether the view around an element is too small for the open driving pad. */
 export function useCramped(element: RefObject<HTMLElement | null>): boolean {
   const [cramped, setCramped] = useState(false);
   useEffect(() => {

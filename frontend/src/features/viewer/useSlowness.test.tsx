@@ -12,7 +12,10 @@ beforeEach(() => {
   onTestFinished(() => clock.mockRestore());
 });
 
-/** Requests pictures all the time for four seconds, and draws two a second; returns the verdicts. */
+/**
+ * Requests pictures continuously for four seconds and draws two a second; returns the rates that were too
+ * slow.
+ */
 function watch(isVisible = true) {
   const onSlow = vi.fn();
   const { result } = renderHook(() => useSlowness(isVisible, onSlow));

@@ -8,7 +8,7 @@ const SIGNALED = 4;
 let isDone = true;
 const deleted = vi.fn();
 
-// The page asks for the kind of WebGL once: in this file the processor draws.
+// The page asks for the kind of WebGL only once; in this file, WebGL is software.
 Object.assign(HTMLCanvasElement.prototype, {
   getContext: (kind: string) =>
     kind === 'webgl2'

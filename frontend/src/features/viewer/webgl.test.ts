@@ -4,7 +4,7 @@ import type * as WebGl from './webgl';
 const none = HTMLCanvasElement.prototype.getContext;
 const lose = vi.fn();
 
-/** Returns the module asks the browser once, so each test loads it again. */
+/** Loads the module again and asks for the kind of WebGL, since the module asks the browser only once. */
 async function ask(renderer: string | null, isNamed = true) {
   vi.resetModules();
   const getContext = vi.fn((kind: string) =>

@@ -27,7 +27,7 @@ function element(snapshot: XmlSnapshot, showsMetadata = false) {
   return <XmlEditor treeId="Main" link={link} snapshot={snapshot} showsMetadata={showsMetadata} />;
 }
 
-/** A link that holds a text, and records what is typed. */
+/** A link with a fixed text, which records the typed texts. */
 class HeldLink extends XmlLink {
   override readonly get = () => snapshotOf();
   override edited(text: string): void {

@@ -17,7 +17,7 @@ function open(spec: NodeSpec | undefined, ports: Record<string, string> = {}) {
   return screen.queryAllByRole('listitem').map(({ textContent }) => textContent);
 }
 
-/** How the value of the only port is drawn. */
+/** Returns the class of the value of the only port. */
 const look = () => screen.getByRole('listitem').lastElementChild!.className;
 
 describe('BlockPorts', () => {

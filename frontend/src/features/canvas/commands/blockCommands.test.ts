@@ -13,7 +13,7 @@ let clipboard = '';
 
 beforeEach(() => {
   isVisible = true;
-  // jsdom lays nothing out, and has no clipboard.
+  // jsdom has neither a layout nor a clipboard.
   Element.prototype.checkVisibility = () => isVisible;
   clipboard = '';
   vi.stubGlobal('navigator', {
@@ -57,7 +57,7 @@ const enabled = (): string[] =>
 const children = () => childrenOf(now.diagram(), 'r');
 const typesOf = (ids: readonly string[]) => ids.map((id) => nodeOf('Main', id)?.type);
 
-/** The commands that any selected block has. */
+/** The commands that are available for every selected block. */
 const COMMON = [
   'edit.copy',
   'edit.cut',

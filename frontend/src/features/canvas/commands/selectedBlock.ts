@@ -18,7 +18,7 @@ export function openBlock(diagram: Diagram, id: NodeId): void {
   else setEditor({ editing: { node: id, field: 'name' } });
 }
 
-/** Edits the selected block's name or comment in the block. */
+/** Starts editing the selected block's name or comment in the block. */
 export function editSelected(field: 'name' | 'comment'): void {
   const node = firstSelected();
   if (node !== undefined) setEditor({ editing: { node, field } });

@@ -17,7 +17,7 @@ const words = (): Element => document.querySelector('p')!;
 let unfollow: () => void;
 
 beforeEach(() => {
-  // jsdom lays nothing out: whatever is in the page counts as seen.
+  // jsdom has no layout, so every element in the page counts as visible.
   Element.prototype.checkVisibility = () => true;
   document.body.innerHTML =
     '<div data-testid="canvas" data-tree="Main" tabindex="0"><input /></div><p>words</p>';
@@ -33,7 +33,10 @@ afterEach(() => {
   document.body.innerHTML = '';
 });
 
-/** What the browser says at Ctrl+C, X or V; answers whether somebody took it, and the text it holds then. */
+/**
+ * Fires the event that a browser sends for Ctrl+C, X or V; returns whether it was handled, and the text that
+ * the clipboard then has.
+ */
 function clipboard(type: 'copy' | 'cut' | 'paste', text = '', target: Element = document.body) {
   let held = text;
   const clipboardData = { getData: () => held, setData: (_: string, value: string) => void (held = value) };

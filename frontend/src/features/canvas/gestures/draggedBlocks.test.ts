@@ -27,7 +27,7 @@ it('moves the blocks with what hangs below them, and the edges between them', ()
     'node top': '3px -4px',
     'node below': '3px -4px',
     'node other': '',
-    // The edge to the top is drawn again, since its upper end stays.
+    // The edge to the top block is drawn again, since its upper end stays in place.
     'edge top': '',
     'edge below': '3px -4px',
     'edge other': '',

@@ -75,7 +75,7 @@ function Page() {
   );
 }
 
-/** Presses a key; returns whether the canvas took it. */
+/** Presses a key; returns whether the canvas handled it. */
 function press(key: string, more: object = {}, at = 'block'): boolean {
   const event = createEvent.keyDown(screen.getByTestId(at), { key, ...more });
   fireEvent(screen.getByTestId(at), event);
@@ -154,7 +154,7 @@ describe('keys on the selection', () => {
     expect(now.selection()).toEqual(['r']);
     expect(press('Escape')).toBe(true);
     expect(now.selection()).toEqual([]);
-    // With nothing to leave, the key is for the frame.
+    // There is nothing to leave, so the frame handles the key.
     expect(press('Escape')).toBe(false);
   });
 

@@ -45,7 +45,7 @@ function begin() {
     const { x, y, width, height } = boxOf(id);
     return { x: x + width / 2, y: y + height / 2 };
   };
-  /** Returns the block as React Flow carries it, off its place by so much, and the pointer. */
+  /** Returns a block as React Flow reports it during a drag: its offset from its place, and the pointer. */
   const held = (id: string, dx: number, dy: number, pointer: { x: number; y: number }, altKey: boolean) =>
     [
       { clientX: pointer.x, clientY: pointer.y, altKey } as MouseEvent,
@@ -157,7 +157,7 @@ describe('Escape', () => {
     expect(used().held).toBeNull();
     expect(translated()).toEqual([]);
     expect(now.editor().slot).toBeNull();
-    // A touch continues until the finger is lifted.
+    // React Flow's drag of a touch continues until the finger is lifted.
     drag('a', 60, 0, centreOf('b'));
     expect(translated()).toEqual([]);
     drop('a', 60, 0, centreOf('b'));

@@ -17,7 +17,7 @@ beforeEach(() => {
   );
 });
 
-/** Opens the box as the canvas does: it is gone once the request is. */
+/** Opens the box as the canvas does: when the request is removed, the box is closed. */
 function open(more: Partial<Request> = {}) {
   const onClose = vi.fn();
   const place = { at: 'child', parent: 'r', index: 2 } as const;
@@ -136,7 +136,7 @@ describe('keys', () => {
     open({ text: 'Gra' });
     fireEvent.keyDown(field(), { key: 'Delete' });
     document.removeEventListener('keydown', onKey);
-    // React listens at the root, which is below the document.
+    // React's listener is at the root, below the document.
     expect(onKey).not.toHaveBeenCalled();
   });
 });

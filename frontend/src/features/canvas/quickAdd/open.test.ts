@@ -19,7 +19,7 @@ afterEach(() => {
   document.body.innerHTML = '';
 });
 
-/** Draws an element at a place of the window. */
+/** Adds an element with a box in the window. */
 function draw(testId: string, box: DOMRect) {
   const element = document.body.appendChild(document.createElement('div'));
   element.dataset['testid'] = testId;

@@ -24,7 +24,7 @@ export function pointOf(id: NodeId | undefined): { x: number; y: number } {
   return block ? { x: box.left, y: box.bottom + 8 } : { x: box.left + box.width / 2 - 160, y: box.top + 80 };
 }
 
-/** Opens the box at the selected block, for the keyboard. */
+/** Opens the quick-add box at the selected block, for the keyboard. */
 export function openQuickAddHere(what: 'child' | 'after' | 'wrap' | 'morph', text = ''): void {
   const diagram = activeDiagram();
   if (!diagram) return;

@@ -34,7 +34,7 @@ function project(severity: ShownProblem['severity'] = 'error') {
   });
 }
 
-/** What is drawn: the colour and the box of each block, and the lines. */
+/** Records what is drawn: the colour and box of each block, and the lines. */
 function recordPictures() {
   const boxes: [color: string, x: number, y: number, width: number, height: number][] = [];
   const lines: number[][] = [];

@@ -28,7 +28,7 @@ beforeEach(() => {
   });
 });
 
-/** Shows a canvas of this size at a point of the window. */
+/** Opens a canvas of this size at the window's origin. */
 function open(width = 800, height = 600) {
   const canvas = document.createElement('div');
   canvas.dataset['tree'] = 'Main';

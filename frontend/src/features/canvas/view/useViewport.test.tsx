@@ -19,10 +19,10 @@ const diagram = (layout: Diagram['layout'] = 'vertical'): Diagram => ({
 });
 
 let count = 0;
-/** Returns a tree that nobody has looked at yet. */
+/** Returns the id of a tree that was never opened. */
 const fresh = () => `Tree${(count += 1)}`;
 
-/** Opens the view of a tree, and returns how it begins. */
+/** Opens the view of a tree; returns the spies through which it sets the initial view. */
 function begin(layout: Layout, tree = diagram(), id = fresh()) {
   const { used, view } = inFlow(() => useViewport(id, layout, tree));
   const flow = { fitView: vi.fn(() => Promise.resolve(true)), setViewport: view.setViewport };
@@ -32,7 +32,7 @@ function begin(layout: Layout, tree = diagram(), id = fresh()) {
 
 describe('a view begins', () => {
   it('with the whole tree where its names can be read then', () => {
-    // The pane has 800 by 600 pixels: this is the smallest readable zoom, with its padding.
+    // The pane has 800 × 600 px: this is the smallest readable zoom, padding included.
     const { fitView, setViewport } = begin(layoutOf(800 / 0.6 / 1.14 - 1, 600 / 0.6 / 1.14 - 1));
     expect(fitView).toHaveBeenCalledExactlyOnceWith(FIT);
     expect(setViewport).not.toHaveBeenCalled();

@@ -3,7 +3,7 @@ import { useLanguageStore } from '@/store/language';
 import { useProjectStore } from '@/store/project';
 import { languageSupport } from './client';
 
-/** A server that reads messages, and sends none. */
+/** A socket whose server accepts messages and sends none. */
 class SilentSocket {
   static readonly OPEN = 1;
   static opened: SilentSocket[] = [];

@@ -1,7 +1,7 @@
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { openSocket, type LanguageSocket } from './socket';
 
-/** A socket whose other end is the test. */
+/** A socket whose server is the test. */
 class TestSocket {
   static readonly OPEN = 1;
   static last: TestSocket;

@@ -24,7 +24,7 @@ const paths = (method: string) =>
     );
 
 const changes = () => server.sent('textDocument/didChange');
-/** Everything that was sent before has arrived. */
+/** Resolves when the server has received everything that was sent before. */
 const answered = () => client.request('test/answer', {});
 
 beforeEach(async () => {

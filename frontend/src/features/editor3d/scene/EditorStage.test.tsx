@@ -104,7 +104,7 @@ describe('the stage of an editor', () => {
     act(() => select(editor, ['far']));
     act(() => editor.store.setState({ viewpoint: { kind: 'selection' } }));
     expect(editor.view?.center()).toEqual([expect.closeTo(8), expect.closeTo(0)]);
-    // As far away as 1.6 times what is seen, which is at least the smallest extent.
+    // The distance is 1.6 times the visible extent, which is at least the smallest extent.
     const middle = new THREE.Vector3(8, 0, 0.5);
     expect(camera.position.distanceTo(middle)).toBeCloseTo(1.6 * 2);
     act(() => select(editor, []));

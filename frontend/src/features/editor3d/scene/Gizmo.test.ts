@@ -21,7 +21,7 @@ function gizmo(first: Partial<Stand> = {}) {
     const { clientX, clientY } = pixelOf(camera, x, y);
     return { x: clientX / 200 - 1, y: 1 - clientY / 150, button };
   };
-  /** Grabs the handle of an axis at a place, and drags it to another one. */
+  /** Grabs the handle of an axis at one place, and drags it to another. */
   const drag = (axis: string, from: readonly [number, number], to: readonly [number, number]) => {
     const { controls } = made;
     controls.axis = axis as typeof controls.axis;
@@ -108,7 +108,7 @@ describe('a gesture of the gizmo', () => {
     expect(pivot).toBe(made.root.children[1]);
     expect(new THREE.Vector3().setFromMatrixPosition(start).toArray()).toEqual([1, 2, 0]);
     expect(handles.show).toHaveBeenCalledOnce();
-    // The handles stand again where the document says.
+    // The handles are again at the place that the document says.
     expect(pivot.position.toArray()).toEqual([1, 2, 0]);
   });
 

@@ -9,7 +9,10 @@ const isOn = vi.fn(() => false);
 const isTaken = vi.fn(() => false);
 const end = vi.fn(() => false);
 
-/** Returns a plate of 1 m at (2, 0), 1 m above the floor, and a neighbour that is dragged with it. */
+/**
+ * Returns the tool for a scene with a plate of 1 m at (2, 0), 1 m above the floor, and a neighbour that is
+ * dragged with it.
+ */
 function begin() {
   const canvas = testCanvas();
   canvas.tabIndex = 0;

@@ -19,7 +19,7 @@ interface Plain {
 const BOX: Shape = { shape: 'box', size: [1, 1, 1], pose: [0, 0, 0, 0, 0, 0, 1], color: [1, 0, 0, 1] };
 const here = (...shapes: Shape[]): Fetched<Shape[]> => ({ value: shapes, failed: false });
 
-/** Things at x, drawn by their shapes. */
+/** A scene of things that are placed along x and drawn by their shapes. */
 class PlainScene extends ThingScene<Plain> {
   protected stateOf({ shapes }: Plain): unknown {
     return this.arrivals(shapes);

@@ -4,7 +4,7 @@ import { EMPTY_STL, stl } from '../../../../harness/documents';
 import { valuesOf } from '../../../../harness/scene';
 import { readMesh } from './meshes';
 
-/** Returns the loaders know buffers of the page only, not those of Node. */
+/** Returns a text as the page's buffer type, since the loaders do not accept Node's. */
 const bytes = (text: string): ArrayBuffer => Uint8Array.from(text, (letter) => letter.charCodeAt(0)).buffer;
 const read = (path: string, text: string) => readMesh(path, bytes(text));
 

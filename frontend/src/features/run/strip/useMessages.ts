@@ -37,7 +37,7 @@ function useIsUnreadViewer(): boolean {
   return key !== null && key !== read;
 }
 
-/** Returns whether a restart is offered: the program has been edited while it runs. */
+/** Returns whether to offer a restart: the program has been edited while it runs. */
 function useCanRestart(): boolean {
   const hasApplication = useSessionStore(
     ({ executor, introspection }) =>

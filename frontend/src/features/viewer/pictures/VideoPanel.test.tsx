@@ -37,7 +37,7 @@ function panel() {
   return { view: screen.getByTestId('viewer-video'), unmount };
 }
 
-/** What the server is asked for once the gesture has been sent. */
+/** Returns the options that are requested from the server after a gesture. */
 function sent(): StreamOptions | null {
   act(() => {
     vi.advanceTimersByTime(60);
@@ -46,7 +46,7 @@ function sent(): StreamOptions | null {
 }
 
 const looksFrom = (orbit: Orbit) => ({ max_hz: 30, width: 640, camera_pose: poseOf(orbit) });
-/** jsdom's pointer events know no movement. */
+/** Moves the pointer over the view; jsdom's pointer events have no movement. */
 function drag(view: HTMLElement, x: number, y: number, more: object = {}): void {
   const event = new PointerEvent('pointermove', { bubbles: true, buttons: 1, ...more });
   Object.defineProperties(event, { movementX: { value: x }, movementY: { value: y } });

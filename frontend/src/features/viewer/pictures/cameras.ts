@@ -2,7 +2,8 @@ import type { Scene } from '@/generated/messages';
 
 /**
  * Returns the cameras of a scene by the names under which their pictures are requested: the sensor's name,
- * and `robot/sensor` for every robot but the first. The first camera is the one that is sent without a name.
+ * and `robot/sensor` for every robot but the first. The first camera is the one that is sent if no name is
+ * given.
  */
 export function camerasOf(scene: Scene | null): string[] {
   if (!scene) return [];
@@ -17,16 +18,16 @@ export function camerasOf(scene: Scene | null): string[] {
 }
 
 /**
- * Returns the camera to show: the chosen one if the world has it, else the first; null as long as none is
+ * Returns the camera to show: the chosen one if the world has it, otherwise the first; null while none is
  * known.
  */
 export const shownCamera = (cameras: readonly string[], chosen: string | null): string | null =>
   cameras.find((name) => name === chosen) ?? cameras[0] ?? null;
 
-/** Returns the name with which a camera's pictures are requested; the first one needs none. */
+/** Returns the name under which a camera's pictures are requested; undefined for the first camera. */
 export const requestedName = (cameras: readonly string[], shown: string | null): string | undefined =>
   shown === null || shown === cameras[0] ? undefined : shown;
 
-/** Returns the camera for one more view: the one after `shown`, in turn. */
+/** Returns the camera for another view: the next one after `shown`, in turn. */
 export const nextCamera = (cameras: readonly string[], shown: string | null): string | null =>
   cameras[(cameras.indexOf(shown ?? '') + 1) % Math.max(1, cameras.length)] ?? null;

@@ -19,7 +19,7 @@ interface Decoding {
   fail(): Promise<void>;
 }
 
-/** Pictures are decoded when a test says so. */
+/** Draws pictures that are decoded when the test says so. */
 function begin() {
   const decoding: Decoding[] = [];
   const close = vi.fn();

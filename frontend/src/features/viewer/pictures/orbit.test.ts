@@ -25,7 +25,7 @@ describe('orbit', () => {
   });
 
   it('moves with the pointer: further the further away one is', () => {
-    // From +x, y points to the right on the screen: dragging right moves the target left.
+    // Seen from +x, y points to the right of the screen, so a drag to the right moves the target left.
     expect(panned(LEVEL, 100, 0).target).toEqual([expect.closeTo(1), expect.closeTo(2 - 1.5), 0.3]);
     expect(panned(LEVEL, 0, 100).target).toEqual([expect.closeTo(1 - 1.5), expect.closeTo(2), 0.3]);
     expect(panned({ ...LEVEL, azimuth: Math.PI / 2, distance: 20 }, 100, 0).target).toEqual([

@@ -4,7 +4,9 @@ import { Follower } from './Follower';
 
 const at = (x: number, z = 0) => new THREE.Vector3(x, 0, z);
 
-/** Returns the way of the camera while the robot stays somewhere, in so many pictures. */
+/**
+ * Returns the distance that the camera moves along x in a number of pictures, while the robot stays in place.
+ */
 function wayTo(follower: Follower, robot: THREE.Vector3, pictures: number): number {
   let way = 0;
   for (let count = 0; count < pictures; count += 1) way += follower.step(robot, 1 / 30)?.x ?? 0;

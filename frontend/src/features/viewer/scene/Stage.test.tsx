@@ -34,7 +34,7 @@ const SCAN: Scan = {
   ranges: new Uint8Array(new Float32Array([1, 2]).buffer),
 };
 
-/** Returns the robot at x, as the session packs poses. */
+/** Returns a frame with the robot at x, packed as the session does. */
 function robotAt(x: number, t: number): Poses {
   const poses = new DataView(new ArrayBuffer(16));
   const units = Math.round(x * 1e4);
@@ -147,7 +147,7 @@ describe('the stage of a world', () => {
   it('looks from above when it is asked to', () => {
     const { camera, change } = stage();
     change({ viewpoint: { kind: 'top' } });
-    // In the middle of wall and robot.
+    // The camera is in the middle between wall and robot.
     expect(camera.position.x).toBeCloseTo(2.5, 1);
     expect(camera.position.y).toBeCloseTo(0, 1);
   });

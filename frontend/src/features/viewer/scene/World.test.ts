@@ -115,7 +115,7 @@ describe('the motion of a world', () => {
     const world = new World(SCENE, true);
     world.receive([], 1000);
     world.receive([[2, pose(0.1)]], 1150);
-    // A tenth of the way from 50 ms to 150 ms.
+    // The interval is now 60 ms: a tenth of the way from 50 ms to 150 ms.
     expect(world.advance(1150 + 59)).toBe(true);
     expect(world.advance(1150 + 61)).toBe(false);
   });

@@ -11,7 +11,7 @@ function cameraOf(aspect: number): THREE.PerspectiveCamera {
   return camera;
 }
 
-/** Returns whether the camera sees all corners of the room from a distance. */
+/** Returns whether the camera sees all corners of the room from a distance in m. */
 function seesAll(camera: THREE.PerspectiveCamera, distance: number): boolean {
   const center = room.getCenter(new THREE.Vector3());
   camera.position.copy(SIDE).setLength(distance).add(center);

@@ -23,7 +23,7 @@ describe('pictures on shapes', () => {
     for (let i = 0; i < found.length; i += 3) {
       const triangle = found.slice(i, i + 3);
       if (triangle.some(({ at }) => at.y > -0.09)) continue;
-      // Seen from -y, x grows to the right and z upwards: so do u and v.
+      // Seen from -y, x grows to the right and z upwards, like u and v.
       for (const { at, u, v } of triangle) {
         expect([u, v]).toEqual([expect.closeTo((at.x + 2) / 0.5, 4), expect.closeTo(at.z + 1, 4)]);
         seen += 1;

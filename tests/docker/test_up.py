@@ -112,11 +112,13 @@ def test_only_caddy_is_reached_and_it_has_no_rights(server):
         ports, *rights = server.engine.run("inspect", "-f", format_, server.container(service)).stdout.split()
         assert (ports not in {"{}", "null"}) == (service == "caddy"), service
     assert rights == ['["ALL"]', "null", "true", "caddy"]
-    limits = "{{.HostConfig.Memory}} {{.HostConfig.PidsLimit}} {{.HostConfig.SecurityOpt}}"
+    limits = "{{.HostConfig.Memory}} {{.HostConfig.PidsLimit}} {{.HostConfig.SecurityOpt}} "
+    limits += "{{range .HostConfig.Ulimits}}{{.Name}}={{.Hard}}{{end}}"
     assert server.engine.run("inspect", "-f", limits, server.container("caddy")).stdout.split() == [
         str(512 << 20),
         "128",
         "[no-new-privileges:true]",
+        "nofile=16384",
     ]
 
 

@@ -45,4 +45,5 @@ def is_abandoned(lock: Path) -> bool:
 
 
 def _is_recent(status: os.stat_result) -> bool:
-    return status.st_mtime > time.time() - YOUNGEST_S
+    # A time in the future is nobody's recent change; it could keep a file for ever.
+    return abs(time.time() - status.st_mtime) < YOUNGEST_S

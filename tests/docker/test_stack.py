@@ -223,7 +223,7 @@ async def test_a_greedy_program_ends_alone_and_its_user_gets_the_reason(ann, ben
 async def test_python_is_read_in_containers_of_its_users(stack, ann, ben, projects):
     for user in (ann, ben):
         formatted = user.post("python/format", {"source": "x = {  'a':1 }\n", "filename": "actions/Go.py"})
-        assert formatted == {"source": 'x = {"a": 1}\n'}
+        assert formatted == {"source": 'x = {"a": 1}\n', "findings": []}
     assert len(stack.tools()) == 2
     format_ = "{{.HostConfig.NetworkMode}} {{.HostConfig.ReadonlyRootfs}} {{.Config.User}} {{len .Mounts}}"
     for name in stack.tools():

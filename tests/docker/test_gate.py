@@ -21,7 +21,7 @@ from tests.e2e.server import wait_until
 BUILT = os.environ.get("BT_STUDIO_TEST_IMAGES", "")
 TAG = BUILT or "test"
 FLOODER = (Path(__file__).parent / "flooder.py").read_text()
-# The stack here has no Caddy, as behind a proxy of one's own; `test_up.py` looks at Caddy's limits.
+# The stack here has no Caddy, as behind a custom proxy; `test_up.py` checks Caddy's limits.
 WITHOUT = {
     name for name, service in yaml.safe_load(PROXY.read_text())["services"].items() if "profiles" in service
 }

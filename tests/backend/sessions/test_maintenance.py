@@ -13,6 +13,7 @@ from django.utils import timezone
 from backend.config.environment import environment
 from backend.sessions import maintenance, writes
 from backend.sessions.errors import HostFullError
+from backend.sessions.lease import holder
 from backend.sessions.models import Session
 from tests.backend.sessions.test_writes import launched
 
@@ -137,7 +138,7 @@ def test_the_dead_are_noted_without_anyone_asking(api, start, fake_manager):
 def test_a_server_that_takes_the_lease_looks_first_for_what_the_last_holder_left(monkeypatch):
     answers = iter([False, False, *[True] * (maintenance.ROUNDS_TO_ORPHANS + 1)])
     looked: list[bool] = []
-    monkeypatch.setattr(maintenance.holder, "hold", lambda *_: next(answers))
+    monkeypatch.setattr(holder, "hold", lambda *_: next(answers))
     monkeypatch.setattr(maintenance, "is_alone", lambda: False)
     monkeypatch.setattr(maintenance, "maintain", lambda *, is_for_orphans: looked.append(is_for_orphans))
 

@@ -8,7 +8,7 @@ function Field() {
   const { isTyping, handlers } = useTyping();
   return (
     <div {...handlers} data-testid="field" data-typing={isTyping}>
-      <input type="text" aria-label="value" />
+      <input aria-label="value" />
       <input type="checkbox" aria-label="switch" />
     </div>
   );

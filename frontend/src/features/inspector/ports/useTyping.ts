@@ -1,7 +1,7 @@
 import { useEffect, useState, type FormEvent, type KeyboardEvent } from 'react';
 import { setTyping } from '@/store/run/livePorts';
 
-const TEXTS = 'input[type="text"], textarea, [contenteditable="true"]';
+const TEXTS = 'input:not([type]), input[type="text"], textarea, [contenteditable="true"]';
 const ENDING = new Set(['Enter', 'ArrowUp', 'ArrowDown']);
 
 /**

@@ -337,7 +337,7 @@ class TopicMismatch(Struct):
     """Two ends of a topic do not match, so no message arrives; reported once while both exist.
 
     `publisher` and `subscriber` are names of ROS nodes. `reason` is the difference: message type or quality
-    of service. `code` names it exactly, and `values` holds what `message` tells besides the names. `hint`
+    of service. `code` names it exactly, and `values` holds what `message` tells except the names. `hint`
     says how to fix it. With `resolved`, the mismatch that was reported does not exist any more.
     """
 

@@ -18,7 +18,7 @@ class PortEffect(enum.Enum):
 
     NEXT_TICK = "next_tick"
     NEXT_START = "next_start"
-    """The action read the port before the first tick only: it reads it again when the tree is built anew."""
+    """The action read the port before the first tick only: it reads it again when the tree is built again."""
 
 
 def set_port(node: Node, name: str, text: str | None) -> PortEffect:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class PortProblem(NamedTuple):
-    """What is wrong with the text of a port; `span_start` is the place of the error in a script."""
+    """A mistake in the text of a port; `span_start` is the place of the error in a script."""
 
     code: str
     message: str

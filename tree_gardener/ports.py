@@ -258,7 +258,7 @@ class BoundPorts(dict[str, str]):
         self.read: set[str] = set()
 
     def replace(self, texts: Mapping[str, str]) -> None:
-        """Sets all texts anew; the action sees them where it reads its ports later."""
+        """Replaces all texts; the action sees them where it reads its ports later."""
         super().clear()
         super().update(texts)
 

@@ -8,6 +8,7 @@ import { useProjectStore } from '@/store/project';
 import { isInsertedInto } from '@/store/project/bringing';
 import { treeIdOf } from '@/store/project/state';
 import { lazyPart } from '@/ui/parts';
+import { useIsNarrow } from '@/ui/useIsNarrow';
 import classes from './library.module.css';
 
 const SourceView = lazyPart(async () => (await import('@/features/inspector/SourceView')).SourceView);
@@ -84,12 +85,16 @@ interface ContentProps {
 function Content({ path, source, isClash }: ContentProps) {
   const { t } = useTranslation('library');
   const mine = useProjectStore((state) => state.currentText(path));
+  const isNarrow = useIsNarrow();
   if (isClash && mine !== null) {
     const labels = { before: t('arrivals.mine', { path }), after: t('arrivals.theirs', { path }) };
     return (
-      <div className={classes['difference']}>
-        <TextDifference path={path} before={mine} after={source} labels={labels} />
-      </div>
+      <>
+        <p className={classes['clash']}>{t(isNarrow ? 'arrivals.sidesUnified' : 'arrivals.sides')}</p>
+        <div className={classes['difference']}>
+          <TextDifference path={path} before={mine} after={source} labels={labels} />
+        </div>
+      </>
     );
   }
   if (treeIdOf(path) === null) {

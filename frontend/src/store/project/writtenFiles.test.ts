@@ -81,7 +81,11 @@ describe('a step that writes files', () => {
       delete: true,
     });
     store().redo();
-    expect(store().pendingChanges().filter((change) => change.delete)).toEqual([]);
+    expect(
+      store()
+        .pendingChanges()
+        .filter((change) => change.delete),
+    ).toEqual([]);
     expect(store().removed).toEqual({});
   });
 

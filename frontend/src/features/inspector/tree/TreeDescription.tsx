@@ -11,7 +11,7 @@ import classes from '../Inspector.module.css';
 export function TreeDescription({ diagram }: { readonly diagram: Diagram }) {
   const { t } = useTranslation('inspector');
   return (
-    <Section title={t('aboutTree', { name: diagram.id })}>
+    <Section title={t('aboutTree')}>
       <Textarea
         size="xs"
         rows={2}

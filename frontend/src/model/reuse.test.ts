@@ -41,7 +41,7 @@ describe('reuse', () => {
     expect(plan.files).toEqual(dock);
   });
 
-  it('uses what is there already, word for word', () => {
+  it('reuses identical existing files', () => {
     const existing = (path: string) => (files as Record<string, string>)[path] ?? null;
     const plan = planInsertion({ needs: [DOCK], sources: dock, existing, isTaken: free });
     expect(plan.files).toEqual({});
@@ -49,7 +49,7 @@ describe('reuse', () => {
     expect(plan.arrivals.every(({ state }) => state === 'same')).toBe(true);
   });
 
-  it('renames a newcomer whose name is taken, and all that refers to it', () => {
+  it('renames a new file whose name is taken, and all references to it', () => {
     const project: Record<string, string> = {
       'actions/Turn.py': 'class Turn(Base):\n    mine = True\n',
       'trees/Search.json': files['trees/Search.json'],

@@ -2,7 +2,7 @@ import { parseDiagram, serializeDiagram } from './serialize';
 import type { Diagram, DiagramNode } from './diagram';
 import { importsName, withName } from './pythonNames';
 
-/** File contents by path. */
+/** The contents of files, by path. */
 export type Sources = Readonly<Record<string, string>>;
 
 /** What becomes of a file that comes under the name of another file of the project. */
@@ -42,7 +42,7 @@ export interface Bringing {
 const ACTION = /^actions\/([^/]+)\.py$/;
 const TREE = /^trees\/([^/]+)\.json$/;
 
-/** A tree's text in this editor's format, so that equal trees have equal texts. */
+/** Returns a tree's text in the editor's format, so that equal trees have equal texts. */
 function normal(path: string, text: string): string {
   if (!TREE.test(path)) return text;
   try {
@@ -160,7 +160,7 @@ export function planInsertion({ needs, sources, existing, isTaken, choices = {} 
   };
 }
 
-/** The files of a behaviour at their places in a project. */
+/** Returns the files of a behaviour at their places in a project. */
 export function atPlaces(sources: Sources, places: Readonly<Record<string, string>>): Sources {
   let files = normalized(sources);
   for (const [from, to] of Object.entries(places)) {

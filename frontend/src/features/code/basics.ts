@@ -23,7 +23,7 @@ import { editorTheme } from './editorTheme';
 import { fontSizeKeys } from './fontSize';
 import { phrases } from './phrases';
 
-/** Extensions that every text editor has, for files and for a tree's XML; `keys` take precedence. */
+/** Returns the extensions of every text editor, for files and for a tree's XML; `keys` take precedence. */
 export function basics(label: string, keys: readonly KeyBinding[] = []): Extension {
   return [
     lineNumbers(),

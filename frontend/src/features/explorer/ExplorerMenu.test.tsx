@@ -36,7 +36,7 @@ describe('a right click, or the menu key', () => {
   });
 });
 
-it('is shut until it is asked for', () => {
+it('is closed until it is requested', () => {
   show(<ExplorerMenu path="b.md" name="b.md" isOpened={false} onChange={vi.fn()} onOpen={vi.fn()} />);
   expect(screen.getByRole('button', { name: 'More for b.md' })).toHaveAttribute('aria-expanded', 'false');
 });

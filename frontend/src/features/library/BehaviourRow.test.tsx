@@ -57,13 +57,13 @@ describe('a behaviour', () => {
     expect(row.queryByText('Version 1.2')).toBeNull();
   });
 
-  it('leaves out a description that is empty', async () => {
+  it('leaves out an empty description', async () => {
     const row = open(null, { doc: '' });
     await unfold();
     expect(row.queryByText('Looks for the dock first.')).toBeNull();
   });
 
-  it('is updated where the project has another version', async () => {
+  it('can be updated if the project has another version', async () => {
     const row = open('1.1');
     expect(row.getByTestId('update-Dock')).toBeInTheDocument();
     await unfold();
@@ -92,7 +92,7 @@ describe('a behaviour', () => {
 });
 
 describe('a behaviour that is inserted', () => {
-  it('comes with its files, and says so', async () => {
+  it('brings its files, and reports that', async () => {
     open();
     await user.click(screen.getByRole('button', { name: 'Insert Dock' }));
     const { diagrams, currentText } = useProjectStore.getState();

@@ -11,7 +11,7 @@ import { dimMetadata } from '@/features/xml/ranges';
 import classes from './history.module.css';
 
 interface TextDifferenceProps {
-  /** The path of the file, which selects the syntax. */
+  /** The path of the file, which determines the syntax colours. */
   readonly path: string;
   readonly before: string;
   readonly after: string;

@@ -43,7 +43,7 @@ async function toClipboard(text: string): Promise<void> {
   try {
     await navigator.clipboard.writeText(text);
   } catch {
-    // The browser refused: pasting in this tab uses the remembered text.
+    // The browser refused. Pasting in this tab uses the remembered text.
   }
 }
 
@@ -63,7 +63,7 @@ export async function cutSelection(): Promise<void> {
   if (await copySelection()) deleteSelection();
 }
 
-/** The content of the clipboard: for a menu, which gets no paste event. */
+/** Returns the content of the clipboard. A menu needs this function, since it gets no paste event. */
 export async function clipboardText(): Promise<string> {
   try {
     return await navigator.clipboard.readText();

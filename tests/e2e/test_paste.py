@@ -9,6 +9,8 @@ from tests.e2e.accessibility import expect_accessible
 from tests.e2e.canvas_by_hand import block
 from tests.e2e.studio import Studio
 
+DESCRIPTION = "Drives until something is near, then turns."
+
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(600)]
 
 
@@ -35,9 +37,10 @@ def test_blocks_bring_what_they_use(shared_studio: Studio) -> None:
 
 def a_tree_is_described_and_offered(studio: Studio) -> None:
     studio.at("canvas").click(position={"x": 8, "y": 200})
-    studio.at("tree-description").fill("Drives until something is near, then turns.")
+    studio.at("tree-description").fill(DESCRIPTION)
     studio.saved()
-    expect(studio.at("file-trees/MainTree.json")).to_have_attribute("title", "trees/MainTree.json\nDrives until something is near, then turns.")
+    title = f"trees/MainTree.json\n{DESCRIPTION}"
+    expect(studio.at("file-trees/MainTree.json")).to_have_attribute("title", title)
     studio.picture("tree-description")
     studio.at("file-trees/MainTree.json").click(button="right")
     studio.page.get_by_role("menuitem", name="Offer in the library").click()
@@ -74,7 +77,6 @@ def one_undo_takes_all_back(studio: Studio) -> None:
 def a_clash_is_chosen(studio: Studio) -> None:
     """The project's own Turn is edited; the same blocks are pasted again, once with each choice."""
     studio.open_file("actions/Turn.py")
-    studio.page.keyboard.press("Control+Home")
     studio.at("code-editor").locator(".cm-content").click()
     studio.page.keyboard.press("Control+Home")
     studio.page.keyboard.type("# mine")

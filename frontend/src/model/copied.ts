@@ -51,14 +51,14 @@ export function writeCopied(fragment: Fragment, origin: Origin): string {
   return xml.length + comment.length > MOST_CHARACTERS ? xml : xml + comment;
 }
 
-/** The text without the files that came along, as a text editor wants it. */
+/** Returns the text without the files that came along, as a text editor needs it. */
 export const withoutFiles = (text: string): string => text.replace(COMMENT, '');
 
-/** Whether a name can be the name of a file here and on every other system. */
+/** Returns whether a name can be the name of a file here and on every other system. */
 const isTreeName = (name: string): boolean =>
   name.length <= MOST_OF_NAME && !/[\p{Cc}\p{Cs}\\/:*?"<>|]/u.test(name) && !/^\.|^root$|[. ]$/i.test(name);
 
-/** A file that may become part of a project; null if its path, name, size or content is not as it must be. */
+/** Returns a file that may become part of a project; null if its path, name, size or content is not as it must be. */
 function checkedFile(path: string, text: unknown): [string, string] | null {
   if (typeof text !== 'string') return null;
   const action = ACTION.exec(path)?.[1];

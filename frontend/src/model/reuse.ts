@@ -79,17 +79,17 @@ function renamed(sources: Sources, path: string, name: string): Record<string, s
   return result;
 }
 
-/** The name in a path of an action or a tree. */
+/** Returns the name in a path of an action or a tree. */
 export const nameIn = (path: string): string => (ACTION.exec(path) ?? TREE.exec(path))?.[1] ?? path;
 
 const normalized = (sources: Sources): Record<string, string> =>
   Object.fromEntries(Object.entries(sources).map(([path, text]) => [path, normal(path, text)]));
 
-/** The path of what a block uses: its tree, or the action of its type. */
+/** Returns the path of what a block uses: its tree, or the action of its type. */
 export const pathOf = ({ type, tree }: Pick<DiagramNode, 'type' | 'tree'>): string =>
   type === 'SubTree' ? `trees/${tree ?? ''}.json` : `actions/${type}.py`;
 
-/** The files that a file refers to: actions and trees of a tree, the other actions that an action imports. */
+/** Returns the files that a file refers to: actions and trees of a tree, the other actions that an action imports. */
 function referencesOf(path: string, files: Sources): string[] {
   const text = files[path] ?? '';
   const paths = ACTION.test(path)
@@ -98,7 +98,7 @@ function referencesOf(path: string, files: Sources): string[] {
   return paths.filter((each) => each in files);
 }
 
-/** The given paths and all that their files refer to, in order of use. */
+/** Returns the given paths and all that their files refer to, in order of use. */
 function reached(needs: readonly string[], files: Sources, isOpened: (path: string) => boolean): Set<string> {
   const found = new Set(needs.filter((path) => path in files));
   for (const path of found) {
@@ -108,7 +108,7 @@ function reached(needs: readonly string[], files: Sources, isOpened: (path: stri
   return found;
 }
 
-/** The files at the given paths and everything that they use: the trees below them and their actions. */
+/** Returns the files at the given paths and everything that they use: their actions, and the trees that they call. */
 export function closureOf(needs: readonly string[], files: Sources): Sources {
   const found = [...reached(needs, files, () => true)];
   return Object.fromEntries(found.map((path) => [path, files[path] ?? '']));

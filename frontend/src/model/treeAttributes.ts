@@ -7,7 +7,7 @@ import type { Diagram } from './diagram';
 export const DESCRIPTION = '_description';
 export const OFFERED = '_bts_offered';
 
-/** The attributes of a tree; what is not a text is left out, since files are not checked. */
+/** Returns the attributes of a tree; what is not a text is left out, since files are not checked. */
 export function attributesOf({ attributes }: Pick<Diagram, 'attributes'>): Record<string, string> {
   if (typeof attributes !== 'object' || attributes === null || Array.isArray(attributes)) return {};
   return Object.fromEntries(
@@ -15,10 +15,10 @@ export function attributesOf({ attributes }: Pick<Diagram, 'attributes'>): Recor
   );
 }
 
-/** What the tree is for, in the words of its author; empty if nobody wrote it. */
+/** Returns what the tree is for, in the words of its author; empty if nobody wrote it. */
 export const descriptionOf = (diagram: Pick<Diagram, 'attributes'>): string =>
   attributesOf(diagram)[DESCRIPTION] ?? '';
 
-/** Whether the tree is offered to other projects in their library. */
+/** Returns whether the tree is offered to other projects in their library. */
 export const isOffered = (diagram: Pick<Diagram, 'attributes'>): boolean =>
   attributesOf(diagram)[OFFERED] === '1';

@@ -9,7 +9,7 @@ export interface Delivery {
   readonly sources: Sources;
 }
 
-/** Whether the file is the tree that the user inserts into: it can neither be replaced nor contain itself. */
+/** Returns whether the file is the tree that the user inserts into: it can neither be replaced nor contain itself. */
 export const isInsertedInto = (path: string): boolean => {
   const { activeTree } = useProjectStore.getState();
   return activeTree !== null && path === treePath(activeTree);

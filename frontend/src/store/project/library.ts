@@ -55,7 +55,7 @@ export function takenNow(): Readonly<Record<string, Taken>> {
   return takenIn(useProjectStore.getState().currentText(RECORD));
 }
 
-/** The text of the record with one more behaviour. */
+/** Returns the text of the record with one more behaviour. */
 function recordWith(behaviour: Reusable, places: Taken['places']): string {
   const { source, version } = behaviour;
   const behaviours = { ...takenNow(), [keyOf(behaviour)]: { source, version, places } };
@@ -73,7 +73,7 @@ function portsOf(text: string | undefined): readonly PortSpec[] {
   return text === undefined ? [] : treeFacts(parseDiagram(text)).ports;
 }
 
-/** What a behaviour brings to a project. */
+/** Returns what a behaviour brings to a project. */
 export const deliveryOf = ({ id, files }: Reusable): Delivery => ({ needs: [treePath(id)], sources: files });
 
 /**

@@ -8,14 +8,14 @@ type Texts = Readonly<Record<string, string | null>>;
 
 const ACTION = /^actions\/([^/]+)\.py$/;
 
-/** The kind of an action that the server has not read yet, by the words that declare it. */
+/** Returns the kind of an action that the server has not read yet, by the words that declare it. */
 function kindOf(source: string): ActionModel['kind'] {
   if (/^\s*class\s+\w+\([^)]*\bControlNode\b/m.test(source)) return 'Control';
   if (/^\s*class\s+\w+\([^)]*\bDecoratorNode\b/m.test(source)) return 'Decorator';
   return /^\s*NODE_KIND\s*=\s*["']Condition["']/m.test(source) ? 'Condition' : 'Action';
 }
 
-/** The actions after files came and went; a new one takes any port until the server has read it. */
+/** Returns the actions after files came and went; a new one takes any port until the server has read it. */
 function actionsWith(before: ProjectData['actions'], texts: Texts): ProjectData['actions'] {
   const gone = new Set(Object.keys(texts).filter((path) => texts[path] === null));
   const left = before.filter(({ path }) => path === undefined || !gone.has(path));

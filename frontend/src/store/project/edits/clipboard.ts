@@ -11,7 +11,7 @@ import { treeIdOf } from '../state';
 /** The last copied text, for browsers that do not allow reading the clipboard. */
 let remembered = '';
 
-/** The trees and actions of the project that blocks use, by path. */
+/** Returns the trees and actions of the project that blocks use, by path. */
 function filesOf(fragment: Fragment): Record<string, string> {
   const { files, diagrams, currentText } = useProjectStore.getState();
   const sources: Record<string, string> = {};
@@ -31,7 +31,7 @@ function textOf(fragment: Fragment): string {
   return remembered;
 }
 
-/** The selected blocks as text, with the files that they use; null if there are none. */
+/** Returns the selected blocks as text, with the files that they use; null if there are none. */
 export function copiedText(): string | null {
   const diagram = activeDiagram();
   const { selection } = useProjectStore.getState();
@@ -72,7 +72,7 @@ export async function clipboardText(): Promise<string> {
   }
 }
 
-/** The blocks with the names that their trees and actions have in this project. */
+/** Returns the blocks with the names that their trees and actions have in this project. */
 function withPlaces(fragment: Fragment, places: Insertion['places']): Fragment {
   const renamed = (node: DiagramNode): DiagramNode => {
     const place = places[pathOf(node)];
@@ -104,7 +104,7 @@ function paste(fragment: Fragment, files?: Insertion['files']): void {
   change('paste', [insertFragment(copy, place)], { select: copy.tops, ...(files ? { files } : {}) });
 }
 
-/** Whether the blocks come with files from another project that this user may add to. */
+/** Returns whether the blocks come with files from another project that this user may add to. */
 function isDelivery({ origin }: Copied): boolean {
   const { projectId, role } = useProjectStore.getState();
   return origin !== null && origin.project !== projectId && role !== 'viewer';

@@ -8,13 +8,13 @@ import { wouldRecurse, type Vocabulary } from './vocabulary';
 import { isPythonName } from './pythonNames';
 import { similarNames } from './similar';
 
-/** The other effect of a fix, beyond the tree: it creates a file. */
+/** The effect of a fix that is not a change of the tree: it creates a file. */
 export type Making =
   | {
       readonly makes: 'action';
       readonly name: string;
       readonly ports: readonly string[];
-      /** Of a node with children; without it, it is an action. */
+      /** The kind of a node with children; absent for an action. */
       readonly kind?: 'Control' | 'Decorator';
     }
   | { readonly makes: 'tree'; readonly name: string };
@@ -29,7 +29,7 @@ export interface Fix {
 /** The part of a finding that determines its fixes: the editor's kind, or the server's code. */
 export type Fixable =
   | Pick<Problem, 'kind' | 'node' | 'port'>
-  | { readonly code: string; readonly node: NodeId | null; readonly port?: string };
+  | { readonly code: string; readonly node: NodeId | null; readonly port?: string | undefined };
 
 const fix = (key: string, does: Fix['does'], values: Fix['values'] = {}): Fix => ({ key, values, does });
 
@@ -207,7 +207,7 @@ function kindFixes(
   }
 }
 
-/** The fixes of a finding, the most likely one first. */
+/** Returns the fixes of a finding, the most likely one first. */
 export function fixesFor(problem: Fixable, diagram: Diagram, vocabulary: Vocabulary): Fix[] {
   const id = problem.node;
   if (id === null || !(id in diagram.nodes)) return [];

@@ -10,10 +10,13 @@ import { keyOf } from '@/model/keys/rename';
 import { openRenameKey } from '@/store/dialogs/renameKey';
 import { change } from '@/store/project/edits/blocks';
 import { portsInUse, shared } from '@/store/project/edits/ports';
+import { liveKey } from '@/store/project/live';
 import { problemsOf } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
 import { useProblemText } from '@/ui/useProblemText';
 import { shippedPort } from '@/i18n/shipped';
+import { keepPort } from '@/store/run/livePorts';
+import { usePortMarks } from '@/store/run/portMarks';
 import { OutdatedPorts } from './ports/OutdatedPorts';
 import { PortField } from './PortField';
 import { PortNameInput } from './PortNameInput';
@@ -31,18 +34,19 @@ const extraPort = (name: string): PortSpec => ({
 });
 
 /**
- * Whether all blocks of the type have the same ports: of an action that declares none, or that is not written
- * yet.
+ * Returns whether all blocks of the type have the same ports: those of an action that declares none, or that
+ * does not exist yet.
  */
 const isShared = ({ node, spec }: Pick<Target, 'node' | 'spec'>): boolean =>
   node.type !== 'SubTree' && (spec === undefined || (spec.source === 'action' && spec.open));
 
-/** Ports of the block, declared ones first; an open type accepts further ones. */
+/** The ports of the block, declared ones first; an open type accepts additional ones. */
 export function PortList(target: Target) {
   const { diagram, id, node, spec } = target;
   const { t } = useTranslation('inspector');
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const diagnostics = useProjectStore((state) => state.diagnostics);
+  const marks = usePortMarks(diagram.id, id, node.ports);
   const textOf = useProblemText();
   const [isAdding, setIsAdding] = useState(false);
   const [fresh, setFresh] = useState<{ readonly id: NodeId; readonly name: string } | null>(null);
@@ -101,6 +105,12 @@ export function PortList(target: Target) {
           }}
           error={errorOf(port.name)}
           taken={taken}
+          mark={marks.get(port.name)}
+          onKeep={() => keepPort(liveKey(diagram.id, id), port.name, node.ports?.[port.name] ?? null)}
+          onBack={(saved) => {
+            useProjectStore.getState().seal();
+            set(port.name, saved);
+          }}
           onChange={(value) => {
             set(port.name, value);
           }}

@@ -1,5 +1,5 @@
 import type { Diagnostic, Severity } from '@/api/types';
-import type { Fault } from '@/generated/messages';
+import type { Fault, LaunchNode, TopicMismatch } from '@/generated/messages';
 import type { Diagram, NodeId } from '@/model/diagram';
 import { CODES } from '@/model/problems';
 import type { Vocabulary } from '@/model/vocabulary';
@@ -7,8 +7,9 @@ import type { CodeFinding } from '@/store/language';
 import { problemsOf, type ShownProblem } from '@/store/project/problems';
 import { isSuperseded, lintFindings } from './syntax';
 import type { Linted, TextErrors } from './texts';
+import { placeOfTopic } from './topicPlace';
 
-/** One row of the list: what was found, and its place. */
+/** One row of the list: a finding with its place. */
 export interface ListedProblem {
   readonly problem: ShownProblem;
   readonly severity: Severity;
@@ -19,13 +20,15 @@ export interface ListedProblem {
   readonly port: string;
   readonly file: string | null;
   readonly line: number | null;
+  /** The topic that it is about. */
+  readonly topic: string | null;
 }
 
 type ByPath<T> = Readonly<Record<string, T>>;
 
-/** Everything that the list is made of. */
+/** The data from which the list is made. */
 export interface ProblemSources {
-  readonly files: ByPath<unknown>;
+  readonly files: ByPath<{ readonly text?: string | null }>;
   readonly diagrams: ByPath<Diagram>;
   readonly vocabulary: Vocabulary;
   readonly diagnostics: readonly Diagnostic[];
@@ -33,11 +36,21 @@ export interface ProblemSources {
   readonly linted: ByPath<Linted>;
   readonly errors: ByPath<TextErrors>;
   readonly faults: readonly Fault[];
+  readonly mismatches: readonly TopicMismatch[];
+  readonly launchNodes: readonly LaunchNode[];
 }
 
 const RANK: Record<Severity, number> = { error: 0, warning: 1, note: 2 };
 
-const NOWHERE = { isFault: false, tree: null, node: null, port: '', file: null, line: null } as const;
+const NOWHERE = {
+  isFault: false,
+  tree: null,
+  node: null,
+  port: '',
+  file: null,
+  line: null,
+  topic: null,
+} as const;
 
 interface Words {
   readonly severity: Severity;
@@ -46,7 +59,7 @@ interface Words {
   readonly hint?: string | null;
 }
 
-/** A row with the text of a checker that is not the editor itself. */
+/** Returns a row with the text of a checker other than the editor. */
 function rowOf(
   { severity, code, message, hint }: Words,
   place: Partial<ListedProblem>,
@@ -76,6 +89,18 @@ function faultRow(fault: Fault, { files }: ProblemSources): ListedProblem {
       ...(isOurs ? { file: fault.file, line: fault.line } : {}),
     },
   );
+}
+
+function topicRow(mismatch: TopicMismatch, sources: ProblemSources): ListedProblem {
+  const { topic, publisher, subscriber, code, values } = mismatch;
+  const problem: ShownProblem = {
+    source: 'topic',
+    severity: 'error',
+    node: null,
+    code,
+    values: { ...values, topic, publisher, subscriber },
+  };
+  return { ...NOWHERE, problem, severity: 'error', code, topic, ...placeOfTopic(mismatch, sources) };
 }
 
 function treeRows(diagram: Diagram, { vocabulary, diagnostics }: ProblemSources): ListedProblem[] {
@@ -129,12 +154,16 @@ function fileRows(path: string, sources: ProblemSources): ListedProblem[] {
   ];
 }
 
-/** All findings of the project, the worst first: of the run, the trees, the last save, and the texts. */
+/**
+ * Returns all findings of the project, the worst first: those of the run, of the trees, of the last save, and
+ * of the texts.
+ */
 export function listProblems(sources: ProblemSources): readonly ListedProblem[] {
   const { faults, diagrams, files, served, linted, errors } = sources;
   const texts = new Set([served, linted, errors].flatMap((found) => Object.keys(found)));
   const rows = [
     ...faults.map((fault) => faultRow(fault, sources)),
+    ...sources.mismatches.map((mismatch) => topicRow(mismatch, sources)),
     ...Object.values(diagrams).flatMap((diagram) => treeRows(diagram, sources)),
     ...savedRows(sources),
     ...[...texts].filter((path) => path in files).flatMap((path) => fileRows(path, sources)),
@@ -144,7 +173,10 @@ export function listProblems(sources: ProblemSources): readonly ListedProblem[] 
 
 export type Worst = 'error' | 'warning';
 
-/** The worst error or warning of each file with one; a finding in a tree counts for its file. */
+/**
+ * Returns the worst error or warning of each file that has one; a finding in a tree counts for the tree's
+ * file.
+ */
 export function worstByFile(rows: readonly ListedProblem[]): ReadonlyMap<string, Worst> {
   const worst = new Map<string, Worst>();
   for (const { severity, file, tree } of rows) {

@@ -1,9 +1,11 @@
 import { actionPath } from './state';
 
-/** Opens documents for features, which cannot import the frame. */
+/** The functions that open documents. Features call them here, since they cannot import the frame. */
 export interface Navigator {
   openTree(id: string): void;
   openFile(path: string, line?: number): void;
+  /** Shows the topics of the session. */
+  openTopics(): void;
   /** Renames the tab of a tree or file. */
   renamed(kind: 'tree' | 'file', from: string, to: string): void;
   /** Moves the cursor of the editor that shows a file to a line. */
@@ -12,7 +14,7 @@ export interface Navigator {
 
 let navigator: Navigator | null = null;
 
-/** Called once by the frame. */
+/** Sets the navigator; only the frame calls this. */
 export function setNavigator(next: Navigator | null): void {
   navigator = next;
 }
@@ -27,6 +29,10 @@ export function openAction(name: string): void {
 
 export function openFile(path: string, line?: number): void {
   navigator?.openFile(path, line);
+}
+
+export function openTopics(): void {
+  navigator?.openTopics();
 }
 
 export function renamed(kind: 'tree' | 'file', from: string, to: string): void {

@@ -1,10 +1,22 @@
 import type { Diagnostic } from '@/api/types';
+import type { TopicMismatch } from '@/generated/messages';
 import type { Diagram, NodeId } from '@/model/diagram';
 import { CODES, findProblems, type Problem, type Severity } from '@/model/problems';
 import type { Vocabulary } from '@/model/vocabulary';
 
-/** A finding of the editor's own checks, shown at once, or of the server's, shown after a save. */
+/** Two ends of a topic that do not match. */
+export interface TopicProblem {
+  readonly source: 'topic';
+  readonly severity: Severity;
+  readonly node: null;
+  readonly port?: undefined;
+  readonly code: TopicMismatch['code'];
+  readonly values: Readonly<Record<string, string>>;
+}
+
+/** A finding of the editor's own checks, shown at once, of the server's, shown after a save, or of the run. */
 export type ShownProblem =
+  | TopicProblem
   | ({ readonly source: 'editor' } & Problem)
   | {
       readonly source: 'server';
@@ -22,12 +34,12 @@ export type ShownProblem =
 const placeOf = (code: string, node: NodeId | null, port: string | undefined): string =>
   `${code} ${node ?? ''} ${port ?? ''}`;
 
-/** A tree without a root. */
+/** The code of a tree without a root. */
 const EMPTY_TREE = 'BT0101';
 
 /**
- * Findings while the user works: an empty tree is where everybody begins, and no error. It is one when it is to
- * be run; then the findings are those of the run.
+ * Returns the findings as they are shown while the user edits. Every new tree is empty, so an empty tree is
+ * only a note then; it is an error when it is to run, and the run reports its own findings.
  */
 export const whileEditing = (diagnostics: readonly Diagnostic[]): Diagnostic[] =>
   diagnostics.map((each) => (each.code === EMPTY_TREE ? { ...each, severity: 'note' } : each));
@@ -44,7 +56,7 @@ function ownProblems(diagram: Diagram, vocabulary: Vocabulary): readonly Problem
   return problems;
 }
 
-/** All findings of one tree, the editor's first; a finding of both is shown once. */
+/** Returns all findings of one tree, the editor's first; a problem that both have found is listed once. */
 export function problemsOf(
   diagram: Diagram,
   vocabulary: Vocabulary,
@@ -80,11 +92,11 @@ export function problemsOf(
   return [...own, ...server];
 }
 
-/** The errors among the findings of a check. */
+/** Returns the errors among the findings of a check. */
 export const errorsOf = (diagnostics: readonly Diagnostic[]): Diagnostic[] =>
   diagnostics.filter(({ severity }) => severity === 'error');
 
-/** The worst finding of each node. */
+/** Returns the worst finding of each node. */
 export function worstByNode(problems: readonly ShownProblem[]): ReadonlyMap<NodeId, ShownProblem> {
   const worst = new Map<NodeId, ShownProblem>();
   for (const problem of problems) {

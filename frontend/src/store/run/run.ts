@@ -8,10 +8,11 @@ import { saveNow } from '@/store/saving/autosave';
 import { abandonStart, ensureConnected, send } from '@/store/session/connection';
 import { CommandError, isUnconnected } from '@/store/session/control';
 import { useSessionStore } from '@/store/session/store';
+import { beginProgram } from './livePorts';
 import { useRunStore, type LaunchFailure, type LaunchStage } from './store';
 import { chosenUniverse, useUniverseChoice } from './universeChoice';
 
-/** Saves, checks, starts what is missing, and runs; resolves to whether the application runs. */
+/** Saves, checks, starts what is missing, and runs; resolves to true if the application runs. */
 export const runProject = () => launch((app) => send('run', runCommand(app)));
 
 /** Saves, checks, and restarts the application with the new program; the world continues. */
@@ -31,7 +32,9 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
   });
   try {
     await saveNow();
-    useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter });
+    const { changeCounter, diagrams } = useProjectStore.getState();
+    useRunStore.setState({ ranAt: changeCounter });
+    beginProgram(diagrams);
     enter('checking');
     const errors = errorsOf(useProjectStore.getState().diagnostics);
     if (errors.length > 0) throw new UnsoundError(errors);
@@ -42,7 +45,8 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
     await begin(app);
     return true;
   } catch (error) {
-    // Without a connection the session continues, and reports the result after reconnecting.
+    // Without a connection no error is shown: the session continues, and reports the result after the page
+    // reconnects.
     if (!isUnconnected(error) && !wasCancelled) useRunStore.setState({ failure: failureOf(error) });
     return false;
   } finally {
@@ -51,14 +55,14 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
   }
 }
 
-/** The last save found errors: the server would refuse the program. */
+/** Thrown when the last save has errors: the server would refuse the program. */
 class UnsoundError extends Error {
   constructor(readonly diagnostics: Diagnostic[]) {
     super(diagnostics[0]?.message ?? '');
   }
 }
 
-/** The user pressed *Cancel*: no error is shown. */
+/** Whether the user pressed *Cancel*: then no error is shown. */
 let wasCancelled = false;
 
 export function cancelRun(): void {

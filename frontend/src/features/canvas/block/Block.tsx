@@ -7,6 +7,7 @@ import { change } from '@/store/project/edits/blocks';
 import { setEditor, toggleExpanded, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
 import { liveKey, pastOf, useLiveStore } from '@/store/project/live';
+import { usePortMarks } from '@/store/run/portMarks';
 import { NodeSymbol } from '@/ui/NodeSymbol';
 import type { BlockNode } from '../flow';
 import { openQuickAddBelow } from '../quickAdd/open';
@@ -25,10 +26,11 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
   const past = useLiveStore((state) => pastOf(state, key));
   const flash = useLiveStore((state) => state.flashes.get(key));
   const fault = useLiveStore((state) => state.faults.get(key));
+  const marks = usePortMarks(inside?.tree ?? tree, inside?.node ?? id, node.ports);
   const isTarget = useEditorStore((state) => state.slot?.kind === 'onto' && state.slot.parent === id);
   const family = spec?.family ?? null;
   const color: CSSProperties = node.color ? { ['--family' as string]: node.color } : {};
-  // A folded block has a sign of its own there, and a new child would be out of sight.
+  // A folded block has its own sign at this place, and a new child would be hidden.
   const grows = data.canGrow && data.folded === 0;
   const openProblems = () => {
     useProjectStore.getState().select(tree, [id]);
@@ -56,7 +58,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
         <NodeSymbol type={node.type} family={family} size={22} />
       </span>
       <BlockTitle id={id} node={node} t={t} />
-      <BlockPorts node={node} spec={spec} t={t} />
+      <BlockPorts node={node} spec={spec} marks={marks} t={t} />
       <StatusMark status={fault === undefined ? status : 'FAILURE'} past={past} flash={flash} />
       {fault !== undefined && (
         <ProblemMark
@@ -119,7 +121,10 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
   );
 }
 
-/** The wrapper sets the position: a block renders only for its content, selection and status. */
+/**
+ * A block of the canvas. Its wrapper sets the position, so a block renders only when its content, selection
+ * or status changes.
+ */
 export const Block = memo(
   BlockView,
   (a, b) => a.data === b.data && a.selected === b.selected && a.width === b.width && a.height === b.height,

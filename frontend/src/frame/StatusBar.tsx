@@ -8,6 +8,7 @@ import {
 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { Hint } from '@/features/onboarding/Hint';
+import { titleOf } from '@/model/document/glance';
 import { openUniverseChooser } from '@/store/dialogs/universeChooser';
 import { countProblems } from '@/store/problems/list';
 import { useProblems } from '@/store/problems/useProblems';
@@ -44,12 +45,6 @@ function ConnectionStatus() {
       {t(`connection.${connection}`)}
     </span>
   );
-}
-
-/** The readable form of an id such as `walled_room`. */
-function titleOf(universe: string): string {
-  const words = universe.replaceAll('_', ' ');
-  return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
 /** The universe of the next run; a click opens the chooser. */

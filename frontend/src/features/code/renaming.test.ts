@@ -37,10 +37,19 @@ describe('renameDocument', () => {
   it('gives a universe another name, also where the project runs in it', async () => {
     store().setSettings({ universe: 'yard' });
     await renameDocument('universes/yard.yaml', 'garden');
-    expect(store().currentText('universes/garden.yaml')).toBe('name: yard');
+    expect(store().currentText('universes/garden.yaml')).toBe('name: garden');
     expect(paths()).not.toContain('universes/yard.yaml');
     expect(store().settings?.universe).toBe('garden');
     expect(useUniverseChoice.getState()).toMatchObject({ universe: null, robot: null });
+  });
+
+  it.each([
+    ['name: Yard # green', 'name: "Big garden" # green'],
+    ['name: Our yard', 'name: Our yard'],
+  ])('lets a title follow that was made from the old name: %s', async (before, after) => {
+    store().setFileText('universes/yard.yaml', before);
+    await renameDocument('universes/yard.yaml', 'big_garden');
+    expect(store().currentText('universes/big_garden.yaml')).toBe(after);
   });
 
   it('gives a robot another name with all its files, and leaves other robots', async () => {

@@ -3,6 +3,7 @@ import { useEffect, useRef, useState, type FormEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { UniverseInfo } from '@/api/types';
 import { ChoiceCards } from '@/features/universe/ChoiceCards';
+import { freeName } from '@/features/universe/freeNames';
 import universe from '@/features/universe/universe.module.css';
 
 const ID = /^[A-Za-z_][A-Za-z0-9_-]*$/;
@@ -25,13 +26,6 @@ interface CopyFormProps {
   /** Creates the document; the form shows the text of an exception. */
   readonly onCreate: (base: string, name: string, isUsed: boolean) => Promise<void>;
   readonly onCancel: () => void;
-}
-
-function freeName(wish: string, taken: ReadonlySet<string>): string {
-  for (let count = 1; ; count += 1) {
-    const name = count === 1 ? wish : `${wish}_${count}`;
-    if (!taken.has(name.toLowerCase())) return name;
-  }
 }
 
 /** Copies one of our universes or robots into the project. */

@@ -15,8 +15,9 @@ export class UniverseScene extends ThingScene<Thing> {
     isSimple: boolean,
     onArrival: () => void,
     private readonly textures: EditorTextures,
+    opacity = 1,
   ) {
-    super(isSimple, onArrival, textures);
+    super(isSimple, onArrival, textures, opacity);
     // A textured thing is built again once the size of its picture is known.
     textures.onArrival = () => this.again();
   }

@@ -109,15 +109,18 @@ def a_drag_is_given_up(studio: Studio) -> None:
     assert box
     x, y = box["x"] + box["width"] / 2 + 60, box["y"] + box["height"] / 2
     view.press("Escape")
+    expect(studio.at("world-fields")).to_be_visible()
     mouse.click(x, y)
     fields = studio.at("thing-fields")
     place = [fields.get_by_test_id(f"field-{axis}").input_value() for axis in "xy"]
     view.press("Escape")
+    expect(studio.at("world-fields")).to_be_visible()  # nothing is selected, and no handle is in the way
     mouse.move(x, y)
     mouse.down()
     mouse.move(x + 80, y + 40, steps=4)
     keys.press("Escape")
     mouse.up()
+    expect(studio.at("world-fields")).to_be_visible()
     mouse.click(x, y)
     assert [fields.get_by_test_id(f"field-{axis}").input_value() for axis in "xy"] == place
 

@@ -89,7 +89,7 @@ function ProblemCount() {
   );
 }
 
-/** The numbers of the simulation, also as data attributes for tests. */
+/** The simulation's numbers, also as data attributes for tests. */
 function SimStatus() {
   const { t } = useTranslation('frame');
   const sim = useSessionStore((state) => state.sim);

@@ -64,7 +64,7 @@ describe('the palette of an editor', () => {
     expect(onPlace).toHaveBeenCalledOnce();
   });
 
-  it('opens several things under one button', async () => {
+  it('has several things under one button', async () => {
     show(
       <PlaceMenu editor={editor} icon={IconCube} label="Robots" testId="robots" position="right-start">
         <Menu.Item>Rover</Menu.Item>

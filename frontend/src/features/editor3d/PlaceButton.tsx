@@ -14,7 +14,7 @@ interface PaletteBarProps {
   readonly children: ReactNode;
 }
 
-/** The things that can be placed, at the edge of the view. */
+/** A bar at the edge of the view with the things that can be placed. */
 export function PaletteBar({ label, children }: PaletteBarProps) {
   return (
     <div className={classes['palette']} role="toolbar" aria-label={label} aria-orientation="vertical">

@@ -60,7 +60,9 @@ export function RobotPalette({ editor }: { readonly editor: RobotEditor }) {
   );
 }
 
-/** Adds visual parts from a mesh: one of the robot's, or one that is uploaded now. */
+/**
+ * The menu that adds visual parts from a mesh: an existing one of the robot, or one that the user uploads.
+ */
 function MeshMenu({ editor }: { readonly editor: RobotEditor }) {
   const { t } = useTranslation('robotEditor');
   const paths = useProjectStore((state) => state.files);

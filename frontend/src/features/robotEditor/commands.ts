@@ -50,7 +50,7 @@ export function duplicateSelected(editor: RobotEditor): void {
   edit(editor, 'duplicate', (robot) => duplicateParts(robot, selected(editor), [0, 0.05]));
 }
 
-/** Moves the selection by grid steps; presses of the same key join to one step of undo. */
+/** Moves the selection by grid steps; repeated presses of a key are merged into one undo step. */
 export function nudge(editor: RobotEditor, along: number, aside: number, up: number, factor = 1): void {
   const { grid, selection } = editor.store.getState();
   const step = (grid || 0.001) * factor;

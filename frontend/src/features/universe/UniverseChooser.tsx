@@ -15,12 +15,12 @@ import classes from './universe.module.css';
 import { closeUniverseChooser, useUniverseChooser } from '@/store/dialogs/universeChooser';
 
 const OWN = /^universes\/([^/]+)\.yaml$/;
-/** The value that stands for the robot that the universe names. */
+/** The value for the robot that the universe names. */
 const OF_UNIVERSE = '';
 
 type Scope = 'project' | 'once';
 
-/** Chooses universe, robot and seed: for the project, or until the page closes. */
+/** The form that chooses universe, robot and seed: for the project, or until the page closes. */
 export function UniverseChooser() {
   const { t } = useTranslation('universe');
   const { t: title } = useTranslation('worlds');
@@ -77,7 +77,7 @@ export function UniverseChooser() {
     closeUniverseChooser();
   };
 
-  /** Opens a robot of the project in its editor, or a copy of one of ours. */
+  /** Opens a robot of the project in its editor, or offers to copy a built-in robot. */
   const changeRobot = () => {
     closeUniverseChooser();
     if (ownMachines.includes(robot)) openFile(`robots/${robot}/robot.yaml`);

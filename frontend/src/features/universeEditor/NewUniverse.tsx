@@ -10,7 +10,7 @@ import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
 import { closeNewUniverse, useNewUniverse } from '@/store/dialogs/newUniverse';
 
-/** Adds a universe to the project: a copy of one of ours. */
+/** The dialogue that adds a universe to the project: a copy of a built-in one. */
 export function NewUniverse() {
   const { t } = useTranslation('universeEditor');
   const base = useNewUniverse((state) => state.base);

@@ -84,7 +84,7 @@ function RobotMenu({ editor }: { readonly editor: UniverseEditor }) {
   );
 }
 
-/** The robots of the project, and ours. */
+/** Returns the robots of the project, and the built-in ones. */
 export function useRobots(): readonly { readonly id: string; readonly name: string }[] {
   const files = useProjectStore((state) => state.files);
   const shipped = useQuery({ queryKey: ['robots'], queryFn: api.robots, staleTime: Infinity });

@@ -19,7 +19,7 @@ import { thingOf, type Section, type Shape, type Thing, type Universe } from '@/
 import { select, textsOf } from '@/features/editor3d/editing';
 import { edit, readingOf, type UniverseEditor } from './editor';
 
-/** The things of the palette with all their properties except id and place. */
+/** The kinds of things in the palette. */
 export const KINDS = ['wall', 'box', 'cylinder', 'sphere', 'crate', 'ball', 'floor', 'person'] as const;
 export type Kind = (typeof KINDS)[number];
 
@@ -35,7 +35,7 @@ const MODELS: Readonly<
   floor: { shape: 'plane', size: [2, 2], color: '#b8c4cf', solid: false },
 };
 
-/** Further things that can be placed: a mesh or a model of the project, or a robot. */
+/** A thing that can be placed: one of the palette, a mesh or a model of the project, or a robot. */
 export type Placeable =
   | { readonly kind: Kind }
   | { readonly kind: 'file'; readonly shape: 'mesh' | 'urdf' | 'sdf'; readonly file: string }
@@ -104,7 +104,7 @@ export function thingToPlace(editor: UniverseEditor, what: Placeable): Thing | u
   }
 }
 
-/** The middle of the view, or a place beside it if the middle is occupied. */
+/** Returns the middle of the view, or a place beside it if the middle is occupied. */
 function free(editor: UniverseEditor): Point {
   const [x, y] = editor.view?.center() ?? [0, 0];
   const things = readingOf(editor).universe?.things ?? [];
@@ -128,7 +128,7 @@ export function placeWall(editor: UniverseEditor, from: Point, to: Point): void 
       {
         id: freeId(universe, 'wall'),
         shape: 'box',
-        // Half a thickness longer at each end, so that corners close.
+        // The wall is longer by half its thickness at each end, so that corners close.
         size: [rounded(length + WALL.thickness), WALL.thickness, WALL.height],
         pose: [...middle, WALL.height / 2, 0, 0, yaw],
         color: '#e9e4da',
@@ -146,7 +146,7 @@ export function duplicateSelected(editor: UniverseEditor): void {
   edit(editor, 'duplicate', (universe) => duplicate(universe, selected(editor), [step, step]));
 }
 
-/** Deletes the chosen waypoint, else the selected things. */
+/** Deletes the selected waypoint, or the selected things if there is none. */
 export function deleteSelected(editor: UniverseEditor): void {
   const { waypoint, selection } = editor.store.getState();
   const [key] = selection;
@@ -156,7 +156,7 @@ export function deleteSelected(editor: UniverseEditor): void {
   } else edit(editor, 'delete', (universe) => remove(universe, selection));
 }
 
-/** Moves the selection by grid steps; presses of the same key join to one step of undo. */
+/** Moves the selection by grid steps; repeated presses of a key are merged into one undo step. */
 export function nudge(editor: UniverseEditor, along: number, aside: number, up: number, factor = 1): void {
   const { grid, selection, waypoint } = editor.store.getState();
   const step = (grid || 0.01) * factor;
@@ -218,7 +218,7 @@ export function resize(
   );
 }
 
-/** Adds a waypoint half way to the next one. */
+/** Adds a waypoint half way between a waypoint and the next one. */
 export function extendWay(editor: UniverseEditor, key: string, after: number): void {
   edit(editor, 'way', (universe) => {
     const actor = thingOf(universe, key);

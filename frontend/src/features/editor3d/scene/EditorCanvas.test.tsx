@@ -23,7 +23,7 @@ function canvas() {
 }
 
 describe('the view of an editor without WebGL', () => {
-  it('is still a control that says what it holds', () => {
+  it('is still a control with a description', () => {
     const { view, stage } = canvas();
     expect(view).toHaveAttribute('role', 'application');
     expect(view).toHaveAccessibleName('The hall');
@@ -34,7 +34,7 @@ describe('the view of an editor without WebGL', () => {
     expect(stage).not.toHaveBeenCalled();
   });
 
-  it('hears keys on itself, not those of what lies above it', () => {
+  it('handles keys on itself, not those of elements above it', () => {
     const { view, onKey } = canvas();
     fireEvent.keyDown(view, { key: 'q' });
     expect(onKey).toHaveBeenCalledOnce();

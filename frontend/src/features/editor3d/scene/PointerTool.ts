@@ -8,26 +8,26 @@ import type { ThingScene } from './ThingScene';
 
 const CLICK_PX = 4;
 
-/** Things that can be dragged over the floor. */
+/** The things that a drag moves over the floor. */
 interface Load {
   readonly keys: readonly string[];
   /**
-   * The position of the thing under the pointer: it snaps to the grid, and the others move by the same
+   * The position of the thing under the pointer, which snaps to the grid; the other things move by the same
    * offset.
    */
   readonly anchor: Point;
   readonly nodes: readonly THREE.Object3D[];
 }
 
-/** The results of the pointer's gestures on an editor's things. */
+/** The handlers of the pointer's drags of an editor's things. */
 export interface DragHandler {
-  /** Null: the thing under the pointer cannot be dragged. */
+  /** Returns the things to drag; null if the thing under the pointer cannot be dragged. */
   take(hit: Aimed): Load | null;
   drop(keys: readonly string[], by: Point): void;
   click(hit: Aimed | null, isAdding: boolean): void;
 }
 
-/** A tool that draws something point by point; it replaces selecting. */
+/** A tool that draws something point by point, in place of selecting. */
 export interface Drawing {
   isOn(): boolean;
   /** The height in m at which the pointer draws. */
@@ -45,7 +45,7 @@ interface Parts {
   readonly drawings: readonly Drawing[];
   readonly camera: THREE.Camera;
   readonly canvas: HTMLElement;
-  /** Whether the gizmo handles the pointer at the moment. */
+  /** Returns whether the gizmo handles the pointer now. */
   readonly isTaken: () => boolean;
   readonly hold: (isHeld: boolean) => void;
   readonly redraw: () => void;
@@ -58,7 +58,7 @@ interface Dragging extends Load {
   offset: Point;
 }
 
-/** The pointer on the floor plan: selects, drags and draws. */
+/** The pointer on the floor plan: it selects, drags and draws. */
 export class PointerTool {
   private pressed: { x: number; y: number; isFree: boolean } | null = null;
   private dragging: Dragging | null = null;
@@ -73,7 +73,7 @@ export class PointerTool {
     canvas.addEventListener('pointerup', this.onUp, { signal });
   }
 
-  /** Cancels the gesture under way; returns whether there was one. */
+  /** Cancels the current gesture; returns whether there was one. */
   cancel(): boolean {
     const wasBusy = this.dragging !== null;
     for (const { node, at } of this.dragging?.starts ?? []) node.position.copy(at);
@@ -112,7 +112,10 @@ export class PointerTool {
     if (!isAdding(event)) this.take(event);
   };
 
-  /** Whether the pointer is on a thing that is not selected and can be dragged: it wins over the gizmo. */
+  /**
+   * Returns whether the pointer is on an unselected thing that can be dragged; the thing then takes
+   * precedence over the gizmo.
+   */
   private isOnAnother(event: PointerEvent): boolean {
     const { scene, camera, canvas, dragHandler, editor } = this.parts;
     const hit = thingAt(event, canvas, camera, scene);

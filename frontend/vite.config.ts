@@ -39,7 +39,7 @@ export default defineConfig({
       { extends: true, test: { name: 'components', include: ['src/**/*.test.tsx'] } },
     ],
     // Files share a process with the libraries that it has loaded, which takes most of the time of a process of
-    // their own. `harness/sharedPage.ts` takes away what a file leaves behind.
+    // their own. `harness/sharedPage.ts` removes what a file leaves behind.
     isolate: false,
     setupFiles: ['./vitest.setup.ts'],
     // Styles are left out, but for the colours that pictures are drawn with.

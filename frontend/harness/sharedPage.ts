@@ -2,7 +2,7 @@ import { vi } from 'vitest';
 
 /*
  * Files of tests run one after the other in one process: loading React, Mantine and CodeMirror takes longer than
- * most tests. This takes away what a file leaves behind. Modules of ours are evaluated again for each file, so
+ * most tests. This removes what a file leaves behind. Modules of ours are evaluated again for each file, so
  * stores and caches in modules begin empty; the libraries and the window stay.
  */
 

@@ -83,7 +83,8 @@ def begin(studio: Studio) -> None:
     studio.replace_code(SOURCE)
 
 
-def test_completion_findings_and_types(studio: Studio) -> None:
+def test_completion_findings_and_types(shared_studio: Studio) -> None:
+    studio = shared_studio
     begin(studio)
     page = studio.page
 
@@ -109,7 +110,8 @@ def test_completion_findings_and_types(studio: Studio) -> None:
     studio.picture("code-hover-light")
 
 
-def test_fixes_formatting_definition_and_renaming(studio: Studio) -> None:
+def test_fixes_formatting_definition_and_renaming(shared_studio: Studio) -> None:
+    studio = shared_studio
     begin(studio)
     page = studio.page
 
@@ -147,7 +149,8 @@ def test_fixes_formatting_definition_and_renaming(studio: Studio) -> None:
     studio.saved()
 
 
-def test_two_tabs_see_each_others_saves_and_conflicts_are_merged(studio: Studio) -> None:
+def test_two_tabs_see_each_others_saves_and_conflicts_are_merged(shared_studio: Studio) -> None:
+    studio = shared_studio
     studio.new_from("laser_bump_and_go")
     studio.open_file("actions/Forward.py")
     other = Studio(studio.page.context.new_page(), studio.server)

@@ -411,6 +411,9 @@ export interface Snapshot {
   mismatches: TopicMismatch[];
   past: [number, NodeStatus][];
   finished: Finished | null;
+  runs: number;
+  run_starts: [number, number][];
+  hanging_s: number;
 }
 
 /** The envelope of an event. */

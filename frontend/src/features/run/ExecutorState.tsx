@@ -35,10 +35,11 @@ export function ExecutorState() {
   );
 }
 
-/** The seconds since the executor's last answer, or since a tick was reported as hanging. */
+/** The seconds since the executor's last answer, or since the begin of a tick that hangs. */
 function useSilence(): number {
   const silentS = useSessionStore((state) => state.silentS);
   const isHanging = useSessionStore((state) => state.isHanging);
+  const hungS = useSessionStore((state) => Math.round(state.hungS));
   const [hangsS, setHangsS] = useState(0);
   useEffect(() => {
     if (!isHanging) return;
@@ -48,8 +49,5 @@ function useSilence(): number {
       setHangsS(0);
     };
   }, [isHanging]);
-  return silentS > 0 ? silentS : HANG_REPORTED_S + hangsS;
+  return silentS > 0 ? silentS : hungS + hangsS;
 }
-
-/** The executor reports a tick that has not returned for this long, s. */
-const HANG_REPORTED_S = 3;

@@ -40,7 +40,9 @@ export interface SessionData {
   progress: Progress | null;
   /** A tick does not return: reported as a fault, until there is another tick or another state. */
   isHanging: boolean;
-  /** The number of runs that this page has seen. */
+  /** For how long the tick had hung when that was reported, s. */
+  hungS: number;
+  /** The number of runs since the session began. */
   runs: number;
   /** Run was pressed and has neither succeeded nor failed yet. */
   isLaunching: boolean;

@@ -50,6 +50,7 @@ describe('BlockMenu', () => {
 
   it('has what can be done with a leaf', () => {
     open(['a']);
+    expect(screen.getByRole('menu', { name: 'Commands on the block' })).toBeInTheDocument();
     expect(groups()).toEqual([['addAfter', 'wrap', 'morph'], ...COMMON]);
   });
 

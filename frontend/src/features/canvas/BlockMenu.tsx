@@ -2,6 +2,7 @@ import { Menu } from '@mantine/core';
 import { Fragment } from 'react';
 import { useTranslation } from 'react-i18next';
 import { keysOf } from '@/commands/shortcuts';
+import { PointTarget } from '@/ui/PointTarget';
 import { blockCommands, type BlockCommand } from './commands/blockCommands';
 import { levelCommands } from './commands/levelCommands';
 
@@ -63,10 +64,9 @@ export function BlockMenu({ point, onClose }: BlockMenuProps) {
   if (!point) return null;
   return (
     <Menu opened onClose={onClose} position="bottom-start" offset={2} width={284} returnFocus={false}>
-      <Menu.Target>
-        <span style={{ position: 'fixed', left: point.x, top: point.y, width: 1, height: 1 }} />
-      </Menu.Target>
+      <PointTarget x={point.x} y={point.y} />
       <Menu.Dropdown
+        aria-label={t(point.isOnBlock ? 'menu.ofBlocks' : 'menu.ofCanvas')}
         onContextMenu={(event) => {
           event.preventDefault();
         }}

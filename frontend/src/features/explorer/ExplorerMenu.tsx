@@ -16,6 +16,7 @@ import { useProjectStore } from '@/store/project';
 import { canDuplicate, duplicateDocument } from '@/store/project/duplicating';
 import { treeIdOf } from '@/store/project/state';
 import { setScope } from '@/store/revisions/scope';
+import { PointTarget } from '@/ui/PointTarget';
 import { undoNotification } from '@/ui/undoNotification';
 import { showPanel } from '@/workspace/tabs';
 import classes from './explorer.module.css';
@@ -25,12 +26,14 @@ interface ExplorerMenuProps {
   readonly path: string;
   readonly name: string;
   readonly isOpened: boolean;
+  /** The point of a right click; null: at the button. */
+  readonly point: { readonly x: number; readonly y: number } | null;
   readonly onChange: (isOpened: boolean) => void;
   readonly onOpen: () => void;
 }
 
 /** What can be done with a file; its button, a right click, Shift+F10 and the menu key open it. */
-export function ExplorerMenu({ path, name, isOpened, onChange, onOpen }: ExplorerMenuProps) {
+export function ExplorerMenu({ path, name, isOpened, point, onChange, onOpen }: ExplorerMenuProps) {
   const { t } = useTranslation('frame');
   const treeId = treeIdOf(path);
   const isDiagram = useProjectStore((state) => state.files[path]?.kind === 'tree');
@@ -56,14 +59,24 @@ export function ExplorerMenu({ path, name, isOpened, onChange, onOpen }: Explore
     notifications.show({ message: t('explorer.copied', { path }) });
   };
 
+  const label = t('explorer.moreFor', { name });
+  const button = (
+    <ActionIcon size="sm" className={classes['more']} aria-label={label}>
+      <IconDots size={15} />
+    </ActionIcon>
+  );
+
   return (
-    <Menu position="bottom-end" opened={isOpened} onChange={onChange}>
-      <Menu.Target>
-        <ActionIcon size="sm" className={classes['more']} aria-label={t('explorer.moreFor', { name })}>
-          <IconDots size={15} />
-        </ActionIcon>
-      </Menu.Target>
-      <Menu.Dropdown>
+    <Menu position={point ? 'bottom-start' : 'bottom-end'} opened={isOpened} onChange={onChange}>
+      {point ? (
+        <>
+          <PointTarget {...point} />
+          {button}
+        </>
+      ) : (
+        <Menu.Target>{button}</Menu.Target>
+      )}
+      <Menu.Dropdown aria-label={label}>
         <Menu.Item disabled={isBinary} leftSection={<IconFolderOpen size={16} />} onClick={onOpen}>
           {t('explorer.open')}
         </Menu.Item>

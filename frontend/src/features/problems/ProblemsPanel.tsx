@@ -62,7 +62,9 @@ function Row({ item }: { readonly item: ListedProblem }) {
           {message} {hint ? <span className={classes['hint']}>{hint}</span> : null}
         </span>
         <span className={classes['where']}>{where}</span>
-        <span className={classes['code']}>{item.isFault ? t('fault') : item.code}</span>
+        <span className={classes[item.isFault ? 'fault' : 'code']}>
+          {item.isFault ? t('fault') : item.code}
+        </span>
       </button>
       {fixes.length > 0 ? (
         <div className={classes['fixes']}>

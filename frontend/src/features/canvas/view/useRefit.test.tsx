@@ -68,6 +68,17 @@ describe('the view is fitted again', () => {
   });
 });
 
+it('is fitted to the last of several sizes that follow each other, as an edge is dragged', async () => {
+  const { store, wish } = begin();
+  act(() => store.setState({ transform: [250, 20, 1] }));
+  act(() => store.setState({ width: 200 }));
+  await waitFor(() => expect(wish()).toMatchObject({ duration: 200 }));
+  // On its way to the whole tree the view shows a part of it.
+  act(() => store.setState({ transform: [120, 20, 0.9], fitViewOptions: undefined }));
+  act(() => store.setState({ width: 150 }));
+  await waitFor(() => expect(wish()).toMatchObject({ duration: 200 }));
+});
+
 it('stays where the user looked at a part', () => {
   const { store, wish } = begin();
   act(() => store.setState({ transform: [-500, 20, 1] }));

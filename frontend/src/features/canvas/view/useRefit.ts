@@ -6,6 +6,8 @@ import type { TreeOnCanvas } from '../useTree';
 import { FIT, READABLE } from './useViewport';
 
 const ANIMATED = { ...FIT, duration: 200 };
+/** A fit has its effect in this time; sizes that change until then come from the same drag of an edge. */
+const FITTED_MS = ANIMATED.duration + 300;
 
 /** The SubTree that was expanded or closed last, with what is shown inside of it now. */
 function changedGroup(
@@ -37,11 +39,14 @@ export function useRefit(tree: TreeOnCanvas): void {
     height,
     layout,
   });
+  /** Until this time the view is on its way to the whole tree. */
+  const aims = useRef(0);
 
   useEffect(() => {
     const last = before.current;
     before.current = { orientation: diagram.layout, isCompact, groups: shown.groups, width, height, layout };
     const fitSoon = (nodes?: readonly NodeId[]): void => {
+      aims.current = nodes ? 0 : performance.now() + FITTED_MS;
       // Waits until React Flow knows the new places.
       requestAnimationFrame(
         () => void flow.fitView(nodes ? { ...ANIMATED, nodes: nodes.map((id) => ({ id })) } : ANIMATED),
@@ -56,7 +61,8 @@ export function useRefit(tree: TreeOnCanvas): void {
     }
     if ((last.width === width && last.height === height) || last.width === 0 || width === 0) return;
     const { transform } = store.getState();
-    if (isWhole(last, transform) && !isWhole({ width, height, layout }, transform)) fitSoon();
+    const isAiming = performance.now() < aims.current;
+    if (isAiming || (isWhole(last, transform) && !isWhole({ width, height, layout }, transform))) fitSoon();
   }, [tree, flow, store, layout, diagram, shown, isCompact, width, height]);
 }
 

@@ -33,6 +33,7 @@ const RevisionsPanel = lazyPart(
 const CompareTab = lazyPart(async () => (await import('@/features/revisions/CompareTab')).CompareTab);
 const UniverseTab = lazyPart(async () => (await import('@/features/universeEditor/UniverseTab')).UniverseTab);
 const RobotTab = lazyPart(async () => (await import('@/features/robotEditor/RobotTab')).RobotTab);
+const SourceTab = lazyPart(async () => (await import('@/features/code/SourceTab')).SourceTab);
 const CodeTab = lazyPart(async () => (await import('@/features/code/CodeTab')).CodeTab);
 
 const panels: Record<PanelId, (node: TabNode) => ReactNode> = {
@@ -84,7 +85,13 @@ function Document({ node }: { readonly node: TabNode }) {
   if (tab.kind === 'tree') return <Canvas treeId={tab.id} />;
   return (
     <Suspense fallback={<Waiting reason="loadingEditor" />}>
-      {tab.kind === 'compare' ? <CompareTab /> : <FileTab path={tab.path} />}
+      {tab.kind === 'compare' ? (
+        <CompareTab />
+      ) : tab.kind === 'source' ? (
+        <SourceTab path={tab.path} />
+      ) : (
+        <FileTab path={tab.path} />
+      )}
     </Suspense>
   );
 }

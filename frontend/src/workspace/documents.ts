@@ -2,5 +2,7 @@
 export type DocumentTab =
   | { kind: 'tree'; id: string }
   | { kind: 'file'; path: string }
+  /** Python outside of the project, to read: Python's own library, a package, a stub. */
+  | { kind: 'source'; path: string }
   /** Compares two revisions; there is one such tab. */
   | { kind: 'compare' };

@@ -40,7 +40,7 @@ let requests = 0;
 
 function tabId(tab: DocumentTab): string {
   if (tab.kind === 'compare') return 'compare';
-  return tab.kind === 'tree' ? `tree:${tab.id}` : `file:${tab.path}`;
+  return tab.kind === 'tree' ? `tree:${tab.id}` : `${tab.kind}:${tab.path}`;
 }
 
 function nameOf(tab: DocumentTab): string {
@@ -54,7 +54,7 @@ function nameOf(tab: DocumentTab): string {
 
 /** The folder of a file whose tab has the name of another open tab; null if its name says enough. */
 export function folderOf(tab: DocumentTab, open: readonly DocumentTab[]): string | null {
-  if (tab.kind !== 'file') return null;
+  if (tab.kind !== 'file' && tab.kind !== 'source') return null;
   const name = nameOf(tab);
   const isAlone = open.every((other) => tabId(other) === tabId(tab) || nameOf(other) !== name);
   return isAlone ? null : tab.path.split('/').slice(0, -1).join('/') || '/';
@@ -63,7 +63,7 @@ export function folderOf(tab: DocumentTab, open: readonly DocumentTab[]): string
 /** The icon and name of a document's tab. */
 function faceOf(tab: DocumentTab): Pick<IJsonTabNode, 'name' | 'config' | 'helpText'> {
   const name = nameOf(tab);
-  const helpText = tab.kind === 'file' ? tab.path : tab.kind === 'tree' ? name : '';
+  const helpText = tab.kind === 'compare' ? '' : tab.kind === 'tree' ? name : tab.path;
   return { name, config: { document: true, tab }, helpText };
 }
 
@@ -117,6 +117,7 @@ export function followRename(from: DocumentTab, to: DocumentTab): void {
 
 function exists(tab: DocumentTab): boolean {
   const { files, diagrams } = useProjectStore.getState();
+  if (tab.kind === 'source') return true;
   return tab.kind === 'tree' ? tab.id in diagrams : tab.kind === 'file' && tab.path in files;
 }
 

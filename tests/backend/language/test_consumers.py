@@ -70,7 +70,7 @@ def test_it_follows_the_revisions_of_the_project(host, with_actions, api):
         ("import py_trees.common\n", (0, 17), "class Status"),
         ("import json\n", (0, 8), "def dumps"),
         ("x = len(())\n", (0, 5), "def len"),
-        ("import tree_gardener.ports\n", (0, 21), "Port"),
+        ("import tree_gardener.ports\n", (0, 21), "class Port"),
         ("from sensor_msgs.msg import LaserScan\n", (0, 30), "LaserScan"),
     ],
 )

@@ -8,6 +8,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.e2e.accessibility import expect_accessible
+from tests.e2e.server import wait_until
 from tests.e2e.test_code import begin, expect_help, line, spot
 
 if TYPE_CHECKING:
@@ -35,9 +36,17 @@ def test_a_definition_outside_of_the_project_is_read_and_leads_on(studio: Studio
     keys.type("import enum")
     keys.press("Enter")
     keys.press("Escape")
-    keys.press("F12")
-    other = page.get_by_test_id("source-tab").filter(visible=True)
-    expect(other.get_by_role("note")).to_contain_text("enum.py")
+    expect(text).to_be_focused()
+    other = page.get_by_role("tab", name="enum.py")
+
+    def leads_on() -> bool:
+        """The server gives no answer while it still reads the text."""
+        keys.press("F12")
+        page.wait_for_load_state()
+        return other.count() == 1
+
+    wait_until(leads_on, "the definition opens", every_s=1.0)
+    expect(page.get_by_test_id("source-tab").filter(visible=True)).to_contain_text("EnumType")
     for scheme in ("light", "dark"):
         expect_accessible(studio, scheme)
         studio.picture(f"code-definition-{scheme}")

@@ -63,10 +63,17 @@ export function BlockMenu({ point, onClose }: BlockMenuProps) {
   const { t } = useTranslation('canvas');
   if (!point) return null;
   return (
-    <Menu opened onClose={onClose} position="bottom-start" offset={2} width={284} returnFocus={false}>
-      <PointTarget x={point.x} y={point.y} />
+    <Menu
+      opened
+      withInitialFocusPlaceholder={false}
+      onClose={onClose}
+      position="bottom-start"
+      offset={2}
+      width={284}
+      returnFocus={false}
+    >
+      <PointTarget x={point.x} y={point.y} label={t(point.isOnBlock ? 'menu.ofBlocks' : 'menu.ofCanvas')} />
       <Menu.Dropdown
-        aria-label={t(point.isOnBlock ? 'menu.ofBlocks' : 'menu.ofCanvas')}
         onContextMenu={(event) => {
           event.preventDefault();
         }}

@@ -70,13 +70,13 @@ export function ExplorerMenu({ path, name, isOpened, point, onChange, onOpen }: 
     <Menu position={point ? 'bottom-start' : 'bottom-end'} opened={isOpened} onChange={onChange}>
       {point ? (
         <>
-          <PointTarget {...point} />
+          <PointTarget {...point} label={label} />
           {button}
         </>
       ) : (
         <Menu.Target>{button}</Menu.Target>
       )}
-      <Menu.Dropdown aria-label={label}>
+      <Menu.Dropdown>
         <Menu.Item disabled={isBinary} leftSection={<IconFolderOpen size={16} />} onClick={onOpen}>
           {t('explorer.open')}
         </Menu.Item>
@@ -101,7 +101,7 @@ export function ExplorerMenu({ path, name, isOpened, point, onChange, onOpen }: 
           {t('explorer.history')}
         </Menu.Item>
         <Menu.Item
-          color="red"
+          color="var(--bts-failure)"
           disabled={isMain}
           leftSection={<IconTrash size={16} />}
           onClick={() => void removeDocument(path)}

@@ -74,7 +74,7 @@ class ContainerServer:
         await self._send(data)
 
     async def read(self) -> bytes:
-        """Returns the next bytes of the language server; takes in what the tools tell besides."""
+        """Returns the next bytes of the language server; stores the other messages of the tools."""
         try:
             while isinstance(message := await self._connection.recv(), str):
                 self._hear(json.loads(message))

@@ -84,7 +84,7 @@ class Child:
 
     @property
     def hanging_s(self) -> float:
-        """How long its main thread has not come round, if that was reported; else 0."""
+        """The time in s for which its main thread has hung, if that was reported; else 0."""
         return max(self.vitals.stuck_s, self.vitals.silent_s) if self.is_hanging else 0.0
 
     def expect(self, token: str) -> None:

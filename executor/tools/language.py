@@ -73,7 +73,7 @@ async def serve_editor(connection: ServerConnection, home: Path, command: tuple[
 
 
 class Place(NamedTuple):
-    """What an editor's messages may name: files of its own folder, and sources that it may read."""
+    """The folders that an editor's messages may name: its own one, and those of sources."""
 
     home: Path
     sources: tuple[str, ...]

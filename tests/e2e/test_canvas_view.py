@@ -1,4 +1,4 @@
-"""What the view of a tree follows by itself, and where menus and new blocks come."""
+"""The view of a tree follows its layout; menus open at the pointer, and new blocks are connected."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def test_the_view_shows_the_whole_tree_after_what_changes_all_of_it(shared_studi
 
     # Folded and closely looked at, the tree is seen as a whole again once it is unfolded.
     menu_beside_blocks(studio, "collapse1")
-    expect(block(studio, "Forward")).to_have_count(0)
+    expect(block(studio, "Turn")).to_have_count(0)
     for _ in range(3):
         studio.at("canvas").get_by_role("button", name="Zoom in").click()
     rest(block(studio, "ReactiveSequence"))

@@ -4,5 +4,5 @@ export type DocumentTab =
   | { kind: 'file'; path: string }
   /** Python outside of the project, to read: Python's own library, a package, a stub. */
   | { kind: 'source'; path: string }
-  /** Compares two revisions; there is one such tab. */
+  /** The comparison of two revisions; there is only one such tab. */
   | { kind: 'compare' };

@@ -15,7 +15,7 @@ beforeEach(() => {
 });
 
 describe('a right click, or the menu key', () => {
-  it('duplicates, and takes it back', async () => {
+  it('duplicates, and undoes that', async () => {
     await choose('Duplicate');
     expect(paths()).toContain('notes/a_copy.md');
     await user.click(await screen.findByRole('button', { name: 'Undo' }));

@@ -31,7 +31,7 @@ function BlockName({ name }: { readonly name: string }) {
   );
 }
 
-/** Name and type; F2 and `/` edit name and comment here. */
+/** The name and type of a block; F2 and `/` edit the name and the comment here. */
 export function BlockTitle({ id, node, t }: BlockTitleProps) {
   const field = useEditorStore((state) => (state.editing?.node === id ? state.editing.field : null));
   const name = displayName(node);

@@ -9,7 +9,7 @@ const ANIMATED = { ...FIT, duration: 200 };
 /** A fit has its effect in this time; sizes that change until then come from the same drag of an edge. */
 const FITTED_MS = ANIMATED.duration + 300;
 
-/** The SubTree that was expanded or closed last, with what is shown inside of it now. */
+/** Returns the blocks of the SubTree that was expanded or closed last; null if none was. */
 function changedGroup(
   { shown }: TreeOnCanvas,
   before: ReadonlyMap<NodeId, unknown>,
@@ -21,9 +21,9 @@ function changedGroup(
 }
 
 /**
- * Fits the view again after what changes the whole picture: the orientation, the compact layout, a subtree that
- * is expanded or closed, and a canvas of another size, if the
- * tree was seen as a whole and is not any more.
+ * Fits the view again after a change of the whole picture: the orientation, the compact layout, a SubTree
+ * that is expanded or closed, or a new size of the canvas, if all blocks were visible before and are not any
+ * more.
  */
 export function useRefit(tree: TreeOnCanvas): void {
   const flow = useReactFlow<BlockNode, TreeEdge>();
@@ -47,7 +47,7 @@ export function useRefit(tree: TreeOnCanvas): void {
     before.current = { orientation: diagram.layout, isCompact, groups: shown.groups, width, height, layout };
     const fitSoon = (nodes?: readonly NodeId[]): void => {
       aims.current = nodes ? 0 : performance.now() + FITTED_MS;
-      // Waits until React Flow knows the new places.
+      // The view is fitted after React Flow knows the new places.
       requestAnimationFrame(
         () => void flow.fitView(nodes ? { ...ANIMATED, nodes: nodes.map((id) => ({ id })) } : ANIMATED),
       );
@@ -72,7 +72,7 @@ interface Seen {
   readonly layout: TreeOnCanvas['layout'];
 }
 
-/** Whether all blocks were in the view. */
+/** Returns whether all blocks are in a view. */
 function isWhole({ width, height, layout }: Seen, [x, y, zoom]: readonly [number, number, number]): boolean {
   const boxes = Object.values(layout.positions);
   return (

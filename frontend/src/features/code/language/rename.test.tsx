@@ -126,7 +126,7 @@ describe('rename', () => {
     expect(text(USER)).toContain('import Drive');
   });
 
-  it('leaves the action as it is where another name was renamed', async () => {
+  it('leaves the action unchanged if another name was renamed', async () => {
     answers['textDocument/rename'] = { changes: { [uriOf(GO)]: [edit(1, 4, 8, 'x')] } };
     await rename(await asked(), 'x');
     expect(await screen.findByText('Renamed to x: 1 place in 1 file.')).toBeInTheDocument();

@@ -118,7 +118,7 @@ export async function rename(request: RenameRequest, after: string): Promise<voi
   }
 }
 
-/** An action has the name of its file: when its class is renamed, its file and its blocks are renamed too. */
+/** Renames the action's file and its blocks when its class is renamed, since all have the same name. */
 function renameActionToo(uris: readonly string[], before: string, after: string): void {
   const { files, currentText, renameAction } = useProjectStore.getState();
   const path = actionPath(before);

@@ -1,4 +1,4 @@
-/** The root of the URIs of the project's files; the real folder on the server stays hidden. */
+/** The root of the URIs of the project's files, which hides the real folder on the server. */
 const PROJECT = 'file:///project/';
 /** The root of Python outside of the project that can be read. */
 const SOURCES = 'file:///library/';

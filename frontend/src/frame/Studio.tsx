@@ -30,6 +30,7 @@ import { hasWebGl } from '@/features/viewer/webgl';
 import { useProjectStore } from '@/store/project';
 import { setNavigator } from '@/store/project/navigation';
 import { navigate } from '@/store/route';
+import { followTreeRename } from '@/store/session/values/shown';
 import { leaveInspector, registerFrameCommands } from './commands';
 import { CommandPalette } from '@/workspace/CommandPalette';
 import { Dock } from './Dock';
@@ -106,10 +107,11 @@ function Workbench({ projectId }: StudioProps) {
     setNavigator({
       openTree: (id) => openTab({ kind: 'tree', id }),
       openFile: (path, line) => openTab({ kind: 'file', path }, line),
-      renamed: (kind, from, to) =>
-        kind === 'tree'
-          ? followRename({ kind, id: from }, { kind, id: to })
-          : followRename({ kind, path: from }, { kind, path: to }),
+      renamed: (kind, from, to) => {
+        if (kind === 'file') return followRename({ kind, path: from }, { kind, path: to });
+        followTreeRename(from, to);
+        followRename({ kind, id: from }, { kind, id: to });
+      },
       aimAt,
     });
     window.addEventListener('keydown', leaveInspector);

@@ -19,6 +19,7 @@ const STORAGE_KEYS = [
   '`bts.draft.${projectId}`',
   '`bts.layout.${VERSION}.${width}`',
   '`bts.open.${projectId}`',
+  '`bts.values.${projectId}`',
   '`bts.xml.${projectId}.${treeId}`',
 ];
 const PANELS = [

@@ -12,6 +12,7 @@ import { change } from '@/store/project/edits/blocks';
 import { portsInUse, shared } from '@/store/project/edits/ports';
 import { problemsOf } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
+import { shownPort } from '@/store/session/values/shown';
 import { useProblemText } from '@/ui/useProblemText';
 import { shippedPort } from '@/i18n/shipped';
 import { OutdatedPorts } from './ports/OutdatedPorts';
@@ -95,6 +96,7 @@ export function PortList(target: Target) {
           port={{ ...port, description: shippedPort(node.type, port.name, port.description) }}
           value={node.ports?.[port.name] ?? null}
           keys={keys}
+          shown={shownPort(diagram.id, id, port.name)}
           isNew={fresh?.id === id && fresh.name === port.name}
           onLeave={() => {
             setFresh(null);

@@ -11,6 +11,7 @@ import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
 import { ExportDialog } from '@/features/export/ExportDialog';
 import { ImportReport } from '@/features/importReport/ImportReport';
+import { Guide } from '@/features/onboarding/guide/Guide';
 import { Shortcuts } from '@/features/onboarding/Shortcuts';
 import { RunStrip } from '@/features/run/strip/RunStrip';
 import { registerRunCommands } from '@/features/run/commands';
@@ -37,6 +38,8 @@ import { Dock } from './Dock';
 import classes from './frame.module.css';
 import { loadLayout } from '@/workspace/layoutModel';
 import { openLesson } from '@/workspace/lessons';
+import { endPresentation, usePresentation } from '@/workspace/presentation';
+import { PresentationBar } from './presentation/PresentationBar';
 import { RestoredNotice } from './RestoredNotice';
 import { StatusBar } from './StatusBar';
 import {
@@ -87,6 +90,7 @@ function Workbench({ projectId }: StudioProps) {
   const model = useTabs((state) => state.model);
   const modelWidth = useTabs((state) => state.width);
   const name = useProjectStore((state) => state.name);
+  const presenting = usePresentation((state) => state.mode);
   useShortcuts();
   useRunReactions({ showPanel, openFile: (path, line) => openTab({ kind: 'file', path }, line) });
 
@@ -122,6 +126,7 @@ function Workbench({ projectId }: StudioProps) {
       unwatch();
       window.removeEventListener('keydown', leaveInspector);
       closePalette();
+      endPresentation();
       unregister.forEach((undo) => undo?.());
       useTabs.setState({ model: null, target: null });
     };
@@ -137,13 +142,15 @@ function Workbench({ projectId }: StudioProps) {
   }, [model, modelWidth, width, projectId]);
 
   return (
-    <div className={classes['studio']}>
+    <div className={classes['studio']} data-presenting={presenting === 'off' ? undefined : presenting}>
       <TopBar />
       <RunStrip />
       <main className={classes['dock']}>
         {model && modelWidth ? <Dock model={model} width={modelWidth} key={modelWidth} /> : null}
       </main>
       <StatusBar />
+      <PresentationBar />
+      <Guide />
       <CommandPalette />
       <ConflictDialog />
       <FileDialog />

@@ -6,6 +6,7 @@ const STORAGE_KEYS = [
   "'bts.compactTrees'",
   "'bts.followRunning'",
   "'bts.formatOnSave'",
+  "'bts.guide'",
   "'bts.hints'",
   "'bts.keep3d'",
   "'bts.language'",

@@ -41,7 +41,7 @@ export function flush(): void {
   feedValues(useSessionStore.getState);
 }
 
-// A value that is chosen while time stands still is shown too.
+// A value that is chosen while time is paused is shown too.
 useShownValues.subscribe(() => {
   feedValues(useSessionStore.getState);
 });

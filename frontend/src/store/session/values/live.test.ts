@@ -85,7 +85,7 @@ describe('live values', () => {
     expect(shown()?.samples).toEqual([1, 2, 4]);
   });
 
-  it('of a port that is chosen while time stands still are shown too', () => {
+  it('of a port that is chosen while time is paused are shown too', () => {
     showValues([speed], false);
     write('v', 1, { executor: 'paused' });
     feed();
@@ -95,7 +95,7 @@ describe('live values', () => {
     expect(shown()).toMatchObject({ value: 1 });
   });
 
-  it('stay as they are while time stands still', () => {
+  it('stay as they are while time is paused', () => {
     write('v', 1, { executor: 'paused' });
     feed();
     const first = shown();
@@ -120,7 +120,7 @@ describe('live values', () => {
     expect(shown()?.samples).toEqual([1]);
   });
 
-  it('begin anew with a new tree, and end with the choice', () => {
+  it('begin again with a new tree, and end with the choice', () => {
     write('v', 1);
     feed();
     session = { ...session, tree: [...tree] };

@@ -60,7 +60,7 @@ const numberOf = (value: unknown): number | null =>
 function next(row: BlackboardRow, before: LiveValue | undefined, goesOn: boolean): LiveValue {
   const { key, value, changedAt } = row;
   const isSame = before?.changedAt === changedAt && before.key === key;
-  // Time that stands still leaves no samples.
+  // Paused time leaves no samples.
   if (isSame && !goesOn) return before;
   const number = numberOf(value);
   const earlier = before?.key === key ? before.samples : [];
@@ -77,7 +77,7 @@ function take(session: SessionData, now: number): void {
   timer = undefined;
   takenAt = now;
   const { values } = useLiveValues.getState();
-  // A new tree is a new run, whose samples begin anew.
+  // A new tree is a new run, whose samples begin again.
   const before = session.tree === tree ? values : new Map<ShownPort, LiveValue>();
   tree = session.tree;
   const byUid = new Map(session.tree.map((node) => [node.uid, node]));

@@ -103,6 +103,9 @@ def the_robot_comes_beside_it(studio: Studio) -> None:
     assert tree
     assert robot
     assert robot["x"] >= tree["x"] + tree["width"] - 1, "they are side by side"
+    # The button's tooltip is in no landmark.
+    page.mouse.move(0, 0)
+    expect(page.get_by_role("tooltip")).to_have_count(0)
     expect_no_findings(page, "presentation")
     studio.picture("presentation")
     studio.at("presentation-full").click()

@@ -146,10 +146,10 @@ function Workbench({ projectId }: StudioProps) {
       <TopBar />
       <RunStrip />
       <main className={classes['dock']}>
+        <PresentationBar />
         {model && modelWidth ? <Dock model={model} width={modelWidth} key={modelWidth} /> : null}
       </main>
       <StatusBar />
-      <PresentationBar />
       <Guide />
       <CommandPalette />
       <ConflictDialog />

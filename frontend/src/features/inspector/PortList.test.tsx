@@ -128,5 +128,5 @@ it('takes ports of a type that nobody knows', async () => {
   show(<List id="x" />);
   expect(fields()).toEqual(['lost']);
   expect(adding()).not.toBeNull();
-  expect(within(screen.getByText('lost').parentElement!).getAllByRole('button')).toHaveLength(4);
+  expect(within(screen.getByText('lost').parentElement!).getAllByRole('button')).toHaveLength(5);
 });

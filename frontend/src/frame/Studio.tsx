@@ -10,6 +10,7 @@ import { registerCanvasCommands } from '@/features/canvas/commands/canvasCommand
 import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
 import { ExportDialog } from '@/features/export/ExportDialog';
+import { ArrivalsDialog } from '@/features/library/ArrivalsDialog';
 import { ImportReport } from '@/features/importReport/ImportReport';
 import { Guide } from '@/features/onboarding/guide/Guide';
 import { Shortcuts } from '@/features/onboarding/Shortcuts';
@@ -163,6 +164,7 @@ function Workbench({ projectId }: StudioProps) {
       <PublishDialog />
       <ConnectDialog />
       <RenameKeyDialog />
+      <ArrivalsDialog />
       <RestoredNotice />
       <ImportReport projectId={projectId} />
     </div>

@@ -1,12 +1,15 @@
 import { subtreeOf, type Diagram } from './diagram';
 import type { PortDirection, PortSpec } from './ports';
+import { descriptionOf } from './treeAttributes';
 
-/** Facts about a tree for other trees of the project. */
+/** Facts about a tree that other trees of the project need. */
 export interface TreeFacts {
-  /** The trees that the tree calls, except from drafts. */
+  /** The trees that the tree calls, not counting calls in drafts. */
   readonly calls: ReadonlySet<string>;
-  /** Its ports as a SubTree. */
+  /** The ports that the tree has as a SubTree. */
   readonly ports: readonly PortSpec[];
+  /** What it is for; empty if nobody wrote it. */
+  readonly description: string;
 }
 
 const DIRECTIONS: readonly string[] = ['input', 'output', 'inout'] satisfies PortDirection[];
@@ -36,25 +39,26 @@ function read(diagram: Diagram): TreeFacts {
     return node?.type === 'SubTree' && node.tree ? [node.tree] : [];
   });
   const rows: readonly unknown[] = Array.isArray(diagram.ports) ? diagram.ports : [];
-  return { calls: new Set(called), ports: rows.flatMap(portOf) };
+  return { calls: new Set(called), ports: rows.flatMap(portOf), description: descriptionOf(diagram) };
 }
 
 const known = new WeakMap<Diagram, TreeFacts>();
 
-/** The facts of a diagram, cached, since diagrams are immutable. */
+/** Returns the facts of a diagram, cached, since diagrams are immutable. */
 export function treeFacts(diagram: Diagram): TreeFacts {
   const facts = known.get(diagram) ?? read(diagram);
   known.set(diagram, facts);
   return facts;
 }
 
-/** Whether the facts of a tree are unchanged. */
+/** Returns whether the facts of a tree are unchanged. */
 export function sameFacts(a: TreeFacts, b: TreeFacts): boolean {
   const isSamePort = (port: PortSpec, index: number): boolean =>
     JSON.stringify(port) === JSON.stringify(b.ports[index]);
   return (
     a === b ||
-    (a.calls.size === b.calls.size &&
+    (a.description === b.description &&
+      a.calls.size === b.calls.size &&
       [...a.calls].every((tree) => b.calls.has(tree)) &&
       a.ports.length === b.ports.length &&
       a.ports.every(isSamePort))

@@ -5,15 +5,23 @@ export interface Renaming {
   readonly to: string;
 }
 
+/** A file that a step wrote beside its tree: its texts before and after; null where there is no file. */
+export interface WrittenFile {
+  readonly path: string;
+  readonly before: string | null;
+  readonly after: string | null;
+}
+
 /** One undoable step of one tree: its label, and the patches in both directions. */
 export interface UndoEntry {
   readonly label: string;
-  /** Consecutive steps with the same key are one: typing in a field, dragging a block. */
+  /** Consecutive steps with the same key are merged, such as typing in a field or dragging a block. */
   readonly mergeKey: string | null;
   readonly patches: readonly Patch[];
   readonly inverse: readonly Patch[];
   /** An action that the step renamed, with its file. */
   readonly renamed?: Renaming | undefined;
+  readonly files?: readonly WrittenFile[] | undefined;
   /** The selection before and after, so that undo shows where the change was. */
   readonly before: readonly string[];
   readonly after: readonly string[];
@@ -32,7 +40,7 @@ const LIMIT = 500;
 
 /** Adds a step. It clears the redo stack and drops the oldest steps beyond 500. */
 export function record(undoStack: UndoStack, entry: UndoEntry): UndoStack {
-  if (entry.patches.length === 0) return undoStack;
+  if (entry.patches.length === 0 && !entry.files?.length) return undoStack;
   const last = undoStack.past.at(-1);
   const merges = !undoStack.sealed && entry.mergeKey !== null && last?.mergeKey === entry.mergeKey;
   if (last && merges) {
@@ -47,7 +55,7 @@ export function record(undoStack: UndoStack, entry: UndoEntry): UndoStack {
   return { past: [...undoStack.past, entry].slice(-LIMIT), future: [], sealed: false };
 }
 
-/** Ends a gesture: the next step is a new one. */
+/** Ends a gesture: the next step is not merged with the last one. */
 export function seal(undoStack: UndoStack): UndoStack {
   return undoStack.sealed ? undoStack : { ...undoStack, sealed: true };
 }

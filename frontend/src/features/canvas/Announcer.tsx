@@ -32,7 +32,7 @@ function valuesOf(node: DiagramNode, spec: NodeSpec | undefined, tree: string, i
   });
 }
 
-/** Announces the selected block to screen readers: name, type, place, status and problems. */
+/** The announcement of the selected block for screen readers: name, type, place, status and problems. */
 export const Announcer = memo(function Announcer({ treeId, problems }: AnnouncerProps) {
   const { t } = useTranslation('canvas');
   const diagram = useProjectStore((state) => state.diagrams[treeId]);

@@ -17,12 +17,13 @@ import {
   lineNumbers,
   type KeyBinding,
 } from '@codemirror/view';
+import { withoutFiles } from '@/model/copied';
 import { useProjectStore } from '@/store/project';
 import { editorTheme } from './editorTheme';
 import { fontSizeKeys } from './fontSize';
 import { phrases } from './phrases';
 
-/** Extensions that every text editor has, for files and for a tree's XML; `keys` take precedence. */
+/** Returns the extensions of every text editor, for files and for a tree's XML; `keys` take precedence. */
 export function basics(label: string, keys: readonly KeyBinding[] = []): Extension {
   return [
     lineNumbers(),
@@ -39,6 +40,8 @@ export function basics(label: string, keys: readonly KeyBinding[] = []): Extensi
     lintGutter(),
     editorTheme,
     phrases(),
+    // Blocks that were copied from a canvas are pasted here as XML alone, without the files that they bring.
+    EditorView.clipboardInputFilter.of(withoutFiles),
     // The element is focusable anyway; the attribute tells accessibility checks that its scroll area can be
     // reached by keyboard.
     EditorView.contentAttributes.of({ 'aria-label': label, tabindex: '0' }),

@@ -13,10 +13,11 @@ import { NodeHeader } from './NodeHeader';
 import { NodeProblems } from './NodeProblems';
 import { PortList } from './PortList';
 import { targetOf } from './target';
+import { TreeDescription } from './tree/TreeDescription';
 import { TreeField } from './TreeField';
 import classes from './Inspector.module.css';
 
-/** The commands for several blocks that also exist for one. */
+/** The commands for several blocks; each also exists for a single block. */
 const TOGETHER = ['canvas.wrap', 'canvas.extract', 'canvas.disable', 'edit.delete'] as const;
 
 interface Shown {
@@ -26,8 +27,8 @@ interface Shown {
 }
 
 /**
- * All properties of the selected block. The fields of a newly selected block render after the canvas, where
- * the user looks; typing in a field updates at once.
+ * The properties of the selected block. The fields of a newly selected block render after the canvas, since
+ * the user looks there; typing in a field updates at once.
  */
 export function Inspector() {
   const diagram = useProjectStore((state) => state.diagrams[state.activeTree ?? '']);
@@ -45,16 +46,19 @@ const Fields = memo(function Fields({ diagram, count, id }: Shown) {
   const target = count > 1 ? null : targetOf(diagram, id, vocabulary);
   if (!target) {
     return (
-      <section className={classes['empty']} aria-label={t('empty.title')} data-testid="inspector">
-        <strong>{count > 1 ? t('empty.many', { count }) : t('empty.title')}</strong>
-        {count === 0 && <p>{t('empty.text')}</p>}
-        {count > 1 && (
-          <div className={classes['together']}>
-            {TOGETHER.map((action) => (
-              <CommandButton key={action} command={action} />
-            ))}
-          </div>
-        )}
+      <section className={classes['inspector']} aria-label={t('empty.title')} data-testid="inspector">
+        {count === 0 && diagram && <TreeDescription key={diagram.id} diagram={diagram} />}
+        <div className={classes['empty']}>
+          <strong>{count > 1 ? t('empty.many', { count }) : t('empty.title')}</strong>
+          {count === 0 && <p>{t('empty.text')}</p>}
+          {count > 1 && (
+            <div className={classes['together']}>
+              {TOGETHER.map((action) => (
+                <CommandButton key={action} command={action} />
+              ))}
+            </div>
+          )}
+        </div>
       </section>
     );
   }

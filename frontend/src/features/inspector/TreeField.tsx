@@ -8,7 +8,7 @@ import { useProjectStore } from '@/store/project';
 import type { Target } from './target';
 import classes from './Inspector.module.css';
 
-/** The tree of a SubTree; trees that would contain themselves are not offered. */
+/** The field for the tree of a SubTree; it does not offer trees that would then contain themselves. */
 export function TreeField({ tree, id, node }: Target) {
   const { t } = useTranslation('inspector');
   const vocabulary = useProjectStore((state) => state.vocabulary);
@@ -16,9 +16,12 @@ export function TreeField({ tree, id, node }: Target) {
     () => [...vocabulary.trees.keys()].filter((other) => !wouldRecurse(vocabulary, tree, other)),
     [vocabulary, tree],
   );
+  const description = vocabulary.trees.get(node.tree ?? '')?.description ?? '';
   return (
     <Select
       className={classes['pad'] ?? ''}
+      description={description}
+      inputWrapperOrder={['label', 'input', 'description']}
       size="xs"
       label={t('tree')}
       data={choices}

@@ -1,4 +1,4 @@
-import { Loader, Select, Text, TextInput } from '@mantine/core';
+import { Loader, Select, Switch, Text, TextInput } from '@mantine/core';
 import { useDebouncedValue } from '@mantine/hooks';
 import { IconSearch } from '@tabler/icons-react';
 import { useMemo, useState } from 'react';
@@ -16,7 +16,7 @@ interface SourceProps {
   readonly onChange: (source: string) => void;
 }
 
-/** Chooses where the behaviours come from; a project is found by its name. */
+/** The field that chooses the source of the behaviours; a project is found by its name. */
 function Source({ value, onChange }: SourceProps) {
   const { t } = useTranslation('library');
   const projectId = useProjectStore((state) => state.projectId);
@@ -48,18 +48,23 @@ function Source({ value, onChange }: SourceProps) {
   );
 }
 
-/** Reusable behaviours: the built-in library, and the trees of the user's other projects. */
+/** The panel of reusable behaviours: the built-in library, and the trees of the user's other projects. */
 export function Library() {
   const { t, i18n } = useTranslation('library');
   const record = useProjectStore((state) => state.currentText('assets/library.json'));
   const [source, setSource] = useState(BUILT_IN);
   const [search, setSearch] = useState('');
+  const [showsAll, setShowsAll] = useState(false);
   const library = useLibrary(i18n.language);
   const trees = useTreesOf(source === BUILT_IN ? null : source);
   const taken = useMemo(() => takenIn(record), [record]);
   const { data, error, isPending } = source === BUILT_IN ? library : trees;
+  // A project that offers some of its trees by name shows the others on demand.
+  const curates = (data ?? []).some(({ isOffered }) => isOffered);
+  const hasMore = curates && (data ?? []).some(({ isOffered }) => !isOffered);
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
-  const shown = (data ?? []).filter(({ id, summary, doc }) => {
+  const offers = (data ?? []).filter((offer) => showsAll || !curates || offer.isOffered);
+  const shown = offers.filter(({ id, summary, doc }) => {
     const text = `${id} ${summary} ${doc}`.toLowerCase();
     return words.every((word) => text.includes(word));
   });
@@ -76,6 +81,14 @@ export function Library() {
           onChange={(event) => setSearch(event.currentTarget.value)}
         />
         <Source value={source} onChange={setSource} />
+        {hasMore ? (
+          <Switch
+            size="xs"
+            label={t('allTrees')}
+            checked={showsAll}
+            onChange={(event) => setShowsAll(event.currentTarget.checked)}
+          />
+        ) : null}
       </div>
       {isPending ? <Loader size="xs" m="md" aria-label={t('loading')} /> : null}
       {error ? (

@@ -9,6 +9,7 @@ import { whileEditing } from './problems';
 import { refusingViewers } from './readOnly';
 import { readSettings } from './settings';
 import { withActionRenamed } from './edits/renameAction';
+import { withFilesOfStep } from './writtenFiles';
 import { actionPath, treeIdOf, type ProjectData, type ProjectState } from './state';
 import {
   actionsAfter,
@@ -23,12 +24,12 @@ import {
   type Diagrams,
 } from './transitions';
 
-/** Renames the open tab of a renamed action. */
+/** Renames the tab of a renamed action. */
 const tellRenamed = ({ from, to }: Renaming): void => {
   tellNavigator('file', actionPath(from), actionPath(to));
 };
 
-/** All saved data of the open project, and the selection. */
+/** The saved data of the open project, and the selection. */
 export const useProjectStore = create<ProjectState>()((setState, get) => {
   const set = refusingViewers(setState);
   /** Records a change of trees as one step on the undo stack of `owner`. */
@@ -46,7 +47,7 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       try {
         moved = go(state.diagrams, undoStack);
       } catch {
-        // The step refers to a node that another tree's edit has removed: it cannot be replayed.
+        // The step refers to a node that an edit of another tree has removed, so it cannot be replayed.
         return { histories: { ...state.histories, [owner]: emptyUndo } };
       }
       if (!moved) return state;
@@ -57,9 +58,14 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       const chosen =
         owner !== state.activeTree ? state.selection : go === undo ? moved.entry.before : moved.entry.after;
       const diagram = moved.document[state.activeTree ?? owner];
+      const data = withFilesOfStep(
+        { ...(files ?? state), diagrams: moved.document },
+        moved.entry,
+        go === undo ? 'undo' : 'redo',
+      );
       return {
-        ...knowing({ ...(files ?? state), diagrams: moved.document }),
-        histories: { ...state.histories, [owner]: moved.undoStack },
+        ...knowing(data),
+        histories: { ...data.histories, [owner]: moved.undoStack },
         selection: chosen.filter((id) => diagram !== undefined && id in diagram.nodes),
         changeCounter: state.changeCounter + 1,
       };
@@ -172,7 +178,7 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       const renamed = produce(state.diagrams, renameEverywhere('tree', from, to));
       const { [from]: moved = diagram, ...others } = renamed;
       const diagrams = { ...others, [to]: { ...moved, id: to } };
-      // Before the old name is removed, since tabs of missing trees are closed.
+      // This comes before the old name is removed, since tabs of missing trees are closed.
       if (state.role !== 'viewer') tellNavigator('tree', from, to);
       const { [from]: _undoStack, ...histories } = state.histories;
       set({

@@ -49,7 +49,7 @@ interface BlockPortsProps {
   readonly t: TFunction<'canvas'>;
 }
 
-/** The block's ports with their values, as many as fit. */
+/** The ports of a block with their values, as many as fit. */
 export function BlockPorts({ place, node, spec, t }: BlockPortsProps) {
   const lines = portLines(node, spec);
   const wanted = new Set(

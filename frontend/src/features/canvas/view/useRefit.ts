@@ -10,7 +10,7 @@ const ANIMATED = { ...FIT, duration: 200 };
 /** In a presentation a small tree is enlarged, to be read from afar. */
 const PRESENTED = { ...FIT, maxZoom: 2, duration: 200 };
 
-/** The SubTree that was expanded or closed last, with what is shown inside of it now. */
+/** Returns the blocks of the SubTree that was expanded or closed last; null if none was. */
 function changedGroup(
   { shown }: TreeOnCanvas,
   before: ReadonlyMap<NodeId, unknown>,
@@ -22,9 +22,9 @@ function changedGroup(
 }
 
 /**
- * Fits the view again after what changes the whole picture: the orientation, the compact layout, a subtree that
- * is expanded or closed, and a canvas of another size, if the tree was seen as a whole and is not any more. A
- * presentation always shows all, and gives the view of before back.
+ * Fits the view again after a change of the whole picture: the orientation, the compact layout, a SubTree
+ * that is expanded or closed, or a new size of the canvas, if all blocks were visible before and are not any
+ * more. A presentation always shows all blocks, and restores the earlier view at its end.
  */
 export function useRefit(tree: TreeOnCanvas): void {
   const flow = useReactFlow<BlockNode, TreeEdge>();
@@ -50,7 +50,7 @@ export function useRefit(tree: TreeOnCanvas): void {
     before.current = { orientation: diagram.layout, isCompact, groups, isPresented, width, height, layout };
     const whole = isPresented ? PRESENTED : ANIMATED;
     const fitSoon = (nodes?: readonly NodeId[]): void => {
-      // Waits until React Flow knows the new places.
+      // The view is fitted after React Flow knows the new places.
       requestAnimationFrame(
         () => void flow.fitView(nodes ? { ...whole, nodes: nodes.map((id) => ({ id })) } : whole),
       );
@@ -91,7 +91,7 @@ interface Seen {
   readonly layout: TreeOnCanvas['layout'];
 }
 
-/** Whether all blocks were in the view. */
+/** Returns whether all blocks are in a view. */
 function isWhole({ width, height, layout }: Seen, [x, y, zoom]: readonly [number, number, number]): boolean {
   const boxes = Object.values(layout.positions);
   return (

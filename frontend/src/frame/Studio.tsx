@@ -112,6 +112,7 @@ function Workbench({ projectId }: StudioProps) {
     setNavigator({
       openTree: (id) => openTab({ kind: 'tree', id }),
       openFile: (path, line) => openTab({ kind: 'file', path }, line),
+      openTopics: () => showPanel('topics'),
       renamed: (kind, from, to) => {
         if (kind === 'file') return followRename({ kind, path: from }, { kind, path: to });
         followTreeRename(from, to);

@@ -8,6 +8,7 @@ import { readPortText } from '@/model/ports';
 import type { NodeSpec } from '@/model/vocabulary';
 import { shownPort, useShownValues, type ShownPort } from '@/store/session/values/shown';
 import { PortValue } from './PortValue';
+import type { PortMark, PortMarks } from '@/store/run/portMarks';
 import classes from './Block.module.css';
 
 function valueClass(line: PortLine): string {
@@ -46,11 +47,19 @@ interface BlockPortsProps {
   readonly place: Inside;
   readonly node: DiagramNode;
   readonly spec: NodeSpec | undefined;
+  readonly marks: PortMarks;
   readonly t: TFunction<'canvas'>;
 }
 
+/** What the pointer tells of a value: the whole text, and how it differs from the saved one. */
+function titleOf(line: PortLine, mark: PortMark | undefined, t: TFunction<'canvas'>): string | undefined {
+  if (!mark) return line.value ?? undefined;
+  const saved = mark.saved ?? line.default ?? t('port.noValue');
+  return t(`port.live.${mark.state}`, { value: line.value ?? line.default ?? '', saved });
+}
+
 /** The ports of a block with their values, as many as fit. */
-export function BlockPorts({ place, node, spec, t }: BlockPortsProps) {
+export function BlockPorts({ place, node, spec, marks, t }: BlockPortsProps) {
   const lines = portLines(node, spec);
   const wanted = new Set(
     useShownValues(useShallow(({ ports }) => (ports.size === 0 ? NONE : wantedOf(lines, place, ports)))),
@@ -61,6 +70,7 @@ export function BlockPorts({ place, node, spec, t }: BlockPortsProps) {
     <ul className={classes['ports']}>
       {fitting(lines, wanted).map((line) => {
         const value = shownValue(line, t);
+        const mark = marks.get(line.name);
         return (
           <li key={line.name} className={classes['port']}>
             <span className={classes['portName']}>
@@ -71,7 +81,8 @@ export function BlockPorts({ place, node, spec, t }: BlockPortsProps) {
             ) : (
               <span
                 className={classes[valueClass(line)]}
-                title={line.value ?? undefined}
+                title={titleOf(line, mark, t)}
+                data-live={mark?.state}
                 data-long={value.length > BLOCK.valueLetters || undefined}
               >
                 {value}

@@ -19,7 +19,7 @@ beforeEach(() => {
 describe('PortValue', () => {
   it('shows the key until there is a value', () => {
     expect(value()).toHaveTextContent('{v}');
-    expect(value()).not.toHaveAttribute('data-live');
+    expect(value()).not.toHaveAttribute('data-valued');
     expect(screen.getByTitle('Its value is shown here while the tree runs')).toBe(value());
   });
 

@@ -25,7 +25,7 @@ export function PortValue({ port, text }: PortValueProps) {
       ref={root}
       className={classes['value']}
       data-testid={`value-${port}`}
-      data-live={live ? '' : undefined}
+      data-valued={live ? '' : undefined}
       title={live ? `${live.key} = ${short}` : t('port.shown')}
     >
       {live ? (

@@ -38,6 +38,7 @@ import { openNewUniverse } from '@/store/dialogs/newUniverse';
 import { resetLayout } from './Dock';
 import { fileCommands } from '@/features/explorer/fileCommands';
 import { endGuide, startGuide, useGuide } from '@/features/onboarding/guide/guide';
+import { usedCommands } from '@/features/explorer/used/commands';
 import { focusInspector } from '@/workspace/focus';
 import { openAnotherCamera } from '@/workspace/cameraViews';
 import { WINDOWED, type PanelId } from '@/workspace/layoutModel';
@@ -296,4 +297,4 @@ const windows = WINDOWED.map((id): UserCommand => ({
 }));
 
 export const registerFrameCommands = () =>
-  registerCommands([...everywhere, ...rows, ...fileCommands, ...panels, ...windows]);
+  registerCommands([...everywhere, ...rows, ...fileCommands, ...usedCommands, ...panels, ...windows]);

@@ -31,7 +31,7 @@ class State(StrEnum):
         return min(list(State).index(self), 4)
 
     def reaches(self, other: State) -> bool:
-        """Whether this rung is at least as high as `other`."""
+        """Returns whether this rung is at least as high as `other`."""
         return self.height >= other.height
 
 
@@ -108,6 +108,7 @@ TABLE: Final[dict[str, Row]] = {
     "cancel": _act(ANY, "Ends the step under way; the ladder stays on the last rung reached."),
     "step": _act(frozenset({State.PAUSED}), "One tick, and `1/tick_hz` of simulated time.", is_step=True),
     "set_tick_rate": _act(HAS_APPLICATION, "Changes the tick rate from the next tick on."),
+    "set_port": _act(HAS_APPLICATION, "Changes a port of a running node from the next tick on."),
     "set_speed": _act(WORLD_UP, "Changes how fast simulated time passes."),
     "reset_world": _act(WORLD_UP, "Restores the initial state of the world."),
     "run_world": _act(
@@ -132,7 +133,7 @@ TABLE: Final[dict[str, Row]] = {
 
 
 def is_legal(state: State, command: str) -> bool:
-    """Whether the command may be sent in this state."""
+    """Returns whether the command may be sent in this state."""
     return state in TABLE[command].sources
 
 

@@ -43,7 +43,7 @@ class Scratch:
 
 
 def is_in_use(path: Path) -> bool:
-    """Whether a path is the temporary folder of a process that still runs."""
+    """Returns whether a path is the temporary folder of a process that still runs."""
     lock = path / LOCK
     # Its owner may have made a young folder, and not yet locked it.
     is_kept = is_young(path) or (lock.is_file() and not is_abandoned(lock))

@@ -10,7 +10,7 @@ class _WhenUpdated(Decorator):
 
     __slots__ = ("busy", "key", "seen")
     MARKS_RUNNING = ()
-    NEEDS = "entry"
+    NEEDS = READ_AT_LOAD = "entry"
     OTHERWISE: ClassVar[Status]
 
     def prepare(self) -> None:
@@ -38,7 +38,7 @@ class _WhenUpdated(Decorator):
         return self.skipped()
 
     def is_updated(self) -> bool:
-        """Whether the entry was written since the last test."""
+        """Returns whether the entry was written since the last test."""
         entry = self.board.find(self.key)
         if entry is None:
             return False

@@ -26,7 +26,7 @@ describe('markCutTabs', () => {
     expect([cut.hasAttribute('data-cut'), whole.hasAttribute('data-cut')]).toEqual([true, false]);
   });
 
-  it('takes the mark off where there is room again', () => {
+  it('removes the mark when there is room again', () => {
     const root = document.createElement('div');
     const outer = bar(root, 200, 260);
     markCutTabs(root);

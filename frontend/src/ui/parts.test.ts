@@ -44,13 +44,13 @@ async function outcome<T>(promise: Promise<T>): Promise<PromiseSettledResult<T>>
 }
 
 describe('a part of the page', () => {
-  it('is asked for again when it does not come', async () => {
+  it('is requested again when it fails', async () => {
     const load = vi.fn().mockRejectedValueOnce(new Error('timed out')).mockResolvedValue('part');
     expect(await outcome(loadPart(load))).toEqual({ status: 'fulfilled', value: 'part' });
     expect(load).toHaveBeenCalledTimes(2);
   });
 
-  it('is given up after some seconds, and says so', async () => {
+  it('is given up after some seconds, with an error', async () => {
     const load = vi.fn().mockRejectedValue(new Error('timed out'));
     expect(await outcome(loadPart(load))).toEqual({
       status: 'rejected',
@@ -59,7 +59,7 @@ describe('a part of the page', () => {
     expect(load).toHaveBeenCalledTimes(4);
   });
 
-  it('is not shown before its style is there', async () => {
+  it('is not shown before its style sheet has loaded', async () => {
     styleThatComes(3);
     expect(await outcome(loadPart(() => Promise.resolve('part')))).toMatchObject({ value: 'part' });
     expect(links().map((link) => link.sheet?.cssRules.length)).toEqual([1]);
@@ -67,7 +67,7 @@ describe('a part of the page', () => {
 });
 
 describe('the styles of a page', () => {
-  it('are missed by name when they never come', async () => {
+  it('are named in the error if they never load', async () => {
     styleThatComes(99);
     expect(await outcome(stylesArrive())).toMatchObject({
       reason: new PartMissing('The style sheet /assets/part.css did not come.'),

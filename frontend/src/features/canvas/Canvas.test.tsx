@@ -82,7 +82,7 @@ it('offers the fixes of a block', async () => {
   expect(screen.queryByTestId('fix-box')).toBeNull();
 });
 
-it('looks into a subtree by key, shows its live status, and changes nothing', () => {
+it('expands a subtree by a key, shows its live status, and changes nothing', () => {
   act(() => {
     useProjectStore.getState().select('MainTree', ['s']);
   });
@@ -107,7 +107,7 @@ function mouse(type: 'mousedown' | 'mousemove' | 'mouseup', target: Element | Wi
   fireEvent(target, event);
 }
 
-it('renders at most three blocks for a step of the hand that carries one', () => {
+it('renders at most three blocks for a step of a drag', () => {
   const block = screen.getByTestId('node-n3').closest<HTMLElement>('.react-flow__node')!;
   mouse('mousedown', block, 10);
   mouse('mousemove', window, 20);

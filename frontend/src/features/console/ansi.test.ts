@@ -37,7 +37,7 @@ describe('parseAnsi', () => {
     expect(styles(codes)).toEqual(expected);
   });
 
-  it('drops sequences that are no style', () => {
+  it('drops sequences that set no style', () => {
     expect(plainText('x\u001b[2Ky')).toBe('xy');
     expect(parseAnsi('\u001b[2K')).toEqual([{ text: '', styles: [] }]);
     expect(parseAnsi('a\u001b[31Kb').map(({ styles: of }) => of)).toEqual([[], []]);

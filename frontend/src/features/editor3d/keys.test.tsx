@@ -78,14 +78,14 @@ describe('the keys of a view', () => {
     ['f', 'selection'],
     ['t', 'top'],
     ['p', 'default'],
-  ])('%s looks again: %s', (key, kind) => {
+  ])('%s moves the camera: %s', (key, kind) => {
     const before = state().viewpoint;
     press(key);
     expect(state().viewpoint).toEqual({ kind });
     expect(state().viewpoint).not.toBe(before);
   });
 
-  it('end one thing at a time with Escape', () => {
+  it('Escape ends one thing at a time', () => {
     const cancel = vi.fn(() => true);
     showIn(editor, { center: () => [0, 0], forward: () => [1, 0], cancel });
     select(editor, ['a']);
@@ -97,6 +97,25 @@ describe('the keys of a view', () => {
     expect(state()).toMatchObject({ tool: 'select', selection: ['a'] });
     press('Escape');
     expect(state()).toMatchObject({ tool: 'select', selection: [] });
+  });
+
+  it('place the thing whose ghost is shown, and move the ghost', () => {
+    const placer = { aim: vi.fn(), shift: vi.fn(), put: vi.fn(), focus: vi.fn() };
+    showIn(editor, { center: () => [0, 0], forward: () => [0, 1], cancel: () => false }, placer);
+    press('Enter');
+    expect(placer.put).not.toHaveBeenCalled();
+    editor.store.setState({ grid: 0.5, placing: { name: 'Box', what: {} } });
+    press('ArrowUp');
+    press('ArrowLeft', { shiftKey: true });
+    const steps = placer.shift.mock.calls.map(([by]: number[][]) => by!.map((part) => part + 0));
+    expect(steps).toEqual([
+      [0, 0.5],
+      [-2.5, 0],
+    ]);
+    expect(acts.nudge).not.toHaveBeenCalled();
+    press('Enter');
+    press('Enter', { shiftKey: true });
+    expect(placer.put.mock.calls).toEqual([[false], [true]]);
   });
 
   it('copy, select all, undo and redo with Control', () => {
@@ -114,12 +133,12 @@ describe('the keys of a view', () => {
     expect(text()).toBe('a: 2\n');
   });
 
-  it('are those of the editor too', () => {
+  it('include those of the editor', () => {
     press('w');
     expect(own).toHaveBeenCalledExactlyOnceWith(editor, expect.objectContaining({ key: 'w' }));
   });
 
-  it('leave all others to the page', () => {
+  it('leave all other keys to the page', () => {
     expect(press('x')).toBe(false);
     expect(press('q', { altKey: true })).toBe(false);
     expect(press('w', { ctrlKey: true })).toBe(false);
@@ -155,7 +174,7 @@ describe('the keys of a panel', () => {
     expect(text()).toBe('a: 2\n');
   });
 
-  it('leave what is typed to its field, and other keys to the page', () => {
+  it('leave typing to its field, and other keys to the page', () => {
     expect(press('input', 'z', { ctrlKey: true })).toBe(false);
     expect(press('area', 'z', { ctrlKey: true })).toBe(false);
     expect(press('button', 'z')).toBe(false);

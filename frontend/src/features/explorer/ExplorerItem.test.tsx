@@ -1,5 +1,6 @@
 import { act, screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it } from 'vitest';
+import { setDescription } from '@/model/edits';
 import { useFileDialog } from '@/store/dialogs/files';
 import { useProjectStore } from '@/store/project';
 import { useScope } from '@/store/revisions/scope';
@@ -40,7 +41,7 @@ describe('a file', () => {
     ['robots/mine/robot.yaml', false, false, 'mine', 'robot'],
     ['robots/mine/body.urdf', false, false, 'robots/mine/body.urdf', 'file-text'],
     ['README.md', false, false, 'README.md', 'file-text'],
-  ])('%s has a name and a sign', (path, isTree, isAction, name, sign) => {
+  ])('%s has a name and an icon', (path, isTree, isAction, name, sign) => {
     open(path, isTree, isAction);
     expect(item(path)).toHaveTextContent(name);
     expect(item(path).textContent).toBe(name);
@@ -48,7 +49,7 @@ describe('a file', () => {
     expect(icon(path)).toContain(sign);
   });
 
-  it('opens as what it is', async () => {
+  it('opens in the editor for its kind', async () => {
     open('trees/Dock.json', true);
     open('trees/Broken.json', true);
     for (const path of ['trees/Dock.json', 'trees/Broken.json']) await user.click(item(path));
@@ -84,6 +85,8 @@ describe('the menu', () => {
       ['Make it the main tree', false],
       ['Rename', false],
       ['Duplicate', false],
+      ['Copy', false],
+      ['Offer in the library', false],
       ['Copy path', false],
       ['History', false],
       ['Delete', false],
@@ -93,12 +96,14 @@ describe('the menu', () => {
     expect(screen.getByRole('img', { name: 'The tree that Run starts' })).toBeInTheDocument();
   });
 
-  it('of the main tree keeps it', async () => {
+  it('of the main tree cannot delete it', async () => {
     open('trees/Main.json', true);
     expect(await menu('Main')).toEqual([
       ['Open', false],
       ['Rename', false],
       ['Duplicate', false],
+      ['Copy', false],
+      ['Offer in the library', false],
       ['Copy path', false],
       ['History', false],
       ['Delete', true],
@@ -122,7 +127,7 @@ describe('the menu', () => {
     expect(tabs()).toEqual([{ kind: 'file', path: 'README.md' }]);
   });
 
-  it('is missing beside the settings', () => {
+  it('is absent for the settings', () => {
     open('project.json');
     expect(screen.queryByRole('button', { name: /^More/ })).toBeNull();
   });
@@ -131,4 +136,10 @@ describe('the menu', () => {
 it.each(['error', 'warning', undefined] as const)('is marked with its worst finding: %s', (worst) => {
   show(<ExplorerItem path="README.md" isTree={false} isAction={false} worst={worst} />);
   expect(item('README.md').parentElement!.dataset['severity']).toBe(worst);
+});
+
+it('tells what a tree is for', () => {
+  useProjectStore.getState().apply('Dock', 'describe', [setDescription('Goes home.')]);
+  open('trees/Dock.json', true);
+  expect(item('trees/Dock.json')).toHaveAttribute('title', 'trees/Dock.json\nGoes home.');
 });

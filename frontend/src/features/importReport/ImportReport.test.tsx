@@ -5,7 +5,7 @@ import { show } from '../../../harness/testing';
 import { ImportReport } from './ImportReport';
 
 it('belongs to the project that was imported, once', () => {
-  announceImport('p1', 'patrol.xml');
+  announceImport('p1', 'patrol.xml', null);
   const { rerender } = show(<ImportReport projectId="p2" />);
   expect(screen.queryByRole('dialog')).toBeNull();
   rerender(<ImportReport projectId="p1" />);

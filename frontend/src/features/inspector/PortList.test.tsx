@@ -3,7 +3,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import { useProjectStore } from '@/store/project';
 import { oneBlock } from '@/store/testing';
 import { shownTarget } from '../../../harness/target';
-import { action, nodeOf, openProject, port, show, user } from '../../../harness/testing';
+import { action, nodeOf, openProject, openSession, port, show, user } from '../../../harness/testing';
 import { PortList } from './PortList';
 
 const List = shownTarget('Main', PortList);
@@ -42,7 +42,7 @@ describe('the ports of a block', () => {
     expect(screen.queryByText('This node has no ports.')).toBeNull();
   });
 
-  it('are none', () => {
+  it('can be absent', () => {
     show(<List id="b" />);
     expect(screen.getByText('This node has no ports.')).toBeInTheDocument();
   });
@@ -56,7 +56,7 @@ describe('the ports of a block', () => {
     expect(portsOf('a')).toEqual({ speed: '1', extra: 'e' });
   });
 
-  it('are marked where their value is wrong', async () => {
+  it('show an error if their value is wrong', async () => {
     show(<List id="a" />);
     expect(screen.getByTestId('port-count')).toBeInvalid();
     expect(screen.getByTestId('port-speed')).toBeValid();
@@ -81,8 +81,37 @@ describe('the ports of a block', () => {
   });
 });
 
+describe('a port that differs from that of the running program', () => {
+  const open = async () => {
+    const executor = await openSession();
+    const value = { node_id: 'a', tree_id: 'Main', path: 'Drive', effect: 'next_tick' } as const;
+    executor.emit('port_set', { ...value, port: 'speed', value: '1', saved: '0.3' });
+    show(<List id="a" />);
+    return within(screen.getByTestId('live-speed'));
+  };
+
+  it('goes back to the saved value in one step of undo, and has the caret', async () => {
+    const live = await open();
+    await user.click(live.getByRole('button', { name: 'Back to the saved value' }));
+    expect(portsOf('a')).toEqual({ speed: '0.3', extra: 'e' });
+    expect(screen.queryByTestId('live-speed')).toBeNull();
+    expect(screen.getByTestId('port-speed')).toHaveFocus();
+    act(() => useProjectStore.getState().undo());
+    expect(portsOf('a')).toEqual({ speed: '1', extra: 'e' });
+    expect(screen.getByTestId('live-speed')).toBeInTheDocument();
+  });
+
+  it('keeps its value', async () => {
+    const live = await open();
+    await user.click(live.getByRole('button', { name: 'Keep this value' }));
+    expect(portsOf('a')).toEqual({ speed: '1', extra: 'e' });
+    expect(screen.queryByTestId('live-speed')).toBeNull();
+    expect(screen.getByTestId('port-speed')).toHaveFocus();
+  });
+});
+
 describe('a subtree', () => {
-  it('takes another port, as a key of its name, alone', async () => {
+  it('gets another port, as a key of its name, alone', async () => {
     show(<List id="s" />);
     await user.click(adding()!);
     expect(nameField()).toHaveFocus();
@@ -92,7 +121,7 @@ describe('a subtree', () => {
     expect(screen.queryByRole('button', { name: /^Rename (?!this key)/ })).toBeNull();
   });
 
-  it('takes none of a name that it has, and none after Escape', async () => {
+  it('gets none with a taken name, and none after Escape', async () => {
     show(<List id="s" />);
     await user.click(adding()!);
     await user.type(nameField(), 'far');
@@ -124,7 +153,7 @@ describe('blocks of an action that declares no ports', () => {
   });
 });
 
-it('takes ports of a type that nobody knows', async () => {
+it('accepts ports of an unknown type', async () => {
   show(<List id="x" />);
   expect(fields()).toEqual(['lost']);
   expect(adding()).not.toBeNull();

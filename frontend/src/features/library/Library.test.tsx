@@ -81,7 +81,7 @@ describe('Library', () => {
     expect(row.queryByText('More about Dock.')).toBeNull();
   });
 
-  it('says why there is no library', async () => {
+  it('reports why there is no library', async () => {
     open({
       'GET /catalog/behaviours': Response.json({ detail: 'It is away.', code: 'gone' }, { status: 404 }),
     });
@@ -97,6 +97,23 @@ describe('Library', () => {
     await user.click(screen.getByRole('option', { name: 'Other' }));
     expect(await screen.findByTestId('behaviour-Patrol')).toHaveTextContent('Goes around.');
     expect(offers()).toEqual(['Patrol']);
+  });
+
+  it('shows the trees that a project offers, and the others on demand', async () => {
+    const offered = JSON.stringify({
+      ...(JSON.parse(oneBlock('Dock', 'AlwaysSuccess')) as object),
+      attributes: { _bts_offered: '1' },
+    });
+    open({
+      'GET /projects/p2': { ...other, files: [...other.files, projectFile('trees/Dock.json', 1, offered)] },
+    });
+    await screen.findByTestId('behaviour-Follow');
+    expect(screen.queryByRole('switch')).toBeNull();
+    await user.click(screen.getByRole('combobox', { name: 'Where from' }));
+    await user.click(await screen.findByRole('option', { name: 'Other' }));
+    await waitFor(() => expect(offers()).toEqual(['Dock']));
+    await user.click(screen.getByRole('switch', { name: 'Show all trees, also those not offered' }));
+    expect(offers()).toEqual(['Patrol', 'Dock']);
   });
 
   it('finds a project by its name, and keeps the chosen one in the list', async () => {
@@ -125,7 +142,7 @@ describe('Library', () => {
     await waitFor(() => expect(offers()).toEqual(['Dock', 'Follow']));
   });
 
-  it('says that it is loading, and not yet that there is nothing', async () => {
+  it('shows that it is loading, and not yet that it is empty', async () => {
     open();
     expect(screen.getByLabelText('Loading the behaviours')).toBeInTheDocument();
     expect(screen.queryByText('No behaviour is like that.')).toBeNull();
@@ -134,7 +151,7 @@ describe('Library', () => {
     expect(screen.queryByText('No behaviour is like that.')).toBeNull();
   });
 
-  it('finds words of the summary, the name and the description, whatever their case', async () => {
+  it('finds text in the summary, the name and the description, whatever its case', async () => {
     open();
     await screen.findByTestId('behaviour-Dock');
     const search = screen.getByLabelText('Search behaviours');

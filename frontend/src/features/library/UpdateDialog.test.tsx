@@ -17,6 +17,8 @@ const offer = (version: string, source: string): Offer => ({
   summary: '',
   doc: '',
   diagram: null,
+  project: null,
+  isOffered: true,
   files: { 'trees/Dock.json': oneBlock('Dock', 'AlwaysSuccess'), 'actions/Dock.py': source },
 });
 const text = () => useProjectStore.getState().currentText('actions/Dock.py');
@@ -42,6 +44,14 @@ describe('UpdateDialog', () => {
     expect(text()).toBe('class Dock: old');
   });
 
+  it('names the project, not a number, where the tree comes from one', () => {
+    const newer = { ...offer('r7', 'class Dock: new'), project: 'Rover' };
+    show(<UpdateDialog offer={newer} onClose={onClose} />);
+    expect(
+      screen.getByRole('dialog', { name: 'Dock: what changes to have it as it is now in Rover' }),
+    ).toBeInTheDocument();
+  });
+
   it('updates', async () => {
     show(<UpdateDialog offer={offer('1.1', 'class Dock: new')} onClose={onClose} />);
     await user.click(screen.getByTestId('confirm-update'));
@@ -58,7 +68,7 @@ describe('UpdateDialog', () => {
     expect(onClose).toHaveBeenCalledOnce();
   });
 
-  it('notes the version where no file changes', async () => {
+  it('stores the version if no file changes', async () => {
     show(<UpdateDialog offer={offer('1.1', 'class Dock: old')} onClose={onClose} />);
     expect(screen.getByText('The files are the same; only the version is noted.')).toBeInTheDocument();
     expect(screen.queryByTestId(/^difference-/)).toBeNull();

@@ -36,6 +36,8 @@ describe('useLibrary', () => {
         version: '1.1',
         group: 'motion',
         source: 'library',
+        project: null,
+        isOffered: true,
         summary,
         doc,
         diagram: { id: 'Dock' },
@@ -44,14 +46,14 @@ describe('useLibrary', () => {
     ]);
   });
 
-  it('has no words where there are none', async () => {
+  it('has empty texts if there are none', async () => {
     fakeServer({ 'GET /catalog/behaviours': [{ ...behaviour, summary: {} }] });
     const { result } = query(() => useLibrary('en'));
     await waitFor(() => expect(result.current.data?.[0]?.summary).toBe(''));
   });
 });
 
-it('lists the other projects, the newest first, by a search', async () => {
+it('lists the other projects that match a search, the newest first', async () => {
   const path = '/projects?search=ro&sort=-updated_at&shelf=current&offset=0&limit=48';
   const items = [
     { id: 'p1', name: 'Robot' },
@@ -70,11 +72,12 @@ describe('useTreesOf', () => {
       projectFile('actions/Turn.py', 1, 'class Turn: ...'),
     ]),
     id: 'p2',
+    main_tree: 'Patrol',
     description: 'Goes around.',
   };
   const files = [...detail.files, { ...projectFile('mesh.stl', 1, ''), content: null }];
 
-  it('has the trees of a project, with what is known of it', async () => {
+  it('has the trees of a project, with their descriptions', async () => {
     fakeServer({ 'GET /projects/p2': { ...detail, files } });
     const { result } = query(() => useTreesOf('p2'));
     await waitFor(() => expect(result.current.data).toBeDefined());
@@ -86,15 +89,37 @@ describe('useTreesOf', () => {
         group: 'project',
         summary: 'Goes around.',
         doc: '',
+        project: 'Test',
+        isOffered: false,
       }),
     ]);
     expect(result.current.data?.[0]?.diagram).toMatchObject({ id: 'Patrol', root: 'n1' });
   });
 
-  it('asks for nothing without a project', () => {
+  it('requests nothing without a project', () => {
     const { requests } = fakeServer({});
     const { result } = query(() => useTreesOf(null));
     expect(result.current.fetchStatus).toBe('idle');
     expect(requests).toEqual([]);
+  });
+
+  it('has the description of each tree; of the main one, else that of the project', async () => {
+    const dock = JSON.stringify({
+      ...(JSON.parse(oneBlock('Dock', 'AlwaysSuccess')) as object),
+      attributes: { _description: 'Goes home.', _bts_offered: '1' },
+    });
+    const trees = [
+      projectFile('trees/Dock.json', 1, dock),
+      projectFile('trees/Main.json', 1, oneBlock('Main', 'AlwaysSuccess')),
+      projectFile('trees/Wait.json', 1, oneBlock('Wait', 'AlwaysSuccess')),
+    ];
+    fakeServer({ 'GET /projects/p2': { ...detail, main_tree: 'Main', files: trees } });
+    const { result } = query(() => useTreesOf('p2'));
+    await waitFor(() => expect(result.current.data).toBeDefined());
+    expect(result.current.data?.map(({ id, summary, isOffered }) => [id, summary, isOffered])).toEqual([
+      ['Dock', 'Goes home.', true],
+      ['Main', 'Goes around.', false],
+      ['Wait', '', false],
+    ]);
   });
 });

@@ -60,7 +60,7 @@ describe('the outline', () => {
     expect(ids().length).toBeLessThanOrEqual(10 + 8 + 1);
   });
 
-  it('says that there are no blocks yet, or no tree', () => {
+  it('shows that there are no blocks yet, or no tree', () => {
     openDiagram({ root: null, nodes: {}, drafts: [] });
     open();
     expect(screen.getByText('The tree has no blocks yet.')).toBeInTheDocument();
@@ -139,7 +139,7 @@ describe('keys', () => {
     expect(openFile).toHaveBeenCalledExactlyOnceWith('actions/Grasp.py');
   });
 
-  it('that mean nothing here are left to the page', () => {
+  it('without a meaning here are left to the page', () => {
     open();
     select('a');
     expect(press('F5')).toBe(false);

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { select, travel } from '@/features/editor3d/editing';
 import { openRobot } from '../../../harness/documents';
-import { duplicateSelected, nudge, placeMesh, placePart, removeSelected, turnSelected } from './commands';
+import { duplicateSelected, nudge, placePart, removeSelected, turnSelected } from './commands';
 import { readingOf, type RobotEditor } from './editor';
 
 const robot = (editor: RobotEditor) => readingOf(editor).robot!;
@@ -18,25 +18,25 @@ const looksAlong = (forward: readonly [number, number]) => ({
 describe('placePart', () => {
   it('puts a part where it is dropped, on the grid, and selects it', () => {
     const editor = openRobot();
-    placePart(editor, 'box', [0.1013, -0.0487]);
+    placePart(editor, { kind: 'box' }, [0.1013, -0.0487]);
     const [key] = selected(editor);
     expect(part(editor, key!)).toMatchObject({ kind: 'link', name: 'part_link' });
     expect(pose(editor, key!).slice(0, 2)).toEqual([0.1, -0.05]);
   });
 
-  it('puts it where one of its kind usually sits otherwise', () => {
+  it('puts it at the usual place of its kind otherwise', () => {
     const editor = openRobot();
-    placePart(editor, 'imu');
+    placePart(editor, { kind: 'imu' });
     expect(part(editor, selected(editor)[0]!)).toMatchObject({ kind: 'imu', name: 'imu' });
-    placePart(editor, 'battery');
+    placePart(editor, { kind: 'battery' });
     expect(part(editor, selected(editor)[0]!)).toMatchObject({ kind: 'battery', link: null });
   });
 });
 
-describe('placeMesh', () => {
+describe('placePart with a mesh', () => {
   it('adds a piece of body that looks like it', () => {
     const editor = openRobot();
-    placeMesh(editor, { file: 'meshes/arm.stl', scale: 0.001 });
+    placePart(editor, { mesh: { file: 'meshes/arm.stl', scale: 0.001 } });
     const { name } = part(editor, selected(editor)[0]!)!;
     expect(robot(editor).urdf.links.get(name)?.visuals).toMatchObject([
       { shape: 'mesh', file: 'meshes/arm.stl', size: [0.001, 0.001, 0.001] },
@@ -44,8 +44,8 @@ describe('placeMesh', () => {
   });
 });
 
-describe('what is selected of a robot', () => {
-  it('is removed, but for its base', () => {
+describe('the selected parts of a robot', () => {
+  it('are removed, except for the base', () => {
     const editor = openRobot();
     select(editor, ['sensor scan', 'link base_link']);
     removeSelected(editor);
@@ -53,7 +53,7 @@ describe('what is selected of a robot', () => {
     expect(part(editor, 'link base_link')).toBeDefined();
   });
 
-  it('is copied five centimetres beside itself', () => {
+  it('are copied five centimetres beside themselves', () => {
     const editor = openRobot();
     select(editor, ['sensor camera']);
     duplicateSelected(editor);
@@ -61,7 +61,7 @@ describe('what is selected of a robot', () => {
     expect(pose(editor, 'sensor camera_2')).toEqual([0.162, 0.05, 0.11, 0, 0, 0]);
   });
 
-  it('moves by steps of the grid along the axes of the view; one undo takes all steps back', () => {
+  it('move by steps of the grid along the axes of the view; one undo reverts all steps', () => {
     const editor = openRobot();
     select(editor, ['sensor camera']);
     const start = pose(editor, 'sensor camera');
@@ -78,7 +78,7 @@ describe('what is selected of a robot', () => {
     expect(pose(editor, 'sensor camera')).toEqual(start);
   });
 
-  it('moves by a millimetre without a grid', () => {
+  it('move by a millimetre without a grid', () => {
     const editor = openRobot();
     editor.store.setState({ grid: 0 });
     select(editor, ['sensor camera']);
@@ -86,7 +86,7 @@ describe('what is selected of a robot', () => {
     expect(pose(editor, 'sensor camera')[0]).toBe(0.163);
   });
 
-  it('turns about its own upright axis', () => {
+  it('turn about their own vertical axes', () => {
     const editor = openRobot();
     select(editor, ['sensor camera']);
     turnSelected(editor, Math.PI / 2);

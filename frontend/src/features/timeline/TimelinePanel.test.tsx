@@ -54,13 +54,13 @@ function span(): (string | undefined)[] {
 }
 
 describe('rows', () => {
-  it('say before a run what will be here', () => {
+  it('explain before a run what they will show', () => {
     show(<TimelinePanel />);
     expect(screen.getByText(/appears here when you run/)).toBeInTheDocument();
     expect(names()).toEqual([]);
   });
 
-  it('are the nodes of the running tree, or those that a search finds', async () => {
+  it('are the nodes of the running tree, or the matches of a search', async () => {
     run();
     expect(names()).toEqual(['root', 'drive', 'Turn']);
     expect(screen.queryByText(/appears here/)).toBeNull();
@@ -161,7 +161,7 @@ describe('tools', () => {
 });
 
 describe('the pointer', () => {
-  it('shows what the node below it did', () => {
+  it('shows the status of the node below it', () => {
     run();
     fireEvent.pointerMove(rows(), { clientX: 400, clientY: 5 });
     expect(screen.getByRole('presentation')).toHaveTextContent('root running from 1:20 for 20.00 s');
@@ -183,13 +183,13 @@ describe('the pointer', () => {
     fireEvent(rows(), move);
   }
 
-  it('drags the span with it', () => {
+  it('drags the span', () => {
     run();
     drag(200, 40);
     expect(span()).toEqual(['1:07', '1:37']);
   });
 
-  it('drags the span back at Escape', () => {
+  it('restores the span with Escape', () => {
     run();
     drag(200, 40);
     expect(isFollowing()).toBe('false');
@@ -245,7 +245,7 @@ describe('the wheel', () => {
     expect(span()).toEqual(['1:07', '1:37']);
   });
 
-  it('scrolls the rows otherwise', () => {
+  it('otherwise scrolls the rows', () => {
     run();
     expect(turn({ deltaY: 40 })).toBe(true);
     expect(span()).toEqual(['1:10', '1:40']);

@@ -1,6 +1,6 @@
-import { fireEvent, screen, waitFor } from '@testing-library/react';
+import { act, screen, waitFor } from '@testing-library/react';
 import { describe, expect, it, vi } from 'vitest';
-import { DRAGGED } from '@/features/editor3d/PlaceButton';
+import { showIn } from '@/features/editor3d/editing';
 import { EMPTY_STL, openUniverse, showUniverse, stl, takesFile } from '../../../harness/documents';
 import { fakeServer, user } from '../../../harness/testing';
 import { KINDS } from './commands';
@@ -31,12 +31,21 @@ describe('the palette of a universe', () => {
     );
   });
 
-  it('lets one be dragged to the view', () => {
-    palette();
-    const data = { setData: vi.fn(), effectAllowed: '' };
-    fireEvent.dragStart(screen.getByTestId('place-wall'), { dataTransfer: data });
-    expect(data.setData).toHaveBeenCalledWith(DRAGGED, '{"kind":"wall"}');
-    expect(data.effectAllowed).toBe('copy');
+  it('shows the ghost of what is chosen where there is a view in 3D', async () => {
+    const { editor, universe } = palette({ 'models/b.sdf': '' });
+    const before = universe().things.length;
+    const placer = { aim: () => true, shift: vi.fn(), put: vi.fn(), focus: vi.fn() };
+    act(() => showIn(editor, { center: () => [0, 0], forward: () => [1, 0], cancel: () => false }, placer));
+    await user.click(screen.getByTestId('place-wall'));
+    expect(editor.store.getState().placing).toEqual({ name: 'Wall', what: { kind: 'wall' } });
+    await user.click(screen.getByTestId('place-file'));
+    await user.click(await screen.findByRole('menuitem', { name: 'models/b.sdf' }));
+    expect(editor.store.getState().placing?.what).toEqual({
+      kind: 'file',
+      shape: 'sdf',
+      file: 'models/b.sdf',
+    });
+    expect(universe().things).toHaveLength(before);
   });
 
   it('offers robots of the project first, each id once', async () => {
@@ -69,7 +78,7 @@ describe('the palette of a universe', () => {
     expect(thing('b')).toMatchObject({ shape: 'sdf', file: 'models/b.sdf' });
   });
 
-  it('says that there is no mesh yet', async () => {
+  it('shows that there is no mesh yet', async () => {
     palette();
     await user.click(screen.getByTestId('place-file'));
     expect(await screen.findByText('This project has no meshes yet')).toBeInTheDocument();
@@ -83,7 +92,7 @@ describe('the palette of a universe', () => {
     expect(server.requests.filter(({ method }) => method === 'POST')).toEqual([]);
   });
 
-  it('asks for a file on the way that the page has for it', async () => {
+  it("asks for a file with the page's own dialogue", async () => {
     palette();
     const input = screen.getByTestId<HTMLInputElement>('mesh-file');
     expect(input.accept).toBe('.stl,.obj,.dae,.ply,.glb');
@@ -93,7 +102,7 @@ describe('the palette of a universe', () => {
     expect(choose).toHaveBeenCalledOnce();
   });
 
-  it('puts a mesh into the project, and places it', async () => {
+  it('uploads a mesh, and places it', async () => {
     const { thing } = palette();
     const { requests } = fakeServer(takesFile('assets/chair.stl'));
     await user.upload(screen.getByTestId('mesh-file'), new File([stl(1)], 'chair.stl'));

@@ -37,7 +37,7 @@ describe('personShapes', () => {
     expect(shapes).toHaveLength(20);
   });
 
-  it('wear the colour, and trousers that are darker', () => {
+  it('have the colour, and darker trousers', () => {
     const colors = shapes.map((shape) => shape.color.map((part) => Math.round(part * 100) / 100));
     expect(colors.filter((each) => each.join() === '0.5,0.25,1,1')).toHaveLength(7);
     expect(colors.filter((each) => each.join() === '0.4,0.2,0.8,1')).toHaveLength(5);

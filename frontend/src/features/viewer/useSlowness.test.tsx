@@ -25,13 +25,13 @@ function watch(isJudged = true) {
 }
 
 describe('the watch on a view', () => {
-  it('tells the rate of a view that is too slow, once', () => {
+  it('reports the rate of a view that is too slow, once', () => {
     const onSlow = watch();
     expect(onSlow).toHaveBeenCalledOnce();
     expect(onSlow.mock.lastCall?.[0]).toBeCloseTo(2, 0);
   });
 
-  it('judges no view that nobody sees, and none that is kept', () => {
+  it('does not judge a hidden view, or one that the user keeps', () => {
     expect(watch(false)).not.toHaveBeenCalled();
   });
 });

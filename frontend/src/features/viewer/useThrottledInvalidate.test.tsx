@@ -45,8 +45,8 @@ beforeEach(() => {
   deleted.mockClear();
 });
 
-describe('frames where the processor draws', () => {
-  it('come one by one: those that are asked for meanwhile are one', async () => {
+describe('frames with software rendering', () => {
+  it('come one by one: several requests meanwhile make one frame', async () => {
     const { frames, draw } = begin();
     await vi.waitFor(() => expect(frames()).toBeGreaterThan(0));
     const before = frames();

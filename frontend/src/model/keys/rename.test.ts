@@ -87,7 +87,7 @@ describe('planRename', () => {
     expect(textsOf(after, 'In')).toEqual(['code=v := 1', '_skipIf=v > kk']);
   });
 
-  it('names scripts that cannot be read', () => {
+  it('lists unreadable scripts', () => {
     const trees = forest(tree('Main', { type: 'Script', ports: { code: 'k % 2' } }));
     expect(planRename(trees, vocabulary, keyOf('Main', 'k'), 'v').unread).toEqual([
       { tree: 'Main', node: 'n1', text: 'k % 2' },
@@ -208,7 +208,7 @@ describe('carriedBy', () => {
 });
 
 describe('linesToLookAt', () => {
-  it('has the lines of Python that hold the key as a text', () => {
+  it('has the lines of Python that contain the key as a string', () => {
     const texts = { 'a.py': 'x = 1\n  get("k")\n', 'b.py': "k = 'kk'", 'c.md': '"k"' };
     expect(linesToLookAt(texts, 'k')).toEqual([{ path: 'a.py', line: 2, text: 'get("k")' }]);
   });

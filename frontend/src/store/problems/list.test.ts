@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { Diagnostic } from '@/api/types';
-import type { Fault } from '@/generated/messages';
+import type { Fault, TopicMismatch } from '@/generated/messages';
 import { emptyDiagram, type Diagram, type DiagramNode } from '@/model/diagram';
 import type { CodeFinding } from '@/store/language';
 import { useProjectStore } from '@/store/project';
@@ -46,6 +46,8 @@ const listed = (more: Partial<ProblemSources>) =>
     linted: {},
     errors: {},
     faults: [],
+    mismatches: [],
+    launchNodes: [],
     ...more,
   });
 const shown = (more: Partial<ProblemSources>) =>
@@ -57,7 +59,7 @@ const shown = (more: Partial<ProblemSources>) =>
   ]);
 
 describe('the list', () => {
-  it('is empty where nothing is wrong', () => {
+  it('is empty without findings', () => {
     expect(listed({})).toEqual([]);
   });
 
@@ -69,7 +71,28 @@ describe('the list', () => {
     expect(shown({ diagrams })).toEqual([['error', 'BT0102', 'Other', 'n1']]);
   });
 
-  it('has a finding of a save once: as the editor, the language server or ruff tells it now', () => {
+  it('has topics whose ends do not match, with the names and the line that has the topic', () => {
+    const mismatch: TopicMismatch = {
+      topic: '/scan',
+      publisher: '/world',
+      subscriber: '/bt_application',
+      reason: 'type',
+      message: 'Nothing arrives.',
+      hint: '',
+      code: 'type',
+      values: { published: 'a', wanted: 'b' },
+      resolved: false,
+    };
+    const [row] = listed({ mismatches: [mismatch], files: { [GO]: { text: '\nsub(Scan, "scan")' } } });
+    expect(row).toMatchObject({ severity: 'error', code: 'type', topic: '/scan', file: GO, line: 2 });
+    expect(row?.problem).toMatchObject({
+      source: 'topic',
+      values: { topic: '/scan', publisher: '/world', wanted: 'b' },
+    });
+    expect(shown({ mismatches: [mismatch] })).toEqual([['error', 'type', null, null]]);
+  });
+
+  it('has a finding of a save once: in the newer version of the editor, the language server or ruff', () => {
     const diagnostics: Diagnostic[] = [
       { code: 'BT0601', severity: 'error', message: 'syntax', file: GO, line: 2 },
       { code: 'BT0602', severity: 'error', message: 'no class', file: GO },
@@ -85,7 +108,7 @@ describe('the list', () => {
     ]);
   });
 
-  it('has what is found in any text of the project, and nothing of files that are gone', () => {
+  it('has the findings in any text of the project, and none of deleted files', () => {
     const unused = {
       code: 'F401',
       severity: 'warning' as const,
@@ -107,7 +130,7 @@ describe('the list', () => {
     ]);
   });
 
-  it('begins with the fault of the run, at its line where that is in the project', () => {
+  it('starts with the fault of the run, at its line if that is in the project', () => {
     const diagnostics: Diagnostic[] = [{ code: 'X', severity: 'error', message: '' }];
     expect(shown({ diagnostics, faults: [fault()] })[0]).toEqual(['error', 'exception', GO, 4]);
     expect(shown({ faults: [fault({ file: '/usr/lib/x.py' })] })[0]).toEqual([
@@ -119,7 +142,7 @@ describe('the list', () => {
   });
 });
 
-it('marks the files of errors and warnings: trees by theirs, a fault both', () => {
+it('marks the files with errors and warnings: trees by theirs, a fault in both', () => {
   const rows = listed({
     faults: [fault()],
     served: { 'nodes/tones.py': [served('', 'warning'), served('', 'info')] },

@@ -4,6 +4,7 @@ import { describe, expect, it } from 'vitest';
 import type { PortSpec } from '@/model/ports';
 import { vocabulary } from '@/model/testing';
 import type { NodeSpec } from '@/model/vocabulary';
+import type { PortMark } from '@/store/run/portMarks';
 import { port, show } from '../../../../harness/testing';
 import { BlockPorts } from './BlockPorts';
 
@@ -12,8 +13,14 @@ const specOf = (...ports: ReturnType<typeof port>[]): NodeSpec => ({
   ports: ports as PortSpec[],
 });
 
-function open(spec: NodeSpec | undefined, ports: Record<string, string> = {}) {
-  show(<BlockPorts node={{ type: 'Turn', ports }} spec={spec} t={i18next.getFixedT('en', 'canvas')} />);
+function open(
+  spec: NodeSpec | undefined,
+  ports: Record<string, string> = {},
+  marks: Record<string, PortMark> = {},
+) {
+  const t = i18next.getFixedT('en', 'canvas');
+  const node = { type: 'Turn', ports };
+  show(<BlockPorts node={node} spec={spec} marks={new Map(Object.entries(marks))} t={t} />);
   return screen.queryAllByRole('listitem').map(({ textContent }) => textContent);
 }
 
@@ -21,12 +28,25 @@ function open(spec: NodeSpec | undefined, ports: Record<string, string> = {}) {
 const look = () => screen.getByRole('listitem').lastElementChild!.className;
 
 describe('BlockPorts', () => {
-  it('is nothing for a block without ports', () => {
+  it('is absent for a block without ports', () => {
     expect(open(specOf())).toEqual([]);
     expect(screen.queryByRole('list')).toBeNull();
   });
 
-  it('shows values, defaults, and what is missing', () => {
+  it('marks a value that differs from the saved one, and says both', () => {
+    const mark: PortMark = { state: 'taken', saved: null, message: '' };
+    open(
+      specOf(port('a', 'double', { default: '0.3' }), port('b', 'int')),
+      { a: '0.5', b: '1' },
+      { a: mark },
+    );
+    const value = screen.getByText('0.5');
+    expect(value).toHaveAttribute('data-live', 'taken');
+    expect(value).toHaveAttribute('title', '0.5 – changed while the program runs; saved: 0.3');
+    expect(screen.getByText('1')).not.toHaveAttribute('data-live');
+  });
+
+  it('shows values, defaults, and missing values', () => {
     const rows = open(
       specOf(
         port('a', 'int'),
@@ -39,7 +59,7 @@ describe('BlockPorts', () => {
     expect(rows).toEqual([' a1', ' b3', ' crequired', ' d—']);
   });
 
-  it('shows which way a value goes', () => {
+  it('shows the direction of a value', () => {
     const rows = open(
       specOf(
         port('in', 'int'),
@@ -61,7 +81,7 @@ describe('BlockPorts', () => {
     expect(screen.queryByText(/ g/)).toBeNull();
   });
 
-  it('says nothing of others where six are all', () => {
+  it('counts no others if there are six', () => {
     const names = ['a', 'b', 'c', 'd', 'e', 'f'];
     expect(open(specOf(...names.map((name) => port(name, 'int'))))).toHaveLength(6);
     expect(screen.queryByText(/more/)).toBeNull();
@@ -75,7 +95,7 @@ describe('BlockPorts', () => {
     ['a missing value', undefined, { required: true }, /portMissing/],
     ['a default of a required port', undefined, { required: true, default: '1' }, /portDefault/],
     ['nothing', undefined, {}, /portDefault/],
-  ])('draws %s as such', (_, value, more, expected) => {
+  ])('draws %s in its style', (_, value, more, expected) => {
     open(specOf(port('x', 'int', more)), value === undefined ? {} : { x: value });
     expect(look()).toMatch(expected);
   });

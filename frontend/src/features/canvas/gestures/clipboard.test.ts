@@ -45,7 +45,7 @@ function clipboard(type: 'copy' | 'cut' | 'paste', text = '', target: Element = 
   return { isTaken: event.defaultPrevented, text: held };
 }
 
-it('is for the blocks while the canvas has the focus, wherever the caret was left', () => {
+it('is for the blocks while the canvas has the focus, wherever the caret was', () => {
   document.querySelector<HTMLElement>('[data-testid="canvas"]')?.focus();
   const { text } = clipboard('copy', '', words());
   expect(text).toContain('<Sequence');
@@ -56,7 +56,7 @@ it('is for the blocks while the canvas has the focus, wherever the caret was lef
   expect(types()).not.toContain('Sequence');
 });
 
-it('is for the tree in front where nothing has the focus and no words are marked', () => {
+it('is for the tree in front if nothing has the focus and no text is selected', () => {
   expect(clipboard('paste', '<Sleep msec="5"/>').isTaken).toBe(true);
   expect(types()).toContain('Sleep');
   expect(clipboard('copy', '', words()).isTaken).toBe(false);
@@ -68,7 +68,7 @@ it('is for the text of a field of the canvas', () => {
   expect(clipboard('paste', '<Sleep msec="5"/>', field).isTaken).toBe(false);
 });
 
-it('leaves everything alone while another document is in front', () => {
+it('does nothing while another document is in front', () => {
   document.querySelector('[data-testid="canvas"]')?.remove();
   expect(clipboard('paste', '<Sleep msec="5"/>').isTaken).toBe(false);
   expect(types()).toEqual(['Sequence']);

@@ -47,7 +47,7 @@ describe('openSocket', () => {
     expect(TestSocket.last.sent).toEqual(['a']);
   });
 
-  it('passes messages on to those who listen', () => {
+  it('passes messages on to listeners', () => {
     const heard: string[] = [];
     const listen = (message: string) => heard.push(message);
     transport.subscribe(listen);

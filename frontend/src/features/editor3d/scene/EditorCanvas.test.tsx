@@ -1,12 +1,10 @@
 import { fireEvent, screen } from '@testing-library/react';
 import { describe, expect, it, vi } from 'vitest';
 import { show } from '../../../../harness/testing';
-import { DRAGGED } from '../PlaceButton';
 import { EditorCanvas } from './EditorCanvas';
 
 function canvas() {
   const onKey = vi.fn();
-  const onDropped = vi.fn();
   const stage = vi.fn(() => null);
   show(
     <EditorCanvas
@@ -16,17 +14,16 @@ function canvas() {
       count={3}
       near={0.1}
       onKey={onKey}
-      onDropped={onDropped}
       stage={stage}
     >
       <button>inside</button>
     </EditorCanvas>,
   );
-  return { view: screen.getByTestId('view'), onKey, onDropped, stage };
+  return { view: screen.getByTestId('view'), onKey, stage };
 }
 
 describe('the view of an editor without WebGL', () => {
-  it('is still a control that says what it holds', () => {
+  it('is still a control with a description', () => {
     const { view, stage } = canvas();
     expect(view).toHaveAttribute('role', 'application');
     expect(view).toHaveAccessibleName('The hall');
@@ -37,24 +34,11 @@ describe('the view of an editor without WebGL', () => {
     expect(stage).not.toHaveBeenCalled();
   });
 
-  it('hears keys on itself, not those of what lies above it', () => {
+  it('handles keys on itself, not those of elements above it', () => {
     const { view, onKey } = canvas();
     fireEvent.keyDown(view, { key: 'q' });
     expect(onKey).toHaveBeenCalledOnce();
     fireEvent.keyDown(screen.getByRole('button'), { key: 'q' });
     expect(onKey).toHaveBeenCalledOnce();
-  });
-
-  it('only lets things of the palette be dragged over it', () => {
-    const { view } = canvas();
-    const over = (type: string) => !fireEvent.dragOver(view, { dataTransfer: { types: [type] } });
-    expect(over(DRAGGED)).toBe(true);
-    expect(over('text/plain')).toBe(false);
-  });
-
-  it('has no floor on which something could be dropped', () => {
-    const { view, onDropped } = canvas();
-    fireEvent.drop(view, { dataTransfer: { getData: () => '{"kind":"box"}' } });
-    expect(onDropped).not.toHaveBeenCalled();
   });
 });

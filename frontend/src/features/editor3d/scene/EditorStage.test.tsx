@@ -7,6 +7,7 @@ import type { Shape } from '@/generated/messages';
 import { select } from '../editing';
 import { EditorStage } from './EditorStage';
 import type { Stand } from './Gizmo';
+import type { Placement } from './PlacingTool';
 import { frameOf } from './marks';
 import { ThingScene } from './ThingScene';
 
@@ -38,8 +39,20 @@ function stage(prepare: () => void = () => undefined) {
     show: vi.fn(() => scene.show([{ key: 'near' }, { key: 'far' }])),
   };
   const dragHandler = { take: vi.fn(() => null), drop: vi.fn(), click: vi.fn() };
-  const drawing = { isOn: () => false, move: vi.fn(), click: vi.fn(), end: vi.fn(() => false) };
-  const staged = { scene, handles, dragHandler, drawing };
+  const drawing = {
+    isOn: () => false,
+    height: () => 0,
+    move: vi.fn(),
+    click: vi.fn(),
+    end: vi.fn(() => false),
+  };
+  const ghost = new Boxes(true, () => undefined);
+  const placement = {
+    scene: ghost,
+    draw: vi.fn<Placement['draw']>((what) => (what ? { at: [0, 0], height: 0 } : null)),
+    place: vi.fn<Placement['place']>(),
+  };
+  const staged = { scene, handles, dragHandler, placement, drawing };
   const element = (content: object) => (
     <EditorStage
       editor={editor}
@@ -60,6 +73,7 @@ function stage(prepare: () => void = () => undefined) {
     things: scene,
     handles,
     dragHandler,
+    placement,
     drawing,
     update: () => shown.rerender(element({})),
   };
@@ -68,7 +82,7 @@ function stage(prepare: () => void = () => undefined) {
 const grids = (scene: THREE.Scene) => objectsOf(scene, THREE.GridHelper);
 
 describe('the stage of an editor', () => {
-  it('draws the document, and again whenever it is another one', () => {
+  it('draws the document, and again when it changes', () => {
     const { handles, scene, things, update } = stage();
     expect(handles.show).toHaveBeenCalledOnce();
     expect(things.group.parent).toBe(scene);
@@ -76,7 +90,7 @@ describe('the stage of an editor', () => {
     expect(handles.show).toHaveBeenCalledTimes(2);
   });
 
-  it('frames what is selected, and puts the gizmo there', () => {
+  it('frames the selection, and puts the gizmo there', () => {
     const { editor, things, handles } = stage();
     handles.stand.mockClear();
     act(() => select(editor, ['far']));
@@ -85,7 +99,7 @@ describe('the stage of an editor', () => {
     expect(handles.stand).toHaveBeenCalled();
   });
 
-  it('shows its view to the editor, and takes it back', () => {
+  it('registers its view with the editor, and removes it', () => {
     const { editor, camera, rerender } = stage();
     expect(editor.view?.forward()).toEqual([1, 0]);
     const [x, y] = editor.view!.center();
@@ -97,7 +111,7 @@ describe('the stage of an editor', () => {
     expect(editor.view).toBeNull();
   });
 
-  it('looks from above, and at the selection', () => {
+  it('moves the camera above, and to the selection', () => {
     const { editor, camera } = stage();
     act(() => editor.store.setState({ viewpoint: { kind: 'top' } }));
     expect(Math.hypot(camera.position.x - 4, camera.position.y)).toBeLessThan(0.1);
@@ -112,7 +126,7 @@ describe('the stage of an editor', () => {
     expect(editor.view?.center()[0]).toBeCloseTo(4);
   });
 
-  it('draws the lines of the grid, but none that were a haze', () => {
+  it('draws the lines of the grid, unless they are too dense', () => {
     const { editor, scene } = stage();
     expect(grids(scene)).toHaveLength(2);
     const spans = () => grids(scene).map((grid) => new THREE.Box3().setFromObject(grid).max.x);
@@ -142,6 +156,21 @@ describe('the stage of an editor', () => {
     expect(drawing.end).toHaveBeenCalledOnce();
   });
 
+  it('places by a click what was chosen', () => {
+    const { editor, canvas, camera, placement } = stage();
+    act(() => editor.store.setState({ placing: { name: 'Box', what: { kind: 'box' } } }));
+    expect(placement.draw).toHaveBeenLastCalledWith({ kind: 'box' });
+    const at = { button: 0, pointerId: 1, ...pixelOf(camera, 2, 1) };
+    fireEvent.pointerMove(canvas, at);
+    const [x, y] = placement.scene.group.position.toArray();
+    expect([x, y]).toEqual([2, 1]);
+    fireEvent.pointerDown(canvas, at);
+    fireEvent.pointerUp(canvas, at);
+    expect(placement.place).toHaveBeenCalledExactlyOnceWith({ kind: 'box' }, [2, 1]);
+    expect(editor.store.getState().placing).toBeNull();
+    expect(placement.draw).toHaveBeenLastCalledWith(null);
+  });
+
   it('asks for a picture when something changed', async () => {
     const { editor, frames } = stage();
     await vi.waitFor(() => expect(frames()).toBeGreaterThan(0));
@@ -150,7 +179,7 @@ describe('the stage of an editor', () => {
     await vi.waitFor(() => expect(frames()).toBeGreaterThan(before));
   });
 
-  it('lets nothing be dragged in a project that may only be seen', () => {
+  it('allows no dragging in a read-only project', () => {
     const { canvas, camera, dragHandler } = stage(lookOnly);
     fireEvent.pointerDown(canvas, { button: 0, pointerId: 1, ...pixelOf(camera, 0, 0, 0.5) });
     expect(dragHandler.take).not.toHaveBeenCalled();

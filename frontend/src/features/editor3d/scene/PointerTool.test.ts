@@ -33,10 +33,19 @@ function begin() {
     drop: vi.fn<DragHandler['drop']>(),
     click: vi.fn<DragHandler['click']>(),
   };
-  const drawing = { isOn, move: vi.fn(), click: vi.fn(), end };
+  const drawing = { isOn, height: () => 0, move: vi.fn(), click: vi.fn(), end };
   const on = { hold: vi.fn(), redraw: vi.fn() };
   const scene = { group, keyOf: (part: THREE.Object3D) => (part === plate ? 'plate' : null) };
-  const tool = new PointerTool({ editor, scene, dragHandler, drawing, camera, canvas, isTaken, ...on });
+  const tool = new PointerTool({
+    editor,
+    scene,
+    dragHandler,
+    drawings: [drawing],
+    camera,
+    canvas,
+    isTaken,
+    ...on,
+  });
   const at = (x: number, y: number, more: object = {}) => ({
     button: 0,
     pointerId: 1,
@@ -82,7 +91,7 @@ describe('dragging', () => {
     expect(canvas.style.cursor).toBe('');
   });
 
-  it('takes the thing under the pointer, also under an arm of the gizmo', () => {
+  it('takes the thing under the pointer, even under an arm of the gizmo', () => {
     const { editor, dragHandler, down, up } = begin();
     isTaken.mockReturnValue(true);
     editor.store.setState({ selection: ['plate'] });
@@ -99,15 +108,30 @@ describe('dragging', () => {
   });
 
   it('is cancelled by the right button', () => {
-    const { editor, tool, plate, dragHandler, down, move, up } = begin();
-    editor.view = { center: () => [0, 0], forward: () => [1, 0], cancel: () => tool.cancel() };
+    const { plate, dragHandler, down, move, up } = begin();
     down(2, 0);
     move(3, 0);
-    move(3, 0.2, { buttons: 3 });
+    fireEvent.mouseDown(window, { button: 2 });
+    move(3, 0.2);
     expect(plate.position.toArray()).toEqual([2, 0, 1]);
     up(3, 0.2);
     expect(dragHandler.drop).not.toHaveBeenCalled();
     expect(dragHandler.click).not.toHaveBeenCalled();
+  });
+
+  it.each([
+    ['Escape', () => fireEvent.keyDown(window, { key: 'Escape' })],
+    ['a window that loses the focus', () => fireEvent.blur(window)],
+  ])('is cancelled by %s', (_, give) => {
+    const { plate, canvas, dragHandler, hold, down, move, up } = begin();
+    down(2, 0);
+    move(3, 0);
+    give();
+    expect(plate.position.toArray()).toEqual([2, 0, 1]);
+    expect(canvas.style.cursor).toBe('');
+    expect(hold).toHaveBeenLastCalledWith(false);
+    up(3, 0);
+    expect(dragHandler.drop).not.toHaveBeenCalled();
   });
 
   it('puts the thing under the pointer on the grid, wherever it stood', () => {
@@ -119,7 +143,7 @@ describe('dragging', () => {
     expect(plate.position.y).toBeCloseTo(-0.04);
   });
 
-  it('is a click as long as the pointer stays near, and no longer once it was away', () => {
+  it('is a click as long as the pointer stays near, but not after it was away', () => {
     const { canvas, plate, dragHandler, down, move } = begin();
     const press = { button: 0, pointerId: 1, clientX: 230, clientY: 150 };
     fireEvent.pointerDown(canvas, press);
@@ -136,7 +160,7 @@ describe('dragging', () => {
     expect(dragHandler.click).toHaveBeenCalledOnce();
   });
 
-  it('is cancelled: everything is back where it was', () => {
+  it('is cancelled: everything returns', () => {
     const { plate, other, dragHandler, hold, tool, down, move, up } = begin();
     expect(tool.cancel()).toBe(false);
     down(2, 0);
@@ -154,7 +178,7 @@ describe('dragging', () => {
     const { canvas, plate, down, move } = begin();
     down(2, 0);
     move(4, 1);
-    fireEvent.pointerCancel(canvas);
+    fireEvent.pointerCancel(canvas, { pointerId: 1 });
     expect(plate.position.toArray()).toEqual([2, 0, 1]);
   });
 
@@ -170,7 +194,7 @@ describe('dragging', () => {
     expect(dragHandler.take).not.toHaveBeenCalled();
   });
 
-  it('leaves what cannot be dragged, and the floor, to the view', () => {
+  it('leaves things that cannot be dragged, and the floor, to the view', () => {
     const { canvas, dragHandler, hold, down, move, up } = begin();
     const later = vi.fn();
     canvas.addEventListener('pointerdown', later);
@@ -185,7 +209,7 @@ describe('dragging', () => {
     expect(dragHandler.drop).not.toHaveBeenCalled();
   });
 
-  it('keeps a press that begins it from the view', () => {
+  it('keeps the press that starts it from the view', () => {
     const { canvas, down } = begin();
     const later = vi.fn();
     canvas.addEventListener('pointerdown', later);
@@ -217,7 +241,7 @@ describe('clicking', () => {
     expect(dragHandler.click).toHaveBeenCalledExactlyOnceWith(null, false);
   });
 
-  it('does nothing without a press, or with the other button', () => {
+  it('does nothing without a press, or with another button', () => {
     const { dragHandler, down, up } = begin();
     up(2, 0);
     down(2, 0);
@@ -225,7 +249,7 @@ describe('clicking', () => {
     expect(dragHandler.click).not.toHaveBeenCalled();
   });
 
-  it('points at what could be clicked', () => {
+  it('shows the pointer over things that can be clicked', () => {
     const { canvas, move } = begin();
     move(2, 0, { buttons: 0 });
     expect(canvas.style.cursor).toBe('pointer');
@@ -237,7 +261,7 @@ describe('clicking', () => {
 });
 
 describe('drawing', () => {
-  it('goes to points of the floor on the grid, instead of selecting', () => {
+  it('adds points of the floor on the grid, instead of selecting', () => {
     isOn.mockReturnValue(true);
     const { canvas, dragHandler, drawing, redraw, editor } = begin();
     const pixel = { button: 0, pointerId: 1, ...pixelOf(cameraAbove(), 1.23, -0.98) };
@@ -246,13 +270,26 @@ describe('drawing', () => {
     expect(redraw).toHaveBeenCalledOnce();
     fireEvent.pointerDown(canvas, pixel);
     fireEvent.pointerUp(canvas, pixel);
-    expect(drawing.click).toHaveBeenCalledExactlyOnceWith([1.2, -1]);
+    expect(drawing.click).toHaveBeenCalledExactlyOnceWith([1.2, -1], false);
     expect(redraw).toHaveBeenCalledTimes(2);
     expect(dragHandler.take).not.toHaveBeenCalled();
     expect(dragHandler.click).not.toHaveBeenCalled();
     editor.store.setState({ grid: 0 });
     fireEvent.pointerMove(canvas, pixel);
     expect(drawing.move).toHaveBeenLastCalledWith([1.23, -0.98]);
+  });
+
+  it('is ended by the right button, which moves the view otherwise', () => {
+    isOn.mockReturnValue(true);
+    const { canvas, drawing, down } = begin();
+    const later = vi.fn();
+    canvas.addEventListener('pointerdown', later);
+    end.mockReturnValueOnce(true);
+    down(2, 0, { button: 2 });
+    expect(drawing.end).toHaveBeenCalledOnce();
+    expect(later).not.toHaveBeenCalled();
+    down(2, 0, { button: 2 });
+    expect(later).toHaveBeenCalledOnce();
   });
 
   it('is ended with the gesture', () => {

@@ -62,7 +62,7 @@ describe('readMesh', () => {
     ['a.ply', PLY(7), 'some of its faces name corners that it does not have'],
     ['a.fbx', '', 'meshes of kind .fbx are not read'],
     ['mesh', '', 'meshes of kind . are not read'],
-  ])('says why %s cannot be used', async (path, text, reason) => {
+  ])('reports why %s cannot be used', async (path, text, reason) => {
     await expect(read(path, text)).rejects.toThrow(reason);
   });
 

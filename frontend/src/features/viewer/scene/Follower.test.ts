@@ -14,7 +14,7 @@ function wayTo(follower: Follower, robot: THREE.Vector3, pictures: number): numb
 }
 
 describe('a camera that follows', () => {
-  it('comes after the robot softly, and arrives', () => {
+  it('follows the robot smoothly, and arrives', () => {
     const follower = new Follower();
     follower.begin(at(0));
     const first = wayTo(follower, at(1), 1);
@@ -30,13 +30,13 @@ describe('a camera that follows', () => {
     expect(follower.step(at(1, 5), 0.1)?.z).toBe(0);
   });
 
-  it('first brings the robot into its middle', () => {
+  it('first moves the robot to the middle', () => {
     const follower = new Follower();
     follower.begin(at(3), at(-2));
     expect(wayTo(follower, at(3), 200)).toBeCloseTo(-2, 2);
   });
 
-  it('does not follow before it begins, or after it ended', () => {
+  it('does not follow before it starts, or after it ended', () => {
     const follower = new Follower();
     expect([follower.isOn, follower.step(at(1), 0.1)]).toEqual([false, null]);
     follower.begin(at(1));

@@ -2,7 +2,8 @@
 import { Drawing } from './Drawing';
 import type { ToWorker } from './messages';
 
-const page = self as unknown as Worker;
-const drawing = new Drawing((message) => page.postMessage(message));
+const drawing = new Drawing((message) => (self as unknown as Worker).postMessage(message));
 
-self.onmessage = ({ data }: MessageEvent<ToWorker>) => drawing.receive(data);
+export const receive = ({ data }: Pick<MessageEvent<ToWorker>, 'data'>): void => drawing.receive(data);
+
+self.onmessage = receive;

@@ -1,4 +1,5 @@
 import { beforeEach, describe, expect, it, vi } from 'vitest';
+import type * as support from './support';
 
 /** A canvas outside the page that has WebGL, or has not. */
 const canvasWith = (gl: object | null) =>
@@ -10,7 +11,8 @@ const canvasWith = (gl: object | null) =>
 
 async function canDraw(): Promise<boolean> {
   vi.resetModules();
-  return (await import('./support')).canDrawInWorker();
+  const fresh = (await import('./support')) as typeof support;
+  return fresh.canDrawInWorker();
 }
 
 beforeEach(() => {

@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.e2e.accessibility import expect_focus_to_show
-from tests.e2e.canvas_by_hand import block, middle, place
+from tests.e2e.canvas_by_hand import block, children, middle, place, selected
 from tests.e2e.server import wait_until
 
 if TYPE_CHECKING:
@@ -150,3 +150,80 @@ def labels_of(buttons: Locator) -> set[str]:
         " each.querySelector('.mantine-Menu-itemLabel')?.textContent || each.textContent)"
     )
     return {re.sub(r" \([^)]*\)$|^\d+% · |: .*$", "", str(name)) for name in names}
+
+
+# Keys of the shortcut page that no other walk presses, and what is to be seen then.
+SHOWS = {
+    "Control+Backquote": "[data-testid=console]",
+    "Control+Shift+KeyM": "[data-testid=problems]",
+    "Control+Shift+KeyH": "[data-testid^=revision-], [data-testid=revisions]",
+    "Control+Shift+KeyF": "[data-testid=search-text]",
+    "Control+KeyF": "[role=search]",
+}
+
+
+def test_the_page_of_shortcuts_tells_the_truth(shared_studio: Studio) -> None:
+    """Each key means one thing, the page is the palette's list, and the keys do what it says."""
+    studio, keys = shared_studio, shared_studio.page.keyboard
+    studio.new_from("laser_bump_and_go")
+    keys.press("Control+Slash")
+    page = studio.at("shortcuts")
+    expect(page.get_by_role("heading")).to_have_count(7)
+    rows = [row.split("\t") for row in page.get_by_role("row").all_inner_texts()]
+    by_keys: dict[str, set[str]] = {}
+    for label, shown in rows:
+        by_keys.setdefault(shown, set()).add(label)
+    assert {shown: labels for shown, labels in by_keys.items() if len(labels) > 1}.keys() <= {"Space"}
+    studio.picture("shortcuts")
+    keys.press("Escape")
+    keys.press("Control+k")
+    known = set(studio.at("command-palette").get_by_role("option").all_inner_texts())
+    on_canvas = {"Walk the tree", "Move the block", "Remove, keep the children", "Go to the top"}
+    for label, shown in rows:
+        is_known = any(label in text and shown in text for text in known)
+        assert is_known or label in on_canvas | {"Menu of the selected block"}, (label, shown)
+    keys.press("Escape")
+    for shortcut, target in SHOWS.items():
+        keys.press(shortcut)
+        expect(studio.page.locator(target).first).to_be_visible()
+        keys.press("Alt+t")
+    blocks_are_changed_by_keys(studio)
+
+
+def blocks_are_changed_by_keys(studio: Studio) -> None:
+    """Top, walk, duplicate, all, another type, away with its parent, and back."""
+    keys = studio.page.keyboard
+    whole = children(studio)
+    for key, type_ in (
+        ("Home", "ReactiveSequence"),
+        ("ArrowDown", "ReactiveFallback"),
+        ("ArrowRight", "Forward"),
+        ("ArrowUp", "ReactiveSequence"),
+    ):
+        keys.press(key)
+        wait_until(lambda: selected(studio) == [type_], f"{key} selects {type_}")  # noqa: B023
+    keys.press("ArrowDown")
+    keys.press("ArrowRight")
+    keys.press("Control+d")
+    expect(block(studio, "Forward")).to_have_count(2)
+    keys.press("Control+z")
+    expect(block(studio, "Forward")).to_have_count(1)
+    keys.press("Control+Shift+KeyZ")
+    expect(block(studio, "Forward")).to_have_count(2)
+    keys.press("Control+z")
+    keys.press("Control+a")
+    wait_until(lambda: len(selected(studio)) == len(whole), "all blocks are selected")
+    keys.press("Home")
+    keys.press("ArrowDown")
+    keys.press("Control+m")
+    studio.writing()
+    keys.type("Sequence")
+    keys.press("Enter")
+    expect(block(studio, "Sequence")).to_be_visible()
+    keys.press("Control+z")
+    wait_until(lambda: children(studio) == whole, "the type is as before")
+    keys.press("Home")
+    keys.press("Space")
+    expect(block(studio, "Forward")).to_have_count(0)
+    keys.press("Space")
+    expect(block(studio, "Forward")).to_be_visible()

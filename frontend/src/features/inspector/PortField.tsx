@@ -5,6 +5,7 @@ import { useTranslation } from 'react-i18next';
 import { readPortText, type PortSpec } from '@/model/ports';
 import { KeyInput } from './KeyInput';
 import { PortNameInput } from './PortNameInput';
+import { useKeptCaret } from './ports/useKeptCaret';
 import { ValueInput } from './ValueInput';
 import classes from './Inspector.module.css';
 
@@ -60,13 +61,12 @@ export function PortField(props: PortFieldProps) {
   const read = readPortText(value ?? '');
   const { kind } = read;
   const key = read.kind === 'key' ? `${read.global ? '@' : ''}${read.key}` : port.name;
+  // An output is written to a key, also while its name is still without braces.
   const isKey =
-    kind === 'key' ||
-    kind === 'same-name' ||
-    kind === 'broken' ||
-    (port.direction === 'output' && kind !== 'literal');
+    kind === 'key' || kind === 'same-name' || kind === 'broken' || port.direction === 'output';
+  const kept = useKeptCaret(field, isKey ? 'key' : 'value');
   return (
-    <div ref={field} className={classes['portField']}>
+    <div ref={field} className={classes['portField']} {...kept}>
       <div className={classes['portHead']}>
         {isRenaming ? (
           <PortNameInput

@@ -1,0 +1,123 @@
+"""The settings of a project decide what a run starts, and what happens at its end and at an error."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.e2e.canvas_by_hand import block, focused
+from tests.e2e.server import wait_until
+from tests.e2e.test_hands_build import quick
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from playwright.sync_api import Browser, Locator
+
+    from tests.e2e.studio import Studio
+
+pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(300)]
+
+RAISES = """import py_trees
+
+
+class Trip(py_trees.behaviour.Behaviour):
+    def update(self):
+        raise ValueError("over a cable")
+"""
+
+
+@pytest.mark.long_walk
+def test_a_run_follows_the_settings(
+    open_studio: Callable[[Browser], Studio], browser_without_webgl: Browser
+) -> None:
+    studio = open_studio(browser_without_webgl)
+    studio.at("new-from-empty").click()
+    focused(studio, "canvas")
+    quick(studio, "Tab", "Sequence")
+    quick(studio, "Tab", "Sleep")
+    studio.at("port-msec").fill("200")
+    studio.saved()
+    it_begins_again(studio)
+    another_tree_is_started(studio)
+    an_error_counts_as_a_failure(studio)
+    studio.end_session()
+
+
+def settings(studio: Studio) -> Locator:
+    studio.page.keyboard.press("Control+Comma")
+    return studio.at("settings")
+
+
+def keep(studio: Studio, form: Locator) -> None:
+    form.get_by_role("button", name="Save").click()
+    expect(form).to_have_count(0)
+    studio.saved()
+
+
+def choose(studio: Studio, form: Locator, label: str, option: str) -> None:
+    form.get_by_role("combobox", name=label).click()
+    studio.page.get_by_role("option", name=option, exact=True).click()
+
+
+def it_begins_again(studio: Studio) -> None:
+    """The tree is done after 0.2 s, and its run goes on, ten times a second."""
+    form = settings(studio)
+    form.get_by_role("textbox", name="Description").fill("Waits, and waits again.")
+    form.get_by_role("radio", name="Begin again").check()
+    choose(studio, form, "Ticks a second", "10 Hz")
+    keep(studio, form)
+    studio.run()
+    expect(studio.at("sim-stats")).to_contain_text("/ 100 ms")
+    studio.page.get_by_role("tab", name="Timeline", exact=True).click()
+    block(studio, "Sleep").click()
+    runs = studio.at("node-statistics").locator("[data-key=runs] dd")
+    wait_until(lambda: int(runs.inner_text() or 0) > 2, "the tree begins again")
+    studio.expect_state("application_running")
+
+
+def another_tree_is_started(studio: Studio) -> None:
+    """Run starts the main tree, whichever is in front."""
+    keys = studio.page.keyboard
+    studio.command("new tree")
+    studio.page.get_by_role("dialog").get_by_role("textbox").fill("Other")
+    keys.press("Enter")
+    other = studio.page.locator("[data-testid=canvas][data-tree=Other]")
+    expect(other).to_be_focused()
+    quick(studio, "Tab", "Fallback")
+    quick(studio, "Tab", "AlwaysFailure")
+    form = settings(studio)
+    expect(form.get_by_role("textbox", name="Description")).to_have_value("Waits, and waits again.")
+    choose(studio, form, "Tree that Run starts", "Other")
+    form.get_by_role("radio", name="Stop", exact=True).check()
+    keep(studio, form)
+    studio.command("open tree maintree")
+    studio.at("run").click()
+    expect(studio.at("banner")).to_contain_text("The run failed at AlwaysFailure.")
+    studio.expect_state("visualization_ready")
+
+
+def an_error_counts_as_a_failure(studio: Studio) -> None:
+    """First it ends the run, then the fallback goes on to its next child."""
+    studio.command("open tree other")
+    block(studio, "AlwaysFailure").click()
+    quick(studio, "Control+m", "Trip")
+    studio.page.keyboard.press("Enter")
+    editor = studio.page.locator('[data-path="actions/Trip.py"] .cm-content')
+    expect(editor).to_be_focused()
+    studio.page.keyboard.press("Control+a")
+    studio.page.keyboard.insert_text(RAISES)
+    studio.page.keyboard.press("Alt+t")
+    quick(studio, "Control+Enter", "AlwaysSuccess")
+    studio.saved()
+    studio.at("run").click()
+    expect(studio.at("banner")).to_contain_text("over a cable")
+    expect(studio.at("executor-state")).to_have_text("Stopped: fault")
+    form = settings(studio)
+    form.get_by_role("radio", name="Count it as a failure").check()
+    keep(studio, form)
+    studio.at("run").click()
+    expect(studio.at("banner")).to_contain_text("the tree succeeded")
+    expect(block(studio, "Trip")).to_have_attribute("data-past", "FAILURE")

@@ -302,4 +302,4 @@ def test_a_project_is_downloaded_and_brought_back(shared_studio: Studio, tmp_pat
     studio.open_file("actions/Turn.py")
     expect(studio.at("code-editor")).to_contain_text("class Turn")
     home(studio)
-    expect(card(studio, "Laser bump and go").locator("svg")).to_be_visible()
+    expect(card(studio, "Laser bump and go").locator("a svg")).to_be_visible()

@@ -30,7 +30,6 @@ def test_an_own_robot_drives_in_an_own_room(
     both_are_chosen(studio)
     studio.run()
     observer = studio.observe()
-    assert observer.of("snapshot")[0]["data"]["universe"] == "yard"
     wait_until(lambda: position(observer, "robot")[0] > 0.5, "the robot drives towards the crate")
     assert position(observer, "crate") == pytest.approx((3, 0), abs=0.05)
     wait_until(lambda: abs(position(observer, "robot")[1]) > 0.3, "it turns before the crate")
@@ -83,10 +82,10 @@ def both_are_chosen(studio: Studio) -> None:
     studio.at("choice-mine").click()
     studio.picture("own-world-chosen")
     studio.at("choose-world").click()
-    expect(studio.at("open-worlds")).to_contain_text("yard")
+    expect(studio.at("open-worlds")).to_contain_text("Yard")
     studio.saved()
     studio.page.reload()
-    expect(studio.at("open-worlds")).to_contain_text("yard")
+    expect(studio.at("open-worlds")).to_contain_text("Yard")
 
 
 def the_crate_stands_elsewhere_in_the_next_run(studio: Studio) -> None:

@@ -80,7 +80,7 @@ def texts(studio: Studio, whole: list[str]) -> None:
 def the_tree_of_a_subtree(studio: Studio) -> None:
     """Chosen from a list, without the tree itself."""
     page = studio.page
-    block(studio, "Turn").click(button="right")
+    block(studio, "ReactiveFallback").click(button="right")
     page.get_by_role("menuitem", name="Extract").click()
     call = block(studio, "SubTree")
     call.click()

@@ -1,8 +1,8 @@
 """A lesson of a quarter of an hour, as a pupil of 15 years lives it, with all her hesitations.
 
-Ana knows Scratch and has never seen a behaviour tree. Her sheet says: let the robot drive; make it slow; let it
-turn to the other side; let it wait before it turns; let it say "beep" by an action of your own; bring the file to
-the teacher. Each `#` says what she thinks or does wrong; what follows is what the page must do with it.
+Ana knows Scratch and has never seen a behaviour tree. Her sheet says: let the robot drive; make it slow; let
+it turn to the other side; let it wait before it turns; let it say "beep" by an action of your own; bring the
+file to the teacher. Each `#` says what she thinks or does wrong; what follows is what the page must do.
 `docs/explanation/a-first-lesson.md` tells what was found.
 """
 
@@ -72,13 +72,15 @@ def minute_0_the_robot_drives(studio: Studio) -> None:
     # She grabs the empty canvas, and the tree is gone. "Did I delete it?"
     rest(block(studio, "Turn"))
     x, y, width, height = (tree(studio).bounding_box() or {}).values()
-    page.mouse.move(x + 20, y + height - 20)
+    page.mouse.move(x + 8, y + height - 80)
     page.mouse.down()
-    page.mouse.move(x + width - 10, y + 10, steps=8)
+    page.mouse.move(x + width - 8, y + 10, steps=8)
     page.mouse.up()
     expect(studio.at("undo")).to_be_disabled()
     keys.press("Control+z")
-    page.get_by_role("button", name="Show the whole tree").click()
+    studio.picture("pupil-lost")
+    studio.at("back-to-tree").click()
+    expect(studio.at("back-to-tree")).to_have_count(0)
     expect(block(studio, "ReactiveSequence")).to_be_in_viewport()
     # The lesson's own button is the first thing that looks like play.
     studio.at("lesson").get_by_role("button", name="Run it").click()
@@ -97,7 +99,7 @@ def minute_0_the_robot_drives(studio: Studio) -> None:
 
 def minute_3_it_is_made_slow(studio: Studio) -> None:
     keys = studio.page.keyboard
-    # "Where is the speed?" She tries a double click, as on a file: it opens Python. "Not that." She closes it.
+    # "Where is the speed?" A double click, as on a file, opens Python. "Not that." She closes it.
     forward = block(studio, "Forward")
     forward.dblclick()
     code = studio.page.get_by_role("tab", name="Forward.py", exact=True)
@@ -107,9 +109,10 @@ def minute_3_it_is_made_slow(studio: Studio) -> None:
     forward.click()
     speed = studio.at("port-lin_speed")
     speed.click()
-    # A comma, as at school. The block is marked, and the fix writes the point.
+    # A comma, as at school, over the old number. The block is marked, and the fix writes the point.
     keys.type("0,15")
-    expect(forward).to_have_attribute("data-problem", "error")
+    expect(speed).to_have_value("0,15")
+    expect(forward).to_have_attribute("data-problem", "warning")
     studio.at("inspector").get_by_role("button", name="Write 0.15").click()
     expect(speed).to_have_value("0.15")
     expect(forward).not_to_have_attribute("data-problem", "error")
@@ -223,7 +226,7 @@ def minute_12_things_get_lost(studio: Studio) -> None:
     expect(block(studio, "Forward")).to_have_count(0)
     keys.press("Control+z")
     expect(block(studio, "Beep")).to_be_visible()
-    # F5 is what loads a page again; here it runs. Then she does it by the browser: all is there, and it drives.
+    # F5 is what loads a page again; here it runs. Then the browser's button does it: all is there.
     keys.press("F5")
     studio.expect_state("application_running")
     studio.saved()
@@ -248,5 +251,5 @@ def minute_14_the_file_goes_to_the_teacher(studio: Studio) -> None:
     page.keyboard.press("Escape")
     page.get_by_role("link", name="All projects").click()
     expect(studio.at("project-card")).to_have_count(1)
-    expect(studio.at("project-card").locator("svg")).to_contain_text("Beep")
+    expect(studio.at("project-card").locator("a svg")).to_contain_text("Beep")
     studio.picture("pupil-end")

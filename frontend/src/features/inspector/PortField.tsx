@@ -62,8 +62,7 @@ export function PortField(props: PortFieldProps) {
   const { kind } = read;
   const key = read.kind === 'key' ? `${read.global ? '@' : ''}${read.key}` : port.name;
   // An output is written to a key, also while its name is still without braces.
-  const isKey =
-    kind === 'key' || kind === 'same-name' || kind === 'broken' || port.direction === 'output';
+  const isKey = kind === 'key' || kind === 'same-name' || kind === 'broken' || port.direction === 'output';
   const kept = useKeptCaret(field, isKey ? 'key' : 'value');
   return (
     <div ref={field} className={classes['portField']} {...kept}>

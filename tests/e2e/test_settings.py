@@ -9,7 +9,6 @@ from playwright.sync_api import expect
 
 from tests.e2e.canvas_by_hand import block, focused
 from tests.e2e.server import wait_until
-from tests.e2e.test_hands_build import quick
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -36,14 +35,24 @@ def test_a_run_follows_the_settings(
     studio = open_studio(browser_without_webgl)
     studio.at("new-from-empty").click()
     focused(studio, "canvas")
-    quick(studio, "Tab", "Sequence")
-    quick(studio, "Tab", "Sleep")
+    add(studio, "Tab", "Sequence")
+    add(studio, "Tab", "Sleep")
     studio.at("port-msec").fill("200")
     studio.saved()
     it_begins_again(studio)
     another_tree_is_started(studio)
     an_error_counts_as_a_failure(studio)
     studio.end_session()
+
+
+def add(studio: Studio, key: str, name: str) -> None:
+    """Opens the quick-add box on the tree in front, and chooses the first result."""
+    studio.page.keyboard.press(key)
+    studio.writing()
+    studio.page.keyboard.type(name)
+    studio.page.keyboard.press("Enter")
+    expect(studio.at("quick-add")).to_have_count(0)
+    expect(studio.page.locator("[data-testid=canvas]:visible")).to_be_focused()
 
 
 def settings(studio: Studio) -> Locator:
@@ -86,8 +95,8 @@ def another_tree_is_started(studio: Studio) -> None:
     keys.press("Enter")
     other = studio.page.locator("[data-testid=canvas][data-tree=Other]")
     expect(other).to_be_focused()
-    quick(studio, "Tab", "Fallback")
-    quick(studio, "Tab", "AlwaysFailure")
+    add(studio, "Tab", "Fallback")
+    add(studio, "Tab", "AlwaysFailure")
     form = settings(studio)
     expect(form.get_by_role("textbox", name="Description")).to_have_value("Waits, and waits again.")
     choose(studio, form, "Tree that Run starts", "Other")
@@ -103,14 +112,14 @@ def an_error_counts_as_a_failure(studio: Studio) -> None:
     """First it ends the run, then the fallback goes on to its next child."""
     studio.command("open tree other")
     block(studio, "AlwaysFailure").click()
-    quick(studio, "Control+m", "Trip")
+    add(studio, "Control+m", "Trip")
     studio.page.keyboard.press("Enter")
     editor = studio.page.locator('[data-path="actions/Trip.py"] .cm-content')
     expect(editor).to_be_focused()
     studio.page.keyboard.press("Control+a")
     studio.page.keyboard.insert_text(RAISES)
     studio.page.keyboard.press("Alt+t")
-    quick(studio, "Control+Enter", "AlwaysSuccess")
+    add(studio, "Control+Enter", "AlwaysSuccess")
     studio.saved()
     studio.at("run").click()
     expect(studio.at("banner")).to_contain_text("over a cable")

@@ -35,6 +35,7 @@ def test_every_panel_has_a_window_and_all_go_with_the_page(studio: Studio) -> No
     for name, window in windows.items():
         expect(window.locator(PANELS[name]).first).to_be_visible()
         expect(window).to_have_title(f"{name} — BT Studio")
+        expect(window.get_by_role("button", name="Open in a window of its own")).to_have_count(0)
         expect(studio.page.get_by_role("tab", name=name, exact=True)).to_have_count(0)
     studio.picture("all-panels-out")
     keys_and_fields_work_in_a_window(studio, windows)

@@ -41,22 +41,22 @@ class _Asked(Struct, tag_field="type", omit_defaults=True, kw_only=True):
 
 
 class Stop(_Message, tag="stop"):
-    """End the process."""
+    """Ends the process."""
 
 
 class Pause(_Asked, tag="pause"):
-    """Pause simulated time, or ticks."""
+    """Pauses simulated time, or ticks."""
 
 
 class Resume(_Asked, tag="resume"):
-    """Resume simulated time, or ticks."""
+    """Resumes simulated time, or ticks."""
 
 
 # --- to the world ---------------------------------------------------------------------------------
 
 
 class StartWorld(_Message, tag="start"):
-    """Build a world.
+    """Builds a world.
 
     `universe` is an id or a document; with `none` the process joins an outside ROS graph instead.
 
@@ -74,23 +74,23 @@ class StartWorld(_Message, tag="start"):
 
 
 class StepWorld(_Asked, tag="step"):
-    """Simulate `dt_s` seconds of a paused world."""
+    """Simulates `dt_s` seconds of a paused world."""
 
     dt_s: float
 
 
 class Reset(_Asked, tag="reset"):
-    """Put everything where it was at the start."""
+    """Resets the world to its initial state."""
 
 
 class SetSpeed(_Asked, tag="set_speed"):
-    """Set the number of simulated seconds for each second of real time."""
+    """Sets the number of simulated seconds for each second of real time."""
 
     speed: float
 
 
 class StopRobot(_Message, tag="stop_robot"):
-    """Set the target velocity of every robot to zero."""
+    """Sets the target velocity of every robot to zero."""
 
 
 class Teleop(_Message, tag="teleop"):
@@ -102,14 +102,14 @@ class Teleop(_Message, tag="teleop"):
 
 
 class MoveBody(_Asked, tag="move_body"):
-    """Move a body to a pose."""
+    """Moves a body to a pose."""
 
     id: str
     pose: tuple[float, float, float, float, float, float]
 
 
 class Subscribe(_Message, tag="subscribe"):
-    """Send a stream to a client, or change how it is sent."""
+    """Subscribes a client to a stream, or changes the subscription."""
 
     client: str
     stream: messages.StreamName
@@ -120,7 +120,7 @@ class Subscribe(_Message, tag="subscribe"):
 
 
 class Unsubscribe(_Message, tag="unsubscribe"):
-    """End a stream of a client."""
+    """Ends a client's subscription to a stream."""
 
     client: str
     stream: messages.StreamName
@@ -128,18 +128,18 @@ class Unsubscribe(_Message, tag="unsubscribe"):
 
 
 class Pace(_Message, tag="pace"):
-    """Report the share of pictures for which a client was too slow, 0 to 1."""
+    """Reports the share of pictures for which a client was too slow, 0 to 1."""
 
     client: str
     lost: float
 
 
 class ListTopics(_Asked, tag="list_topics"):
-    """Report the topics of the ROS graph."""
+    """Requests the topics of the ROS graph."""
 
 
 class EchoTopic(_Asked, tag="echo_topic"):
-    """Report the messages of a topic; a `patient` request waits for a topic that does not exist yet."""
+    """Requests the messages of a topic; a `patient` request waits for a topic that does not exist yet."""
 
     topic: str
     max_hz: float
@@ -147,7 +147,7 @@ class EchoTopic(_Asked, tag="echo_topic"):
 
 
 class PublishTopic(_Asked, tag="publish_topic"):
-    """Publish one message."""
+    """Publishes one message."""
 
     topic: str
     message_type: str
@@ -155,7 +155,7 @@ class PublishTopic(_Asked, tag="publish_topic"):
 
 
 class DescribeType(_Asked, tag="describe_type"):
-    """Report the fields of a message type."""
+    """Requests the fields of a message type."""
 
     message_type: str
 
@@ -164,7 +164,7 @@ class DescribeType(_Asked, tag="describe_type"):
 
 
 class StartApplication(_Message, tag="start"):
-    """Load the application in `app_dir` and wait, paused.
+    """Loads the application in `app_dir`, which then waits, paused.
 
     With `outside`, it uses the time of an outside ROS graph.
     """
@@ -179,17 +179,17 @@ class StartApplication(_Message, tag="start"):
 
 
 class StepTick(_Message, tag="step"):
-    """Tick once; the answer is a `Stepped`."""
+    """Ticks once; the answer is a `Stepped`."""
 
 
 class SetTickRate(_Asked, tag="set_tick_rate"):
-    """Set the number of ticks for each second of simulated time."""
+    """Sets the number of ticks for each second of simulated time."""
 
     tick_hz: float
 
 
 class SetBlackboard(_Message, tag="set_blackboard"):
-    """Write an entry of the blackboard; the answer is a `BlackboardSet`."""
+    """Writes an entry of the blackboard; the answer is a `BlackboardSet`."""
 
     scope: str
     key: str

@@ -173,7 +173,7 @@ class _Inspector:
         )
 
     def is_local(self) -> bool:
-        """Whether no import or assignment of the module defines the name."""
+        """Returns whether no import or assignment of the module defines the name."""
         for node in self.module.body:
             if isinstance(node, ast.Import | ast.ImportFrom):
                 if any((alias.asname or alias.name) == self.name for alias in node.names):
@@ -199,7 +199,7 @@ class _Inspector:
         return line
 
     def is_behaviour(self, cls: ast.ClassDef) -> bool:
-        """Whether a base of the class may be a behaviour; an imported base always may be one."""
+        """Returns whether a base of the class may be a behaviour; an imported base always may be one."""
         local = self.lineage(cls)
         foreign = [
             base
@@ -210,7 +210,7 @@ class _Inspector:
         return bool(foreign)
 
     def has_update(self, cls: ast.ClassDef) -> bool:
-        """Whether the class, or a base that is not py_trees' own, defines `update`."""
+        """Returns whether the class, or a base that is not py_trees' own, defines `update`."""
         for member in self.lineage(cls):
             for node in member.body:
                 if isinstance(node, ast.FunctionDef) and node.name == "update":

@@ -68,7 +68,7 @@ def kind_by_bases(bases: Iterable[str]) -> str:
 
 
 def is_loop(bases: Iterable[str]) -> bool:
-    """Whether a class is a loop over elements of a type."""
+    """Returns whether a class is a loop over elements of a type."""
     return not _LOOPS.isdisjoint(bases)
 
 

@@ -20,7 +20,7 @@ _SHORT_NAME = re.compile(r"git~\d+")
 
 
 def is_of_tool(path: str) -> bool:
-    """Whether a path lies in a folder that begins with a dot, or is a repository's `.git` itself."""
+    """Returns whether a path lies in a folder that begins with a dot, or is a repository's `.git` itself."""
     *folders, name = map(_as_disks_see_it, path.split("/"))
     hidden = any(folder.startswith(".") for folder in folders)
     return hidden or name == ".git" or any(_SHORT_NAME.fullmatch(part) for part in (*folders, name))

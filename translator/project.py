@@ -128,7 +128,7 @@ def _is_diagram(path: str) -> bool:
 
 
 def _are_too_large(files: Mapping[str, bytes], found: list[Diagnostic]) -> bool:
-    """Whether the diagrams are too many or too large, so that none of them is read."""
+    """Returns whether the diagrams are too many or too large, so that none of them is read."""
     sizes = [len(raw) for path, raw in files.items() if _is_diagram(path)]
     place = Place(PROJECT_FILE, line=1)
     if sum(sizes) > DIAGRAM_BYTES_PER_PROJECT:
@@ -175,7 +175,7 @@ def action_paths(files: Mapping[str, bytes]) -> Iterator[tuple[str, str]]:
 
 
 def _is_shared_module(model: ActionModel) -> bool:
-    """Whether a file is a module that actions import.
+    """Returns whether a file is a module that actions import.
 
     It has the name of a module, and no class of an action.
     """

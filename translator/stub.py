@@ -19,7 +19,7 @@ _ATTRIBUTES = {"input": "INPUT_PORTS", "output": "OUTPUT_PORTS", "inout": "INOUT
 
 
 def can_be_class(name: str) -> bool:
-    """Whether a type of node can be the name of a Python class."""
+    """Returns whether a type of node can be the name of a Python class."""
     return name.isidentifier() and not keyword.iskeyword(name)
 
 

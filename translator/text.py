@@ -14,7 +14,7 @@ _BAD_IN_ID = re.compile(r"[\s/\\:*?|.<>&\"'\x00-\x1f]")
 
 
 def is_clean(text: str) -> bool:
-    """Whether XML can hold the text."""
+    """Returns whether XML can hold the text."""
     return _FORBIDDEN.search(text) is None
 
 
@@ -30,7 +30,7 @@ def bad_character(identifier: str) -> str | None:
 
 
 def is_valid_id(identifier: str) -> bool:
-    """Whether the text can be the ID of a tree or the type of a node."""
+    """Returns whether the text can be the ID of a tree or the type of a node."""
     return bool(identifier) and bad_character(identifier) is None and identifier not in {"root", "Root"}
 
 
@@ -43,7 +43,7 @@ def safe_name(identifier: str) -> str:
 
 @lru_cache(maxsize=4096)
 def is_xml_name(name: str) -> bool:
-    """Whether the text can be an XML tag or attribute; asks expat, which later reads the file."""
+    """Returns whether the text can be an XML tag or attribute; asks expat, which later reads the file."""
     if ":" in name or not name or re.search(r"[\s<>/=\"'&?!]", name) or not is_clean(name):
         return False
     try:

@@ -37,7 +37,7 @@ class Hooks:
         self.times_leaves = False
 
     def applies(self, node: Node) -> bool:
-        """Whether a node must be ticked with hooks."""
+        """Returns whether a node must be ticked with hooks."""
         if self.tree.node_times_s is not None or (self.times_leaves and isinstance(node, Leaf)):
             return True
         return any(hook.uid in (None, node.uid) for hook in self.hooks)

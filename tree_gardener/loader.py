@@ -343,7 +343,7 @@ class Builder:
         return board
 
     def autoremap(self, element: Element) -> bool:
-        """Whether names that a SubTree does not have are those of the caller."""
+        """Returns whether a SubTree's unconnected names mean the caller's entries (`_autoremap`)."""
         text = element.attributes.get("_autoremap")
         if text is None:
             return False

@@ -1,8 +1,8 @@
-"""The rclpy of actions: a node that they share, and a default context that the run has opened.
+"""Adapts rclpy for actions: they share one node, and a default context that the run has initialized.
 
 Tutorials use `rclpy.init()`, `rclpy.spin_once(node)` and `rclpy.ok()`; these work in an action too. Calls
-that would end ROS for the rest of the tree (`rclpy.shutdown()`, `node.destroy_node()`) raise an error that
-says so.
+that would end ROS for the rest of the tree (`rclpy.shutdown()`, `node.destroy_node()`) raise an error with
+the reason.
 """
 
 import contextlib
@@ -107,7 +107,7 @@ class MainThreadGroup(MutuallyExclusiveCallbackGroup):
     """Runs callbacks on the main thread only: no tick runs in a thread where an action spins its node."""
 
     def can_execute(self, entity: Any) -> bool:
-        """Whether the callback may run now, in this thread."""
+        """Returns whether the callback may run now, in this thread."""
         return threading.current_thread() is threading.main_thread() and bool(super().can_execute(entity))
 
 

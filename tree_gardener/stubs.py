@@ -15,7 +15,7 @@ STUB_CONTROL_UPDATE: Final = "    def update(self):\n        return Status.FAILU
 
 
 def is_stub(source: str) -> bool:
-    """Whether the source of an action is an unchanged stub of the importer."""
+    """Returns whether the source of an action is an unchanged stub of the importer."""
     text = source.replace("\r\n", "\n")
     return STUB_MARK in text and (STUB_UPDATE in text or STUB_CONTROL_UPDATE in text)
 

@@ -27,7 +27,7 @@ class Rule:
     type: str = ""
 
     def matches(self, name: str, kind: str, path: str) -> bool:
-        """Whether the rule replaces a node."""
+        """Returns whether the rule replaces a node."""
         return self.pattern in (name, kind) or fnmatch.fnmatchcase(path, self.pattern)
 
 

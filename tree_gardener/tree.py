@@ -412,7 +412,7 @@ class Tree:
         self.link()
 
     def has_hooks(self, node: Node) -> bool:
-        """Whether a node must be ticked through `run_hooks`."""
+        """Returns whether a node must be ticked through `run_hooks`."""
         return self._hooks.applies(node)
 
     def run_hooks(self, node: Node, inner: Execute) -> Status:

@@ -26,7 +26,7 @@ SESSION_KEY: Final = "invitation"
 
 
 def may_invite(user: User) -> bool:
-    """Whether the user may invite people: teachers and administrators may."""
+    """Returns whether the user may invite people: teachers and administrators may."""
     return user.is_teacher or user.is_superuser
 
 

@@ -82,7 +82,7 @@ class ExpensiveCalls(SimpleRateThrottle):
         return f"{environment().expensive_calls_per_minute}/min"
 
     def allow_request(self, request: Request, view: APIView) -> bool:
-        """Whether the user has a call left in this minute."""
+        """Returns whether the user has a call left in this minute."""
         methods: Any = getattr(view, "expensive", ())
         if not environment().is_team or request.method not in methods:
             return True

@@ -107,7 +107,7 @@ class Child:
         return status
 
     def hangs(self, passed_s: float) -> bool:
-        """Whether the worker made no progress for too long; True only once.
+        """Returns whether the worker made no progress for too long; True only once.
 
         Args:
             passed_s: seconds since the last call. If they are many, the parent itself was suspended.

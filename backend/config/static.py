@@ -33,7 +33,7 @@ class FrontEndFiles(WhiteNoiseMiddleware):  # type: ignore[misc]
         return answer
 
     def immutable_file_test(self, path: str, url: str) -> bool:
-        """Whether a file never changes: Vite puts a hash of the content into the names of all assets."""
+        """Returns whether a file never changes: Vite puts a hash of the content into each asset's name."""
         return url.startswith("/assets/")
 
     @staticmethod

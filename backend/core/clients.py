@@ -60,7 +60,7 @@ def stranger(address: str | None) -> str:
 
 
 def is_on_this_machine(connection: str | None, headers: Mapping[str, str]) -> bool:
-    """Whether a program on this machine sent the request for itself, not as a proxy for another client."""
+    """Returns whether a program on this machine sent the request for itself, not as a proxy."""
     if any(name in headers for name in FORWARDED):
         return False
     try:

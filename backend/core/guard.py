@@ -69,14 +69,14 @@ class Keys:
         return hmac.new(self.token.encode(), b"bt-studio cookie", hashlib.sha256).hexdigest()
 
     def is_token(self, candidate: str | None) -> bool:
-        """Whether the candidate is the token.
+        """Returns whether the candidate is the token.
 
         The comparison takes constant time, so that timing reveals nothing.
         """
         return candidate is not None and hmac.compare_digest(candidate.encode(), self.token.encode())
 
     def is_cookie(self, candidate: str | None) -> bool:
-        """Whether the candidate is the cookie's value. The comparison takes constant time."""
+        """Returns whether the candidate is the cookie's value. The comparison takes constant time."""
         return candidate is not None and hmac.compare_digest(candidate.encode(), self.cookie_value.encode())
 
 

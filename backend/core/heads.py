@@ -80,7 +80,7 @@ class PatientProtocol(HttpToolsProtocol):
             self.transport.resume_reading()
 
     def _is_ours(self) -> bool:
-        """Whether this protocol still owns the connection: it is open, and no websocket has taken it over."""
+        """Returns whether this protocol still owns the connection: open, not taken over by a websocket."""
         return not self.transport.is_closing() and self.transport.get_protocol() is self
 
     def _received(self, data: bytes) -> None:

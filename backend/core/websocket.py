@@ -142,7 +142,7 @@ class PatientSocket(WebSocketsSansIOProtocol):
             super().handle_cont(event)
 
     def _is_too_idle(self) -> bool:
-        """Whether too many frames without content arrived; the socket is then closed."""
+        """Returns whether too many frames without content arrived; the socket is then closed."""
         now = self.loop.time()
         if now - self._since > 1:
             self._idle_frames, self._since = 0, now

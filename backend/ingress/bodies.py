@@ -95,7 +95,7 @@ class Upload:
     kind: str = "application/octet-stream"
 
     def takes(self, scope: HTTPScope, kind: str) -> bool:
-        """Whether a request is an upload for this route."""
+        """Returns whether a request is an upload for this route."""
         return scope["method"] == "POST" and scope["path"] == self.path and kind.startswith(self.kind)
 
 
@@ -159,7 +159,7 @@ def _asked(work: Callable[[], Any]) -> Any:
 
 
 class _Reading:
-    """The reading of one body."""
+    """Reads the body of one request, into memory or into a temporary file."""
 
     def __init__(
         self, bodies: Bodies, scope: HTTPScope, receive: ASGIReceiveCallable, owner: str | None

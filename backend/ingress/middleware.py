@@ -109,7 +109,7 @@ class Guard(Middleware):
     """Passes on requests that `guard.judge` allows; exchanges the token for the cookie."""
 
     def before(self, request: HttpRequest) -> HttpResponseBase | None:
-        """Answers a request that is refused, or that opens the link with the token.
+        """Answers a refused request, and the local user's link, whose token is exchanged for the cookie.
 
         Otherwise returns None.
         """

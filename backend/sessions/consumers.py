@@ -121,7 +121,7 @@ def _noting(session_id: UUID, receive: ASGIReceiveCallable) -> ASGIReceiveCallab
 
 
 def _is_ping(text: str) -> bool:
-    """Whether a page only asks if its session hangs; pages do this without a user."""
+    """Returns whether a page only asks if its session hangs; pages do this without a user."""
     return len(text) <= LONGEST_PING and PING.search(text) is not None
 
 

@@ -82,7 +82,7 @@ class Holder:
 
 
 def is_alone() -> bool:
-    """Whether no other server can do the work of this one."""
+    """Returns whether no other server can do the work of this one."""
     return connection.vendor != "postgresql" or not launcher().survives_server
 
 

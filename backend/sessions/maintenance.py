@@ -32,7 +32,7 @@ from backend.sessions.models import Session
 from backend.sessions.watch import watchmen
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Mapping
+    from collections.abc import Container, Iterator, Mapping
     from uuid import UUID
 
     from asgiref.typing import ASGISendCallable
@@ -119,11 +119,11 @@ def begin() -> None:
 
 async def care_for_ever() -> None:
     """Maintains sessions until it is cancelled; a step that fails is tried again."""
-    rounds = itertools.count()
+    rounds_held = itertools.count()
     try:
         while True:
             try:
-                await _one_round(is_for_orphans=next(rounds) % ROUNDS_TO_ORPHANS == 0)
+                await one_round(rounds_held)
             except Exception:
                 log.exception("the sessions were not looked after")
             await asyncio.sleep(EVERY_S)
@@ -131,12 +131,19 @@ async def care_for_ever() -> None:
         await sync_to_async(_give_back)()
 
 
-async def _one_round(*, is_for_orphans: bool) -> None:
+async def one_round(rounds_held: Iterator[int]) -> None:
+    """Runs one round of maintenance.
+
+    Args:
+        rounds_held: counts the rounds in which this server has the lease. In the first one it ends what a
+            server left that died with the lease.
+    """
     is_ours = await sync_to_async(holder.hold)(CARE, LEASE_S)
     watchmen.keep_to(await sync_to_async(ready_sessions)(), all_of_them=is_ours)
     await sync_to_async(note_used)(attendance.take_used())
     if is_ours:
-        await sync_to_async(maintain)(is_for_orphans=is_for_orphans and not is_alone())
+        is_for_orphans = next(rounds_held) % ROUNDS_TO_ORPHANS == 0 and not is_alone()
+        await sync_to_async(maintain)(is_for_orphans=is_for_orphans)
     soon = await sync_to_async(ending_soon)()
     text = await sync_to_async(drain.text)()
     await pages.tell(text)

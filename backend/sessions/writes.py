@@ -310,7 +310,7 @@ def end_orphans() -> None:
 
 
 def _is_overdue(session: Session) -> bool:
-    """Whether the start of a session has lasted so long that no web server can still be working on it."""
+    """Returns whether a session has been starting for so long that no web server can still be at work."""
     longest = timedelta(seconds=2 * environment().session_start_timeout_s)
     return timezone.now() - session.created_at > longest
 

@@ -35,7 +35,7 @@ def pack(files: Mapping[str, bytes]) -> bytes:
 
 
 def _shrinks(data: bytes) -> bool:
-    """Whether compression is worth its time, judged by the beginning of the file.
+    """Returns whether compression is worth its time, judged by the beginning of the file.
 
     Pictures hardly become smaller.
     """

@@ -102,5 +102,5 @@ class Locator:
 
 
 def is_action_file(name: str) -> bool:
-    """Whether a file is an action of the project."""
+    """Returns whether a file is an action of the project."""
     return name.startswith("actions/")

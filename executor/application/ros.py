@@ -84,7 +84,7 @@ class Graph:
         self._executor.wake()
 
     def is_connected(self) -> bool:
-        """Whether all publishers of actions have subscribers, and all subscriptions have publishers."""
+        """Returns whether all publishers of actions have subscribers, and all subscriptions publishers."""
         said: list[Any] = [s for s in self.node.subscriptions if s.topic_name not in _OWN_TOPICS]
         heard: list[Any] = [p for p in self.node.publishers if p.topic_name not in _OWN_TOPICS]
         return all(self.node.count_publishers(s.topic_name) for s in said) and all(
@@ -98,7 +98,7 @@ class Graph:
         self._default.close()
 
     def _has_clock(self) -> bool:
-        """Whether an outside graph publishes simulated time on `/clock`."""
+        """Returns whether an outside graph publishes simulated time on `/clock`."""
         probe = Node(f"{NODE_NAME}_probe", context=self._context)
         end_s = time.monotonic() + CLOCK_PROBE_S
         try:

@@ -89,7 +89,7 @@ def _interface(struct: type[msgspec.Struct]) -> str:
 
 
 def _may_be_absent(struct: type[msgspec.Struct], field: types.Field) -> bool:
-    """Whether a field may be absent.
+    """Returns whether a field may be absent.
 
     Such a field may be UNSET, or has a default that clients or the server may omit.
     """

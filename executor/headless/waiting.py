@@ -87,10 +87,7 @@ class _Waits:
 
 
 def _is_foreign(executor: Any) -> bool:
-    """Whether a wait is not that of an action.
-
-    Then the executor belongs to the run itself, or the thread is not the main one.
-    """
+    """Returns whether the wait is not an action's: the run itself waits, or a thread other than the main."""
     return isinstance(executor, DrainingExecutor) or threading.current_thread() is not threading.main_thread()
 
 

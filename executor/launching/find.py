@@ -21,7 +21,7 @@ class NotFound(Exception):  # noqa: N818 - an answer, not a failure of ours
 
 
 def has_launch() -> bool:
-    """Whether ROS 2's `launch` can be imported."""
+    """Returns whether ROS 2's `launch` can be imported."""
     return find_spec("launch") is not None
 
 

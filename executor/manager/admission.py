@@ -61,7 +61,7 @@ class Admission:
         return Refusal(HTTPStatus.FORBIDDEN, text)
 
     def _shows_token(self, request: Request) -> bool:
-        """Whether a request has the token.
+        """Returns whether a request has the token.
 
         It is a bearer token or in the address, since a page cannot set headers of a websocket.
         """
@@ -73,14 +73,14 @@ class Admission:
 
 
 def is_loopback(host: str) -> bool:
-    """Whether an address is reachable from this machine only."""
+    """Returns whether an address is reachable from this machine only."""
     with contextlib.suppress(ValueError):
         return ipaddress.ip_address(host).is_loopback
     return host == "localhost"
 
 
 def _is_address(host: str) -> bool:
-    """Whether a host is an IP address or localhost; any other name could resolve to this machine."""
+    """Returns whether a host is an IP address or localhost; any other name could resolve to this machine."""
     with contextlib.suppress(ValueError):
         ipaddress.ip_address(host)
         return True

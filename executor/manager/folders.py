@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final
 from executor.launching.reader import read_launch_files
 from executor.manager.archive import ArchiveError, unpack
 from executor.session.events import Unpacked
-from executor.supervision.scratch import Scratch
+from executor.supervision.scratch import Scratch, is_in_use
 from executor.universes.document import DocumentError
 
 if TYPE_CHECKING:
@@ -66,7 +66,8 @@ class Folders:
 
     def _sweep(self) -> None:
         for path in Path(tempfile.gettempdir()).iterdir():
-            if path == self._scratch.path:
+            # The world, which starts at the same time, has such a folder too.
+            if path == self._scratch.path or is_in_use(path):
                 continue
             if path.is_dir() and not path.is_symlink():
                 shutil.rmtree(path, ignore_errors=True)

@@ -61,7 +61,7 @@ class TinyRenderer:
     def redraw(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
     ) -> NDArray[np.uint8]:
-        """Returns the same as `draw`."""
+        """Returns the same as `draw`: this renderer cannot draw only the changes."""
         return self.draw(poses, view, width, height)
 
     def depth(

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import tempfile
 from contextlib import contextmanager
-from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from lxml import etree
 
 from executor.robots.rigid import merge_fixed_links
+from executor.supervision.scratch import Scratch
 from executor.world.geometry.mesh import MeshError, write_obj
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
+    from pathlib import Path
 
     from executor.messages import Mesh
 
@@ -52,20 +52,27 @@ def physical_urdf(text: str, meshes: dict[str, Mesh], apart: Collection[str] = (
         apart: links that must not be merged with the links that they are fixed to.
     """
     root = etree.fromstring(text.encode(), etree.XMLParser(resolve_entities=False, no_network=True))
-    with tempfile.TemporaryDirectory(prefix="bt-studio-urdf-") as name:
-        folder = Path(name)
-        files = {}
-        for number, (mesh_name, mesh) in enumerate(meshes.items()):
-            files[mesh_name] = folder / f"mesh_{number}.obj"
-            write_obj(mesh, files[mesh_name])
-        merge_fixed_links(root, apart)
-        for link in root.findall("link"):
-            for visual in link.findall("visual"):  # visuals are for our renderer, not for Bullet
-                link.remove(visual)
-            if link.find("inertial") is None:
-                link.insert(0, etree.fromstring(_FEATHER))
-            for element in link.iterfind("collision/geometry/mesh"):
-                element.set("filename", str(files[element.get("filename", "")]))
-        path = folder / "robot.urdf"
-        path.write_bytes(etree.tostring(root))
-        yield path
+    # A manager that makes room on a full disk spares this folder, since its lock is held.
+    scratch = Scratch()
+    try:
+        yield _write(scratch.path, root, meshes, apart)
+    finally:
+        scratch.remove()
+
+
+def _write(folder: Path, root: etree._Element, meshes: dict[str, Mesh], apart: Collection[str]) -> Path:
+    files = {}
+    for number, (mesh_name, mesh) in enumerate(meshes.items()):
+        files[mesh_name] = folder / f"mesh_{number}.obj"
+        write_obj(mesh, files[mesh_name])
+    merge_fixed_links(root, apart)
+    for link in root.findall("link"):
+        for visual in link.findall("visual"):  # visuals are for our renderer, not for Bullet
+            link.remove(visual)
+        if link.find("inertial") is None:
+            link.insert(0, etree.fromstring(_FEATHER))
+        for element in link.iterfind("collision/geometry/mesh"):
+            element.set("filename", str(files[element.get("filename", "")]))
+    path = folder / "robot.urdf"
+    path.write_bytes(etree.tostring(root))
+    return path

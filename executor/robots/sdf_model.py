@@ -1,4 +1,4 @@
-"""Makes a URDF of an SDF model: links with visual and collision shapes, and joints.
+"""Makes a URDF from an SDF model: links with visual and collision shapes, and joints.
 
 The frame of a URDF link is at its joint, while that of an SDF link can be anywhere. So every pose is first
 computed in the frame of the model. The pose of the model itself is ignored, since the universe places the

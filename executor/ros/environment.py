@@ -33,5 +33,5 @@ def lockstep_environment() -> dict[str, str]:
 
 
 def has_tf() -> bool:
-    """Whether `tf2_msgs` was built at set-up; without it `/tf` is left out."""
+    """Returns whether `tf2_msgs` was built at set-up; without it `/tf` is left out."""
     return find_spec("tf2_msgs") is not None

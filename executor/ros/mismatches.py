@@ -66,7 +66,7 @@ class Mismatches:
 
 
 def _may_pass(found: TopicMismatch) -> bool:
-    """Whether a mismatch may disappear soon, since a robot can change the type of its subscription."""
+    """Returns whether a mismatch may disappear soon: a robot can change its subscription's type."""
     return found.reason == "type" and found.subscriber.startswith(f"/{OURS}")
 
 

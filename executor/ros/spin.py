@@ -137,7 +137,7 @@ class DrainingExecutor(SingleThreadedExecutor):  # type: ignore[misc]
         return calls
 
     def _may_have_more(self) -> bool:
-        """Whether other entities could be ready, which only a wait set shows."""
+        """Returns whether other entities could be ready, which only a wait set shows."""
         if self._tasks:
             return True
         return any(_has_more(node) for node in self.get_nodes())

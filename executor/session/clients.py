@@ -109,7 +109,7 @@ class Clients:
         return [client, *(c for c in (before,) if c is not None and self._clients[c].is_here)]
 
     def is_abandoned(self, now_s: float, grace_s: float) -> bool:
-        """Whether no client was connected during the grace period; a grace period of 0 never ends."""
+        """Returns whether no client was connected during the grace period; a grace period of 0 never ends."""
         return bool(grace_s) and self._empty_since_s is not None and now_s >= self._empty_since_s + grace_s
 
     # --- streams and topics -----------------------------------------------------------------------
@@ -120,7 +120,7 @@ class Clients:
             self._clients[client].has_stream = is_open
 
     def has_stream(self, client: str) -> bool:
-        """Whether frames can reach the client: its stream socket is open."""
+        """Returns whether frames can reach the client: its stream socket is open."""
         return client in self._clients and self._clients[client].has_stream
 
     def subscribe(self, client: str, data: Subscribe) -> None:
@@ -128,7 +128,7 @@ class Clients:
         self._clients[client].streams[data.stream, data.sensor] = data
 
     def subscribes_to_too_many(self, client: str, data: Subscribe) -> bool:
-        """Whether a client has reached its limit of subscriptions, without this one."""
+        """Returns whether a client has reached its limit of subscriptions, without this one."""
         streams = self._clients[client].streams
         return len(streams) >= MOST_STREAMS and (data.stream, data.sensor) not in streams
 
@@ -158,7 +158,7 @@ class Clients:
         return max((self._clients[c].echoed[topic] for c in self._echoers(topic)), default=0.0)
 
     def echoes_too_many(self, client: str, topic: str) -> bool:
-        """Whether a viewer has reached its limit of echoed topics; `topic` itself does not count."""
+        """Returns whether a viewer has reached its limit of echoed topics; `topic` itself does not count."""
         echoed = self._clients[client].echoed
         is_full = len(echoed) >= MOST_ECHOED_BY_VIEWER and topic not in echoed
         return is_full and self.role(client) == "viewer"

@@ -185,7 +185,7 @@ Event = (
 
 @dataclass(frozen=True)
 class Send:
-    """Send an event to a client, or to all with None.
+    """Sends an event to a client, or to all with None.
 
     `request` is the id of the command that the event answers.
     """
@@ -198,7 +198,7 @@ class Send:
 
 @dataclass(frozen=True)
 class Spawn:
-    """Start a child process. A failure is reported with `ChildExited`.
+    """Starts a child process. A failure is reported with `ChildExited`.
 
     For a launch node, `node` is the node to start and `folder` its working folder.
     """
@@ -211,7 +211,7 @@ class Spawn:
 
 @dataclass(frozen=True)
 class Tell:
-    """Send a message to a child. It is dropped if the child is gone: `ChildExited` follows anyway."""
+    """Sends a message to a child. It is dropped if the child is gone: `ChildExited` follows anyway."""
 
     kind: Kind
     number: int
@@ -220,7 +220,7 @@ class Tell:
 
 @dataclass(frozen=True)
 class Interrupt:
-    """Interrupt the current tick of a child by a signal."""
+    """Interrupts the current tick of a child by a signal."""
 
     kind: Kind
     number: int
@@ -228,7 +228,7 @@ class Interrupt:
 
 @dataclass(frozen=True)
 class Inspect:
-    """Dump the stacks of a silent child, and report them with `ChildTraced`."""
+    """Dumps the stacks of a silent child, and reports them with `ChildTraced`."""
 
     kind: Kind
     number: int
@@ -236,7 +236,7 @@ class Inspect:
 
 @dataclass(frozen=True)
 class Retire:
-    """Wait up to `grace_s` for a child that has received `Stop`, then kill its remaining processes."""
+    """Waits up to `grace_s` for a child that has received `Stop`, then kills its remaining processes."""
 
     kind: Kind
     number: int
@@ -245,7 +245,7 @@ class Retire:
 
 @dataclass(frozen=True)
 class Kill:
-    """Kill a child and its descendants immediately."""
+    """Kills a child and its descendants immediately."""
 
     kind: Kind
     number: int
@@ -253,7 +253,7 @@ class Kill:
 
 @dataclass(frozen=True)
 class Unpack:
-    """Unpack an archive (base64) into a new folder, and report the result with `Unpacked`."""
+    """Unpacks an archive (base64) into a new folder, and reports the result with `Unpacked`."""
 
     token: int
     archive_base64: str
@@ -261,7 +261,7 @@ class Unpack:
 
 @dataclass(frozen=True)
 class EndSession:
-    """End the manager, since no client reconnected within the grace period."""
+    """Ends the manager, since no client reconnected within the grace period."""
 
     reason: str
 

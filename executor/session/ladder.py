@@ -31,7 +31,7 @@ class State(StrEnum):
         return min(list(State).index(self), 4)
 
     def reaches(self, other: State) -> bool:
-        """Whether this rung is at least as high as `other`."""
+        """Returns whether this rung is at least as high as `other`."""
         return self.height >= other.height
 
 
@@ -132,7 +132,7 @@ TABLE: Final[dict[str, Row]] = {
 
 
 def is_legal(state: State, command: str) -> bool:
-    """Whether the command may be sent in this state."""
+    """Returns whether the command may be sent in this state."""
     return state in TABLE[command].sources
 
 

@@ -126,7 +126,7 @@ def confirmed(ordered: tuple[Child, str], what: str, timeout_s: float = REPLY_TI
 
 
 def is_spare_lost(child: Child, failure: StepFailed) -> bool:
-    """Whether a step failed because the spare that it used was frozen, or died at that moment."""
+    """Returns whether a step failed because the spare that it used was frozen, or died at that moment."""
     return not child.is_in_use and failure.code in {NOT_ANSWERING, "process_died"}
 
 

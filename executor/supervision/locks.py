@@ -17,7 +17,7 @@ YOUNGEST_S: Final = 1.0
 
 
 def is_young(file: Path) -> bool:
-    """Whether a file was made less than a moment ago, or does not exist."""
+    """Returns whether a file was made less than a moment ago, or does not exist."""
     try:
         return _is_recent(file.stat(follow_symlinks=False))
     except OSError:
@@ -25,7 +25,7 @@ def is_young(file: Path) -> bool:
 
 
 def is_abandoned(lock: Path) -> bool:
-    """Whether no process holds the lock any more.
+    """Returns whether no process holds the lock any more.
 
     False for a file that cannot be opened, since it belongs to another user.
     """
@@ -45,4 +45,5 @@ def is_abandoned(lock: Path) -> bool:
 
 
 def _is_recent(status: os.stat_result) -> bool:
-    return status.st_mtime > time.time() - YOUNGEST_S
+    # A time in the future is nobody's recent change; it could keep a file forever.
+    return abs(time.time() - status.st_mtime) < YOUNGEST_S

@@ -42,7 +42,7 @@ class RateLimit:
     _at_s: float | None = field(default=None, init=False)
 
     def admits(self, now_s: float) -> bool:
-        """Whether one more line may pass now."""
+        """Returns whether one more line may pass now."""
         if self._at_s is None:
             self._tokens, self._at_s = self.burst, now_s
         self._tokens = min(self.burst, self._tokens + (now_s - self._at_s) * self.per_s)

@@ -13,9 +13,9 @@ import tempfile
 from pathlib import Path
 from typing import Final
 
-from executor.supervision.locks import is_abandoned
+from executor.supervision.locks import is_abandoned, is_young
 
-__all__ = ["Scratch"]
+__all__ = ["Scratch", "is_in_use"]
 
 PREFIX: Final = "bt-studio-session-"
 LOCK: Final = ".lock"
@@ -40,6 +40,14 @@ class Scratch:
         if self._lock >= 0:
             os.close(self._lock)
             self._lock = -1
+
+
+def is_in_use(path: Path) -> bool:
+    """Returns whether a path is the temporary folder of a process that still runs."""
+    lock = path / LOCK
+    # Its owner may have made a young folder, and not yet locked it.
+    is_kept = is_young(path) or (lock.is_file() and not is_abandoned(lock))
+    return path.name.startswith(PREFIX) and is_kept
 
 
 def _remove_abandoned(place: Path) -> None:

@@ -10,8 +10,8 @@ import { colorSchemeManager, cssVariablesResolver, theme } from '@/ui/theme';
 import { App } from './App';
 
 /**
- * A page without its style sheets is unusable: it waits for them, and shows an error that needs no style
- * sheet if they fail.
+ * Starts the page when its style sheets are loaded, since it is unusable without them. If they fail, it shows
+ * an error that needs no style sheet.
  */
 async function start(root: HTMLElement): Promise<void> {
   try {

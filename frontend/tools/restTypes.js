@@ -1,4 +1,4 @@
-/** Writes the types of the REST API: `src/generated/api.ts`, of the server's OpenAPI document. */
+/** Writes the types of the REST API, `src/generated/api.ts`, from the server's OpenAPI document. */
 import { writeFileSync } from 'node:fs';
 import { URL } from 'node:url';
 import openapiTS, { astToString, COMMENT_HEADER } from 'openapi-typescript';
@@ -10,7 +10,7 @@ const BLOB = ts.factory.createTypeReferenceNode('Blob');
 const types = await openapiTS(DOCUMENT, {
   // A field with a default may be left out of a request.
   defaultNonNullable: false,
-  // What is no text is sent as it is.
+  // Binary values are sent as they are.
   transform: (schema) => (schema.format === 'binary' ? BLOB : undefined),
 });
 writeFileSync('src/generated/api.ts', COMMENT_HEADER + astToString(types));

@@ -1,6 +1,6 @@
 /**
- * Checks the rooms of `src` for what ESLint does not see: no module and no feature is part of a cycle of
- * imports, and no folder holds more than twenty modules without a reason.
+ * Checks the folders of `src` for two things that ESLint does not see: cycles of imports between modules or
+ * features, and folders of more than twenty modules without a reason.
  */
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { dirname, join, normalize } from 'node:path';
@@ -10,7 +10,7 @@ import ts from 'typescript';
 const ROOT = 'src';
 const MOST = 20;
 
-/** Folders that may hold more modules, each with its reason. */
+/** The folders that may have more modules, each with its reason. */
 const LARGE = {
   'src/model': 'each module is one pure part of the tree (rules, layout, ports, undo …), read by its name',
 };
@@ -38,13 +38,16 @@ const importsOf = (path) =>
     .importedFiles.map(({ fileName }) => resolve(path, fileName))
     .filter((found) => found !== null && found !== path);
 
-/** The room of a module: its feature, or its folder of `src`. */
+/** Returns the folder that a module counts for: its feature, or its folder of `src`. */
 function roomOf(path) {
   const parts = path.split('/');
   return parts.slice(0, parts[1] === 'features' ? 3 : 2).join('/');
 }
 
-/** The first cycle of a graph as the list of its members, or null: depth-first, a member met twice closes it. */
+/**
+ * Returns the members of the first cycle of a graph, or null. The search is depth-first; a node met twice
+ * closes a cycle.
+ */
 function cycleOf(graph) {
   const done = new Set();
   const trail = [];

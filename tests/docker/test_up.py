@@ -112,11 +112,13 @@ def test_only_caddy_is_reached_and_it_has_no_rights(server):
         ports, *rights = server.engine.run("inspect", "-f", format_, server.container(service)).stdout.split()
         assert (ports not in {"{}", "null"}) == (service == "caddy"), service
     assert rights == ['["ALL"]', "null", "true", "caddy"]
-    limits = "{{.HostConfig.Memory}} {{.HostConfig.PidsLimit}} {{.HostConfig.SecurityOpt}}"
+    limits = "{{.HostConfig.Memory}} {{.HostConfig.PidsLimit}} {{.HostConfig.SecurityOpt}} "
+    limits += "{{range .HostConfig.Ulimits}}{{.Name}}={{.Hard}}{{end}}"
     assert server.engine.run("inspect", "-f", limits, server.container("caddy")).stdout.split() == [
         str(512 << 20),
         "128",
         "[no-new-privileges:true]",
+        "nofile=16384",
     ]
 
 
@@ -184,7 +186,7 @@ async def test_a_dead_web_server_of_two_stops_nobody(server, ann):
     finally:
         await client.close()
     # One save may have been in the server that died; its user saves again.
-    assert refused <= 1
+    assert refused <= 1, server.compose("logs", "--tail=40", "caddy").stdout
     found = {file["path"]: file["content"] for file in ann.get(f"projects/{project}")["files"]}
     assert found["assets/note.txt"] == stored
     async with started(ann, project) as again:

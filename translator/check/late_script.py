@@ -35,7 +35,7 @@ def _scripts_in_entries(context: Context, node: Node) -> list[tuple[str, str]]:
 
 
 def _is_constant(context: Context, tree_id: str, key: str) -> bool:
-    """Whether the entry is a constant in every call of the tree."""
+    """Returns whether the entry is a constant in every call of the tree."""
     waiting, seen = [(tree_id, key)], set()
     while waiting:
         place = waiting.pop()

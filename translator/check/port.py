@@ -76,12 +76,12 @@ def check_literal(context: Context, tree: Tree, node: Node, port: PortModel, tex
 
 
 def _names_entry(node: Node, port: PortModel) -> bool:
-    """Whether the port is that of a built-in node that watches an entry; the entry's name is required."""
+    """Returns whether a port must name an entry: that of a built-in node that watches an entry."""
     return port.name == "entry" and node.type in builtins()
 
 
 def _takes_literal(port: PortModel) -> bool:
-    """Whether an output may be a literal: as an inout that is then only read, or as the name of a key."""
+    """Returns whether an output may be a literal: an inout that is then only read, or a key's name."""
     return port.direction == "inout" and port.name in {"queue", "output_key"}
 
 

@@ -219,5 +219,5 @@ def _number(value: Any) -> float:
 
 
 def looks_like_graph(raw: bytes) -> bool:
-    """Whether a JSON file is a serialisation of react-diagrams, from its beginning."""
+    """Returns whether a JSON file is a serialisation of react-diagrams, from its beginning."""
     return b'"layers"' in raw[:100_000]

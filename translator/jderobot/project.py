@@ -38,7 +38,7 @@ class _Layout:
 
 
 def is_jderobot_project(files: Mapping[str, bytes]) -> bool:
-    """Whether the files look like a project of JdeRobot's BT Studio."""
+    """Returns whether the files look like a project of JdeRobot's BT Studio."""
     return _find_layout(files) is not None
 
 

@@ -32,13 +32,13 @@ ROOT = "Root"
 
 
 def is_old_form(raw: bytes | str) -> bool:
-    """Whether a document has the root of 2024."""
+    """Returns whether a document has the root element of the 2024 format."""
     text = raw if isinstance(raw, bytes) else raw.encode("utf-8", "replace")
     return b"<Root" in text[:4096]
 
 
 def read_old_form(raw: bytes | str, *, file: str = "self_contained_tree.xml") -> Project:
-    """Makes a project of a document of 2024.
+    """Converts a document in the 2024 format to a project.
 
     Raises:
         TranslatorError: If the document cannot be read, or has no tree.
@@ -69,7 +69,7 @@ def read_old_form(raw: bytes | str, *, file: str = "self_contained_tree.xml") ->
 
 
 def write_old_form(project: Project) -> str:
-    """Returns the project in the form of 2024.
+    """Returns the project in the 2024 format.
 
     Raises:
         TranslatorError: If the project has errors, or uses what that system does not have.

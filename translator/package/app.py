@@ -49,5 +49,5 @@ def app_files(project: Project) -> dict[str, bytes]:
 
 
 def is_action_source(path: str) -> bool:
-    """Whether the file is Python of the actions: an action, or a module that actions import."""
+    """Returns whether the file is Python of the actions: an action, or a module that actions import."""
     return path.startswith("actions/") and path.endswith(".py")

@@ -47,7 +47,7 @@ KNOWN = {
 
 
 def is_for_ubuntu(entry: Any) -> bool:
-    """Whether a rosdep entry has a package for the Ubuntu version of Jazzy."""
+    """Returns whether a rosdep entry has a package for the Ubuntu version of Jazzy."""
     rule = entry.get("ubuntu") if isinstance(entry, dict) else None
     if isinstance(rule, dict) and "pip" not in rule:
         rule = rule.get(UBUNTU, rule.get("*"))

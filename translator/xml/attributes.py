@@ -28,7 +28,7 @@ _RESERVED = {"name", "ID", *METADATA, *CONDITIONS, *_SHOWN}
 
 
 def is_free(name: str) -> bool:
-    """Whether an attribute may be kept for another program: BT Studio and BT.CPP do not read it."""
+    """Returns whether an attribute may be kept for another program: BT Studio and BT.CPP do not read it."""
     return name.startswith("_") and name not in _RESERVED and is_xml_name(name)
 
 

@@ -65,7 +65,7 @@ class Switch(Control):
 
 
 def equal(left: str, right: str, enums: Mapping[str, int]) -> bool:
-    """Whether two texts are equal as strings, integers, or real numbers."""
+    """Returns whether two texts are equal as strings, integers, or real numbers."""
     if left == right:
         return True
     a, b = _integer(left, enums), _integer(right, enums)

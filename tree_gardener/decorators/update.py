@@ -38,7 +38,7 @@ class _WhenUpdated(Decorator):
         return self.skipped()
 
     def is_updated(self) -> bool:
-        """Whether the entry was written since the last test."""
+        """Returns whether the entry was written since the last test."""
         entry = self.board.find(self.key)
         if entry is None:
             return False

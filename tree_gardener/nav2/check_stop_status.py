@@ -44,5 +44,5 @@ class CheckStopStatus(Behaviour):
 
 
 def is_slow(twist: Any, threshold: float) -> bool:
-    """Whether a velocity is below the threshold, along both axes and in turning."""
+    """Returns whether a velocity is below the threshold, along both axes and in turning."""
     return all(abs(speed) < threshold for speed in (twist.linear.x, twist.linear.y, twist.angular.z))

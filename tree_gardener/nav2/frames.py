@@ -30,7 +30,7 @@ class Frames:
         return str(input_or(self._node, port, "") or parameter(self._ros_node, port, FRAMES[port]))
 
     def can_transform(self, target: str, source: str) -> bool:
-        """Whether a transform between two frames is known."""
+        """Returns whether a transform between two frames is known."""
         if self._buffer is None:
             return False
         from rclpy.time import Time  # noqa: PLC0415 - only where ROS is

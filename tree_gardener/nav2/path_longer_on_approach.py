@@ -48,7 +48,7 @@ class PathLongerOnApproach(DecoratorNode):
         return Status.SUCCESS
 
     def is_longer(self, new: list[Any], old: list[Any]) -> bool:
-        """Whether the new path is an update of the old one and much longer, and the old one is short."""
+        """Returns whether the new path is an update of the old, short one, and much longer."""
         length = path_length(old)
         return (
             len(new) != len(old) and length < self.prox_len and path_length(new) > self.length_factor * length

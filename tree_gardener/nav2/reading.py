@@ -9,7 +9,7 @@ from tree_gardener.status import Status
 
 
 def is_active(node: Any) -> bool:
-    """Whether a node was ticked since its parent reset it: its stored status is not IDLE."""
+    """Returns whether a node was ticked since its parent reset it: its stored status is not IDLE."""
     return node_of(node).status is not Status.IDLE
 
 

@@ -117,7 +117,7 @@ class Generator(Writer):
         return self.known(expression.value)
 
     def is_fixed(self, expression: Expression) -> bool:
-        """Whether an expression uses no entry."""
+        """Returns whether an expression uses no entry."""
         if isinstance(expression, Name):
             return self.enums.get(expression.name) is not None
         return not isinstance(expression, Assignment) and all(map(self.is_fixed, parts(expression)))

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def domain_is_allowed(email: str) -> bool:
-    """Whether `BT_STUDIO_ALLOWED_EMAIL_DOMAINS` permits this address to sign up."""
+    """Returns whether `BT_STUDIO_ALLOWED_EMAIL_DOMAINS` permits this address to sign up."""
     domains = environment().allowed_email_domains
     return not domains or email.rpartition("@")[2].lower() in domains
 
@@ -30,7 +30,7 @@ class AccountAdapter(DefaultAccountAdapter):  # type: ignore[misc]
     """Sign-in with name or e-mail and a password."""
 
     def is_open_for_signup(self, request: HttpRequest) -> bool:
-        """Whether this visitor may sign up: with an invitation, or if the administrator allows it."""
+        """Returns whether this visitor may sign up: with an invitation, or if the administrator allows it."""
         return environment().registration == "open" or invitations.of_browser(request) is not None
 
     def clean_email(self, email: str) -> str:
@@ -91,7 +91,7 @@ class AccountAdapter(DefaultAccountAdapter):  # type: ignore[misc]
         super().send_mail(template_prefix, email, context)
 
     def is_safe_url(self, url: str) -> bool:
-        """Whether the URL is a path on this server."""
+        """Returns whether the URL is a path on this server."""
         return url.startswith("/") and not url.startswith(("//", "/\\")) and "\\" not in url
 
 

@@ -45,12 +45,12 @@ _OTHERS: Final = "bytes_of_others"
 
 
 def is_here() -> bool:
-    """Whether the database is PostgreSQL, which these statements require."""
+    """Returns whether the database is PostgreSQL, which these statements require."""
     return connection.vendor == "postgresql"
 
 
 def has_room(writing: Writing) -> bool:
-    """Whether the change has few enough files for one statement."""
+    """Returns whether the change has few enough files for one statement."""
     return max(len(writing.drafts), len(writing.revisions)) <= FILES
 
 

@@ -74,7 +74,7 @@ class _Contents:
         self._nodes: dict[str, int] = {}
 
     def may_exceed(self, trees: Sequence[_Tree], most: int) -> bool:
-        """Whether the trees could have more than `most` nodes, by an estimate that needs no parsing."""
+        """Returns whether the trees could have more than `most` nodes, by an estimate without parsing."""
         if sum(tree.size for tree in trees) <= most * NODE_BYTES:
             return False
         return sum(self._data(tree).count(MARK) for tree in trees) > most

@@ -143,7 +143,7 @@ def _conflict(
 
 
 def _is_same(change: FileChange, existing: Existing) -> bool:
-    """Whether the file already has the requested state. A repeated save then does not count as a conflict."""
+    """Returns whether the file already has the requested state: then a repeated save is no conflict."""
     return change.content is not None and not change.rename_to and change.content.sha256 == existing.sha256
 
 

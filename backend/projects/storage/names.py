@@ -95,7 +95,7 @@ def writable_path(path: str, *, field: str = "path") -> str:
 
 
 def is_of_tool(path: str) -> bool:
-    """Whether a file belongs to a tool, such as `.git/config`; the translator defines the rule."""
+    """Returns whether a file belongs to a tool, such as `.git/config`; the translator defines the rule."""
     from translator.foreign import is_of_tool as rule  # noqa: PLC0415 - keeps the start of the server short
 
     return rule(path)

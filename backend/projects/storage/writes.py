@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 def create_project(
     files: Mapping[str, bytes], *, acting_user: User, name: str = "", message: str = "Create the project"
 ) -> Project:
-    """Makes a project of these files.
+    """Makes a project from these files.
 
     Args:
         files: the contents by path; `project.json` is added if it is missing.
@@ -181,7 +181,7 @@ def label_revision(
 
 @transaction.atomic
 def duplicate_project(project_id: UUID, *, acting_user: User, name: str = "") -> Project:
-    """Makes a new project of the current files, without their history."""
+    """Makes a new project from the current files, without their history."""
     source = queries.project(project_id, user=acting_user, need=Need.COPY)
     kept_files = queries.current_files(source)
     files = {path: file.data for path, file in kept_files.items() if not names.is_of_tool(path)}

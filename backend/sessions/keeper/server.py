@@ -54,7 +54,7 @@ class KeeperServer(socketserver.ThreadingUnixStreamServer):
         self.socket = listen_at(path)
 
     def verify_request(self, *_: object) -> bool:
-        """Whether one more request may be handled."""
+        """Returns whether one more request may be handled."""
         if self._places.acquire(blocking=False):
             return True
         log.warning("%d requests at once are too many", MAX_REQUESTS)
@@ -177,7 +177,7 @@ class _Handler(BaseHTTPRequestHandler):
 
 
 def _names(body: dict[str, Any], what: str) -> bool:
-    """Whether a body has a valid id (in the field `what`), a valid token and a valid timeout."""
+    """Returns whether a body has a valid id (in the field `what`), a valid token and a valid timeout."""
     made_id, token, timeout_s = body.get(what), body.get("token"), body.get("timeout_s", 30)
     return (
         isinstance(made_id, str)

@@ -159,7 +159,7 @@ class Keeper:
                 log.warning("session %s: %s", one["session"], error.detail)
 
     def _is_unreachable(self, session_id: str) -> bool:
-        """Whether the socket of a session no longer exists.
+        """Returns whether the socket of a session no longer exists.
 
         This happens if the stack was given other volumes.
         """

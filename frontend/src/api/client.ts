@@ -18,17 +18,17 @@ type ProjectQuery = Required<NonNullable<operations['list_projects']['parameters
 export type ProjectSort = ProjectQuery['sort'];
 export type ProjectShelf = ProjectQuery['shelf'];
 
-/** One page of a list that may be long. */
+/** One page of the list of projects, which may be long. */
 type ProjectPage = Omit<components['schemas']['ProjectList'], 'items'> & { items: ProjectSummary[] };
 
-/** As many cards as fill a large screen twice. */
+/** The number of projects on one page: it fills a large screen twice. */
 const PAGE = 48;
 
 const project = (id: string) => `/projects/${encodeURIComponent(id)}`;
 const inProject = (project_id: string) => ({ path: { project_id } });
 const abortedBy = (signal: AbortSignal | undefined) => ({ signal: signal ?? null });
 
-/** Every call of the REST API, one function each. Refusals are thrown as `ApiError`. */
+/** The calls of the REST API, one function each. They throw a refusal as `ApiError`. */
 export const api = {
   me: () => dataOf(rest.GET('/api/v1/me')),
 
@@ -55,7 +55,7 @@ export const api = {
     dataOf(rest.POST('/api/v1/projects/{project_id}/unarchive', { params: inProject(id) })),
   duplicateProject: (id: string): Promise<ProjectDetail> =>
     dataOf(rest.POST('/api/v1/projects/{project_id}/duplicate', { params: inProject(id), body: {} })),
-  // The file is the body itself: it may then be larger than any other request.
+  // The file is the body itself, so it may be larger than any other request.
   importProject: ({ file, repair }: { file: File; repair: boolean }): Promise<ProjectDetail> => {
     const query = { filename: file.name, ...(repair ? { repair } : {}) };
     return dataOf(
@@ -109,7 +109,7 @@ export const api = {
     return (await dataOf(rest.POST('/api/v1/python/lint', { body, ...abortedBy(signal) }))).findings;
   },
 
-  /** The application as it runs, optionally in another universe than the project names. */
+  /** Returns the application as it runs, optionally in a universe other than the project's. */
   app: (id: string, universe?: string | null) => {
     const params = { ...inProject(id), ...(universe ? { query: { universe } } : {}) };
     return dataOf(rest.GET('/api/v1/projects/{project_id}/app', { params }));

@@ -11,7 +11,7 @@ const answer = (body: unknown, status: number, type = 'application/problem+json'
 afterEach(() => vi.unstubAllGlobals());
 
 describe('errorFrom', () => {
-  it('keeps what the server says', async () => {
+  it('keeps the problem that the server sent', async () => {
     const error = await errorFrom(
       answer({ title: 'Taken', code: 'name_taken', detail: 'There is one.', hint: 'Choose another.' }, 409),
     );
@@ -19,19 +19,19 @@ describe('errorFrom', () => {
     expect(error.hint).toBe('Choose another.');
   });
 
-  it('makes a problem of an answer that is none', async () => {
+  it('makes a problem of a body that is not problem+json', async () => {
     const error = await errorFrom(answer('<h1>Bad gateway</h1>', 502, 'text/html'));
     expect(error).toMatchObject({ status: 502, code: 'http_502' });
   });
 
-  it('survives JSON that is cut off', async () => {
+  it('accepts JSON that is cut off', async () => {
     const error = await errorFrom(answer('{"title": "Cu', 500));
     expect(error.status).toBe(500);
   });
 });
 
 describe('api', () => {
-  it('says so when the server cannot be reached', async () => {
+  it('reports that the server cannot be reached', async () => {
     vi.stubGlobal('fetch', () => Promise.reject(new TypeError('Failed to fetch')));
     const error = await api.me().catch((reason: unknown) => reason);
     expect(error).toBeInstanceOf(ApiError);

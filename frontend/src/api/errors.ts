@@ -1,8 +1,6 @@
 import type { Conflict, Diagnostic, Problem } from './types';
 
-/**
- * A request that failed: with the server's problem, or because the server could not be reached (`offline`).
- */
+/** A failed request: the server refused it, or could not be reached (`isOffline`). */
 export class ApiError extends Error {
   override readonly name = 'ApiError';
 
@@ -30,7 +28,7 @@ export class ApiError extends Error {
     return this.problem.conflicts ?? [];
   }
 
-  /** No answer came: the same request may succeed later. */
+  /** Returns whether no answer came: the same request may succeed later. */
   get isOffline(): boolean {
     return this.problem.status === 0;
   }

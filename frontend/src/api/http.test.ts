@@ -15,7 +15,7 @@ it('keeps the slashes of a file, and encodes everything else', async () => {
   expect(asked(server)).toEqual(['GET /projects/a%2Fb/revisions/3/files/actions/%C3%A1%20b.py']);
 });
 
-it('asks for a page of projects', async () => {
+it('requests a page of projects', async () => {
   const page = { items: [], total: 0, next_offset: null };
   const path = '/projects?search=a%20b&sort=-updated_at&shelf=current&offset=48&limit=48';
   fakeServer({ [`GET ${path}`]: page });
@@ -30,7 +30,7 @@ it('sends a file as it is', async () => {
   expect(server.requests[0]?.body).toBe(file);
 });
 
-it('sends what is saved while the page goes away', async () => {
+it('sends a save while the page is closing', async () => {
   const fetched = vi.fn((_: Request) => Promise.resolve(Response.json({ revision: 2 })));
   vi.stubGlobal('fetch', fetched);
   await api.saveChanges('p1', { message: '', files: [] }, true);
@@ -41,7 +41,7 @@ it('sends what is saved while the page goes away', async () => {
   vi.unstubAllGlobals();
 });
 
-it('goes to sign in when the session has ended, and still refuses', async () => {
+it('goes to the sign-in page when the user is signed out, and still rejects', async () => {
   const problem = { title: 'Sign in', code: 'not_authenticated', status: 401 };
   fakeServer({ 'GET /me': Response.json(problem, { status: 401 }) });
   const { origin, pathname } = window.location;
@@ -59,12 +59,12 @@ it.each([409, 422, 503])('throws the problem of a refusal with %i', async (statu
   expect(error).toMatchObject({ problem, message: 'Not now.', hint: 'Later.', isOffline: false });
 });
 
-it('answers nothing where the server has nothing to say', async () => {
+it('resolves with nothing where the server sends no body', async () => {
   fakeServer({ 'DELETE /projects/p1': new Response(null, { status: 204 }) });
   expect(await api.deleteProject('p1')).toBeUndefined();
 });
 
-it('tells an aborted request from a lost server', async () => {
+it('distinguishes an aborted request from an unreachable server', async () => {
   vi.stubGlobal('fetch', ({ signal }: Request) => Promise.reject(signal.reason as Error));
   const abort = new AbortController();
   abort.abort();
@@ -72,7 +72,7 @@ it('tells an aborted request from a lost server', async () => {
   vi.unstubAllGlobals();
 });
 
-it('knows the addresses of downloads and sockets', () => {
+it('returns the addresses of downloads and sockets', () => {
   expect(urlOf('/me/data')).toBe('/api/v1/me/data');
   expect(socketUrl('/ws/x')).toBe(`ws://${window.location.host}/ws/x`);
 });

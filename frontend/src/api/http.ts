@@ -10,25 +10,25 @@ const judge: Middleware = {
     return isAborted ? undefined : offlineError(error);
   },
   onResponse: async ({ response }) => {
-    // The session has ended, in another tab or by itself.
+    // The user is signed out: in another tab, or because the sign-in expired.
     if (response.status === 401) window.location.assign(signInPath());
     if (!response.ok) throw await errorFrom(response);
   },
 };
 
-/** The REST API by its generated paths. Refusals are thrown as `ApiError`. */
+/** The REST API by its generated paths. It throws refusals as `ApiError`. */
 export const rest = createClient<paths>({
   baseUrl: window.location.origin,
   credentials: 'same-origin',
   headers: { Accept: 'application/json' },
-  // Looked up at each call, so that tests can replace it.
+  // The function is looked up at each call, so that tests can replace it.
   fetch: (request) => globalThis.fetch(request),
   pathSerializer: (template, values) =>
     template.replace(/\{(\w+)\}/g, (_, name: string) => encoded(name, String(values[name]))),
 });
 rest.use(judge);
 
-/** A file's path keeps its slashes. */
+/** Encodes a parameter of a path; a file's path keeps its slashes. */
 const encoded = (name: string, value: string): string =>
   name === 'path' ? value.split('/').map(encodeURIComponent).join('/') : encodeURIComponent(value);
 
@@ -36,7 +36,7 @@ function signInPath(): string {
   return `/accounts/login/?next=${encodeURIComponent(window.location.pathname)}`;
 }
 
-/** What a call answered; the middleware has thrown its refusal already. */
+/** Returns the body of an answer; the middleware has already thrown a refusal. */
 export async function dataOf<Data>(
   answer: Promise<{ readonly data: Data } | { readonly error: unknown }>,
 ): Promise<Data> {
@@ -45,17 +45,17 @@ export async function dataOf<Data>(
   return found.data;
 }
 
-/** For calls that answer nothing. */
+/** Waits for a call whose answer has no body. */
 export async function done(answer: Promise<unknown>): Promise<void> {
   await answer;
 }
 
-/** The address of something that the browser itself fetches, such as a download. */
+/** Returns the address of something that the browser itself fetches, such as a download. */
 export function urlOf(path: string): string {
   return BASE + path;
 }
 
-/** A socket's address on the page's own origin. */
+/** Returns a socket's address on the page's own origin. */
 export function socketUrl(path: string): string {
   const { protocol, host } = window.location;
   return `${protocol === 'https:' ? 'wss' : 'ws'}://${host}${path}`;

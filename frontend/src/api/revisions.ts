@@ -3,15 +3,18 @@ import { ApiError } from './errors';
 import { dataOf, rest } from './http';
 import type { ProjectDetail } from './types';
 
-/** One change of a project, as its history tells it. */
+/** One change of a project, as its history lists it. */
 export type Revision = Readonly<components['schemas']['Revision']>;
-/** Its `diff` is null where a side is no text, or too long to be compared there. */
+/**
+ * The difference of a file between two revisions. `diff` is null if a side is not text, or too long to be
+ * compared on the server.
+ */
 export type FileDifference = Readonly<components['schemas']['FileDiff']>;
 
 const PAGE = 100;
 const at = (project_id: string, number: number) => ({ path: { project_id, number } });
 
-/** The history of a project. */
+/** The calls for the history of a project. */
 export const revisions = {
   list: (project_id: string, path: string, before: number | null, signal?: AbortSignal) => {
     const query = { limit: PAGE, ...(path ? { path } : {}), ...(before === null ? {} : { before }) };
@@ -25,7 +28,7 @@ export const revisions = {
         body: { label },
       }),
     ),
-  /** Makes a new revision with these files, or all, as they were. */
+  /** Restores these files, or all, of an old revision as a new revision. */
   restore: (projectId: string, number: number, paths: readonly string[]): Promise<ProjectDetail> =>
     dataOf(
       rest.POST('/api/v1/projects/{project_id}/revisions/{number}/restore', {
@@ -40,7 +43,7 @@ export const revisions = {
     );
     return answer.files;
   },
-  /** A file as it was; null where it was not there, or is no text. */
+  /** Returns a file's text at a revision; null if the file did not exist then, or is not text. */
   text: async (project_id: string, number: number, path: string, signal?: AbortSignal) => {
     if (number === 0) return null;
     try {

@@ -1,6 +1,6 @@
 /**
- * What the REST API speaks, by the generated types. Of some answers the page also makes its own, with less in
- * them: these types ask for no more than the page needs.
+ * The types of the REST API's data. The page builds some of them itself, with fewer fields: these types
+ * require only the fields that the page needs.
  */
 import type { components } from '@/generated/api';
 import type { OnError, OnFinish } from '@/generated/messages';
@@ -15,30 +15,30 @@ export type Diagnostic = Needs<Server['Diagnostic'], 'code' | 'severity' | 'mess
 
 export type ActionPort = Needs<Server['Port'], 'name' | 'direction' | 'type'>;
 
-/** What reading an action's source says about it. */
+/** The description of an action, read from its source. */
 export type ActionModel = Needs<Omit<Server['Action'], 'ports' | 'diagnostics'>, 'name' | 'kind' | 'open'> & {
   ports: ActionPort[];
   diagnostics?: Diagnostic[];
-  /** Set by the page: the Python cannot be read now, and this is its last declaration. */
+  /** Set by the page: the Python has a syntax error now, so this is its last valid declaration. */
   outdated?: boolean;
 };
 
-/** Answers that tell of a project what the translator found in it. */
+/** An answer about a project, with the findings of the translator. */
 type Checked<T extends Server['Report']> = Omit<T, keyof Server['Report'] | 'files' | 'settings'> & {
   diagnostics: Diagnostic[];
   actions: ActionModel[];
-  /** `false`: the project could not be checked, and its actions are not known. */
+  /** `false`: the project could not be checked, so its actions are unknown. */
   checked?: boolean;
 };
 
-/** `project.json`, which is a file of the user: other keys stay as they are. */
+/** `project.json`. It is a file of the user: other keys are kept. */
 export interface ProjectSettings {
   name: string;
   description?: string;
   main_tree: string;
   tick_hz?: number;
   universe?: string;
-  /** Absent: the universe's own. */
+  /** Absent: the universe's own robot. */
   robot?: string | undefined;
   on_finish?: OnFinish;
   on_error?: OnError;
@@ -52,36 +52,36 @@ export type ProjectFile = Needs<Server['File'], keyof Server['FileInfo'] | 'cont
 export type ProjectDetail = ProjectSummary &
   Checked<Server['Report']> & { settings: Server['ProjectDetail']['settings']; files: ProjectFile[] };
 
-/** One file of a change set; `base_revision` 0 says that it must not exist yet. */
+/** One file of a change set; `base_revision` 0 requires that the file does not exist yet. */
 export type FileChange = Server['FileChangeRequest'];
 export type ChangesResult = Checked<Server['ChangesDone']> & {
   files: Needs<Server['FileInfo'], 'path' | 'revision'>[];
 };
-/** Two versions of one file: what the server holds, and what was sent on an older base. */
+/** Two versions of one file: the server's, and the one that was sent on an older base. */
 export type Conflict = Omit<Server['Conflict'], 'theirs'> & {
-  /** `null`: the file was deleted there. */
+  /** `null`: the file was deleted on the server. */
   theirs: Needs<Server['Theirs'], 'revision' | 'content'> | null;
 };
 export type CheckResult = Checked<Server['Report']>;
 
-/** What the executor runs. */
+/** The application that the executor runs. */
 export type AppBundle = Server['App'];
 export type SessionInfo = Needs<
   Server['Session'],
   'id' | 'state' | 'position' | 'control_url' | 'stream_url'
 >;
 
-/** What a ROS 2 package will hold, before it is downloaded. */
+/** The contents of a ROS 2 package, before it is downloaded. */
 export type PackagePreview = Omit<Server['PackagePreview'], 'diagnostics'> & { diagnostics: Diagnostic[] };
 
 export type TemplateInfo = Needs<Server['Template'], 'id' | 'name' | 'description'>;
-/** A behaviour of the built-in library; texts are by language. */
+/** A behaviour of the built-in library, with its texts by language. */
 export type BehaviourInfo = Server['Behaviour'];
-/** A universe or a robot to choose; `preview` is the address of its picture. */
+/** A universe or a robot that can be chosen; `preview` is the address of its picture. */
 export type UniverseInfo = Needs<Server['Entry'], 'id' | 'name'>;
 export type Me = Server['Me'];
 
-/** RFC 9457 body of every refusal; the page makes some itself, when no server answers. */
+/** The RFC 9457 body of a refusal. The page makes one itself when no server answers. */
 export type Problem = Needs<Server['Problem'], 'title' | 'status' | 'code'> & {
   diagnostics?: Diagnostic[];
   conflicts?: Conflict[];

@@ -22,5 +22,5 @@ const languages = (Object.keys(LANGUAGES) as Language[]).map((code): UserCommand
   run: () => setLanguage(code),
 }));
 
-/** The commands of both the start page and an open project. */
+/** The commands that exist both on the start page and in an open project. */
 export const everywhere: readonly UserCommand[] = [palette, ...languages];

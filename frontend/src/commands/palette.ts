@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-/** The document whose window shows the command palette: a panel can have a window of its own. */
+/** The document whose window shows the command palette: a panel can be in a window of its own. */
 export const usePalette = create<{ readonly page: Document | null }>(() => ({ page: null }));
 
 export function openPalette(page: Document = document): void {

@@ -3,7 +3,7 @@ import { create } from 'zustand';
 
 export type CommandGroup = 'run' | 'edit' | 'project' | 'view' | 'canvas' | 'go' | 'rates';
 
-/** A command of the user: one row serves the toolbar, the shortcuts and the command palette. */
+/** A user command: one entry serves the toolbar, the shortcuts and the command palette. */
 export interface UserCommand {
   id: string;
   group: CommandGroup;
@@ -17,11 +17,13 @@ export interface UserCommand {
   /** Keys that another listener handles, in the same notation: shown, but not bound here. */
   keys?: string;
   enabled?: () => boolean;
-  /** `page` is the document where the user called the command: a panel can have a window of its own. */
+  /**
+   * Runs the command. `page` is the document where the user called it: a panel can be in a window of its own.
+   */
   run: (page?: Document) => void;
-  /** Not listed in the command palette. */
+  /** Whether the command palette leaves it out. */
   hidden?: boolean;
-  /** The shortcut also works while a text field has the focus. */
+  /** Whether the shortcut also works while a text field has the focus. */
   inTextFields?: boolean;
 }
 
@@ -31,7 +33,7 @@ interface CommandTable {
 
 export const useCommandTable = create<CommandTable>(() => ({ commands: {} }));
 
-/** Adds rows to the table; the returned function removes them. */
+/** Adds commands to the table; returns a function that removes them. */
 export function registerCommands(rows: readonly UserCommand[]): () => void {
   useCommandTable.setState(({ commands }) => {
     const next = { ...commands };

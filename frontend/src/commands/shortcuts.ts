@@ -49,7 +49,7 @@ function ownCopy(event: KeyboardEvent): KeyboardEvent {
 }
 
 /**
- * Binds all shortcuts of the table to a window, also those that are added later; returns a function that
+ * Binds all shortcuts of the table to a window, and those that are added later; returns a function that
  * unbinds them.
  */
 export function bindShortcuts(target: Window): () => void {
@@ -79,13 +79,13 @@ const KEY_NAMES: Record<string, string> = {
   Delete: 'Del',
 };
 
-/** The keys of a command for display; null if it has none. */
+/** Returns the keys of a command for display; null if it has none. */
 export function keysOf({ shortcut, keys }: UserCommand): string | null {
   const known = shortcut ?? keys;
   return known === undefined ? null : shortcutLabel(known);
 }
 
-/** A shortcut for display: `Ctrl+Shift+P`. */
+/** Returns a shortcut as it is displayed: `Ctrl+Shift+P`. */
 export function shortcutLabel(shortcut: string): string {
   return shortcut
     .split('+')

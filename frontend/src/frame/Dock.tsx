@@ -59,7 +59,8 @@ function renderTabButton(node: TabNode, values: ITabRenderValues): void {
   }
   const camera = cameraOf(node);
   const title = `${titleOf(node)} · ${camera}`;
-  // The library takes the tab's accessible name from here too, but its type does not say so.
+  // The library also takes the tab's accessible name from these values, although its type does not declare
+  // it.
   if (camera !== null) Object.assign(values, { content: title, name: title });
   if (tab) return;
   const Icon = panelIcon(node.getComponent() ?? '');
@@ -67,7 +68,7 @@ function renderTabButton(node: TabNode, values: ITabRenderValues): void {
   values.buttons.push(<PanelBadge key="badge" panel={node.getId()} />);
 }
 
-/** The button for tabs that do not fit; it shows their number. */
+/** The icons of the docking library. The button for tabs that do not fit shows their number. */
 const ICONS: IIcons = {
   more: (_tabset, hidden) => (
     <>
@@ -77,7 +78,7 @@ const ICONS: IIcons = {
   ),
 };
 
-/** Translations of the docking library's texts, by its own keys. */
+/** The texts of the docking library: its keys, with our own. */
 const WORDS: ReadonlyMap<string, string> = new Map([
   [I18nLabel.Close_Tab, 'dock.closeTab'],
   [I18nLabel.Close_Tabset, 'dock.closeTabs'],
@@ -94,17 +95,20 @@ const WORDS: ReadonlyMap<string, string> = new Map([
   [I18nLabel.Error_rendering_component_retry, 'dock.retry'],
 ]);
 
-/** Translates at each call, since the library keeps this function when the language changes. */
+/**
+ * Translates a text of the library. It does so at each call, since the library keeps this function when the
+ * language changes.
+ */
 function translated(key: string): string {
   const word = WORDS.get(key) ?? key;
-  // Names of trees and files come from the user, and may equal one of our text keys.
+  // Trees and files have names from the user, which may equal one of our text keys.
   const isOurs = word !== key || key.startsWith('panel.');
   return isOurs && translates(`frame:${word}`) ? t(`frame:${word}`) : word;
 }
 
 /**
- * Delays an action: of several in a row the last runs after a moment, or at once when the page closes; none
- * runs once the panels are gone.
+ * Returns a function that delays an action. Of several actions in a row, only the last runs: after a moment,
+ * or at once when the page closes. None runs after the panels are removed.
  */
 function useLater(): (act: () => void) => void {
   const waiting = useRef<{ act: () => void; timer: ReturnType<typeof setTimeout> } | null>(null);
@@ -130,10 +134,13 @@ function useLater(): (act: () => void) => void {
   };
 }
 
-/** Shows icons on tabs whose names do not fit, after each change of the layout, its size or the language. */
+/**
+ * Marks bars of tabs whose names do not fit, so that they show icons, after each change of the layout, its
+ * size or the language.
+ */
 function useCutTabs(language: string): { root: RefObject<HTMLDivElement | null>; measure: () => void } {
   const root = useRef<HTMLDivElement>(null);
-  // After the docking library has drawn the change.
+  // The bars are measured after the docking library has drawn the change.
   const measure = useCallback(() => {
     requestAnimationFrame(() => {
       if (root.current) markCutTabs(root.current);
@@ -149,7 +156,7 @@ function useCutTabs(language: string): { root: RefObject<HTMLDivElement | null>;
   return { root, measure };
 }
 
-/** The panels, which the user can arrange. */
+/** The dock: panels and documents, which the user can arrange. */
 export function Dock({ model, width }: DockProps) {
   const { i18n } = useTranslation('frame');
   const { root, measure } = useCutTabs(i18n.language);

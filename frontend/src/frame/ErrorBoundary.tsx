@@ -12,8 +12,8 @@ interface State {
 }
 
 /**
- * Shown for an internal error or a part that did not load: it says that edits are kept, and offers to
- * continue.
+ * The message for an internal error, or for a part that did not load. It says that edits are kept, and offers
+ * to continue.
  */
 export class ErrorBoundary extends Component<Props, State> {
   override state: State = { error: null };

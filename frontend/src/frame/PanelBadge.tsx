@@ -6,7 +6,7 @@ interface PanelBadgeProps {
   readonly panel: string;
 }
 
-/** The number of problems, on the tab of their panel. */
+/** The number of problems, on the tab of the Problems panel. */
 export function PanelBadge({ panel }: PanelBadgeProps) {
   return panel === 'problems' ? <ProblemsBadge /> : null;
 }
@@ -18,7 +18,7 @@ function ProblemsBadge() {
     <span
       className={classes['badge']}
       data-severity={errors > 0 ? 'error' : 'warning'}
-      // Not as text: the name of the tab is that of its panel. The status bar says the number.
+      // The number is no text, so that the tab keeps the name of its panel. The status bar states it as text.
       data-count={errors > 0 ? errors : warnings}
     />
   );

@@ -3,7 +3,7 @@ import { useEffect } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useSavingStore } from '@/store/saving/store';
 
-/** Notifies the user that unsaved edits were restored. */
+/** A notification that unsaved edits were restored. */
 export function RestoredNotice() {
   const { t } = useTranslation('frame');
   const restored = useSavingStore((state) => state.restoredFiles);

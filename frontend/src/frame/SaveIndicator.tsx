@@ -13,7 +13,7 @@ const ICONS: Record<SaveState['kind'], typeof IconCloudCheck> = {
   conflict: IconGitMerge,
 };
 
-/** Shows whether the server has saved the edits; always visible. */
+/** The indicator of whether the server has saved the edits; it is always visible. */
 export function SaveIndicator() {
   const { t } = useTranslation('frame');
   const state = useSavingStore((saving) => saving.state);

@@ -46,13 +46,13 @@ function ConnectionStatus() {
   );
 }
 
-/** The readable form of an id such as `walled_room`. */
+/** Returns an id such as `walled_room` in readable form. */
 function titleOf(universe: string): string {
   const words = universe.replaceAll('_', ' ');
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
-/** The universe of the next run; a click opens the chooser. */
+/** The button with the universe of the next run; it opens the chooser. */
 function UniverseButton() {
   const { t } = useTranslation('frame');
   const own = useProjectStore((state) => state.settings?.universe ?? '');
@@ -94,7 +94,7 @@ function ProblemCount() {
   );
 }
 
-/** The numbers of the simulation, also as data attributes for tests. */
+/** The simulation's numbers, also as data attributes for tests. */
 function SimStatus() {
   const { t } = useTranslation('frame');
   const sim = useSessionStore((state) => state.sim);

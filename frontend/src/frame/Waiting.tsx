@@ -2,11 +2,11 @@ import { Center, Loader, Stack, Text } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 
 interface WaitingProps {
-  /** The key in `frame:waiting` of the reason. */
+  /** The reason for waiting: a key in `frame:waiting`. */
   readonly reason: 'openingProject' | 'loadingViewer' | 'loadingEditor';
 }
 
-/** A spinner with a reason. */
+/** A spinner with the reason for waiting. */
 export function Waiting({ reason }: WaitingProps) {
   const { t } = useTranslation('frame');
   return (

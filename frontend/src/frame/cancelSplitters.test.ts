@@ -27,7 +27,7 @@ function begin() {
     document.removeEventListener('pointercancel', lost);
   });
   const before = weights(model);
-  /** The docking library resizes the panels while the line is dragged. */
+  /** Drags the line between two panels; the docking library resizes the panels meanwhile. */
   const drag = () => {
     fireEvent.pointerDown(splitter, { pointerId: 4, button: 0 });
     model.doAction(Actions.adjustWeights(model.getRootRow()!.getId(), [40, 30, 30]));
@@ -35,7 +35,7 @@ function begin() {
   return { model, before, drag, lost, splitter, end };
 }
 
-it('Escape gives the panels their sizes of before, and ends the drag', () => {
+it('Escape restores the sizes of the panels, and ends the drag', () => {
   const { model, before, drag, lost, splitter } = begin();
   drag();
   expect(weights(model)).toEqual([40, 30, 30]);
@@ -45,7 +45,7 @@ it('Escape gives the panels their sizes of before, and ends the drag', () => {
   expect(splitter.releasePointerCapture).toHaveBeenCalledExactlyOnceWith(4);
 });
 
-it('the sizes are set as they are while the line is dragged, and then drawn', () => {
+it('the sizes are set as during a drag, and then drawn', () => {
   const { model, drag } = begin();
   drag();
   const listener = vi.fn((action: Action) => action.isAdjusting());
@@ -54,7 +54,7 @@ it('the sizes are set as they are while the line is dragged, and then drawn', ()
   expect(listener.mock.results.map(({ value }) => value as boolean)).toEqual([true, false]);
 });
 
-it('a line that is dropped stays', () => {
+it('a finished drag keeps its sizes', () => {
   const { model, drag } = begin();
   drag();
   fireEvent.pointerUp(document.body, { pointerId: 4 });
@@ -62,7 +62,7 @@ it('a line that is dropped stays', () => {
   expect(weights(model)).toEqual([40, 30, 30]);
 });
 
-it('presses elsewhere, and those after its end, are nothing to it', () => {
+it('presses elsewhere, and presses after its end, have no effect', () => {
   const { model, drag, end, lost } = begin();
   fireEvent.pointerDown(document.body, { pointerId: 4, button: 0 });
   fireEvent.keyDown(document.body, { key: 'Escape' });

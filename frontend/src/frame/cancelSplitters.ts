@@ -1,7 +1,7 @@
 import { Actions, RowNode, TabSetNode, type Model } from 'flexlayout-react';
 import { cancellable } from '@/ui/cancellable';
 
-/** The weights of the children of each row of panels. */
+/** Returns the weights of the children of each row of panels. */
 function weightsOf(model: Model): ReadonlyMap<string, readonly number[]> {
   const weights = new Map<string, readonly number[]>();
   model.visitNodes((node) => {
@@ -20,15 +20,16 @@ function restore(model: Model, weights: ReadonlyMap<string, readonly number[]>):
     const row = model.getNodeById(id);
     if (!(row instanceof RowNode)) continue;
     if (childWeights(row).every((weight, at) => weight === before[at])) continue;
-    // On the way the library sets the sizes past React, which then sees no change to what it drew before.
+    // During a drag the library sets the sizes without React. React must first see another state, or it would
+    // not draw the old one.
     model.doAction(Actions.adjustWeights(id, [...before]).setAdjusting(true));
     model.doAction(Actions.adjustWeights(id, [...before]));
   }
 }
 
 /**
- * Lets Escape cancel a drag of the line between two panels, which the docking library does not know: the panels
- * get their sizes of before. Returns a function that ends this.
+ * Lets Escape cancel a drag of the line between two panels, which the docking library does not support: the
+ * panels get their old sizes back. Returns a function that removes the listener.
  */
 export function cancelSplitters(document: Document, model: Model): () => void {
   const onPress = (event: PointerEvent): void => {

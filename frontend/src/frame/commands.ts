@@ -53,7 +53,7 @@ function goToInspector(): void {
   setTimeout(focusInspector);
 }
 
-/** Escape in a field of the inspector moves the focus back to its block. */
+/** Moves the focus from a field of the inspector back to its block when Escape is pressed. */
 export function leaveInspector(event: KeyboardEvent): void {
   const { target } = event;
   if (event.key !== 'Escape' || event.defaultPrevented || !(target instanceof HTMLElement)) return;
@@ -227,7 +227,7 @@ const rows: UserCommand[] = [
   },
 ];
 
-/** Panels without a command of their own that opens them. */
+/** The panels that get a command to open them; the other panels have commands of their own. */
 const PANELS: readonly PanelId[] = [
   'explorer',
   'outline',

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { markCutTabs } from './cutTabs';
 
-/** A bar of tabs with a width for its names, and one that they need. */
+/** Returns a bar of tabs with the width that it has for names, and the width that they need. */
 function bar(root: HTMLElement, has: number, needs: number): HTMLElement {
   const outer = document.createElement('div');
   const inner = document.createElement('div');
@@ -9,7 +9,7 @@ function bar(root: HTMLElement, has: number, needs: number): HTMLElement {
   inner.className = 'flexlayout__tabset_tabbar_inner';
   Object.defineProperty(inner, 'clientWidth', { value: has, writable: true });
   Object.defineProperty(inner, 'scrollWidth', {
-    // Icons need less room than names do.
+    // Icons need less room than names.
     get: () => (outer.hasAttribute('data-cut') ? 10 : needs),
   });
   outer.append(inner);
@@ -26,7 +26,7 @@ describe('markCutTabs', () => {
     expect([cut.hasAttribute('data-cut'), whole.hasAttribute('data-cut')]).toEqual([true, false]);
   });
 
-  it('takes the mark off where there is room again', () => {
+  it('removes the mark when there is room again', () => {
     const root = document.createElement('div');
     const outer = bar(root, 200, 260);
     markCutTabs(root);

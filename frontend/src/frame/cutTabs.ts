@@ -4,7 +4,7 @@ const INNER = '.flexlayout__tabset_tabbar_inner';
 /**
  * Marks each bar of tabs that has no room for the names of its tabs; a style sheet then shows icons.
  *
- * The names are measured as they are written out, so the mark is taken off first.
+ * The mark is removed before measuring, since the names must be written out to be measured.
  */
 export function markCutTabs(root: ParentNode): void {
   const bars = [...root.querySelectorAll<HTMLElement>(BARS)];

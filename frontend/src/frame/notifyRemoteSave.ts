@@ -1,7 +1,7 @@
 import { notifications } from '@mantine/notifications';
 import { t } from '@/i18n';
 
-/** Notifies of files that another tab or user has saved, after they were loaded here. */
+/** Notifies the user of loaded files that another tab or user has saved. */
 export function notifyRemoteSave(paths: readonly string[], { message }: { readonly message: string }): void {
   const names = paths.map((path) => path.split('/').at(-1) ?? path);
   const files = names.length > 3 ? `${names.slice(0, 3).join(', ')} …` : names.join(', ');

@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest';
 import { panelIcon } from './panelIcons';
 
-it('knows the icon of each panel, and of nothing else', () => {
+it('has an icon for each panel, and for nothing else', () => {
   expect(panelIcon('history')).toBeDefined();
   expect(panelIcon('toString')).toBeUndefined();
 });

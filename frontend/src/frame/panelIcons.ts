@@ -20,7 +20,7 @@ import {
 } from '@tabler/icons-react';
 import type { PanelId } from '@/workspace/layoutModel';
 
-/** What the tab of a panel shows where there is no room for its name. */
+/** The icon that the tab of a panel shows if its name does not fit. */
 export const PANEL_ICONS: Readonly<Record<PanelId, Icon>> = {
   explorer: IconFolder,
   outline: IconListTree,

@@ -77,7 +77,7 @@ const panels: Record<PanelId, (node: TabNode) => ReactNode> = {
   ),
 };
 
-/** The content of a document's tab; a renamed document stays in its tab. */
+/** The content of a document's tab. It finds the document by its tab, so that it also follows a rename. */
 function Document({ node }: { readonly node: TabNode }) {
   const tab = useTabs(() => documentOf(node));
   if (!tab) return null;
@@ -89,13 +89,13 @@ function Document({ node }: { readonly node: TabNode }) {
   );
 }
 
-/** Universes and robots have a 3D editor beside their text; every other file has a text editor. */
+/** The editor of a file: a 3D editor beside the text for universes and robots, otherwise a text editor. */
 function FileTab({ path }: { readonly path: string }) {
   if (ROBOT_FILE.test(path)) return <RobotTab key={path} path={path} />;
   return UNIVERSE_FILE.test(path) ? <UniverseTab key={path} path={path} /> : <CodeTab path={path} />;
 }
 
-/** The content of a tab; an exception in one panel does not affect the others. */
+/** Returns the content of a tab; an exception in one panel does not affect the others. */
 export function renderTab(node: TabNode): ReactNode {
   const content = documentOf(node) ? <Document node={node} /> : panels[node.getComponent() as PanelId](node);
   return (

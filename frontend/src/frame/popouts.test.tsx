@@ -21,7 +21,7 @@ const neighboursOf = (id: string) =>
     .getParent()
     ?.getChildren()
     .map((each) => each.getId());
-/** What the docking library does when a window has opened, and when it closes. */
+/** Calls the handlers that the docking library calls when a window has opened, and when it closes. */
 const opened = (id: string) => {
   const page = document.implementation.createHTMLDocument();
   popouts.onOpen({ getLayoutId: () => tab(id).getLayoutId() }, window, page);
@@ -37,7 +37,7 @@ beforeEach(() => {
 });
 
 describe('panels in windows of their own', () => {
-  it('go out, and come back to their places when the window closes', () => {
+  it('open, and return to their places when the window closes', () => {
     const before = neighboursOf('video');
     popOut('video');
     expect(isInWindow('video')).toBe(true);
@@ -47,7 +47,7 @@ describe('panels in windows of their own', () => {
     expect(neighboursOf('video')).toEqual(before);
   });
 
-  it('come back beside their like when their place is gone', () => {
+  it('return beside similar panels if their place is gone', () => {
     for (const id of ['inspector', 'blackboard'] as const) {
       if (id === 'inspector') model.doAction(Actions.deleteTab(id));
       else popOut(id);
@@ -70,13 +70,13 @@ describe('panels in windows of their own', () => {
     expect(page.documentElement.getAttribute('data-mantine-color-scheme')).toBe('dark');
   });
 
-  it('stay in the layout that is kept', () => {
+  it('stay in the stored layout', () => {
     popOut('console');
     model = Model.fromJson(model.toJson());
     expect(isInWindow('console')).toBe(true);
   });
 
-  it('come back with a word when the browser opens no window', () => {
+  it('return with a notification when the browser opens no window', () => {
     const told = vi.spyOn(notifications, 'show').mockReturnValue('');
     popOut('viewer3d');
     closed('viewer3d');

@@ -7,7 +7,10 @@ import { t } from '@/i18n';
 import { companionsOf, type PanelId } from '@/workspace/layoutModel';
 import { useTabs } from '@/workspace/tabs';
 
-/** The place of a panel before it got its own window; it returns there when the window closes. */
+/**
+ * Panels in windows of their own. A panel's place in the dock is recorded, and the panel returns there when
+ * its window closes.
+ */
 
 interface Home {
   readonly tabset: string;
@@ -24,7 +27,7 @@ function tabsIn(model: Model, layoutId: string): TabNode[] {
   return found;
 }
 
-/** The title of a panel's tab. */
+/** Returns the title of a panel's tab. */
 export const titleOf = (tab: TabNode): string => t(`frame:${tab.getName()}`);
 
 /** Opens a panel in its own window. */
@@ -46,7 +49,9 @@ function rememberHome(model: Model, id: string): void {
   model.doAction(Actions.updateNodeAttributes(id, { config: { ...configOf(tab), home } }));
 }
 
-/** The place to which a panel returns: its old one, or beside a panel of its kind if that is gone. */
+/**
+ * Returns the place where a panel returns: its old place, or beside a similar panel if the old place is gone.
+ */
 function placeFor(model: Model, tab: TabNode): Home | null {
   const { home } = configOf(tab);
   if (home && model.getNodeById(home.tabset) instanceof TabSetNode) return home;
@@ -65,7 +70,10 @@ function giveBack(model: Model, tabs: readonly TabNode[]): void {
   }
 }
 
-/** Notifies of blocked windows and offers a button to open them, since browsers allow that after a press. */
+/**
+ * Notifies the user of blocked windows and offers a button to open them, since browsers allow windows after a
+ * press.
+ */
 function tellBlocked(tabs: readonly TabNode[]): void {
   const id = 'popout-blocked';
   const panels = tabs.map((tab) => tab.getId() as PanelId);
@@ -92,22 +100,22 @@ function tellBlocked(tabs: readonly TabNode[]): void {
   });
 }
 
-/** Tracks the windows of one layout; its methods are callbacks of the docking library. */
+/** The windows of one layout; its methods are callbacks of the docking library. */
 export class Popouts {
   private readonly open = new Map<string, () => void>();
 
   constructor(private readonly model: Model) {}
 
   /**
-   * Runs before an action of the user: it records a panel's place, and returns panels from a window that
-   * closes.
+   * Runs before each action of the user: records the place of a panel that gets a window, and returns the
+   * panels of a window that closes.
    */
   readonly onAction = (action: Action): Action | undefined => {
     if (action.type === Actions.POPOUT_TAB) rememberHome(this.model, String(action.data['node']));
     if (action.type !== Actions.CLOSE_POPOUT) return action;
     const layoutId = String(action.data['layoutId']);
     const tabs = tabsIn(this.model, layoutId);
-    // The browser blocked a window that never opened.
+    // The browser blocked the window, which is why it never opened.
     if (!this.open.has(layoutId)) tellBlocked(tabs);
     giveBack(this.model, tabs);
     return undefined;
@@ -139,7 +147,7 @@ export class Popouts {
   };
 }
 
-/** Menus and tooltips of a panel appear in the panel's own window. */
+/** The context of a panel's content: menus and tooltips appear in the window that contains the panel. */
 export function InItsWindow({ node, children }: { readonly node: TabNode; readonly children: ReactNode }) {
   const page = node.getWindow()?.document;
   const theme = useMemo(

@@ -3,7 +3,7 @@ import { t } from '@/i18n';
 
 const ID = 'server-notice';
 
-/** Shows the administrator's notice to all users, until it ends or is closed. */
+/** Shows the administrator's notice until it ends or the user closes it. */
 export function showServerNotice(text: string): void {
   notifications.hide(ID);
   if (text) {

@@ -6,7 +6,10 @@ const files = import.meta.glob<Record<string, unknown>>(
   { eager: true, import: 'default' },
 );
 
-/** The texts of an open project: with them, the first page would be a tenth larger. */
+/**
+ * The texts of an open project. They are loaded separately, since the first page would be a tenth larger with
+ * them.
+ */
 export const editorTexts = resourcesFrom(files);
 
 for (const [language, features] of Object.entries(editorTexts)) {

@@ -23,7 +23,7 @@ function placeholdersOf(texts: Texts, prefix = ''): [string, string][] {
 const english = Object.keys(files).filter((path) => path.includes('/en/'));
 
 describe('texts', () => {
-  it.each(english)('%s says the same in Spanish', (path) => {
+  it.each(english)('%s has the same texts in Spanish', (path) => {
     const spanish = files[path.replace('/en/', '/es/')];
     expect(spanish, 'the file is missing').toBeDefined();
     expect(new Set(keysOf(spanish!))).toEqual(new Set(keysOf(files[path]!)));

@@ -2,8 +2,8 @@ import i18next from 'i18next';
 import { initReactI18next } from 'react-i18next';
 
 /**
- * One JSON file for each feature and language, `locales/<language>/<feature>.json`; the namespace is the
- * feature. The start page has these texts; those of the editor come with it (`editorTexts`).
+ * The texts: one JSON file for each feature and language, `locales/<language>/<feature>.json`; the feature is
+ * the namespace. The start page loads these texts; the editor adds its own (`editorTexts`).
  */
 const files = import.meta.glob<Record<string, unknown>>(
   './locales/*/{accounts,editor,frame,projects,settings}.json',
@@ -52,5 +52,5 @@ export function currentLanguage(): Language {
 
 export const t = i18next.t.bind(i18next);
 
-/** Whether the language of the page has words for a key. */
+/** Returns whether the current language has a text for a key. */
 export const translates = (key: string): boolean => i18next.exists(key);

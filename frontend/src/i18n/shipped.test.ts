@@ -9,7 +9,7 @@ import english from './locales/en/shipped.json';
 afterEach(() => setLanguage('en'));
 
 describe('what shipped actions say', () => {
-  it('is said in the language of the page', () => {
+  it('is translated to the language of the page', () => {
     setLanguage('es');
     expect(shippedDoc('Turn', 'Turns on the spot.')).toBe('Gira sobre sí mismo.');
     expect(shippedPort('Forward', 'lin_speed', 'Speed ahead in m/s.')).toBe('Velocidad de avance en m/s.');
@@ -22,7 +22,7 @@ describe('what shipped actions say', () => {
     expect(shippedPort('Turn', 'toString', 'x')).toBe('x');
   });
 
-  it('is in English what the examples say', () => {
+  it('equals the examples in English', () => {
     const folder = '../examples';
     const sources = readdirSync(folder, { recursive: true, encoding: 'utf8' })
       .filter((path) => /actions\/\w+\.py$/.test(path))

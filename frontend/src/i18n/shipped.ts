@@ -6,8 +6,8 @@ interface Described {
 }
 
 /**
- * What an action of a shipped example says of itself, in the language of the page. A text that the user changed
- * is not ours any more, and shown as it is.
+ * Returns a text of a shipped example's action in the current language. A text that the user changed is shown
+ * as it is.
  */
 function shipped(type: string, text: string, pick: (described: Described) => string | undefined): string {
   const ours = (language: string) =>

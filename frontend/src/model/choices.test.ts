@@ -23,7 +23,7 @@ const labels = (search: string) =>
   searchChoices(allChoices(diagram, vocabulary), search).map((each) => each.label);
 
 describe('choices', () => {
-  it('put the own actions first, and what is named so before what is described so', () => {
+  it("list the user's own actions first, and matches in names before those in descriptions", () => {
     expect(labels('').slice(0, 2)).toEqual(['Turn', 'Free']);
     expect(labels('seq').slice(0, 1)).toEqual(['Sequence']);
     expect(labels('rus')[0]).toBe('RetryUntilSuccessful');
@@ -32,7 +32,7 @@ describe('choices', () => {
   it('leave out trees that would contain themselves', () => {
     expect(labels('MainTree')).not.toContain('MainTree');
   });
-  it('are those that can hold what is wrapped, or the children there are', () => {
+  it('are those that can have the wrapped blocks, or the present children', () => {
     const fit = (purpose: Parameters<typeof suits>[2]) =>
       allChoices(diagram, vocabulary)
         .filter((choice) => suits(choice, diagram, purpose))
@@ -61,7 +61,7 @@ describe('findNodes', () => {
 });
 
 describe('outlineRows', () => {
-  it('follow execution order, hide what is folded, and end with drafts', () => {
+  it('follow execution order, leave out folded blocks, and end with drafts', () => {
     const rows = outlineRows(diagram).map(({ id, depth, isFolded, isDraft }) => [
       id,
       depth,

@@ -9,7 +9,7 @@ export interface Choice {
   readonly label: string;
 }
 
-/** Every type of block that this tree may contain: built-ins, actions, and subtrees by name. */
+/** Returns every type of block that this tree may contain: built-ins, actions, and subtrees by name. */
 export function allChoices(diagram: Pick<Diagram, 'id'> | null, vocabulary: Vocabulary): Choice[] {
   const choices: Choice[] = [];
   for (const spec of vocabulary.specs.values()) {
@@ -31,7 +31,7 @@ export type Purpose =
   | { readonly for: 'wrap'; readonly count: number }
   | { readonly for: 'morph'; readonly node: string };
 
-/** Whether a choice is legal for the goal. */
+/** Returns whether a choice is legal for a purpose. */
 export function suits(choice: Choice, diagram: Diagram, purpose: Purpose): boolean {
   switch (purpose.for) {
     case 'add':
@@ -44,8 +44,8 @@ export function suits(choice: Choice, diagram: Diagram, purpose: Purpose): boole
 }
 
 /**
- * How well a text matches a search; 0: not at all. Best first: start, start of a word, capitals, anywhere,
- * letters in order.
+ * Returns how well a text matches a search; 0: not at all. The best match is the whole text, then its start,
+ * the start of a word, the capitals, any place, and the letters in order.
  */
 export function matchScore(text: string, search: string): number {
   if (search === '') return 1;
@@ -62,7 +62,9 @@ export function matchScore(text: string, search: string): number {
 
 const FAMILY_ORDER = ['action', 'condition', 'control', 'decorator', 'subtree'] as const;
 
-/** Matching choices: the user's own actions first, then by family in the order of the catalogue. */
+/**
+ * Returns the matching choices: the user's own actions first, then by family in the order of the catalogue.
+ */
 export function searchChoices(choices: readonly Choice[], search: string): Choice[] {
   return choices
     .map((choice, index) => {

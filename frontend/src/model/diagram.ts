@@ -7,7 +7,7 @@ export type Point = readonly [x: number, y: number];
 export interface DiagramNode {
   readonly type: string;
   readonly name?: string;
-  /** The BehaviorTree ID; only of a `SubTree`. */
+  /** The ID of the called tree; only a `SubTree` has one. */
   readonly tree?: string;
   readonly ports?: Readonly<Record<string, string>>;
   readonly children?: readonly NodeId[];
@@ -31,7 +31,7 @@ export interface Diagram {
   /** Roots of unconnected pieces: saved, but never translated. */
   readonly drafts: readonly NodeId[];
   readonly layout: Orientation;
-  /** The tree's ports as a SubTree, unparsed; `treeFacts` reads them. */
+  /** The ports that the tree has as a SubTree, unparsed; `treeFacts` reads them. */
   readonly ports?: unknown;
 }
 
@@ -53,7 +53,7 @@ export function childrenOf(diagram: Diagram, id: NodeId): readonly NodeId[] {
   return diagram.nodes[id]?.children ?? NO_CHILDREN;
 }
 
-/** The parent of every node; roots and drafts are absent. */
+/** Returns the parent of every node; roots and drafts are absent. */
 export function parentsOf(diagram: Diagram): ReadonlyMap<NodeId, NodeId> {
   const parents = new Map<NodeId, NodeId>();
   for (const [id, node] of Object.entries(diagram.nodes)) {
@@ -69,12 +69,12 @@ export function parentOf(diagram: Diagram, id: NodeId): NodeId | null {
   return null;
 }
 
-/** The root, if there is one, then the drafts. */
+/** Returns the root, if there is one, then the drafts. */
 export function topsOf(diagram: Diagram): readonly NodeId[] {
   return diagram.root === null ? diagram.drafts : [diagram.root, ...diagram.drafts];
 }
 
-/** `id` and all nodes below it, in pre-order. */
+/** Returns `id` and all nodes below it, in pre-order. */
 export function subtreeOf(diagram: Diagram, id: NodeId): NodeId[] {
   const found: NodeId[] = [];
   const open = [id];
@@ -88,7 +88,7 @@ export function subtreeOf(diagram: Diagram, id: NodeId): NodeId[] {
   return found;
 }
 
-/** All nodes in pre-order: the tree in execution order, then the drafts. */
+/** Returns all nodes in pre-order: the tree in execution order, then the drafts. */
 export function preorder(diagram: Diagram): NodeId[] {
   return topsOf(diagram).flatMap((top) => subtreeOf(diagram, top));
 }
@@ -97,7 +97,7 @@ export function isWithin(diagram: Diagram, id: NodeId, ancestor: NodeId): boolea
   return subtreeOf(diagram, ancestor).includes(id);
 }
 
-/** The selected nodes that have no selected ancestor, in execution order. */
+/** Returns the selected nodes that have no selected ancestor, in execution order. */
 export function topmost(diagram: Diagram, ids: Iterable<NodeId>): NodeId[] {
   const wanted = new Set(ids);
   const parents = parentsOf(diagram);
@@ -110,12 +110,14 @@ export function topmost(diagram: Diagram, ids: Iterable<NodeId>): NodeId[] {
   return preorder(diagram).filter((id) => wanted.has(id) && !covered(id));
 }
 
-/** The displayed name of a node: its instance name, else its tree, else its type. */
+/** Returns the displayed name of a node: its instance name, otherwise its tree, otherwise its type. */
 export function displayName(node: DiagramNode): string {
   return node.name ?? node.tree ?? node.type;
 }
 
-/** A node id that the diagram does not contain; `random` is an argument so that tests are repeatable. */
+/**
+ * Returns a node id that the diagram does not contain; `random` is an argument so that tests are repeatable.
+ */
 export function freshId(
   taken: Readonly<Record<NodeId, unknown>>,
   random: () => number = Math.random,

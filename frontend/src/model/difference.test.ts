@@ -24,7 +24,7 @@ const grown = (from: Diagram, path: readonly (readonly [number, number, number])
   }, from);
 
 describe('treeDifference', () => {
-  it('tells what was changed, added, moved and removed, and keeps the removed in its place', () => {
+  it('reports changed, added, moved and removed nodes, and keeps removed ones in place', () => {
     const newer = tree({
       n1: { type: 'Sequence', children: ['n6', 'n2', 'n4'] },
       n2: { type: 'A', ports: { speed: '2' }, comment: 'fast' },
@@ -47,7 +47,7 @@ describe('treeDifference', () => {
     expect(merged.nodes['n1']?.children).toEqual(['n6', 'n2', 'n3', 'n4']);
   });
 
-  it('tells another order of siblings, and nothing of one that was only placed', () => {
+  it('reports a new order of siblings, but no new position', () => {
     const swapped = tree({ ...older.nodes, n1: { type: 'Sequence', children: ['n3', 'n2', 'n4'] } });
     expect([...treeDifference(older, swapped).changes.keys()].sort()).toEqual(['n2', 'n3']);
     const placed = tree({ ...older.nodes, n4: { type: 'B', position: [3, 4] } });

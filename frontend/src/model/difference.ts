@@ -13,7 +13,7 @@ export interface FieldChange {
 export interface NodeDifference {
   readonly kind: ChangeKind;
   readonly fields: readonly FieldChange[];
-  /** Whether its parent or its order has changed. */
+  /** Whether the node has another parent, or another place among its siblings. */
   readonly isMoved: boolean;
 }
 
@@ -42,7 +42,7 @@ function fieldChanges(older: DiagramNode, newer: DiagramNode): FieldChange[] {
     .filter((change) => change.before !== change.after);
 }
 
-/** The place of each node: its parent, and its rank among the siblings that both trees contain. */
+/** Returns the place of each node: its parent, and its rank among the siblings that both trees contain. */
 function placesOf(diagram: Diagram, other: Diagram): Map<NodeId, string> {
   const elsewhere = parentsOf(other);
   const places = new Map<NodeId, string>();
@@ -88,7 +88,7 @@ function merge(older: Diagram, newer: Diagram, removed: ReadonlySet<NodeId>): Di
   return { ...newer, root, nodes, drafts: drafts.filter((id) => id !== root) };
 }
 
-/** The changes of blocks between two states of a tree. */
+/** Returns the changed nodes between two states of a tree. */
 export function treeDifference(older: Diagram, newer: Diagram): TreeDifference {
   const changes = new Map<NodeId, NodeDifference>();
   const removed = new Set(Object.keys(older.nodes).filter((id) => !(id in newer.nodes)));

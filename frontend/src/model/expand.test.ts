@@ -27,12 +27,12 @@ const dock: Diagram = {
 const align: Diagram = { ...emptyDiagram('Align'), root: 'x', nodes: { x: { type: 'Turn' } } };
 const all = { MainTree: main, Dock: dock, Align: align };
 
-describe('looking into a subtree', () => {
-  it('leaves a tree as it is while nothing is looked into', () => {
+describe('expanding a subtree', () => {
+  it('leaves a tree unchanged while nothing is expanded', () => {
     expect(expandTrees(main, all, new Set()).diagram).toBe(main);
   });
 
-  it('puts its tree below it, without drafts, and says where each block really stands', () => {
+  it('adds its tree below it, without drafts, with the real place of each block', () => {
     const { diagram, inside, groups } = expandTrees(main, all, new Set(['s']));
     expect(preorder(diagram)).toEqual(['r', 's', 's a', 's b', 's c', 't']);
     expect(inside.get('s b')).toEqual({ tree: 'Dock', node: 'b' });
@@ -40,19 +40,19 @@ describe('looking into a subtree', () => {
     expect(main.nodes['s']?.children).toBeUndefined();
   });
 
-  it('looks into a tree inside of a tree', () => {
+  it('expands a tree inside of a tree', () => {
     const { inside, groups } = expandTrees(main, all, new Set(['s', 's c']));
     expect(inside.get('s c x')).toEqual({ tree: 'Align', node: 'x' });
     expect(groups.get('s')).toContain('s c x');
   });
 
-  it('shows nothing inside of a tree that is not there, or is empty', () => {
+  it('shows nothing inside of a tree that is missing, or empty', () => {
     expect(expandTrees(main, { MainTree: main }, new Set(['s'])).inside.size).toBe(0);
     const bare = { ...all, Dock: emptyDiagram('Dock') };
     expect(expandTrees(main, bare, new Set(['s'])).inside.size).toBe(0);
   });
 
-  it('is laid out without regard to where blocks were put in their own tree', () => {
+  it('ignores manual positions in the inner tree', () => {
     const { diagram } = expandTrees(main, all, new Set(['s']));
     const { positions } = layoutTree(diagram, vocabulary);
     expect(positions['s a']?.y).toBeGreaterThan(positions['s']?.y ?? 0);

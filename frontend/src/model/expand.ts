@@ -6,7 +6,7 @@ export interface Inside {
   readonly node: NodeId;
 }
 
-/** A tree as it is drawn: with the trees of its expanded SubTrees. */
+/** A tree as it is drawn, with the trees of its expanded SubTrees. */
 export interface ExpandedTree {
   readonly diagram: Diagram;
   /** The real place of each block that belongs to another tree. */
@@ -17,12 +17,12 @@ export interface ExpandedTree {
 
 const NOTHING: Pick<ExpandedTree, 'inside' | 'groups'> = { inside: new Map(), groups: new Map() };
 
-/** The id of a block inside of a SubTree; it contains a blank, so that no diagram can contain it. */
+/** Returns the id of a block inside of a SubTree. It contains a blank, which no id in a diagram has. */
 const innerId = (outer: NodeId, inner: NodeId): NodeId => `${outer} ${inner}`;
 
 /**
- * Adds the tree of every SubTree in `expanded` below it, for display only: its blocks have other ids, and no
- * manual positions.
+ * Adds the tree of every SubTree in `expanded` below the SubTree, for display only: these blocks have other
+ * ids, and no manual positions.
  */
 export function expandTrees(
   diagram: Diagram,

@@ -1,6 +1,6 @@
 import { displayName, preorder, type Diagram, type NodeId } from './diagram';
 
-/** Nodes whose name, type, ports, conditions or comment contain the text, in execution order. */
+/** Returns the nodes whose name, type, ports, conditions or comment contain the text, in execution order. */
 export function findNodes(diagram: Diagram, text: string): NodeId[] {
   const wanted = text.trim().toLowerCase();
   if (wanted === '') return [];

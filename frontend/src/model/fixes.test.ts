@@ -13,7 +13,7 @@ const tree = (nodes: Record<string, DiagramNode>): Diagram => ({
 });
 const under = (node: DiagramNode) => tree({ r: { type: 'Sequence', children: ['x'] }, x: node });
 
-/** The fixes of the only problem. */
+/** Returns the fixes of the only problem. */
 function fixesOf(diagram: Diagram) {
   const [problem] = findProblems(diagram, vocabulary);
   return problem ? fixesFor(problem, diagram, vocabulary) : [];
@@ -65,7 +65,7 @@ describe('fixes', () => {
     expect(findProblems(diagram, vocabulary)).not.toEqual([]);
   });
 
-  it('offers to write an action that is missing, with the ports that it is given', () => {
+  it('offers to write a missing action, with the given ports', () => {
     const made = fixesOf(under({ type: 'FollowWall', ports: { side: 'left' } })).at(-1);
     expect(made).toMatchObject({
       key: 'make-action',
@@ -76,7 +76,7 @@ describe('fixes', () => {
   it.each([
     [['x'], 'Decorator'],
     [['x', 'y'], 'Control'],
-  ])('offers to write a node that is missing and has the children %s as a %s', (children, kind) => {
+  ])('offers to write a missing node that has the children %s as a %s', (children, kind) => {
     const nodes = Object.fromEntries(children.map((id) => [id, { type: 'Turn' }]));
     const diagram = {
       ...emptyDiagram('MainTree'),
@@ -86,7 +86,7 @@ describe('fixes', () => {
     expect(fixesOf(diagram).at(-1)).toMatchObject({ does: { makes: 'action', name: 'Mine', kind } });
   });
 
-  it('offers to make a tree that is missing, and no tree that would call itself', () => {
+  it('offers to make a missing tree, but no tree that would call itself', () => {
     const fixes = fixesOf(under({ type: 'SubTree', tree: 'Patrol' }));
     expect(fixes).toMatchObject([{ key: 'make-tree', does: { makes: 'tree', name: 'Patrol' } }]);
   });
@@ -95,7 +95,7 @@ describe('fixes', () => {
     const [offered] = fixesFor({ code: 'BT0105', node: 'x' }, diagram, vocabulary);
     expect(offered?.key).toBe('enable');
   });
-  it('offers nothing where it knows nothing', () => {
+  it('offers nothing for unknown findings', () => {
     expect(fixesFor({ code: 'BT0999', node: 'x' }, under({ type: 'Turn' }), vocabulary)).toEqual([]);
     expect(fixesFor({ code: 'BT0105', node: 'gone' }, under({ type: 'Turn' }), vocabulary)).toEqual([]);
   });

@@ -8,13 +8,13 @@ import { wouldRecurse, type Vocabulary } from './vocabulary';
 import { isPythonName } from './pythonNames';
 import { similarNames } from './similar';
 
-/** The other effect of a fix, beyond the tree: it creates a file. */
+/** The effect of a fix that is not a change of the tree: it creates a file. */
 export type Making =
   | {
       readonly makes: 'action';
       readonly name: string;
       readonly ports: readonly string[];
-      /** Of a node with children; without it, it is an action. */
+      /** The kind of a node with children; absent for an action. */
       readonly kind?: 'Control' | 'Decorator';
     }
   | { readonly makes: 'tree'; readonly name: string };
@@ -207,7 +207,7 @@ function kindFixes(
   }
 }
 
-/** The fixes of a finding, the most likely one first. */
+/** Returns the fixes of a finding, the most likely one first. */
 export function fixesFor(problem: Fixable, diagram: Diagram, vocabulary: Vocabulary): Fix[] {
   const id = problem.node;
   if (id === null || !(id in diagram.nodes)) return [];

@@ -54,7 +54,7 @@ describe('layoutTree', () => {
   });
 
   it.each(['vertical', 'horizontal'] as const)(
-    'stacks neighbouring leaves where it is compact (%s)',
+    'stacks neighbouring leaves if it is compact (%s)',
     (layout) => {
       const leaves = Array.from({ length: 14 }, (_, at) => `l${at}`);
       const wide: Diagram = {
@@ -84,7 +84,7 @@ describe('layoutTree', () => {
     },
   );
 
-  it('stacks no leaf that the user placed', () => {
+  it('does not stack leaves with a manual position', () => {
     const three = (): Diagram => ({
       ...emptyDiagram('MainTree'),
       root: 'r',
@@ -100,7 +100,7 @@ describe('layoutTree', () => {
     expect(ignored.stacked).toEqual(new Set(['a', 'b', 'c']));
   });
 
-  it('moves what hangs below a block that the user placed', () => {
+  it('moves the subtree of a block with a manual position', () => {
     const before = layoutTree(small(), vocabulary).positions;
     const { diagram } = edit(small(), setPosition('b', [500, 300]));
     const moved = layoutTree(diagram, vocabulary).positions;
@@ -109,7 +109,7 @@ describe('layoutTree', () => {
     expect(moved['a']).toEqual(before['a']);
   });
 
-  it('hides what is folded', () => {
+  it('leaves out folded blocks', () => {
     const folded = {
       ...small(),
       nodes: { ...small().nodes, b: { ...small().nodes['b']!, collapsed: true } },

@@ -14,31 +14,33 @@ export interface Layout {
   readonly positions: Readonly<Record<NodeId, Box>>;
   readonly width: number;
   readonly height: number;
-  /** The leaves that are drawn below each other, in a compact layout. */
+  /** The leaves that a compact layout draws below each other. */
   readonly stacked?: ReadonlySet<NodeId>;
 }
 
 export interface LayoutOptions {
   readonly orientation?: Orientation;
-  /** Ignores manual positions, to show the result of `tidy`. */
+  /** Whether to ignore manual positions, as after `tidy`. */
   readonly ignorePositions?: boolean;
-  /** Draws neighbouring leaves below each other, and so wide trees narrower. */
+  /** Whether to draw neighbouring leaves below each other, which makes wide trees narrower. */
   readonly isCompact?: boolean;
 }
 
 export const GAP = { siblings: 24, levels: 56, trees: 64, stacked: 14 } as const;
 
-/** Fewer leaves stay side by side; more are divided into several columns. */
+/** The number of leaves in a column: fewer stay side by side, more are divided into several columns. */
 const STACK = { least: 3, most: 12 } as const;
 
 type Mutable = { -readonly [K in keyof Box]: Box[K] };
 
-/** The children that are drawn; a folded block has none. */
+/** Returns the children that are drawn; a folded block has none. */
 export function visibleChildren(diagram: Diagram, id: NodeId): readonly NodeId[] {
   return diagram.nodes[id]?.collapsed ? [] : childrenOf(diagram, id);
 }
 
-/** The children of a node in the groups that are drawn below each other; most are alone. */
+/**
+ * Returns the children of a node in groups, each of which is drawn as one column; most groups have one child.
+ */
 function stacksOf(diagram: Diagram, id: NodeId, isStackable: (id: NodeId) => boolean): NodeId[][] {
   const stacks: NodeId[][] = [];
   let run: NodeId[] = [];
@@ -59,7 +61,7 @@ function stacksOf(diagram: Diagram, id: NodeId, isStackable: (id: NodeId) => boo
   return stacks;
 }
 
-/** A node of the drawing: one block, or leaves below each other. */
+/** A node of the drawing: one block, or a column of leaves. */
 interface Stack {
   readonly ids: readonly NodeId[];
 }
@@ -97,7 +99,7 @@ function arrange(
       const along = Math.round(middle - breadthOf(id) / 2 + corner);
       const across = Math.round(below);
       const { width, height } = sizeOf(id);
-      // Written out, since objects that are made by spreading are slow to read.
+      // Each field is written out, since objects made by spreading are slow to read.
       placed.set(id, { x: vertical ? along : across, y: vertical ? across : along, width, height });
       below += depthOf(id) + GAP.stacked;
     }
@@ -105,7 +107,7 @@ function arrange(
   return placed;
 }
 
-/** The leaves that may be drawn below each other: those without a place of their own. */
+/** Returns a predicate for the leaves that may be drawn below each other: those without a manual position. */
 function stackableIn(diagram: Diagram, options: LayoutOptions): (id: NodeId) => boolean {
   if (!options.isCompact) return () => false;
   return (id) =>
@@ -113,7 +115,7 @@ function stackableIn(diagram: Diagram, options: LayoutOptions): (id: NodeId) => 
     (options.ignorePositions === true || diagram.nodes[id]?.position === undefined);
 }
 
-/** All leaves of a tree that are drawn below another. */
+/** Returns all leaves of a tree that share a column. */
 function stackedIn(diagram: Diagram, isStackable: (id: NodeId) => boolean): ReadonlySet<NodeId> {
   const parents = Object.keys(diagram.nodes);
   const stacks = parents.flatMap((id) => stacksOf(diagram, id, isStackable));
@@ -154,8 +156,8 @@ function bounds(boxes: Iterable<Box>): { right: number; bottom: number; left: nu
 }
 
 /**
- * Positions (top left corners) and sizes of all visible blocks. Blocks without a manual position never
- * overlap; the root is at the origin, and drafts without a position are beside it.
+ * Returns the positions (top left corners) and sizes of all visible blocks. Blocks without a manual position
+ * never overlap; the root is at the origin, and drafts without a position are beside it.
  */
 export function layoutTree(diagram: Diagram, vocabulary?: Vocabulary, options: LayoutOptions = {}): Layout {
   const orientation = options.orientation ?? diagram.layout;

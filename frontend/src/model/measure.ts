@@ -2,8 +2,8 @@ import { displayName, type DiagramNode } from './diagram';
 import type { NodeSpec } from './vocabulary';
 
 /**
- * Sizes of blocks, computed from their content, so that the layout needs neither a browser nor measuring. The
- * canvas draws blocks with these numbers (features/canvas/block.css).
+ * Computes the sizes of blocks from their content, so that the layout needs no browser. The canvas draws
+ * blocks with the same numbers (features/canvas/block.css).
  */
 export const BLOCK = {
   minWidth: 132,
@@ -24,14 +24,14 @@ export interface Size {
 /** A line of a block's ports. */
 export interface PortLine {
   readonly name: string;
-  /** null: not set, so that the default applies. */
+  /** null: the value is not set, so the default applies. */
   readonly value: string | null;
   readonly default: string | null;
   readonly required: boolean;
   readonly direction: 'input' | 'output' | 'inout';
 }
 
-/** The declared ports in their order, then the other ports that are set. */
+/** Returns the declared ports in their order, then the other ports that are set. */
 export function portLines(node: DiagramNode, spec: NodeSpec | undefined): PortLine[] {
   const declared = (spec?.ports ?? []).map((port) => ({
     name: port.name,
@@ -50,7 +50,7 @@ export function portLines(node: DiagramNode, spec: NodeSpec | undefined): PortLi
 const NARROW = /[iljtfrI.,:;'|()[\]{} ]/;
 const WIDE = /[mwMW@%]/;
 
-/** The approximate width of a text in em, from Inter's narrow, wide, capital and other letters. */
+/** Returns the approximate width of a text in em, from Inter's narrow, wide, capital and other letters. */
 export function emWidth(text: string): number {
   let width = 0;
   for (const letter of text) {
@@ -63,7 +63,7 @@ export function emWidth(text: string): number {
   return width;
 }
 
-/** The width of a port's value; only values of more letters than this are cut. */
+/** Returns the width of a port's value; longer values are cut to `valueLetters` characters. */
 function valueWidth(line: PortLine): number {
   const text = line.value ?? line.default ?? (line.required ? 'required' : '—');
   return Math.min(BLOCK.valueLetters, text.length) * 7;
@@ -92,6 +92,6 @@ function measured(node: DiagramNode, spec: NodeSpec | undefined): Size {
   const width = Math.max(BLOCK.minWidth, Math.min(BLOCK.maxWidth, Math.max(title, ...ports)));
   const rows = Math.min(lines.length, BLOCK.maxPorts) + (lines.length > BLOCK.maxPorts ? 1 : 0);
   const height = BLOCK.header + (rows > 0 ? rows * BLOCK.portRow + BLOCK.portsPadding : 0);
-  // Even numbers keep centred edges on whole pixels.
+  // Even sizes keep centred edges on whole pixels.
   return { width: 2 * Math.ceil(width / 2), height };
 }

@@ -11,7 +11,7 @@ export interface OutlineLine {
   readonly isDraft: boolean;
 }
 
-/** All visible lines in execution order; a folded node hides the lines below it. */
+/** Returns all visible lines in execution order; a folded node hides the lines below it. */
 export function outlineRows(diagram: Diagram): OutlineLine[] {
   const rows: OutlineLine[] = [];
   const visit = (id: NodeId, depth: number, isDraft: boolean): void => {
@@ -29,14 +29,17 @@ export function outlineRows(diagram: Diagram): OutlineLine[] {
 /** A place between or on the lines where dragged lines may be dropped. */
 export interface OutlineSlot {
   readonly parent: NodeId;
-  /** Counts the children before the drop. */
+  /** The index among the children before the drop. */
   readonly index: number;
-  /** The line that is marked, where: at its upper or lower edge, or all of it. */
+  /**
+   * The line that shows the mark; `edge` says whether the mark is at its upper or lower edge, or on all of
+   * it.
+   */
   readonly row: NodeId;
   readonly edge: 'before' | 'after' | 'onto';
 }
 
-/** The share of a line at its upper and lower edge that means before and after it. */
+/** The part of a line's height, at its upper and lower edge, where a drop means before and after it. */
 const EDGE = 0.3;
 
 interface Drop {
@@ -47,8 +50,8 @@ interface Drop {
 }
 
 /**
- * The slot at a line; `share` is the height in the line, from 0 to 1. Below a line with visible children is
- * before the first of them. Null where the blocks may not be dropped.
+ * Returns the slot at a line; `share` is the height within the line, from 0 to 1. A drop below a line with
+ * visible children goes before the first of them. Null where the blocks may not be dropped.
  */
 export function outlineSlot(
   { diagram, vocabulary, moving }: Drop,

@@ -8,7 +8,8 @@ export interface PortSpec {
   readonly name: string;
   readonly direction: PortDirection;
   /**
-   * `int`, `uint`, `double`, `bool`, `string`, `status`, `script`, `any`, `list[…]`, or a type of an action.
+   * `int`, `uint`, `double`, `bool`, `string`, `status`, `script`, `any`, `list[…]`, or a type that an action
+   * declares.
    */
   readonly type: string;
   readonly default: string | null;
@@ -16,7 +17,9 @@ export interface PortSpec {
   readonly description: string;
 }
 
-/** Whether a port can have this name: in XML a port is an attribute, and some attributes are reserved. */
+/**
+ * Returns whether a port can have this name: in XML a port is an attribute, and some attributes are reserved.
+ */
 export const canBePort = (name: string): boolean =>
   /^[A-Za-z][\w.-]*$/.test(name) && name !== 'name' && name !== 'ID';
 
@@ -29,7 +32,7 @@ export type PortText =
 
 const OUTER_BLANKS = /^[ \t\r\n]+|[ \t\r\n]+$/g;
 
-/** The text between the braces of `{key}`, `=` for `{=}`; null for a literal. */
+/** Returns the key in the braces of `{key}`, or `=` for `{=}`; null for a literal. */
 export function pointerOf(text: string): string | null {
   const stripped = text.replace(OUTER_BLANKS, '');
   return stripped.length > 2 && stripped.startsWith('{') && stripped.endsWith('}')
@@ -71,5 +74,5 @@ export function widgetOf(type: string): Widget {
   return choicesOf(type).length > 0 ? 'enum' : (WIDGETS.get(type) ?? 'text');
 }
 
-/** The values of an enumerated type. */
+/** Returns the values of an enumerated type. */
 export const choicesOf = (type: string): readonly string[] => (type === 'status' ? STATUSES : []);

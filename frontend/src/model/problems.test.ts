@@ -57,14 +57,14 @@ describe('findProblems', () => {
     ['a subtree without a tree', under({ type: 'SubTree' }), ['x missing-tree']],
     ['an unknown tree', under({ type: 'SubTree', tree: 'Gone' }), ['x unknown-tree']],
     ['a tree inside itself', under({ type: 'SubTree', tree: 'MainTree' }), ['x recursion']],
-  ])('tells %s', (_what, nodes, expected) => {
+  ])('reports %s', (_what, nodes, expected) => {
     expect(kinds(nodes)).toEqual(expected);
   });
 
-  it('notes drafts, and checks nothing in them', () => {
+  it('lists drafts as notes, and checks nothing in them', () => {
     expect(kinds({ ...under({ type: 'Turn' }), d: { type: 'Nope' } }, 'r', ['d'])).toEqual(['d draft']);
   });
-  it('notes an empty tree', () => {
+  it('lists an empty tree as a note', () => {
     expect(kinds({}, null)).toEqual(['empty-tree']);
   });
 });

@@ -24,7 +24,7 @@ function checkChildren(id: NodeId, node: DiagramNode, spec: NodeSpec): Problem[]
   return [];
 }
 
-/** A ReactiveSequence may have only one child that keeps state between ticks. */
+/** Reports a second child that keeps state between ticks: a ReactiveSequence may have only one. */
 function checkWaiting(diagram: Diagram, node: DiagramNode): Problem[] {
   if (node.type !== 'ReactiveSequence') return [];
   const waiting = (node.children ?? []).filter((child) => diagram.nodes[child]?.type === 'AsyncSequence');
@@ -56,7 +56,7 @@ interface Checked {
 
 const checked = new WeakMap<DiagramNode, Checked>();
 
-/** The problems of a node that depend on the node and its type alone; cached for unchanged nodes. */
+/** Returns the problems of a node that depend on the node and its type alone; cached for unchanged nodes. */
 function checkNode(id: NodeId, node: DiagramNode, spec: NodeSpec | undefined): readonly Problem[] {
   const known = checked.get(node);
   if (known && known.id === id && known.spec === spec) return known.problems;
@@ -70,12 +70,12 @@ function checkNode(id: NodeId, node: DiagramNode, spec: NodeSpec | undefined): r
 }
 
 /**
- * Problems of ports and scripts are found when a tree is built, which the engine does only for trees that are
- * called.
+ * Returns whether a problem is found when a tree is built: the engine builds only trees that are called, so
+ * ports and scripts of other trees are no errors.
  */
 const isOfBuilding = ({ kind }: Problem): boolean => /^BT0[23]/.test(CODES[kind][0] ?? '');
 
-/** All problems of a diagram that can be found without the server, in execution order. */
+/** Returns all problems of a diagram that can be found without the server, in execution order. */
 export function findProblems(diagram: Diagram, vocabulary: Vocabulary): Problem[] {
   const runs = vocabulary.reachable.has(diagram.id);
   const found = checkTree(diagram, vocabulary).map((problem) =>

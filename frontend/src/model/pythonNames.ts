@@ -4,17 +4,19 @@ const KEYWORDS = new Set(
   ),
 );
 
-/** Whether a class and its file can have this name. */
+/** Returns whether a class and its file can have this name. */
 export const isPythonName = (name: string): boolean => /^[A-Za-z_]\w*$/.test(name) && !KEYWORDS.has(name);
 
-/** String literals: a name in them may mean anything, such as a topic. */
+/** String literals and comments: a name in them may mean something else, such as a topic. */
 const TEXT = String.raw`"""[^]*?"""|'''[^]*?'''|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*'|#[^\n]*`;
 
-/** A name alone, or the class of the module of the same name: `Turn`, `Turn.Turn`. */
+/**
+ * Returns a pattern for a name alone, or for the class in the module of the same name: `Turn`, `Turn.Turn`.
+ */
 const nameOf = (name: string): RegExp =>
   new RegExp(String.raw`(${TEXT})|(?<![\p{L}\p{N}_.])${name}(\.${name})?(?![\p{L}\p{N}_])`, 'gu');
 
-/** The module in `from actions.Turn import …`. */
+/** Returns a pattern for the module in `from actions.Turn import …`. */
 const moduleOf = (name: string): RegExp =>
   new RegExp(String.raw`^(\s*(?:from|import)\s+actions\.)${name}(?![\p{L}\p{N}_])`, 'gmu');
 
@@ -28,7 +30,7 @@ export function withName(source: string, from: string, to: string): string {
     });
 }
 
-/** Whether a source imports this name, also in parentheses over several lines. */
+/** Returns whether a source imports this name, also in parentheses over several lines. */
 export function importsName(source: string, name: string): boolean {
   const asWord = String.raw`(?<![\p{L}\p{N}_])${name}(?![\p{L}\p{N}_])`;
   const onLine = String.raw`^[ \t]*(?:from|import)\s[^\n#]*${asWord}`;

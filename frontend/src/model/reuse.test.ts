@@ -24,7 +24,7 @@ const nothing = () => null;
 const free = () => false;
 
 describe('reuse', () => {
-  it('takes what a tree needs, and no more', () => {
+  it('copies the files that a tree needs, and no others', () => {
     expect(Object.keys(closureOf('Dock', files)).sort()).toEqual([
       'actions/Creep.py',
       'actions/Turn.py',
@@ -33,20 +33,20 @@ describe('reuse', () => {
     ]);
   });
 
-  it('leaves names alone where they are free', () => {
+  it('keeps names that are free', () => {
     const plan = planInsertion('Dock', closureOf('Dock', files), nothing, free);
     expect(plan.tree).toBe('Dock');
     expect(plan.files).toEqual(closureOf('Dock', files));
   });
 
-  it('uses what is there already, word for word', () => {
+  it('reuses identical existing files', () => {
     const existing = (path: string) => (files as Record<string, string>)[path] ?? null;
     const plan = planInsertion('Dock', closureOf('Dock', files), existing, free);
     expect(plan.files).toEqual({});
     expect(plan.tree).toBe('Dock');
   });
 
-  it('renames a newcomer whose name is taken, and all that refers to it', () => {
+  it('renames a new file whose name is taken, and all references to it', () => {
     const project: Record<string, string> = {
       'actions/Turn.py': 'class Turn(Base):\n    mine = True\n',
       'trees/Search.json': files['trees/Search.json'],

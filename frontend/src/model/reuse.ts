@@ -1,12 +1,12 @@
 import { parseDiagram, serializeDiagram } from './serialize';
 import type { Diagram, DiagramNode } from './diagram';
 
-/** File contents by path. */
+/** The contents of files, by path. */
 export type Sources = Readonly<Record<string, string>>;
 
 /** The result of adding a behaviour to a project. */
 export interface Insertion {
-  /** The tree to use, by its name in the project. */
+  /** The tree to call, by its name in the project. */
   readonly tree: string;
   /** The files to write, by path, without those that already have the same content. */
   readonly files: Sources;
@@ -17,7 +17,7 @@ export interface Insertion {
 const ACTION = /^actions\/([^/]+)\.py$/;
 const TREE = /^trees\/([^/]+)\.json$/;
 
-/** A tree's text in this editor's format, so that equal trees have equal texts. */
+/** Returns a tree's text in the editor's format, so that equal trees have equal texts. */
 function normal(path: string, text: string): string {
   if (!TREE.test(path)) return text;
   try {
@@ -54,7 +54,10 @@ function renamed(sources: Sources, path: string, name: string): Record<string, s
   return result;
 }
 
-/** The files of a tree and of everything that it uses: the trees below it and their actions. */
+/**
+ * Returns the files of a tree and of everything that it uses: its actions, the trees that it calls, and
+ * theirs.
+ */
 export function closureOf(tree: string, files: Sources): Sources {
   const found: Record<string, string> = {};
   const waiting = [tree];
@@ -74,8 +77,8 @@ export function closureOf(tree: string, files: Sources): Sources {
 }
 
 /**
- * Plans how to add a behaviour to a project. Identical files are reused; if a name is taken by something
- * else, the new file gets a free name and all references to it change.
+ * Plans how to add a behaviour to a project. Identical files are reused. If another file has the name
+ * already, the new file gets a free name, and all references to it change.
  */
 export function planInsertion(
   tree: string,
@@ -91,7 +94,8 @@ export function planInsertion(
     const there = existing(path);
     return there !== null && normal(path, there) !== files[path];
   };
-  // A renamed file changes the files that refer to it, which may then clash too: repeated until none does.
+  // A renamed file changes the files that refer to it, which may then clash too: this repeats until none
+  // does.
   for (let clash = Object.keys(files).find(differs); clash; clash = Object.keys(files).find(differs)) {
     const base = (ACTION.exec(clash) ?? TREE.exec(clash))?.[1] ?? clash;
     let count = 2;
@@ -106,7 +110,7 @@ export function planInsertion(
   return { tree: TREE.exec(place)?.[1] ?? tree, files: Object.fromEntries(fresh), places: origin };
 }
 
-/** The files of a behaviour at their places in a project. */
+/** Returns the files of a behaviour at their places in a project. */
 export function atPlaces(sources: Sources, places: Readonly<Record<string, string>>): Sources {
   let files: Record<string, string> = Object.fromEntries(
     Object.entries(sources).map(([path, text]) => [path, normal(path, text)]),

@@ -7,7 +7,10 @@ export interface Kind {
   readonly tree?: string;
 }
 
-/** The number of allowed children; unknown types keep theirs, and accept no more. */
+/**
+ * Returns the number of children that a node may have; a node of unknown type may keep its children, but gets
+ * no more.
+ */
 function capacity(diagram: Diagram, id: NodeId, vocabulary: Vocabulary): number {
   const node = diagram.nodes[id];
   if (!node) return 0;
@@ -16,7 +19,7 @@ function capacity(diagram: Diagram, id: NodeId, vocabulary: Vocabulary): number 
 
 const NONE: ReadonlySet<NodeId> = new Set();
 
-/** Whether this many more children fit under `id` after those in `leaving` have left it. */
+/** Returns whether this many more children fit under `id` after those in `leaving` have left it. */
 export function hasRoom(
   diagram: Diagram,
   id: NodeId,
@@ -29,35 +32,35 @@ export function hasRoom(
   return staying.length + count <= capacity(diagram, id, vocabulary);
 }
 
-/** Whether `id` can have one more child; `moving` is a child that only changes its place. */
+/** Returns whether `id` can have one more child; `moving` is a child of it that only changes its place. */
 export function acceptsChild(diagram: Diagram, id: NodeId, vocabulary: Vocabulary, moving?: NodeId): boolean {
   return hasRoom(diagram, id, vocabulary, 1, moving === undefined ? NONE : new Set([moving]));
 }
 
-/** Whether `id` with its subtree may be moved under `parent`. */
+/** Returns whether `id` with its subtree may be moved under `parent`. */
 export function canMoveUnder(diagram: Diagram, id: NodeId, parent: NodeId, vocabulary: Vocabulary): boolean {
   return (
     id in diagram.nodes && !isWithin(diagram, parent, id) && acceptsChild(diagram, parent, vocabulary, id)
   );
 }
 
-/** Whether a block of this kind may be in this tree at all. */
+/** Returns whether a block of this kind may be in this tree at all. */
 export function isKindLegal(diagram: Pick<Diagram, 'id'>, kind: Kind, vocabulary: Vocabulary): boolean {
   return !(kind.type === 'SubTree' && kind.tree && wouldRecurse(vocabulary, diagram.id, kind.tree));
 }
 
-/** Whether a node may change to this type with its present children. */
+/** Returns whether a node may change to this type with its present children. */
 export function canMorph(diagram: Diagram, id: NodeId, spec: NodeSpec): boolean {
   const count = childrenOf(diagram, id).length;
   return count <= spec.maxChildren;
 }
 
-/** Whether a new node of this type may be inserted between a node and its parent. */
+/** Returns whether a new node of this type may be inserted between a node and its parent. */
 export function canWrapIn(spec: NodeSpec): boolean {
   return spec.maxChildren > 0;
 }
 
-/** Whether its children have a legal place if the node alone is removed. */
+/** Returns whether a node can be removed alone: its children must have a legal place then. */
 export function canUnwrap(diagram: Diagram, id: NodeId, vocabulary: Vocabulary): boolean {
   const count = childrenOf(diagram, id).length;
   if (count === 0) return false;

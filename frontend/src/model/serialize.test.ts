@@ -25,7 +25,7 @@ describe('parseDiagram', () => {
     expect(() => parseDiagram(value)).toThrow(message);
   });
 
-  it('repairs links to nothing, second parents, rings and lost pieces', () => {
+  it('repairs dangling links, second parents, cycles and lost pieces', () => {
     const diagram = parseDiagram({
       ...base,
       root: 'r',
@@ -42,7 +42,7 @@ describe('parseDiagram', () => {
     expect(diagram.drafts).toEqual(['lost', 'x']);
   });
 
-  it('keeps what it does not know', () => {
+  it('keeps unknown keys', () => {
     const text = serializeDiagram(
       parseDiagram({ ...base, nodes: { a: { type: 'A', future: [1] } }, drafts: ['a'], model: { x: 1 } }),
     );
@@ -52,7 +52,7 @@ describe('parseDiagram', () => {
 
 describe('serializeDiagram', () => {
   it.each(['laser_bump_and_go', 'visual_follow_person'])(
-    'gives back the example %s byte for byte',
+    'reproduces the example %s byte for byte',
     (name) => {
       const text = readFileSync(`../examples/${name}/trees/MainTree.json`, 'utf8');
       expect(serializeDiagram(parseDiagram(text))).toBe(text);

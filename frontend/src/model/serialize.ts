@@ -8,7 +8,7 @@ import {
   type Point,
 } from './diagram';
 
-/** The text is not a diagram; the message for the user says where and why. */
+/** Thrown for a text that is not a diagram; the message tells the user where and why. */
 export class DiagramError extends Error {
   override readonly name = 'DiagramError';
 }
@@ -58,8 +58,8 @@ function parseNode(id: NodeId, value: unknown): DiagramNode {
 }
 
 /**
- * Makes the nodes a forest: dangling links and second parents are dropped, and unconnected pieces become
- * drafts, so that nothing is lost.
+ * Repairs the nodes into a forest: dangling links and second parents are dropped, and unconnected pieces
+ * become drafts, so that nothing is lost.
  */
 function repair(root: NodeId | null, drafts: NodeId[], nodes: Record<NodeId, DiagramNode>) {
   const seen = new Set<NodeId>();
@@ -151,7 +151,7 @@ function orderedNode(node: DiagramNode): Json {
   return Object.fromEntries([...known, ...unknown]);
 }
 
-/** JSON on one line with a space after each comma and colon, as in the examples. */
+/** Returns JSON on one line with a space after each comma and colon, as in the examples. */
 function inline(value: unknown): string {
   if (Array.isArray(value)) return `[${value.map(inline).join(', ')}]`;
   if (isObject(value)) {
@@ -164,7 +164,7 @@ function inline(value: unknown): string {
 
 const written = new WeakMap<DiagramNode, string>();
 
-/** A node as it is saved; cached, since nodes are immutable. */
+/** Returns a node as it is saved; cached, since nodes are immutable. */
 function nodeText(node: DiagramNode): string {
   const known = written.get(node);
   if (known !== undefined) return known;
@@ -174,7 +174,7 @@ function nodeText(node: DiagramNode): string {
   return text;
 }
 
-/** Writes a diagram: nodes in execution order, one a line, so that diffs of revisions are readable. */
+/** Writes a diagram: nodes in execution order, one on each line, so that diffs of revisions are readable. */
 export function serializeDiagram(diagram: Diagram): string {
   const { format, version, id, root, nodes, drafts, layout, ...rest } = diagram;
   const lines = preorder(diagram).map((node) => {

@@ -21,7 +21,7 @@ const { actions, cases } = JSON.parse(readFileSync('../tests/shared/problems.jso
 const nodes = readCatalog(catalog);
 const inOrder = (rows: readonly (readonly string[])[]): string[] => rows.map((row) => row.join(' | ')).sort();
 
-/** The code that the translator gives to a finding: kinds with several tell by what the node is. */
+/** Returns the translator's code of a finding: for a kind with several codes, the one that is in `among`. */
 function codes(kind: keyof typeof CODES, among: readonly string[]): string {
   const known = CODES[kind];
   return known.find((code) => among.includes(code)) ?? known[0] ?? kind;

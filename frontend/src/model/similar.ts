@@ -1,4 +1,4 @@
-/** The Damerau distance of two names. */
+/** Returns the Damerau–Levenshtein distance of two names. */
 
 function distance(a: string, b: string): number {
   const width = b.length + 1;
@@ -19,7 +19,7 @@ function distance(a: string, b: string): number {
   return at(a.length, b.length);
 }
 
-/** Up to `limit` similar names, the nearest first. */
+/** Returns up to `limit` similar names, the nearest first. */
 export function similarNames(name: string, names: Iterable<string>, limit = 2): string[] {
   const wanted = name.toLowerCase().slice(0, 100);
   const allowed = Math.min(3, Math.max(1, Math.floor(wanted.length / 3)));

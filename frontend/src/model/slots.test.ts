@@ -26,7 +26,7 @@ describe.each(['vertical', 'horizontal'] as const)('slots in a %s layout', (orie
   const find = (x: number, y: number, ...moving: string[]) =>
     slotFinder({ diagram: tree, layout, vocabulary, moving })(x, y);
 
-  it('are between two siblings', () => {
+  it('exist between two siblings', () => {
     const [ax, ay] = centre(at('a'));
     const [bx, by] = centre(at('b'));
     const slot =
@@ -36,25 +36,25 @@ describe.each(['vertical', 'horizontal'] as const)('slots in a %s layout', (orie
     expect(slot).toMatchObject({ parent: 'r', index: 1, kind: 'between' });
   });
 
-  it('are onto a block that takes children', () => {
+  it('exist on a block that accepts children', () => {
     expect(find(...centre(at('b')))).toMatchObject({ parent: 'b', index: 0, kind: 'onto' });
   });
 
-  it('are beside a decorator that is full', () => {
+  it('exist beside a decorator that is full', () => {
     expect(find(...centre(at('i')))).toMatchObject({ parent: 'r', kind: 'between' });
   });
 
-  it('are nowhere far from the tree', () => {
+  it('do not exist far from the tree', () => {
     expect(find(9000, 9000)).toBeNull();
   });
 
-  it('never are below the block that is moved', () => {
+  it('are never below the moved block', () => {
     const slot = find(...centre(at('c')), 'i');
     expect(slot?.parent).not.toBe('i');
     expect(slot?.parent).not.toBe('c');
   });
 
-  it('never are below any of several blocks that are moved, nor where only one of them has room', () => {
+  it('are never below any of several moved blocks, nor where only one of them has room', () => {
     expect(find(...centre(at('b')), 'a', 'b')?.parent).not.toBe('b');
     const freed = { ...tree, nodes: { ...tree.nodes, i: { type: 'Inverter' } }, drafts: ['c'] };
     const drawn = layoutTree(freed, vocabulary);
@@ -65,7 +65,7 @@ describe.each(['vertical', 'horizontal'] as const)('slots in a %s layout', (orie
   });
 });
 
-it('knows the place that a block already has', () => {
+it('recognise the place that a block already has', () => {
   const slot = { parent: 'r', kind: 'between', mark: { x: 0, y: 0, width: 0, height: 0 } } as const;
   const tree = diagram('vertical');
   expect([0, 1, 2, 3].map((index) => isSamePlace(tree, ['b'], { ...slot, index }))).toEqual([

@@ -6,7 +6,7 @@ import type { Vocabulary } from './vocabulary';
 /** A place under a parent where a dragged block may be dropped, and the mark that shows it. */
 export interface Slot {
   readonly parent: NodeId;
-  /** Counts the children before the drop. */
+  /** The index among the children before the drop. */
   readonly index: number;
   /** `between`: a bar between siblings; `onto`: the parent itself is marked. */
   readonly kind: 'between' | 'onto';
@@ -21,15 +21,18 @@ interface Query {
   readonly diagram: Diagram;
   readonly layout: Layout;
   readonly vocabulary: Vocabulary;
-  /** The blocks that are moved, each with its subtree; absent for a new block. */
+  /** The blocks that are dragged, each with its subtree; absent for a new block. */
   readonly moving?: readonly NodeId[] | undefined;
 }
 
-/** Computed for a top-down layout; left-right exchanges the axes. */
+/**
+ * The tree in which slots are searched, as a top-down layout; for a left-right layout, the axes are
+ * exchanged.
+ */
 interface Field {
   readonly boxOf: (id: NodeId) => Box | undefined;
   readonly accepts: (id: NodeId) => boolean;
-  /** The widths of the columns of leaves that are below each other. */
+  /** The widths of the columns of stacked leaves. */
   readonly columns: ReadonlyMap<NodeId, number>;
   readonly siblings: (id: NodeId) => readonly NodeId[];
   readonly parentOf: ReadonlyMap<NodeId, NodeId>;
@@ -47,7 +50,7 @@ interface Row {
   readonly bottom: number;
 }
 
-/** Whether a point is in the column of leaves that are below each other, to which a block belongs. */
+/** Returns whether a point is in a block's column of stacked leaves. */
 function isInColumn(field: Field, id: NodeId | undefined, x: number): boolean {
   const box = field.boxOf(id ?? '');
   const width = field.columns.get(id ?? '');
@@ -63,7 +66,7 @@ function indexAt(field: Field, siblings: readonly NodeId[], x: number, y: number
   return before.length;
 }
 
-/** The bar between two siblings beside each other; one of them is absent at an end of the row. */
+/** Returns the bar between two siblings beside each other; at an end of the row, one of them is absent. */
 function barBetween(left: Box | undefined, right: Box | undefined): Box | null {
   const tops = [left, right].filter((box) => box !== undefined);
   if (tops.length === 0) return null;
@@ -78,7 +81,7 @@ function barBetween(left: Box | undefined, right: Box | undefined): Box | null {
   return { x: at - 2, y, width: 4, height: bottom - y };
 }
 
-/** The bar between two leaves below each other; one of them is absent at an end of the column. */
+/** Returns the bar between two leaves below each other; at an end of the column, one of them is absent. */
 function barBelow(upper: Box | undefined, lower: Box | undefined): Box | null {
   const bar = barBetween(upper && transposed(upper), lower && transposed(lower));
   return bar && transposed(bar);
@@ -94,7 +97,7 @@ function slotBetween(field: Field, parent: NodeId, x: number, y: number): Slot |
     barBelow(inColumn(before), inColumn(next)) ??
     barBetween(field.boxOf(before ?? ''), field.boxOf(next ?? ''));
   if (!mark) return null;
-  // The index refers to the visible siblings, without the moved block.
+  // The index must count all children, since the visible siblings lack the moved block.
   const all = childrenOf(field.diagram, parent);
   return { parent, index: next === undefined ? all.length : all.indexOf(next), kind: 'between', mark };
 }
@@ -108,7 +111,7 @@ function slotOnto(field: Field, parent: NodeId): Slot | null {
 const inside = (box: Box, x: number, y: number): boolean =>
   x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + box.height;
 
-/** The slot on a block: in its middle as a child, on its sides beside it. */
+/** Returns the slot on a block: its middle means as a child, its sides mean beside it. */
 function slotOnBlock(
   field: Field,
   id: NodeId,
@@ -128,7 +131,10 @@ function slotOnBlock(
 
 const middleOf = (box: Box): number => box.x + box.width / 2;
 
-/** The width of its column for each stacked child of a parent; the leaves of a column follow each other. */
+/**
+ * Returns the width of the column for each stacked child of a parent; the leaves of a column follow each
+ * other.
+ */
 function columnsOf(ids: readonly NodeId[], boxOf: Field['boxOf']): [NodeId, number][] {
   const columns: { readonly ids: NodeId[]; readonly middle: number; width: number }[] = [];
   for (const id of ids) {
@@ -229,7 +235,7 @@ function fieldOf({ diagram, layout, vocabulary, moving = [] }: Query): Field {
 /** Finds the slot at a point; null if there is none. */
 export type SlotFinder = (x: number, y: number) => Slot | null;
 
-/** Prepares the slots of a tree once, for all moves of a drag. */
+/** Prepares the search of slots in a tree once, for all moves of a drag. */
 export function slotFinder(query: Query): SlotFinder {
   const field = fieldOf(query);
   if (query.diagram.layout === 'vertical') return (x, y) => findSlot(field, x, y);
@@ -239,7 +245,7 @@ export function slotFinder(query: Query): SlotFinder {
   };
 }
 
-/** Whether the blocks, dropped into the slot in this order, would stay where they are. */
+/** Returns whether the blocks would stay where they are if they were dropped into the slot in this order. */
 export function isSamePlace(diagram: Diagram, moving: readonly NodeId[], slot: Slot): boolean {
   const children = childrenOf(diagram, slot.parent);
   const at = children.indexOf(moving[0] ?? '');

@@ -61,7 +61,7 @@ export const vocabulary: Vocabulary = makeVocabulary(
 
 const types = [...vocabulary.specs.keys()].filter((type) => type !== 'SubTree');
 
-/** A legal edit, chosen by three numbers; null if there is none. */
+/** Returns a legal edit, chosen by three numbers; null if there is none. */
 export function legalStep(diagram: Diagram, what: number, where: number, which: number): Recipe | null {
   const ids = preorder(diagram);
   const pick = (n: number): NodeId | undefined => ids[n % Math.max(1, ids.length)];
@@ -122,7 +122,7 @@ export function legalStep(diagram: Diagram, what: number, where: number, which: 
 
 export const steps = fc.array(fc.tuple(fc.nat(1000), fc.nat(1000), fc.nat(1000)), { maxLength: 60 });
 
-/** The reason why a diagram is not a valid forest; null if it is valid. For tests. */
+/** Returns the reason why a diagram is not a valid forest; null if it is valid. For tests. */
 export function illegality(diagram: Diagram): string | null {
   const seen = new Set<NodeId>();
   const open = [...topsOf(diagram)];

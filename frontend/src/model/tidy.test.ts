@@ -3,7 +3,7 @@ import { tidyTree, type Spot } from './tidy';
 
 type Shape = readonly [breadth: number, ...children: Shape[]];
 
-/** Lays a tree of levels 10 deep out, and returns the middles in pre-order. */
+/** Lays out a tree whose levels are 10 deep, and returns the middles in pre-order. */
 function middles(shape: Shape, gap = 2): number[] {
   const spots: Spot<number>[] = [];
   const grow = ([breadth, ...children]: Shape, parent: number): void => {
@@ -22,26 +22,26 @@ describe('tidyTree', () => {
     expect(middles([4, leaf, leaf, leaf])).toEqual([0, -6, 0, 6]);
   });
 
-  it('counts the sizes of the first and the last child', () => {
+  it('uses the sizes of the first and the last child', () => {
     const [, wide, narrow] = middles([4, [10], [2]]) as [number, number, number];
     expect(narrow - wide).toBe(10 / 2 + 2 + 2 / 2);
     expect(wide - 5).toBe(-(narrow + 1));
   });
 
-  it('draws the same subtree alike wherever it is', () => {
+  it('draws equal subtrees alike wherever they are', () => {
     const twins: Shape = [4, leaf, [8, leaf]];
     const [, a, a1, a2, a3, b, b1, b2, b3] = middles([4, twins, twins]) as number[];
     expect([a1! - a!, a2! - a!, a3! - a!]).toEqual([b1! - b!, b2! - b!, b3! - b!]);
   });
 
-  it('lets a shallow child stand above what a deep neighbour spreads below it', () => {
+  it('lets a shallow child be above the wide part of a deep neighbour', () => {
     const deep: Shape = [4, [4, leaf, leaf, leaf]];
     const [, , , , , , shallow] = middles([4, deep, leaf]) as number[];
     const [, first] = middles([4, deep, leaf]) as number[];
     expect(shallow! - first!).toBe(6);
   });
 
-  it('shares the room between two that push each other among those in between', () => {
+  it('distributes the room between two pushing subtrees over those in between', () => {
     const broad: Shape = [4, [40]];
     const at = middles([4, broad, leaf, leaf, broad]);
     const [first, second, third, fourth] = [at[1]!, at[3]!, at[4]!, at[5]!];

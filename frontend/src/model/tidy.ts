@@ -1,10 +1,11 @@
 /**
- * A tidy drawing of a tree whose nodes differ in size: parents in the middle above their children, equal
- * subtrees drawn alike, no node beside another closer than a gap. In linear time, as in A. van der Ploeg,
- * "Drawing Non-layered Tidy Trees in Linear Time", Software: Practice and Experience 44 (2014).
+ * Computes a tidy drawing of a tree whose nodes differ in size: parents are in the middle above their
+ * children, equal subtrees look alike, and nodes beside each other keep a gap. It takes linear time, as in A.
+ * van der Ploeg, "Drawing Non-layered Tidy Trees in Linear Time", Software: Practice and Experience 44
+ * (2014).
  */
 
-/** The breadth is measured along a row of siblings, the depth from a parent to its children. */
+/** The size of a node: the breadth along a row of siblings, and the depth from a parent to its children. */
 export interface Extent {
   readonly breadth: number;
   readonly depth: number;
@@ -18,14 +19,14 @@ export interface Spot<Id> extends Extent {
   start: number;
 }
 
-/** One side of a subtree from the top down: a step for each outermost node. */
+/** One side of a subtree from the top down, as a linked list with a step for each outermost node. */
 interface Step {
-  /** The position of the side, in the frame of the step before. */
+  /** The position of the side, in the frame of the previous step. */
   readonly at: number;
   /** The depth where the step ends. */
   readonly end: number;
   readonly next: Step | null;
-  /** The offset of the next step's frame. */
+  /** The offset of the next step's frame from this one's. */
   readonly by: number;
 }
 
@@ -35,7 +36,7 @@ interface Side {
   readonly by: number;
 }
 
-/** Subtrees side by side. */
+/** A row of subtrees side by side. */
 interface Row {
   left: Side;
   right: Side;
@@ -44,7 +45,7 @@ interface Row {
   /** The outermost nodes on the right from the top down, each with its depth. */
   readonly reach: { readonly index: number; readonly end: number }[];
   readonly middles: number[];
-  /** The extra offsets of the siblings between a subtree and the distant sibling that pushes it. */
+  /** For each sibling, the extra offset between a subtree and the distant sibling that pushes it. */
   readonly extra: number[];
 }
 
@@ -55,7 +56,7 @@ interface Subtree {
   readonly end: number;
 }
 
-/** `upper`, continued below its end by `lower`. */
+/** Returns `upper`, continued by `lower` below the end of `upper`. */
 function extended(upper: Side, upperEnd: number, lower: Side, lowerEnd: number): Side {
   if (upperEnd >= lowerEnd) return upper;
   let tail: Step | null = lower.step;
@@ -80,7 +81,7 @@ function extended(upper: Side, upperEnd: number, lower: Side, lowerEnd: number):
   return step ? { step, by: 0 } : upper;
 }
 
-/** Spreads an offset over the siblings between the pushing and the pushed one. */
+/** Spreads an offset over the siblings between the pushing and the pushed subtree. */
 function spread({ extra }: Row, from: number, to: number, push: number): void {
   for (let i = from + 1; i < to; i += 1) {
     extra[i] = (extra[i] ?? 0) + (push * (i - from)) / (to - from);

@@ -1,11 +1,11 @@
 import { subtreeOf, type Diagram } from './diagram';
 import type { PortDirection, PortSpec } from './ports';
 
-/** Facts about a tree for other trees of the project. */
+/** Facts about a tree that other trees of the project need. */
 export interface TreeFacts {
-  /** The trees that the tree calls, except from drafts. */
+  /** The trees that the tree calls, not counting calls in drafts. */
   readonly calls: ReadonlySet<string>;
-  /** Its ports as a SubTree. */
+  /** The ports that the tree has as a SubTree. */
   readonly ports: readonly PortSpec[];
 }
 
@@ -41,14 +41,14 @@ function read(diagram: Diagram): TreeFacts {
 
 const known = new WeakMap<Diagram, TreeFacts>();
 
-/** The facts of a diagram, cached, since diagrams are immutable. */
+/** Returns the facts of a diagram, cached, since diagrams are immutable. */
 export function treeFacts(diagram: Diagram): TreeFacts {
   const facts = known.get(diagram) ?? read(diagram);
   known.set(diagram, facts);
   return facts;
 }
 
-/** Whether the facts of a tree are unchanged. */
+/** Returns whether the facts of a tree are unchanged. */
 export function sameFacts(a: TreeFacts, b: TreeFacts): boolean {
   const isSamePort = (port: PortSpec, index: number): boolean =>
     JSON.stringify(port) === JSON.stringify(b.ports[index]);

@@ -38,7 +38,7 @@ describe('the undo stack', () => {
     expect(undoStack.past).toHaveLength(2);
     expect(undo(doc, undoStack)?.document).toEqual({ value: 2 });
   });
-  it('forgets what could be redone when something new is done, and ignores what changes nothing', () => {
+  it('clears redo after a new step, and ignores empty steps', () => {
     const [doc, undoStack] = step({ value: 0 }, emptyUndo, 1);
     const back = undo(doc, undoStack);
     const [, next] = step(back!.document, back!.undoStack, 5);

@@ -8,7 +8,7 @@ export interface Renaming {
 /** One undoable step of one tree: its label, and the patches in both directions. */
 export interface UndoEntry {
   readonly label: string;
-  /** Consecutive steps with the same key are one: typing in a field, dragging a block. */
+  /** Consecutive steps with the same key are merged, such as typing in a field or dragging a block. */
   readonly mergeKey: string | null;
   readonly patches: readonly Patch[];
   readonly inverse: readonly Patch[];
@@ -47,7 +47,7 @@ export function record(undoStack: UndoStack, entry: UndoEntry): UndoStack {
   return { past: [...undoStack.past, entry].slice(-LIMIT), future: [], sealed: false };
 }
 
-/** Ends a gesture: the next step is a new one. */
+/** Ends a gesture: the next step is not merged with the last one. */
 export function seal(undoStack: UndoStack): UndoStack {
   return undoStack.sealed ? undoStack : { ...undoStack, sealed: true };
 }

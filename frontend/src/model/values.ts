@@ -4,7 +4,8 @@
  */
 
 /**
- * `loose` is accepted but read differently (`12abc` as 12); `range` is a number that the type cannot hold.
+ * The result of a check. `loose`: accepted but read differently (`12abc` as 12); `range`: a number that the
+ * type cannot hold.
  */
 export type Fit = 'good' | 'loose' | 'range' | 'bad';
 
@@ -17,7 +18,7 @@ const WORST: readonly Fit[] = ['bad', 'range', 'loose'];
 
 export const STATUSES = ['SUCCESS', 'FAILURE', 'RUNNING', 'SKIPPED'] as const;
 
-/** The number at the beginning of a literal; null if there is none. */
+/** Returns the number at the beginning of a literal; null if there is none. */
 function numberIn(type: string, text: string): string | undefined {
   if (type === 'double') return REAL.exec(text)?.[0];
   return (type === 'uint' ? UNSIGNED : INTEGER).exec(text)?.[0];
@@ -37,7 +38,10 @@ function outsideDouble(number: string): Outside | null {
   return isLost ? { number, low: '4.9e-324', high: '1.8e308' } : null;
 }
 
-/** A number that the type cannot hold, with the limits of the type; null if it can. */
+/**
+ * Returns the number in a literal that the type cannot hold, with the limits of the type; null if there is
+ * none.
+ */
 export function outside(type: string, text: string): Outside | null {
   if (type.startsWith('list[')) {
     const found = text.split(';').map((part) => outside(type.slice(5, -1), part));
@@ -52,7 +56,7 @@ export function outside(type: string, text: string): Outside | null {
   return isWithin ? null : { number, low: String(low), high: String(high) };
 }
 
-/** The part of a literal that is read as a value of the type; null if no part is. */
+/** Returns the part of a literal that is read as the value; null if no part is. */
 export function partRead(type: string, text: string): string | null {
   if (type !== 'int' && type !== 'uint' && type !== 'double') return null;
   return outside(type, text) ? null : (numberIn(type, text) ?? null);
@@ -73,7 +77,7 @@ function fitList(item: string, text: string): Fit {
   return WORST.find((each) => fits.has(each)) ?? 'good';
 }
 
-/** How well a literal matches a type of the catalogue; a type without a check matches everything. */
+/** Returns how well a literal matches a type of the catalogue; a type without a check matches everything. */
 export function fit(type: string, text: string): Fit {
   if (type.startsWith('list[')) return fitList(type.slice(5, -1), text);
   switch (type) {

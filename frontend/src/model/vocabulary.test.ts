@@ -37,7 +37,7 @@ describe('the nodes of a project', () => {
     expect(spec(type).summary).toBe(`Says what ${type} does.`);
   });
 
-  it('take part in wrapping, morphing and adding like built-in nodes', () => {
+  it('can be wrapped, morphed and added like built-in nodes', () => {
     const nodes = { r: { type: 'Own', children: ['a', 'b'] }, a: { type: 'Act' }, b: { type: 'Act' } };
     const diagram: Diagram = { ...emptyDiagram('MainTree'), root: 'r', nodes };
     expect(hasRoom(diagram, 'r', vocabulary, 1)).toBe(true);

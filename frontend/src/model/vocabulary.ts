@@ -13,10 +13,10 @@ export interface NodeSpec {
   readonly maxChildren: number;
   readonly ports: readonly PortSpec[];
   readonly summary: string;
-  /** Any port name is accepted. */
+  /** Whether the node accepts any port name. */
   readonly open: boolean;
   readonly source: 'builtin' | 'action' | 'subtree';
-  /** An action whose Python cannot be read now: this is its last declaration. */
+  /** Whether the Python of the action has a syntax error now: then this is its last valid declaration. */
   readonly outdated?: boolean;
 }
 
@@ -25,7 +25,7 @@ export interface ActionDescription {
   readonly name: string;
   readonly doc?: string | undefined;
   readonly kind: string;
-  /** How many children it may have; without it, as the kind says. A largest number of null allows any. */
+  /** The allowed number of children; absent: that of the kind. A `max` of null allows any number. */
   readonly children?: { readonly min: number; readonly max: number | null } | undefined;
   readonly open: boolean;
   readonly outdated?: boolean | undefined;
@@ -39,7 +39,7 @@ export interface ActionDescription {
   }[];
 }
 
-/** All node types of one project, and facts about its trees. */
+/** All node types of one project, with facts about its trees. */
 export interface Vocabulary {
   readonly specs: ReadonlyMap<string, NodeSpec>;
   readonly trees: ReadonlyMap<string, TreeFacts>;
@@ -81,7 +81,9 @@ export function readCatalog(document: CatalogDocument): readonly NodeSpec[] {
   }));
 }
 
-/** The kinds of classes in `actions/`: symbol, and how many children there are where the class does not say. */
+/**
+ * The kinds of classes in `actions/`: their symbol, and the number of children unless the class declares it.
+ */
 const OWN = {
   action: { symbol: '▶', min: 0, max: 0 },
   condition: { symbol: '?', min: 0, max: 0 },
@@ -135,12 +137,12 @@ export function specOf(vocabulary: Vocabulary, node: Pick<DiagramNode, 'type'>):
   return vocabulary.specs.get(node.type);
 }
 
-/** Whether using `used` inside `user` would make a tree contain itself. */
+/** Returns whether a call of `used` in `user` would make a tree contain itself. */
 export function wouldRecurse(vocabulary: Vocabulary, user: string, used: string): boolean {
   return called(vocabulary.trees, used).has(user);
 }
 
-/** A tree with all trees that it calls, directly or indirectly. */
+/** Returns a tree and all trees that it calls, directly or indirectly. */
 function called(trees: Vocabulary['trees'], start: string): ReadonlySet<string> {
   const seen = new Set([start]);
   for (const tree of seen) {
@@ -149,7 +151,7 @@ function called(trees: Vocabulary['trees'], start: string): ReadonlySet<string> 
   return seen;
 }
 
-/** Blackboard keys in a diagram's ports, each with the types of its uses. */
+/** Returns the blackboard keys in a diagram's ports, each with the types of its uses. */
 export function blackboardKeys(
   diagram: Diagram,
   vocabulary: Vocabulary,

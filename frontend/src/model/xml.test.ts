@@ -22,7 +22,7 @@ const diagram = parseDiagram({
 });
 
 describe('the clipboard', () => {
-  it('gives back what was copied, under new ids', () => {
+  it('reproduces the copied blocks, with new ids', () => {
     const fragment = xmlToFragment(fragmentToXml(fragmentOf(diagram, ['r'])));
     const read = Object.values(fragment!.nodes).map(({ children, ...node }) => ({
       ...node,

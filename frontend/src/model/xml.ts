@@ -2,8 +2,8 @@ import { freshId, type DiagramNode, type NodeId } from './diagram';
 import type { Fragment } from './edits';
 
 /**
- * The XML of copied blocks: compact BT.CPP v4, which can be pasted into other tabs, other projects, Groot2
- * and text editors. Files are written by the translator instead.
+ * Writes and reads the XML of copied blocks: compact BT.CPP v4, which can be pasted into other tabs, other
+ * projects, Groot2 and text editors. Files are written by the translator instead.
  */
 
 const escape = (text: string): string =>
@@ -84,7 +84,7 @@ function readElement(xml: Element, nodes: Record<NodeId, DiagramNode>): NodeId {
   return id;
 }
 
-/** Parses copied XML, also a whole BT.CPP document with several trees; null if it is not XML. */
+/** Parses copied XML, or a whole BT.CPP document with several trees; null if the text is not XML. */
 export function xmlToFragment(text: string): Fragment | null {
   const plain = text.replace(/<\?xml[^>]*\?>/, '').trim();
   if (!plain.startsWith('<') || /<!(DOCTYPE|ENTITY)/i.test(plain)) return null;

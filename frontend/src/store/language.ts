@@ -13,14 +13,14 @@ export type LanguageState =
   | { readonly kind: 'off' }
   | { readonly kind: 'starting' }
   | { readonly kind: 'ready' }
-  /** The server has ended or cannot run; `reason` is its own message. */
+  /** The server has ended or cannot run; `reason` is the server's message. */
   | { readonly kind: 'failed'; readonly reason: string; readonly willRetry: boolean };
 
 interface LanguageData {
   readonly state: LanguageState;
-  /** Findings of the language server, by path. */
+  /** The findings of the language server, by path. */
   readonly findings: Readonly<Record<string, readonly CodeFinding[]>>;
 }
 
-/** The state of the language server; not saved and without undo. */
+/** The state of the language server; it is neither saved nor undone. */
 export const useLanguageStore = create<LanguageData>(() => ({ state: { kind: 'off' }, findings: {} }));

@@ -1,6 +1,6 @@
 import type { ProjectDetail, ProjectFile } from '@/api/types';
 
-/** A file in the server's format. */
+/** Returns a file in the server's format. */
 export const projectFile = (path: string, revision: number, content: string): ProjectFile => ({
   path,
   revision,
@@ -10,7 +10,7 @@ export const projectFile = (path: string, revision: number, content: string): Pr
   content,
 });
 
-/** A diagram of one block. */
+/** Returns a diagram of one block. */
 export const oneBlock = (tree: string, type: string): string =>
   JSON.stringify({
     format: 'bt-studio/diagram',
@@ -21,7 +21,7 @@ export const oneBlock = (tree: string, type: string): string =>
     drafts: [],
   });
 
-/** A project in the server's format, for tests of the stores. */
+/** Returns a project in the server's format, for tests of the stores. */
 export const projectDetail = (
   revision: number,
   files: readonly ProjectFile[],

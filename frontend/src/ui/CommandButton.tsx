@@ -10,7 +10,7 @@ interface CommandButtonProps extends Pick<ActionIconProps, 'color' | 'variant' |
   readonly testId?: string;
 }
 
-/** A button for a command of the table, with icon and tooltip. */
+/** A button for a user command, with its icon and tooltip. */
 export function CommandButton({ command: id, isDisabled = false, testId, ...look }: CommandButtonProps) {
   const { t } = useTranslation();
   const command = useCommandTable((table) => table.commands[id]);

@@ -2,7 +2,7 @@ interface LogoProps {
   readonly size?: number;
 }
 
-/** The logo: a root with two leaves, a condition (round) and an action (square). The same as favicon.svg. */
+/** The logo, as in favicon.svg: a root with two leaves, a condition (round) and an action (square). */
 export function Logo({ size = 24 }: LogoProps) {
   return (
     <svg width={size} height={size} viewBox="0 0 32 32" aria-hidden="true" focusable="false">

@@ -33,7 +33,7 @@ const NOT = 'M4.5 9.5h15v6';
 const RING = 'M20.6 8.2A9.6 9.6 0 0 0 3 9M3.4 15.8A9.6 9.6 0 0 0 21 15M21.4 4.4v4h-4M2.6 19.6v-4h4';
 const BRANCH = 'M4 12h5l5-6h6M9 12l5 6h6M17 3l3 3-3 3M17 15l3 3-3 3';
 
-/** Symbols from the literature that icon sets lack: strokes on a grid of 24. */
+/** Symbols from the literature that icon sets lack, as strokes on a grid of 24. */
 const DRAWN: Readonly<Record<string, { path: string; mark?: 'ring' | 'star' | 'dots' }>> = {
   Sequence: { path: ARROW },
   AsyncSequence: { path: ARROW, mark: 'dots' },
@@ -114,7 +114,7 @@ function Drawn({ type, size }: { readonly type: string; readonly size: number })
 
 interface NodeSymbolProps {
   readonly type: string;
-  /** null: an unknown type. */
+  /** null for an unknown type. */
   readonly family: Family | null;
   readonly size?: number;
 }

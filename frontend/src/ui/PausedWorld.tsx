@@ -6,11 +6,11 @@ import { isWorldPaused } from '@/store/session/clock';
 import { useSessionStore } from '@/store/session/store';
 
 interface PausedWorldProps {
-  /** What that means here. */
+  /** The effect of the pause on the panel that shows the notice. */
   readonly text: string;
 }
 
-/** Tells that the world's time is paused, and offers to let it pass; nothing while it passes. */
+/** A notice that the world's time is paused, with a button to resume it; nothing while time passes. */
 export function PausedWorld({ text }: PausedWorldProps) {
   const { t } = useTranslation('run');
   const isPaused = useSessionStore(isWorldPaused);

@@ -30,7 +30,7 @@ describe('a gesture', () => {
     expect(calls.onCancel).not.toHaveBeenCalled();
   });
 
-  it('of which only the mouse is known follows any pointer', () => {
+  it('with mouse events only follows any pointer', () => {
     press(null);
     pointer('pointermove', 7);
     pointer('pointerup', 8);
@@ -55,7 +55,7 @@ describe('a gesture', () => {
     expect(calls.onEnd).not.toHaveBeenCalled();
   });
 
-  it('that its owner stops calls nothing', () => {
+  it('that its owner stops calls no handler', () => {
     press()();
     pointer('pointermove');
     fireEvent.keyDown(document.body, { key: 'Escape' });

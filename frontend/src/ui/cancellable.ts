@@ -1,20 +1,23 @@
-/** What becomes of a pressed pointer. At most one of `onEnd` and `onCancel` is called, and it is the last. */
+/** The handlers of a gesture. At most one of `onEnd` and `onCancel` is called, as the last call. */
 export interface Gesture {
   readonly onMove?: (event: PointerEvent) => void;
-  /** The button was released. */
+  /** Called when the button is released. */
   readonly onEnd?: (event: PointerEvent) => void;
-  /** The user gave up, or the pointer was lost: all must become as it was before. */
+  /**
+   * Called when the user cancels or the pointer is lost; it must restore the state from before the gesture.
+   */
   readonly onCancel: () => void;
 }
 
 /**
  * Follows a gesture of the pointer until its button is released. Escape, another button, a lost pointer and a
- * window that loses the focus cancel it; then the click and the menu that would follow are suppressed.
+ * window that loses the focus cancel the gesture; then the click and the menu that would follow are
+ * suppressed.
  *
- * It captures no pointer, so that clicks keep their targets. The events are those of the element's own window,
- * which may be one of a popped-out panel. `pointerId` is null where only the mouse is known.
+ * The pointer is not captured, so that clicks keep their targets. The listeners are on the element's own
+ * window, which may be that of a popped-out panel. `pointerId` is null if only mouse events are known.
  *
- * @returns a function that stops following, and calls nothing
+ * @returns a function that stops following without calling a handler
  */
 export function cancellable(element: Element, pointerId: number | null, gesture: Gesture): () => void {
   const view = element.ownerDocument.defaultView ?? window;
@@ -43,15 +46,15 @@ export function cancellable(element: Element, pointerId: number | null, gesture:
   view.addEventListener('pointerup', onUp, options);
   view.addEventListener('pointercancel', (event) => !isOther(event) && cancel(), options);
   view.addEventListener('keydown', (event) => event.key === 'Escape' && stop(event), options);
-  // A second button of the mouse is no `pointerdown` while the first is held.
+  // Pressing a second button of the mouse while the first is held causes no `pointerdown`.
   view.addEventListener('mousedown', (event) => event.button !== 0 && stop(event), options);
   view.addEventListener('contextmenu', stop, options);
-  // Not while it is captured: then it would also be that of each field.
+  // Without `capture`, since a captured `blur` would also be that of each field.
   view.addEventListener('blur', cancel, { signal: listening.signal });
   return end;
 }
 
-/** Suppresses what still follows a cancelled gesture, until its buttons are released. */
+/** Suppresses the events that follow a cancelled gesture, until all buttons are released. */
 function swallowRest(view: Window): void {
   const listening = new AbortController();
   const options = { capture: true, signal: listening.signal };
@@ -60,18 +63,21 @@ function swallowRest(view: Window): void {
     event.preventDefault();
     event.stopImmediatePropagation();
   };
-  // A key that presses a button makes a click of no count.
+  // A key that presses a button causes a click whose `detail` is 0.
   view.addEventListener('click', (event) => event.detail > 0 && swallow(event), options);
   view.addEventListener('contextmenu', swallow, options);
   view.addEventListener('pointerdown', end, options);
-  // The click and the menu come right after the last button.
+  // The click and the menu follow directly after the last button is released.
   view.addEventListener('pointerup', (event) => event.buttons === 0 && view.setTimeout(end), options);
 }
 
-/** Ends a drag of a library that waits for the mouse's button, as if the button were released nowhere. */
+/**
+ * Ends a drag of a library that waits for the release of the mouse button, as if it were released outside of
+ * everything.
+ */
 export function releaseMouse(document: Document): void {
   const event = new MouseEvent('mouseup', { bubbles: true });
-  // d3 finds its listeners by the window of the event.
+  // d3 finds its listeners by the event's window.
   Object.defineProperty(event, 'view', { value: document.defaultView });
   document.dispatchEvent(event);
 }

@@ -20,7 +20,7 @@ const placeholders = (text: string, form: RegExp): string[] =>
   [...text.matchAll(form)].map(([, name = '']) => name);
 
 describe('findings of the server in Spanish', () => {
-  it('are there for all that the editor has no words of its own for', () => {
+  it('exist for all codes without a text of the editor', () => {
     const own = new Set(Object.values(CODES).flat());
     const needed = table.diagnostics
       .map(({ code }) => code)
@@ -28,7 +28,7 @@ describe('findings of the server in Spanish', () => {
     expect(words.map(([code]) => code)).toEqual(expect.arrayContaining(needed));
   });
 
-  it.each(words)('%s uses only what comes with it', (code, texts) => {
+  it.each(words)('%s uses only values that it gets', (code, texts) => {
     const rule = table.diagnostics.find((each) => each.code === code);
     const known = placeholders(`${rule?.message} ${rule?.hint}`, /(?<!\{)\{(\w+)\}/g);
     for (const text of Object.values(texts)) {
@@ -47,11 +47,11 @@ describe('findings of the server in Spanish', () => {
       setLanguage('en');
     });
 
-    it('as they came in English', () => {
+    it('as sent, in English', () => {
       expect(findingText(unused)).toEqual({ message: unused.message, hint: unused.hint });
     });
 
-    it('in the language of the page, with the name that was meant where there is one', () => {
+    it('in the language of the page, with the similar name if there is one', () => {
       setLanguage('es');
       expect(findingText(unused).message).toBe(
         'El puerto o script «x» lee «speed», pero nada en el árbol la escribe.',
@@ -61,14 +61,14 @@ describe('findings of the server in Spanish', () => {
       expect(findingText(near).hint).toContain('¿Querías decir spead?');
     });
 
-    it('as they came where there are no words, or an older server gives no values', () => {
+    it('as sent, if there are no texts, or an older server sends no values', () => {
       setLanguage('es');
       const { values: _values, ...old } = unused;
       expect(findingText(old).message).toBe(unused.message);
       expect(findingText({ ...unused, code: 'BT9999' }).message).toBe(unused.message);
     });
 
-    it('without reading anything into what a user wrote', () => {
+    it('without interpreting text of the user', () => {
       setLanguage('es');
       const odd = { ...unused, values: { ...unused.values, key: '{{port}} $t(frame:more)' } };
       expect(findingText(odd).message).toContain('«{{port}} $t(frame:more)»');

@@ -8,8 +8,8 @@ interface Finding {
 }
 
 /**
- * The texts of a server finding: translated if `findings` has its code, otherwise the English ones. `near` is
- * a similar name, if there is one.
+ * Returns the texts of a server finding: translated if `findings` has its code, otherwise the English ones.
+ * `near` is a similar name, if there is one.
  */
 export function findingText({ code, message, hint, values }: Finding): { message: string; hint: string } {
   const say = (part: 'message' | 'hint', given: string): string => {

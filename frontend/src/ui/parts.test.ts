@@ -3,7 +3,9 @@ import { loadPart, PartMissing, stylesArrive } from './parts';
 
 let server: MutationObserver | null = null;
 
-/** A style sheet that comes at the `attempts`-th request, as the page sees it: jsdom fetches none. */
+/**
+ * Returns a style sheet as the page sees one that loads at the `attempts`-th request; jsdom requests none.
+ */
 function styleThatComes(attempts: number): HTMLLinkElement {
   const link = document.createElement('link');
   link.rel = 'stylesheet';
@@ -34,7 +36,7 @@ afterEach(() => {
   document.head.replaceChildren();
 });
 
-/** What becomes of it when all waiting is over. */
+/** Returns the outcome of a promise after all retries. */
 async function outcome<T>(promise: Promise<T>): Promise<PromiseSettledResult<T>> {
   const settled = Promise.allSettled([promise]);
   await vi.advanceTimersByTimeAsync(20_000);
@@ -42,13 +44,13 @@ async function outcome<T>(promise: Promise<T>): Promise<PromiseSettledResult<T>>
 }
 
 describe('a part of the page', () => {
-  it('is asked for again when it does not come', async () => {
+  it('is requested again when it fails', async () => {
     const load = vi.fn().mockRejectedValueOnce(new Error('timed out')).mockResolvedValue('part');
     expect(await outcome(loadPart(load))).toEqual({ status: 'fulfilled', value: 'part' });
     expect(load).toHaveBeenCalledTimes(2);
   });
 
-  it('is given up after some seconds, and says so', async () => {
+  it('is given up after some seconds, with an error', async () => {
     const load = vi.fn().mockRejectedValue(new Error('timed out'));
     expect(await outcome(loadPart(load))).toEqual({
       status: 'rejected',
@@ -57,7 +59,7 @@ describe('a part of the page', () => {
     expect(load).toHaveBeenCalledTimes(4);
   });
 
-  it('is not shown before its style is there', async () => {
+  it('is not shown before its style sheet has loaded', async () => {
     styleThatComes(3);
     expect(await outcome(loadPart(() => Promise.resolve('part')))).toMatchObject({ value: 'part' });
     expect(links().map((link) => link.sheet?.cssRules.length)).toEqual([1]);
@@ -65,7 +67,7 @@ describe('a part of the page', () => {
 });
 
 describe('the styles of a page', () => {
-  it('are missed by name when they never come', async () => {
+  it('are named in the error if they never load', async () => {
     styleThatComes(99);
     expect(await outcome(stylesArrive())).toMatchObject({
       reason: new PartMissing('The style sheet /assets/part.css did not come.'),

@@ -1,16 +1,16 @@
 import { lazy, type ComponentType, type LazyExoticComponent } from 'react';
 
-/** A part of the page, or its style sheet, could not be loaded after several attempts. */
+/** Thrown when a part of the page or its style sheet could not be loaded in several attempts. */
 export class PartMissing extends Error {
   override readonly name = 'PartMissing';
 }
 
-/** The pauses between attempts: a server that is busy or restarting answers again within seconds. */
+/** The pauses between attempts: a server that is busy or restarting usually answers again within seconds. */
 const AGAIN_AFTER_MS = [400, 1500, 4000] as const;
 
 const pause = (ms: number) => new Promise((done) => setTimeout(done, ms));
 
-/** Retries until it succeeds; the last error is thrown. */
+/** Retries a request until it succeeds or the attempts are used up; then it throws the last error. */
 async function insist<T>(ask: () => Promise<T>): Promise<T> {
   for (const wait of AGAIN_AFTER_MS) {
     try {
@@ -22,7 +22,7 @@ async function insist<T>(ask: () => Promise<T>): Promise<T> {
   return ask();
 }
 
-/** Whether a style sheet failed to load: browsers give it no rules then. */
+/** Returns whether a style sheet failed to load: a browser gives such a sheet no rules. */
 function isMissing({ sheet }: HTMLLinkElement): boolean {
   try {
     return !sheet || sheet.cssRules.length === 0;
@@ -31,7 +31,7 @@ function isMissing({ sheet }: HTMLLinkElement): boolean {
   }
 }
 
-/** Replaces a style sheet that failed or is still loading by a new request. */
+/** Requests a style sheet again, and replaces the one that failed or is still loading. */
 function fetchAnew(link: HTMLLinkElement): Promise<void> {
   const next = link.cloneNode() as HTMLLinkElement;
   return new Promise((done, fail) => {
@@ -48,15 +48,16 @@ function fetchAnew(link: HTMLLinkElement): Promise<void> {
 }
 
 /**
- * Waits for all style sheets of the page. A browser requests each once and shows the page without it if that
- * fails; the loader of lazy parts treats a requested style sheet as loaded.
+ * Waits for all style sheets of the page. A browser requests each only once, and shows the page without a
+ * sheet that fails; the loader of lazy parts treats a requested sheet as loaded. Failed sheets are therefore
+ * requested again.
  */
 export async function stylesArrive(page: Document = document): Promise<void> {
   const links = [...page.querySelectorAll<HTMLLinkElement>('link[rel=stylesheet]')];
   await Promise.all(links.filter(isMissing).map((link) => insist(() => fetchAnew(link))));
 }
 
-/** Loads a part of the page with its style sheets; retries if that fails. */
+/** Loads a part of the page with its style sheets, with retries. */
 export async function loadPart<T>(load: () => Promise<T>): Promise<T> {
   try {
     const part = await insist(load);
@@ -68,7 +69,7 @@ export async function loadPart<T>(load: () => Promise<T>): Promise<T> {
   }
 }
 
-/** A component that is loaded when it is first shown. */
+/** Returns a component that is loaded when it is first shown. */
 export function lazyPart<Props>(
   load: () => Promise<ComponentType<Props>>,
 ): LazyExoticComponent<ComponentType<Props>> {

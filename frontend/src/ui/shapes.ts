@@ -13,7 +13,10 @@ function chamfered(width: number, height: number, cut: number, inset: number): s
   return `M${l + cut} ${t}H${r - cut}L${r} ${t + cut}V${b - cut}L${r - cut} ${b}H${l + cut}L${l} ${b - cut}V${t + cut}Z`;
 }
 
-/** The outline that distinguishes families without colour: of a block, a palette row, a legend. */
+/**
+ * Returns the outline of a block, a palette row or a legend entry; its shape distinguishes families without
+ * colour.
+ */
 export function outline(family: Family | null, width: number, height: number, inset = 1): string {
   switch (family) {
     case 'condition':
@@ -31,7 +34,10 @@ export function outline(family: Family | null, width: number, height: number, in
 
 const RADIUS = 12;
 
-/** An orthogonal line with round corners and its bend halfway, so that siblings share the bend. */
+/**
+ * Returns an orthogonal line with round corners. The line bends at the same place for all siblings, so that
+ * they share the bend.
+ */
 export function elbow(x1: number, y1: number, x2: number, y2: number, isHorizontal: boolean): string {
   if (isHorizontal) {
     const middle = x1 + Math.min(28, (x2 - x1) / 2);

@@ -20,7 +20,7 @@ const indigo: MantineColorsTuple = [
   '#24318a',
 ];
 
-/** Mantine's dark scale, made of our dark tokens: from the text to the deepest background. */
+/** Mantine's dark scale, from our dark tokens: from the text colour to the deepest background. */
 const dark: MantineColorsTuple = [
   '#e9ebf1',
   '#c3c9d6',
@@ -53,7 +53,7 @@ export const theme = createTheme({
         styles: { description: { color: 'var(--bts-muted)' } },
       },
     },
-    // The heading of a dialogue is not the banner of the page.
+    // The header of a dialogue must not be announced as the banner of the page.
     ModalHeader: { defaultProps: { role: 'none' } },
     Modal: { defaultProps: { closeButtonProps: { 'aria-label': t('frame:close') } } },
     Tooltip: { defaultProps: { openDelay: 350, withArrow: true, fz: 'xs' } },
@@ -64,7 +64,7 @@ export const theme = createTheme({
   },
 });
 
-/** Maps Mantine's variables to our tokens, so that both themes have one source. */
+/** Maps Mantine's variables to our tokens, so that each theme has a single source. */
 export const cssVariablesResolver: CSSVariablesResolver = () => {
   const shared = {
     '--mantine-color-body': 'var(--bts-surface)',

@@ -7,7 +7,7 @@ interface UndoNotification {
   undo: () => void;
 }
 
-/** Shows a notification that offers to undo what was done. */
+/** Shows a notification with a button that undoes the reported change. */
 export function undoNotification({ message, undoLabel, undo }: UndoNotification): void {
   const id = notifications.show({
     autoClose: 10_000,

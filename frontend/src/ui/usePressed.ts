@@ -1,6 +1,9 @@
 import { useState } from 'react';
 
-/** Whether a button was pressed and the pointer has not left it since: then its tooltip would only be in the way. */
+/**
+ * Returns whether a button was pressed and the pointer is still on it: then its tooltip would cover what the
+ * press has opened.
+ */
 export function usePressed() {
   const [isPressed, setPressed] = useState(false);
   const handlers = {

@@ -18,7 +18,7 @@ function ownText(problem: ShownProblem & { source: 'editor' }, t: TFunction<'edi
   };
 }
 
-/** Returns a function for the text of a finding, of the editor's own checks or of the server's. */
+/** Returns a function that gives the text of a finding, of the editor's own checks or of the server's. */
 export function useProblemText(): (problem: ShownProblem) => ProblemText {
   const { t } = useTranslation('editor');
   return (problem) => (problem.source === 'server' ? findingText(problem) : ownText(problem, t));

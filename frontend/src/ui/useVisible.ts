@@ -1,6 +1,6 @@
 import { useEffect, useState, type RefObject } from 'react';
 
-/** Whether the element is visible; hidden panels stay in the DOM. */
+/** Returns whether the element is visible; hidden panels stay in the DOM. */
 export function useVisible(ref: RefObject<HTMLElement | null>): boolean {
   const [isVisible, setVisible] = useState(false);
   useEffect(() => {

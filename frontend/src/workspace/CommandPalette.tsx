@@ -12,7 +12,7 @@ import classes from './commandPalette.module.css';
 import type { DocumentTab } from './documents';
 import { openTab, useTabs } from './tabs';
 
-/** The most frequent groups come first. */
+/** The groups of commands, the most frequently used first. */
 const GROUPS: CommandGroup[] = ['run', 'project', 'canvas', 'edit', 'view', 'go', 'rates'];
 
 interface Command {
@@ -20,21 +20,23 @@ interface Command {
   readonly label: string;
   readonly icon: ComponentType<{ size?: number | string }> | undefined;
   readonly keys?: string | null;
-  /** Whether the command is available now; unavailable ones are shown too, so that users can find them. */
+  /**
+   * Whether the command is available now. Unavailable commands are shown too, so that users can find them.
+   */
   readonly isReady: boolean;
   readonly run: () => void;
 }
 
-/** All commands, and all files. */
+/** Returns an entry for each command and each file. */
 function useCommands(page: Document): Command[] {
   const { t } = useTranslation('frame');
   const table = useCommandTable((state) => state.commands);
-  // On the start page no document can be opened, though the store still holds those of the last project.
+  // The start page cannot open documents, although the store still has those of the last project.
   const hasDocuments = useTabs((state) => state.model !== null);
   const files = useProjectStore((state) => state.files);
   const diagrams = useProjectStore((state) => state.diagrams);
-  // Computed once, before the palette takes the focus, since some commands depend on it; later commands count
-  // as available.
+  // Computed once, before the palette takes the focus, since some commands depend on the focus; commands that
+  // are added later count as available.
   const [unready] = useState(() => {
     const rows = Object.values(table).filter((command) => command.enabled?.() === false);
     return new Set(rows.map(({ id }) => id));
@@ -70,7 +72,7 @@ function useCommands(page: Document): Command[] {
   }, [table, files, diagrams, hasDocuments, t, page, unready]);
 }
 
-/** Matching commands, the best first; equal matches keep their order, with the available ones first. */
+/** Returns the matching commands, the best first; among equal matches, available commands come first. */
 function matching(commands: readonly Command[], search: string): Command[] {
   const rated = commands.map((command) => ({ command, score: matchScore(command.label, search) }));
   return rated
@@ -109,7 +111,7 @@ function Palette({ page }: { readonly page: Document }) {
   const choose = (at: number): void => {
     if (!found[at]?.isReady) return;
     closePalette();
-    // A command may move the focus: it runs after the palette has returned it.
+    // The command runs after the palette has returned the focus, since it may move the focus itself.
     setTimeout(() => found[at]?.run());
   };
   const moves: Record<string, () => void> = {
@@ -176,7 +178,7 @@ function Palette({ page }: { readonly page: Document }) {
           aria-label={t('palette.list')}
         >
           {found.map(({ id, label, icon: Icon, keys, isReady }, at) => (
-            // The field has the keyboard: a row is pointed at, or chosen with Enter.
+            // The field keeps the keyboard focus: rows are chosen with the pointer, or with Enter.
             // eslint-disable-next-line jsx-a11y/click-events-have-key-events
             <div
               key={id}

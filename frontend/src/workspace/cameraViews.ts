@@ -6,7 +6,7 @@ interface CameraConfig {
   readonly camera?: string;
 }
 
-/** The camera that was chosen for a view; null as long as none was. */
+/** Returns the camera that was chosen for a view; null if none was chosen. */
 export const cameraOf = (view: TabNode): string | null =>
   (view.getConfig() as CameraConfig | undefined)?.camera ?? null;
 
@@ -16,7 +16,7 @@ export function chooseCamera(view: TabNode, camera: string): void {
   view.getModel().doAction(Actions.updateNodeAttributes(view.getId(), { config }));
 }
 
-/** Opens one more view of cameras below another one, in the same window. */
+/** Opens another camera view below an existing one, in the same window. */
 export function openCameraBelow(view: TabNode, camera: string | null): void {
   const model = view.getModel();
   const config = camera === null ? {} : { config: { camera } };
@@ -24,13 +24,13 @@ export function openCameraBelow(view: TabNode, camera: string | null): void {
   const place = view.getParent();
   if (place instanceof TabSetNode) {
     const { width } = useTabs.getState();
-    // Two pictures do not fit above each other where the panels share one row of tabs.
+    // Where the panels share one row of tabs, there is no room for two pictures above each other.
     const where = width === 'narrow' ? DockLocation.CENTER : DockLocation.BOTTOM;
     model.doAction(Actions.addTab(tab, place.getId(), where, -1, true));
   }
 }
 
-/** Opens one more view of cameras beside the first one. */
+/** Opens another camera view below the first one. */
 export function openAnotherCamera(): void {
   const view = useTabs.getState().model?.getNodeById('camera');
   if (view instanceof TabNode) openCameraBelow(view, null);

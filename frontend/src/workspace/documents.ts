@@ -2,5 +2,5 @@
 export type DocumentTab =
   | { kind: 'tree'; id: string }
   | { kind: 'file'; path: string }
-  /** Compares two revisions; there is one such tab. */
+  /** The comparison of two revisions; there is only one such tab. */
   | { kind: 'compare' };

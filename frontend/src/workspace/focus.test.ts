@@ -6,7 +6,7 @@ const button = (): HTMLElement => document.querySelector('button')!;
 
 beforeEach(() => {
   vi.useFakeTimers();
-  // jsdom lays nothing out: whatever is in the page counts as seen.
+  // jsdom has no layout, so every element in the page counts as visible.
   Element.prototype.checkVisibility = () => true;
   document.body.innerHTML =
     '<button>Run</button><div data-testid="canvas" data-tree="Main" tabindex="0"></div>';
@@ -33,7 +33,7 @@ it('takes the focus back from a menu that closes late', () => {
 it.each([
   ['by Tab', () => new KeyboardEvent('keydown', { key: 'Tab' })],
   ['by the pointer', () => new Event('pointerdown')],
-])('lets a user go who walks on %s', (_, how) => {
+])('does not take the focus from a user who moves on %s', (_, how) => {
   focusDocument({ kind: 'tree', id: 'Main' });
   vi.advanceTimersByTime(50);
   expect(document.activeElement).toBe(canvas());
@@ -42,7 +42,7 @@ it.each([
   expect(document.activeElement).toBe(button());
 });
 
-it('waits for a document that is on its way, while one types ahead', () => {
+it('waits for a document that is loading, while the user types ahead', () => {
   const late = canvas();
   late.remove();
   focusDocument({ kind: 'tree', id: 'Main' });
@@ -53,7 +53,7 @@ it('waits for a document that is on its way, while one types ahead', () => {
   expect(document.activeElement).toBe(late);
 });
 
-it('leaves the focus alone once it has settled', () => {
+it('leaves the focus alone after the wait', () => {
   focusDocument({ kind: 'tree', id: 'Main' });
   vi.advanceTimersByTime(1000);
   button().focus();
@@ -61,7 +61,7 @@ it('leaves the focus alone once it has settled', () => {
   expect(document.activeElement).toBe(button());
 });
 
-it('gives way to what is opened by a key right after', () => {
+it('is cancelled by a later request', () => {
   focusDocument({ kind: 'tree', id: 'Main' });
   vi.advanceTimersByTime(50);
   letGoOfDocument();
@@ -70,7 +70,7 @@ it('gives way to what is opened by a key right after', () => {
   expect(document.activeElement).toBe(button());
 });
 
-it('gives way to the fields of the block, too', () => {
+it('is cancelled by the fields of the block, too', () => {
   document.body.insertAdjacentHTML('beforeend', '<div data-testid="inspector"><input /></div>');
   focusDocument({ kind: 'tree', id: 'Main' });
   vi.advanceTimersByTime(50);

@@ -1,8 +1,8 @@
 import type { DocumentTab } from './documents';
 
-/** The longest wait for the editor of a document, which may be loading over a slow line. */
+/** The longest wait for a document's editor, which may load over a slow connection. */
 const PATIENCE_MS = 30_000;
-/** The time in which a closing menu or palette returns the focus. */
+/** The time within which a closing menu or palette returns the focus. */
 const SETTLED_MS = 250;
 const RETRY_MS = 20;
 
@@ -45,14 +45,17 @@ export function focusDocument(tab: DocumentTab): void {
   setTimeout(attempt);
 }
 
-/** A press elsewhere or Tab is the user's choice of focus; any other key is typed ahead. */
+/**
+ * Aborts a request to move the focus when the user chooses a focus: by a press elsewhere, or Tab. Other keys
+ * are taken as typed ahead.
+ */
 function abortOnceChosen(request: AbortController): void {
   const listen = { capture: true, signal: request.signal };
   window.addEventListener('pointerdown', () => request.abort(), listen);
   window.addEventListener('keydown', ({ key }) => key === 'Tab' && request.abort(), listen);
 }
 
-/** Cancels a pending focus on a document, so that the next request gets the keyboard. */
+/** Cancels the wait for a document's editor, so that the next request gets the focus. */
 export function letGoOfDocument(): void {
   pending.abort();
 }

@@ -27,7 +27,7 @@ export type PanelId =
   | 'xml'
   | 'lesson';
 
-/** Panels that are newer than stored layouts, each with the panel beside which it is added. */
+/** Panels that stored layouts may lack, each with the panel beside which it is added. */
 const NEW_PANELS: readonly (readonly [PanelId, PanelId])[] = [
   ['timeline', 'console'],
   ['topics', 'console'],
@@ -36,35 +36,37 @@ const NEW_PANELS: readonly (readonly [PanelId, PanelId])[] = [
   ['search', 'explorer'],
 ];
 
-/** Panels that can have their own window, grouped by kind: they show the run. */
+/** Panels that can have their own window, grouped by kind; all of them show the run. */
 const LOOKING: readonly (readonly PanelId[])[] = [
   ['viewer3d', 'video', 'camera'],
   ['console', 'timeline', 'topics'],
   ['blackboard'],
 ];
-/** All panels that can have their own window. */
+/** The panels that can have their own window. */
 export const WINDOWED: readonly PanelId[] = LOOKING.flat();
 const NEIGHBOURS: readonly PanelId[] = ['problems', 'inspector', 'explorer'];
 
-/** The panels beside which a panel belongs, the most similar first. */
+/** Returns the panels beside which a panel fits, the most similar first. */
 export const companionsOf = (id: PanelId): readonly PanelId[] => [
   ...(LOOKING.find((kind) => kind.includes(id)) ?? []).filter((other) => other !== id),
   ...NEIGHBOURS,
 ];
 
-/** The docking options of a panel that can have its own window. */
+/** Returns the docking options of a panel that can have its own window. */
 const windowed = (id: PanelId): Partial<IJsonTabNode> =>
   WINDOWED.includes(id)
-    ? // A WebGL canvas cannot move between documents: it is created again in the other one.
+    ? // A WebGL canvas cannot move between documents, so it is created again in the other one.
       { enablePopout: true, enablePopoutIcon: true, enableWindowReMount: id === 'viewer3d' }
     : {};
 
 export type FrameWidth = 'wide' | 'narrow';
 
-/** The tab set of documents; it stays when it is empty. */
+/** The id of the tab set for documents, which stays even when it is empty. */
 export const EDITORS = 'editors';
 
-/** Must be raised when the default layout changes, so that stored layouts are dropped. */
+/**
+ * The version of the default layout. Raise it when the default changes, so that stored layouts are dropped.
+ */
 const VERSION = 1;
 const storageKey = (width: FrameWidth) => `bts.layout.${VERSION}.${width}`;
 
@@ -77,7 +79,7 @@ const panel = (id: PanelId): IJsonTabNode => ({
   ...windowed(id),
 });
 
-/** A panel that is open already, once more: with an id of its own, and to be closed by the user. */
+/** Returns a second tab for a panel that is already open, with an id of its own; the user can close it. */
 export const furtherPanel = (component: PanelId, id: string): IJsonTabNode => ({
   ...panel(component),
   id,
@@ -101,7 +103,9 @@ const global: NonNullable<IJsonModel['global']> = {
   tabSetMinWidth: 120,
 };
 
-/** The weights of the documents and of what is opened beside them: a lesson is narrower than XML. */
+/**
+ * The weights of the documents and of the panel that is opened beside them: a lesson is narrower than XML.
+ */
 const WEIGHTS: Partial<Record<PanelId, readonly [number, number]>> = { lesson: [60, 40] };
 
 function addBesideEditors(model: Model, tab: IJsonTabNode): void {
@@ -200,14 +204,17 @@ interface KeptNode {
   readonly children?: readonly KeptNode[];
 }
 
-/** Documents and the lesson belong to a project, the layout to the user. */
+/**
+ * Returns whether a tab belongs to the project, as documents and the lesson do; the other panels belong to
+ * the user's layout.
+ */
 const isOfProject = ({ id, config }: KeptNode): boolean => config?.document === true || id === 'lesson';
 
-/** Whether a node shows nothing but a lesson: no empty set of tabs remains where it was. */
+/** Returns whether a node contains only a lesson: then its set of tabs is removed too. */
 const isForLesson = ({ children = [] }: KeptNode): boolean =>
   children.length > 0 && children.every(({ id }) => id === 'lesson');
 
-/** The layout without what belongs to a project. */
+/** Returns the layout without the tabs that belong to a project. */
 function withoutDocuments(json: IJsonModel): IJsonModel {
   const text = JSON.stringify(json, (key, value: unknown) => {
     if (key !== 'children' || !Array.isArray(value)) return value;
@@ -240,13 +247,13 @@ export function loadLayout(width: FrameWidth, hasWebGl: boolean): Model {
       const model = Model.fromJson(JSON.parse(kept) as IJsonModel);
       if (model.getNodeById(EDITORS)) return withWindows(withNewPanels(model));
     } catch {
-      // A layout that cannot be read is replaced by the default one.
+      // An unreadable layout is replaced by the default one.
     }
   }
   return Model.fromJson(defaultLayout(width, hasWebGl));
 }
 
-/** Adds panels that are newer than a stored layout, beside their neighbours. */
+/** Adds the panels that a stored layout lacks, beside their neighbours. */
 function withNewPanels(model: Model): Model {
   for (const [id, neighbour] of NEW_PANELS) {
     const beside = model.getNodeById(neighbour)?.getParent();
@@ -256,7 +263,7 @@ function withNewPanels(model: Model): Model {
   return model;
 }
 
-/** Updates a layout that was stored before panels could have windows. */
+/** Updates a layout that was stored when panels could not have windows yet. */
 function withWindows(model: Model): Model {
   for (const id of WINDOWED) {
     if (model.getNodeById(id)) model.doAction(Actions.updateNodeAttributes(id, windowed(id)));

@@ -47,7 +47,7 @@ describe('openLesson', () => {
     expect(useLessons.getState().closed).toEqual([]);
   });
 
-  it('opens none where the user wants none', () => {
+  it('opens none if the user has turned lessons off', () => {
     setOpensLessons(false);
     const model = open();
     openLesson('p');

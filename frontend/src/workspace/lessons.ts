@@ -7,7 +7,7 @@ import { showPanel, togglePanel, useTabs } from './tabs';
 
 const KEY = 'bts.lessons';
 const LESSON: PanelId = 'lesson';
-/** Older projects are forgotten: their lessons open by themselves once more. */
+/** The number of projects that are remembered. In older projects, a closed lesson opens by itself again. */
 const MOST_KEPT = 200;
 
 interface Kept {
@@ -44,14 +44,14 @@ export function showLesson(): void {
   else togglePanel(LESSON);
 }
 
-/** Opens the lesson of a project that has one, unless the user closed it there or wants none. */
+/** Opens the lesson of a project, if it has one, unless the user closed it there or turned lessons off. */
 export function openLesson(projectId: string): void {
   const { opens, closed } = useLessons.getState();
   const { files } = useProjectStore.getState();
   if (opens && !closed.includes(projectId) && lessonPath(Object.keys(files), 'en')) showLesson();
 }
 
-/** Remembers whether the user has closed the lesson of a project. */
+/** Stores whether the user has closed the lesson of a project. */
 export function keepLesson(projectId: string, model: Model): void {
   const { closed, opens } = useLessons.getState();
   const isOpen = model.getNodeById(LESSON) !== undefined;

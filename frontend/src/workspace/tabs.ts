@@ -5,7 +5,7 @@ import type { DocumentTab } from './documents';
 import { focusDocument } from './focus';
 import { EDITORS, toggleBeside, type FrameWidth, type PanelId } from './layoutModel';
 
-/** The line for an editor's cursor; `request` distinguishes two requests for the same line. */
+/** A line to which an editor moves its cursor; `request` distinguishes two requests for the same line. */
 export interface LineTarget {
   path: string;
   line: number;
@@ -14,12 +14,12 @@ export interface LineTarget {
 
 interface TabsData {
   model: Model | null;
-  /** The window width that the layout is for. */
+  /** The class of window widths that the layout is for. */
   width: FrameWidth | null;
   target: LineTarget | null;
-  /** The document that was in front last. */
+  /** The document that was in front most recently. */
   front: DocumentTab | null;
-  /** The number of renamed tabs: the docking library does not notify a tab's content of a rename. */
+  /** The number of renames so far. The docking library does not notify a tab's content of a rename. */
   renames: number;
   /** The panels that are in windows of their own. */
   inWindows: readonly string[];
@@ -44,15 +44,15 @@ function tabId(tab: DocumentTab): string {
 }
 
 function nameOf(tab: DocumentTab): string {
-  // The frame translates it, like the names of its panels.
+  // The frame translates this name, like those of its panels.
   if (tab.kind === 'compare') return 'panel.compare';
   if (tab.kind === 'tree') return tab.id;
-  // All robots have files of the same name, so the tab shows the folder's name.
+  // All robots have a file of the same name, so the tab shows the name of the folder.
   const robot = /^robots\/([^/]+)\/robot\.yaml$/.exec(tab.path)?.[1];
   return robot ?? tab.path.split('/').at(-1) ?? tab.path;
 }
 
-/** The folder of a file whose tab has the name of another open tab; null if its name says enough. */
+/** Returns the folder of a file if another open tab has the same name; otherwise null. */
 export function folderOf(tab: DocumentTab, open: readonly DocumentTab[]): string | null {
   if (tab.kind !== 'file') return null;
   const name = nameOf(tab);
@@ -60,7 +60,7 @@ export function folderOf(tab: DocumentTab, open: readonly DocumentTab[]): string
   return isAlone ? null : tab.path.split('/').slice(0, -1).join('/') || '/';
 }
 
-/** The icon and name of a document's tab. */
+/** Returns the icon and name of a document's tab. */
 function faceOf(tab: DocumentTab): Pick<IJsonTabNode, 'name' | 'config' | 'helpText'> {
   const name = nameOf(tab);
   const helpText = tab.kind === 'file' ? tab.path : tab.kind === 'tree' ? name : '';
@@ -70,7 +70,7 @@ function faceOf(tab: DocumentTab): Pick<IJsonTabNode, 'name' | 'config' | 'helpT
 export const documentOf = (node: TabNode): DocumentTab | undefined =>
   (node.getConfig() as { tab?: DocumentTab } | undefined)?.tab;
 
-/** The tab of a document, also if it was opened under an earlier name. */
+/** Returns the tab of a document, even if it was opened under an earlier name. */
 function nodeOf(model: Model | null, tab: DocumentTab): TabNode | null {
   let found: TabNode | null = null;
   model?.visitNodes((node) => {
@@ -120,7 +120,10 @@ function exists(tab: DocumentTab): boolean {
   return tab.kind === 'tree' ? tab.id in diagrams : tab.kind === 'file' && tab.path in files;
 }
 
-/** Closes tabs of trees that no longer exist (undone or renamed). A text editor reports a missing file itself. */
+/**
+ * Closes the tabs of trees that no longer exist, after an undo or a rename. A text editor reports a missing
+ * file itself.
+ */
 export function closeGone(): void {
   const { model } = useTabs.getState();
   for (const tab of model ? openDocuments(model) : []) {
@@ -141,7 +144,7 @@ export function togglePanel(panel: PanelId): void {
   if (model && width) toggleBeside(model, width, panel);
 }
 
-/** Notes which panels are in windows of their own. */
+/** Records which panels are in windows of their own. */
 export function followWindows(model: Model): void {
   const found: string[] = [];
   model.visitNodes((node) => {
@@ -160,7 +163,7 @@ export function openDocuments(model: Model): DocumentTab[] {
   return found;
 }
 
-/** The document in front, in the tab set of the editors or in the active one. */
+/** Returns the document in front: that of the active tab set, otherwise that of the editors. */
 export function frontDocument(model: Model): DocumentTab | null {
   const active = model.getActiveTabset();
   for (const tabset of [active, model.getNodeById(EDITORS)]) {
@@ -189,13 +192,13 @@ export function keepOpen(projectId: string, model: Model): void {
   localStorage.setItem(openKey(projectId), JSON.stringify({ tabs: openDocuments(model), front }));
 }
 
-/** Opens the documents of the last visit to this project, and at least its main tree. */
+/** Opens the documents of the last visit to this project; its main tree is always among them. */
 export function reopen(projectId: string, mainTree: string): void {
   let kept: { tabs?: DocumentTab[]; front?: DocumentTab | null } = {};
   try {
     kept = JSON.parse(localStorage.getItem(openKey(projectId)) ?? '{}') as typeof kept;
   } catch {
-    // The stored tabs are unreadable: treated as none.
+    // Unreadable stored tabs count as none.
   }
   const tabs = (kept.tabs ?? []).filter(exists);
   for (const tab of tabs) openTab(tab);

@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest';
 
-/** Names that browsers of users hold: a renamed one loses drafts, layouts or settings. */
+/** Keys of the browser's storage: if one were renamed, users would lose drafts, layouts or settings. */
 const STORAGE_KEYS = [
   "'bts.codeSize'",
   "'bts.compactTrees'",
@@ -51,7 +51,7 @@ const sources = import.meta.glob<string>(['../**/*.{ts,tsx}', '!../**/*.test.{ts
 const found = (text: string, pattern: RegExp): string[] =>
   [...new Set(Array.from(text.matchAll(pattern), (match) => match[1] ?? match[0]))].sort();
 
-it('keeps the names of what browsers store', () => {
+it("keeps the names of the browser's storage keys", () => {
   expect(found(Object.values(sources).join('\n'), /['`]bts\.[^'`]*['`]/g)).toEqual([...STORAGE_KEYS].sort());
 });
 

@@ -102,7 +102,9 @@ def test_who_hangs_is_replaced(monkeypatch, caplog, how):
 
 def test_a_pool_that_hangs_is_replaced(monkeypatch, caplog):
     monkeypatch.setattr(parent, "HUNG_S", 3.0)
-    family = Small("serve()", until="099", pool="wait_for_the_server()\nif lives < 2:\n    time.sleep(1000)\nserve()")
+    family = Small(
+        "serve()", until="099", pool="wait_for_the_server()\nif lives < 2:\n    time.sleep(1000)\nserve()"
+    )
     family.run()
     assert (family.ready, family.log.count("0")) == (1, 1)
     assert "the pool hangs and is replaced" in caplog.text

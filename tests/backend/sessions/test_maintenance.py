@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from datetime import timedelta
 
 import pytest
+from asgiref.sync import async_to_sync
 from django.utils import timezone
 
 from backend.config.environment import environment
 from backend.sessions import maintenance, writes
 from backend.sessions.errors import HostFullError
+from backend.sessions.lease import holder
 from backend.sessions.models import Session
 from tests.backend.sessions.test_writes import launched
 
@@ -130,3 +133,19 @@ def test_the_dead_are_noted_without_anyone_asking(api, start, fake_manager):
     launcher.stop(Session.objects.get().launcher_state, timeout_s=5)
     maintenance.maintain()
     assert Session.objects.get().state in {"failed", "ended"}
+
+
+def test_a_server_that_takes_the_lease_looks_first_for_what_the_last_holder_left(monkeypatch):
+    answers = iter([False, False, *[True] * (maintenance.ROUNDS_TO_ORPHANS + 1)])
+    looked: list[bool] = []
+    monkeypatch.setattr(holder, "hold", lambda *_: next(answers))
+    monkeypatch.setattr(maintenance, "is_alone", lambda: False)
+    monkeypatch.setattr(maintenance, "maintain", lambda *, is_for_orphans: looked.append(is_for_orphans))
+
+    async def rounds():
+        rounds_held = itertools.count()
+        for _ in range(maintenance.ROUNDS_TO_ORPHANS + 3):
+            await maintenance.one_round(rounds_held)
+
+    async_to_sync(rounds)()
+    assert looked == [True, *[False] * (maintenance.ROUNDS_TO_ORPHANS - 1), True]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import os
 import shutil
 import tempfile
 from typing import Any
@@ -13,6 +14,7 @@ from executor.manager import folders
 from executor.manager.archive import ArchiveError
 from executor.manager.folders import Folders
 from executor.session.events import Unpack
+from executor.supervision.scratch import LOCK, PREFIX, Scratch
 from tests.executor.session_client import app_zip
 
 
@@ -44,6 +46,19 @@ def test_in_a_container_files_of_earlier_runs_are_removed_for_space(disk):
     assert [path.name for path in disk.iterdir()] == [made._scratch.path.name]
     made.remove()
     assert list(disk.iterdir()) == []
+
+
+def test_folders_in_use_survive_the_making_of_room(disk):
+    world = Scratch()
+    forged = disk / f"{PREFIX}forged"
+    forged.mkdir()
+    (forged / LOCK).touch()
+    (forged / "hoard").write_text("…")
+    for path in (forged, forged / LOCK):
+        os.utime(path, (2**33, 2**33))
+    made = Folders(is_alone=True)
+    assert not made.unpack(Unpack(1, app_zip())).error
+    assert {path.name for path in disk.iterdir()} == {made._scratch.path.name, world.path.name}
 
 
 def test_a_disk_that_is_nearly_full_is_swept_before_the_world_lacks_room(tmp_path, monkeypatch):

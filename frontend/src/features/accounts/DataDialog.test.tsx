@@ -23,7 +23,7 @@ function open(answers: Readonly<Record<string, unknown>>) {
 const room = () => screen.findByRole('progressbar', { name: 'Room for projects' });
 const color = (bar: HTMLElement) => bar.getAttribute('style') ?? '';
 
-it('shows how much room the projects take', async () => {
+it('shows the disk use of the projects', async () => {
   open({ 'GET /me/usage': usage(50.55) });
   const bar = await room();
   expect(bar).toHaveAttribute('aria-valuenow', '25.275');
@@ -34,7 +34,7 @@ it('shows how much room the projects take', async () => {
 it.each([
   [180, 'indigo'],
   [181, 'red'],
-])('warns when little room is left (%s MiB of 200: %s)', async (used, expected) => {
+])('warns when little disk space is left (%s MiB of 200: %s)', async (used, expected) => {
   open({ 'GET /me/usage': usage(used) });
   expect(color(await room())).toContain(expected);
 });
@@ -61,7 +61,7 @@ it('deletes the account once its name was typed, and leaves', async () => {
   expect(requests.at(-1)).toMatchObject({ method: 'DELETE', body: { username: 'ada' } });
 });
 
-it('says why an account cannot be deleted', async () => {
+it('reports why an account cannot be deleted', async () => {
   const { assign } = open({ 'DELETE /me/data': refusal('You own a shared project.') });
   await user.type(screen.getByLabelText(/Type your user name/), 'ada');
   await user.click(screen.getByRole('button', { name: /Delete the account/ }));
@@ -69,7 +69,7 @@ it('says why an account cannot be deleted', async () => {
   expect(assign).not.toHaveBeenCalled();
 });
 
-it('asks for nothing while it is closed', () => {
+it('requests nothing while it is closed', () => {
   const { requests } = fakeServer({ 'GET /me/usage': usage(1) });
   show(<DataDialog me={account()} isOpen={false} onClose={() => undefined} />);
   expect(screen.queryByRole('dialog')).toBeNull();

@@ -14,7 +14,7 @@ interface DataDialogProps {
 
 const MIB = 1024 * 1024;
 
-/** The user's disk use, the download of all data, and the deletion of the account. */
+/** A dialogue with the user's disk use, the download of all data, and the deletion of the account. */
 export function DataDialog({ me, isOpen, onClose }: DataDialogProps) {
   const { t } = useTranslation('accounts');
   return (

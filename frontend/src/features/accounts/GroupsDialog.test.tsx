@@ -32,7 +32,7 @@ async function open(
 const click = (name: string | RegExp) => user.click(screen.getByRole('button', { name }));
 
 describe('GroupsDialog', () => {
-  it('says that there is none', async () => {
+  it('reports that there are no groups', async () => {
     await open([]);
     expect(await screen.findByText('You are in no group yet.')).toBeInTheDocument();
   });
@@ -77,7 +77,7 @@ describe('GroupsDialog', () => {
     await expect.poll(changes).toEqual([removal]);
   });
 
-  it('invites by a link, and takes it back', async () => {
+  it('makes an invitation link, and revokes it', async () => {
     const invitation = {
       id: 'i1',
       url: 'https://studio/join/1',
@@ -99,7 +99,7 @@ describe('GroupsDialog', () => {
     await expect.poll(changes).toEqual(['POST /groups/g1/invitations', 'DELETE /invitations/i1']);
   });
 
-  it('deletes a group only when asked twice in a row', async () => {
+  it('deletes a group only after a second press', async () => {
     const { answers, changes } = await open([group()], 'teacher', { 'DELETE /groups/g1': noContent() });
     await click('Delete');
     expect(screen.getByRole('button', { name: 'Really delete?' })).toBeInTheDocument();
@@ -112,7 +112,7 @@ describe('GroupsDialog', () => {
     expect(changes()).toEqual(['DELETE /groups/g1']);
   });
 
-  it('lets a member leave, who sees no other member', async () => {
+  it('lets a member leave a group, and shows no other member', async () => {
     const other = group({ mine: false, owner: 'grace', members: [{ username: 'bob', name: '' }] });
     const leave = 'DELETE /groups/g1/members/ada';
     const { changes } = await open([other], 'user', { [leave]: noContent() });
@@ -124,19 +124,19 @@ describe('GroupsDialog', () => {
     await expect.poll(changes).toEqual([leave]);
   });
 
-  it('says why something was refused', async () => {
+  it('reports why a request was refused', async () => {
     await open([group()], 'teacher', { 'POST /groups/g1/invitations': refusal('Too many links.') });
     await click('Make an invitation link');
     expect(await screen.findByRole('alert')).toHaveTextContent('Too many links.');
   });
 
-  it('says why the groups cannot be listed', async () => {
+  it('reports why the groups cannot be listed', async () => {
     await open([], 'user', { 'GET /groups': refusal('Not now.', { status: 503 }) });
     expect(await screen.findByRole('alert')).toHaveTextContent('Not now.');
     expect(screen.queryByText('You are in no group yet.')).toBeNull();
   });
 
-  it('asks for nothing while it is closed', () => {
+  it('requests nothing while it is closed', () => {
     const { requests } = fakeServer({});
     show(<GroupsDialog me={account()} isOpen={false} onClose={() => undefined} />);
     expect(screen.queryByRole('dialog')).toBeNull();

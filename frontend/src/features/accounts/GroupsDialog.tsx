@@ -13,7 +13,7 @@ interface GroupsDialogProps {
   readonly onClose: () => void;
 }
 
-/** Classes with their members and invitation links. */
+/** A dialogue with the user's classes, their members and their invitation links. */
 export function GroupsDialog({ me, isOpen, onClose }: GroupsDialogProps) {
   const { t } = useTranslation('accounts');
   return (
@@ -115,7 +115,8 @@ function GroupCard({ group, me, run }: GroupCardProps) {
                 <Pill
                   key={member.username}
                   withRemoveButton
-                  // Mantine hides it from the keyboard and from screen readers, since its pills are in fields.
+                  // Mantine hides this button from the keyboard and from screen readers, since it normally is
+                  // inside of a field.
                   removeButtonProps={{
                     'aria-label': t('share.remove', { who: member.username }),
                     'aria-hidden': false,

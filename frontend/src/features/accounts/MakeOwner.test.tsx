@@ -3,7 +3,7 @@ import { expect, it, vi } from 'vitest';
 import { show, user } from '../../../harness/testing';
 import { MakeOwner } from './MakeOwner';
 
-it('says what a new owner means, and asks', async () => {
+it('explains what a new owner means, and asks for confirmation', async () => {
   const onConfirm = vi.fn();
   const onCancel = vi.fn();
   const element = (isBusy: boolean) => (
@@ -17,7 +17,7 @@ it('says what a new owner means, and asks', async () => {
   expect([onConfirm.mock.calls.length, onCancel.mock.calls.length]).toEqual([1, 1]);
 });
 
-it('waits for the answer', () => {
+it('is disabled while the server is asked', () => {
   show(<MakeOwner who="bob" isBusy onConfirm={() => undefined} onCancel={() => undefined} />);
   expect(screen.getByRole('button', { name: 'Make bob the owner' })).toBeDisabled();
   expect(screen.getByRole('button', { name: 'Keep it' })).toBeEnabled();

@@ -8,7 +8,7 @@ interface MakeOwnerProps {
   readonly onCancel: () => void;
 }
 
-/** Asks for confirmation before the project gets another owner. */
+/** A request for confirmation before the project gets another owner. */
 export function MakeOwner({ who, isBusy, onConfirm, onCancel }: MakeOwnerProps) {
   const { t } = useTranslation('accounts');
   return (

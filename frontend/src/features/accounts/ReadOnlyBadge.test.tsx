@@ -7,7 +7,7 @@ import { ReadOnlyBadge } from './ReadOnlyBadge';
 
 const NOTE = /Duplicate it to work on a copy/;
 
-it('says that a project may only be read, and why an edit was refused', async () => {
+it('shows that a project is read-only, and why an edit was refused', async () => {
   onTestFinished(() => notifications.clean());
   openProject({ texts: { 'notes.md': 'as it was' } });
   useProjectStore.setState({ role: 'viewer' });

@@ -7,7 +7,10 @@ import { useProjectStore } from '@/store/project';
 
 const NOTE = 'read-only';
 
-/** A badge of projects that the user can only read; it also tells so when the user tries to change one. */
+/**
+ * The badge of a project that the user can only read. When the user tries to change the project, it shows a
+ * notification.
+ */
 export function ReadOnlyBadge() {
   const { t } = useTranslation('accounts');
   const refused = useProjectStore((state) => state.refusedEdits);

@@ -32,7 +32,7 @@ describe('ShareButton', () => {
     expect(screen.queryByRole('dialog')).toBeNull();
   });
 
-  it('is a command, too, while it is shown', async () => {
+  it('is also a command while it is shown', async () => {
     const { unmount } = await open(account());
     await screen.findByTestId('share');
     expect(command()).toMatchObject({ group: 'project', labelKey: 'accounts:share.button' });
@@ -46,7 +46,7 @@ describe('ShareButton', () => {
     ['on localhost', account({ mode: 'local' }), 'owner', true],
     ['for an editor', account(), 'editor', true],
     ['without a project', account(), 'owner', false],
-  ] as const)('is not there %s', async (_, me, role, hasProject) => {
+  ] as const)('is absent %s', async (_, me, role, hasProject) => {
     await open(me, role, hasProject);
     expect(screen.queryByTestId('share')).toBeNull();
     expect(command()).toBeUndefined();

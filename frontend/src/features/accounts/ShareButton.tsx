@@ -7,7 +7,9 @@ import { useProjectStore } from '@/store/project';
 import { ShareDialog } from './ShareDialog';
 import { useMe } from './useMe';
 
-/** Opens the sharing dialogue of the open project; shown to its owner on servers with accounts. */
+/**
+ * The button that opens the sharing dialogue of the open project; its owner sees it on servers with accounts.
+ */
 export function ShareButton() {
   const { t } = useTranslation('accounts');
   const me = useMe();

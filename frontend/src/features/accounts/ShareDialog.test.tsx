@@ -77,7 +77,7 @@ describe('ShareDialog', () => {
     await expect.poll(() => changes().map(({ body }) => body)).toEqual([{ name: 'bob', role: 'editor' }]);
   });
 
-  it('says why a person cannot be added', async () => {
+  it('reports why a person cannot be added', async () => {
     await open(sharesOf(), { [`POST ${SHARES}`]: refusal('Nobody has this name.') });
     await user.type(who(), 'nobody{Enter}');
     expect(await screen.findByRole('alert')).toHaveTextContent('Nobody has this name.');
@@ -95,12 +95,12 @@ describe('ShareDialog', () => {
       .toEqual([{ method: 'PUT', path: `${SHARES}/groups/g2`, body: { role: 'viewer' } }]);
   });
 
-  it('offers no group where none is left', async () => {
+  it('offers no group if all have a share', async () => {
     await open(sharesOf(), { 'GET /groups': { items: [] } });
     expect(screen.queryByRole('combobox', { name: 'Share with a group…' })).toBeNull();
   });
 
-  it('makes read-only links, and takes them back', async () => {
+  it('makes read-only links, and revokes them', async () => {
     const link = {
       id: 'l1',
       url: 'https://studio/l/1',
@@ -139,7 +139,7 @@ describe('ShareDialog', () => {
     expect(useProjectStore.getState().role).toBe('editor');
   });
 
-  it('keeps the project where the transfer is refused', async () => {
+  it('does not move the project if the transfer is refused', async () => {
     const people = [{ username: 'bob', name: '', role: 'editor' as const }];
     const { onClose } = await open(sharesOf({ people }), {
       'POST /projects/p/transfer': refusal('bob has no room.'),
@@ -152,14 +152,14 @@ describe('ShareDialog', () => {
   });
 });
 
-it('says why the shares cannot be read', async () => {
+it('reports why the shares cannot be read', async () => {
   fakeServer({ [`GET ${SHARES}`]: refusal('Only the owner sees this.', { status: 403 }) });
   show(<ShareDialog projectId="p" name="Bump" isOpen onClose={() => undefined} />);
   expect(await screen.findByText('Only the owner sees this.')).toBeInTheDocument();
   expect(screen.queryByLabelText('Share with')).toBeNull();
 });
 
-it('asks for nothing while it is closed', () => {
+it('requests nothing while it is closed', () => {
   const { requests } = fakeServer({});
   show(<ShareDialog projectId="p" name="Bump" isOpen={false} onClose={() => undefined} />);
   expect(requests).toEqual([]);

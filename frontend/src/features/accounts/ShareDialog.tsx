@@ -16,7 +16,7 @@ interface ShareDialogProps {
   readonly onClose: () => void;
 }
 
-/** Lists the people, classes and links that a project is shared with; for its owner. */
+/** A dialogue for the owner of a project, with the people, classes and links that it is shared with. */
 export function ShareDialog({ projectId, name, isOpen, onClose }: ShareDialogProps) {
   const { t } = useTranslation('accounts');
   return (

@@ -46,7 +46,7 @@ it('names people by name and account', () => {
 });
 
 describe('SharedRows', () => {
-  it('shows who may do what', async () => {
+  it('shows the role of each person and group', async () => {
     await open();
     expect(screen.getAllByRole('listitem').map((row) => row.querySelector('p')?.title)).toEqual([
       'Bob Ross (bob)',

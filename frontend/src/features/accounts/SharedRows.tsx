@@ -69,7 +69,7 @@ interface RowProps {
   readonly children: ReactNode;
 }
 
-/** One line of the list: a picture, a name, and buttons. */
+/** A row of a list: a picture, a name, and buttons. */
 export function Row({ picture, name, children }: RowProps) {
   return (
     <Group component="li" gap={10} wrap="nowrap" mih={36}>

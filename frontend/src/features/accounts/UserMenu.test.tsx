@@ -20,7 +20,7 @@ const items = () =>
 const commands = () => Object.keys(useCommandTable.getState().commands).sort();
 
 describe('UserMenu', () => {
-  it('leads to groups, data, account and the way out', async () => {
+  it('has the groups, the data, the account and signing out', async () => {
     await open(account());
     await openMenu();
     expect(items()).toEqual([
@@ -40,7 +40,7 @@ describe('UserMenu', () => {
     expect(screen.getByText('Teacher')).toBeInTheDocument();
   });
 
-  it('leads administrators to their pages', async () => {
+  it('has the administration pages for administrators', async () => {
     await open(account({ role: 'administrator' }));
     await openMenu();
     expect(items()).toContainEqual(['Administration', '/admin/']);
@@ -58,7 +58,7 @@ describe('UserMenu', () => {
     expect(screen.queryByRole('dialog', { name: title })).toBeNull();
   });
 
-  it('has the same rows in the command palette, while it is shown', async () => {
+  it('registers the same commands for the palette while it is shown', async () => {
     const { unmount } = await open(account());
     await screen.findByRole('button', { name: /Account of ada$/ });
     const rows = ['account.account', 'account.data.title', 'account.groups.title', 'account.signOut'];
@@ -71,7 +71,7 @@ describe('UserMenu', () => {
     expect(commands()).toEqual([]);
   });
 
-  it('goes to the pages of the server', async () => {
+  it('opens the pages of the server', async () => {
     const assign = watchLocation();
     await open(account({ role: 'administrator' }));
     await screen.findByRole('button', { name: /Account of ada$/ });
@@ -91,7 +91,7 @@ describe('UserMenu', () => {
     window.history.pushState(null, '', '/');
   });
 
-  it('is not there on localhost', async () => {
+  it('is absent on localhost', async () => {
     await open(account({ mode: 'local' }));
     expect(screen.queryByRole('button')).toBeNull();
     expect(screen.queryByRole('link')).toBeNull();

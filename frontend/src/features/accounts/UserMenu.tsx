@@ -9,7 +9,7 @@ import { useMe } from './useMe';
 
 type Opened = 'groups' | 'data';
 
-/** The menu's commands for the command palette. */
+/** Returns the menu's commands for the command palette. */
 function rowsFor(isAdministrator: boolean, open: (dialog: Opened) => void): UserCommand[] {
   const row = (id: string, icon: typeof IconUsers, run: () => void): UserCommand => {
     return { id: `account.${id}`, group: 'go', labelKey: `accounts:${id}`, icon, run };

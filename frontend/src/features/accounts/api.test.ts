@@ -39,7 +39,7 @@ it.each([
   ['its end', () => accounts.revokeInvitation('i'), 'DELETE /invitations/i', undefined],
   ['the use of the disk', () => accounts.usage(), 'GET /me/usage', undefined],
   ['the end of the account', () => accounts.deleteMe('ada'), 'DELETE /me/data', { username: 'ada' }],
-])('asks for %s', async (_, ask, request, body) => {
+])('requests %s', async (_, ask, request, body) => {
   const { requests } = fakeServer({ [request]: noContent() });
   await ask();
   expect(requests.map(({ method, path }) => `${method} ${path}`)).toEqual([request]);
@@ -51,6 +51,6 @@ it('lists the groups of a user', async () => {
   expect(await accounts.groups()).toEqual([{ id: 'g' }]);
 });
 
-it('knows where all data are downloaded', () => {
+it('has the address for the download of all data', () => {
   expect(accounts.dataUrl).toBe('/api/v1/me/data');
 });

@@ -10,7 +10,7 @@ export type UserGroup = Server['Group'];
 const inProject = (project_id: string) => ({ path: { project_id } });
 const inGroup = (group_id: string) => ({ path: { group_id } });
 
-/** The calls of sharing, groups, and the user's own data. */
+/** The calls for sharing, for groups, and for the user's own data. */
 export const accounts = {
   shares: (projectId: string) =>
     dataOf(rest.GET('/api/v1/projects/{project_id}/shares', { params: inProject(projectId) })),

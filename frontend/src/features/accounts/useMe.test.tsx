@@ -8,7 +8,7 @@ function Name() {
   return <p>{useMe()?.user ?? 'not known yet'}</p>;
 }
 
-it('asks once who is signed in', async () => {
+it('requests the signed-in user once', async () => {
   const { requests } = fakeServer({ 'GET /me': account() });
   const { unmount } = show(<Name />);
   expect(screen.getByText('not known yet')).toBeInTheDocument();

@@ -2,7 +2,7 @@ import { useQuery } from '@tanstack/react-query';
 import { api } from '@/api/client';
 import type { Me } from '@/api/types';
 
-/** The signed-in user; undefined until the server has answered. */
+/** Returns the signed-in user; undefined until the server has answered. */
 export function useMe(): Me | undefined {
   return useQuery({ queryKey: ['me'], queryFn: api.me, staleTime: Infinity }).data;
 }

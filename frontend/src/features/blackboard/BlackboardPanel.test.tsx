@@ -32,7 +32,7 @@ async function type(key: string, text: string) {
 }
 
 describe('BlackboardPanel', () => {
-  it('says what will be there before the first run', () => {
+  it('explains before the first run what it will show', () => {
     expect(screen.getByText(/appear here when you run/)).toBeInTheDocument();
   });
 
@@ -63,7 +63,7 @@ describe('BlackboardPanel', () => {
     expect(executor.sentAs('set_blackboard')).toEqual([{ scope: 'Dock', key: 'limit', value: 5 }]);
   });
 
-  it('writes a value when the field is left, and nothing where it is the same', async () => {
+  it('writes a value when the field is left, unless it is unchanged', async () => {
     write(entry('goal', 'str', 'door'));
     await user.click(field('goal'));
     await user.tab();
@@ -78,7 +78,7 @@ describe('BlackboardPanel', () => {
     ['float', 1, 'fast', 'x is a number, such as 0.5.'],
     ['list', [], '{{}}', 'x is a list, such as [1, 2].'],
     ['dict', {}, '[[]', 'x is a dict, such as {"x": 1}.'],
-  ])('refuses a bad %s, and says what it is', async (kind, before, text, message) => {
+  ])('refuses an invalid %s, and says what is expected', async (kind, before, text, message) => {
     write(entry('x', kind, before));
     await type('x', text);
     expect(screen.getByText(message)).toBeInTheDocument();
@@ -97,7 +97,7 @@ describe('BlackboardPanel', () => {
     expect(field('limit')).toHaveValue('7');
   });
 
-  it('chooses truth from a list', async () => {
+  it('chooses a boolean from a list', async () => {
     write(entry('isOn', 'bool', false));
     await user.selectOptions(field('isOn'), 'true');
     expect(executor.sentAs('set_blackboard')).toEqual([{ scope: '', key: 'isOn', value: true }]);
@@ -106,7 +106,7 @@ describe('BlackboardPanel', () => {
     });
   });
 
-  it('writes nothing while the run continues, of shortened values, or as a viewer', () => {
+  it('writes nothing while the run continues, for shortened values, or as a viewer', () => {
     write(entry('long', 'list', '[1, 2, …', { preview: true }), entry('n', 'int', 1));
     expect(screen.queryByLabelText('Value of long')).toBeNull();
     expect(screen.getByTestId('blackboard-long')).toHaveTextContent('[1, 2, …');

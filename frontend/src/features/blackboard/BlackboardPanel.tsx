@@ -13,7 +13,7 @@ function byScope(rows: readonly Row[]): [scope: string, rows: Row[]][] {
   return [...groups];
 }
 
-/** The blackboard by scope; changes flash, and values can be edited while the run is paused. */
+/** The blackboard by scope. Changed values flash, and values can be edited while the run is paused. */
 export function BlackboardPanel() {
   const { t } = useTranslation('blackboard');
   const blackboard = useSessionStore((state) => state.blackboard);

@@ -29,26 +29,26 @@ function open(more: Partial<Row>, canEdit = false) {
 }
 
 describe('BlackboardRow', () => {
-  it('has the key, the value and the type, each in full below the pointer', () => {
+  it('shows the key, the value and the type, each in full in its tooltip', () => {
     const row = open({});
     expect([...row.children].map(({ textContent }) => textContent)).toEqual(['goal', '0.123457', 'float']);
     for (const title of ['goal', '0.123457', 'float']) expect(screen.getByTitle(title)).toBeInTheDocument();
     expect(screen.getByRole('rowheader')).toHaveAttribute('scope', 'row');
   });
 
-  it('leads to renaming its key in the tree of its scope', async () => {
+  it('opens the dialogue that renames its key in the tree of its scope', async () => {
     openProject({ trees: { Main: { r: { type: 'SubTree', tree: 'In' } }, In: { i: { type: 'Sleep' } } } });
     open({ scope: 'In::1' });
     await user.click(screen.getByRole('button', { name: 'Rename the key goal everywhere…' }));
     expect(useRenameKey.getState()).toEqual({ isOpen: true, key: { board: 'In', name: 'goal' } });
   });
 
-  it('can be written where that is allowed', () => {
+  it('can be edited where that is allowed', () => {
     expect(open({}, true)).toContainElement(screen.getByRole('textbox', { name: 'Value of goal' }));
     expect(screen.queryByTitle('0.123457')).toBeNull();
   });
 
-  it('is read elsewhere', () => {
+  it('cannot be edited elsewhere', () => {
     open({ value: [1, 2] });
     expect(screen.queryByRole('textbox')).toBeNull();
     expect(screen.getByTitle('[1,2]')).toBeInTheDocument();

@@ -19,7 +19,7 @@ beforeEach(async () => {
 });
 
 describe('a value', () => {
-  it('is written with Enter and then shown as the executor has it', async () => {
+  it('is written with Enter, and then shown as the executor has it', async () => {
     const field = open('int', 3);
     await user.clear(field);
     await user.type(field, '12');
@@ -70,7 +70,7 @@ describe('a value', () => {
   });
 });
 
-describe('truth', () => {
+describe('a boolean', () => {
   it('is chosen and written at once', async () => {
     const field = open('bool', true);
     expect(field).toHaveValue('true');

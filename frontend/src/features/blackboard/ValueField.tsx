@@ -5,7 +5,10 @@ import { send } from '@/store/session/connection';
 import type { BlackboardRow as Row } from '@/store/session/types';
 import { readValue, showValue } from './value';
 
-/** Edits an entry while time is paused; a refused value stays in the field, with the reason below. */
+/**
+ * The field for an entry's value while time is paused; a refused value stays in the field, with the reason
+ * below.
+ */
 export function ValueField({ row }: { readonly row: Row }) {
   const { t } = useTranslation('blackboard');
   const shown = showValue(row.value);

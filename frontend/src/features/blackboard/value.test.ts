@@ -9,7 +9,7 @@ describe('values', () => {
     [null, '—'],
     [{ x: 1 }, '{"x":1}'],
     [true, 'true'],
-  ])('shows %s as people read it', (value, text) => {
+  ])('shows %s for people', (value, text) => {
     expect(showValue(value)).toBe(text);
   });
 
@@ -24,7 +24,7 @@ describe('values', () => {
     ['{"x": 1}', 'dict', { x: 1 }],
     ['—', 'NoneType', null],
     ['not json', 'Pose', 'not json'],
-  ])('reads %s of type %s as the value that it stands for', (text, type, value) => {
+  ])('reads %s of type %s as the value that it means', (text, type, value) => {
     expect(readValue(text, type)).toEqual({ value });
   });
 
@@ -37,7 +37,7 @@ describe('values', () => {
     ['"a"', 'list', 'list'],
     ['[1', 'list', 'list'],
     ['null', 'dict', 'dict'],
-  ])('does not take %s for a %s', (text, type, wrong) => {
+  ])('does not accept %s as a %s', (text, type, wrong) => {
     expect(readValue(text, type)).toEqual({ wrong });
   });
 });

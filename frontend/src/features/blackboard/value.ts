@@ -1,4 +1,4 @@
-/** A value for display: short numbers, and JSON for lists and objects. */
+/** Returns a value for display: numbers with few digits, lists and objects as JSON. */
 export function showValue(value: unknown): string {
   if (value === null || value === undefined) return '—';
   if (typeof value === 'number')
@@ -7,12 +7,13 @@ export function showValue(value: unknown): string {
   return JSON.stringify(value) ?? String(value);
 }
 
-/** The value of the typed text, or the kind that was expected: a key of `blackboard:wrong`. */
+/** The result of reading typed text: a value, or the expected kind as a key of `blackboard:wrong`. */
 export type Read = { readonly value: unknown } | { readonly wrong: 'integer' | 'number' | 'list' | 'dict' };
 
 /**
- * Converts typed text to a value. Numbers and lists keep their type, since the program expects it. A type
- * that only the program knows is sent as JSON if the text is JSON, else as text.
+ * Converts typed text to a value. The value keeps the type of numbers and lists, since the program expects
+ * it. For a type that only the program knows, the value is the parsed JSON if the text is JSON, otherwise the
+ * text.
  */
 export function readValue(text: string, type: string): Read {
   const json = jsonOf(text);
@@ -39,7 +40,7 @@ export function readValue(text: string, type: string): Read {
   return { value: json === undefined ? text : json };
 }
 
-/** Undefined if the text is not JSON. */
+/** Parses JSON; undefined if the text is not JSON. */
 function jsonOf(text: string): unknown {
   try {
     return JSON.parse(text) as unknown;

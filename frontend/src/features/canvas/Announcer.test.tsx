@@ -30,7 +30,7 @@ beforeEach(() => {
   show(<Announcer treeId="Main" problems={new Map([['b', problem]])} />);
 });
 
-it('tells the name, the type and the place of the selected block', () => {
+it('announces the name, the type and the place of the selected block', () => {
   expect(text()).toBe('');
   select('Main', 'r');
   expect(text()).toBe('Work, Sequence, top of the tree');
@@ -38,14 +38,14 @@ it('tells the name, the type and the place of the selected block', () => {
   expect(text()).toContain('Nap, Sleep, child 2 of 2 of Work');
 });
 
-it('tells what is wrong with it, and that it is disabled', () => {
+it('announces its problem, and that it is disabled', () => {
   select('Main', 'b');
   expect(text()).toBe('Nap, Sleep, child 2 of 2 of Work, It is wrong. Control and full stop show the fixes.');
   select('Main', 'a');
   expect(text()).toBe('Sleep, Sleep, child 1 of 2 of Work, disabled');
 });
 
-it('tells what the run says of it', () => {
+it('announces its status in the run', () => {
   select('Main', 'r');
   act(() => useLiveStore.setState({ statuses: new Map([['Main/r', 'RUNNING']]) }));
   expect(text()).toBe('Work, Sequence, top of the tree, running');
@@ -60,7 +60,7 @@ it('tells what the run says of it', () => {
   );
 });
 
-it('is silent while nothing is selected here', () => {
+it('is silent while no block of this tree is selected', () => {
   select('Main', 'gone');
   expect(text()).toBe('');
   select('Other', 'r');

@@ -13,7 +13,7 @@ interface AnnouncerProps {
   readonly problems: ReadonlyMap<string, ShownProblem>;
 }
 
-/** Announces the selected block to screen readers: name, type, place, status and problems. */
+/** The announcement of the selected block for screen readers: name, type, place, status and problems. */
 export const Announcer = memo(function Announcer({ treeId, problems }: AnnouncerProps) {
   const { t } = useTranslation('canvas');
   const diagram = useProjectStore((state) => state.diagrams[treeId]);

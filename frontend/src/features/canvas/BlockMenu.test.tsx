@@ -29,7 +29,7 @@ function open(selected: readonly string[], point: Partial<MenuPoint> = {}) {
   return onClose;
 }
 
-/** The items, a list for each group. */
+/** Returns the labels of the menu's items, one list for each group. */
 function groups(): string[][] {
   const menu = screen.getByRole('menu');
   const found: string[][] = [[]];
@@ -48,12 +48,12 @@ describe('BlockMenu', () => {
     expect(screen.queryByRole('menu')).toBeNull();
   });
 
-  it('has what can be done with a leaf', () => {
+  it('has the commands for a leaf', () => {
     open(['a']);
     expect(groups()).toEqual([['addAfter', 'wrap', 'morph'], ...COMMON]);
   });
 
-  it('has what can be done with a decorator', () => {
+  it('has the commands for a decorator', () => {
     open(['i']);
     expect(groups()).toEqual([
       ['addAfter', 'wrap', 'unwrap', 'morph', 'extract'],
@@ -62,7 +62,7 @@ describe('BlockMenu', () => {
     ]);
   });
 
-  it('has what can be done with a subtree', () => {
+  it('has the commands for a subtree', () => {
     open(['s']);
     expect(groups()).toEqual([
       ['lookInside'],
@@ -72,7 +72,7 @@ describe('BlockMenu', () => {
     ]);
   });
 
-  it('has what works on several blocks', () => {
+  it('has the commands for several blocks', () => {
     open(['a', 'i']);
     expect(groups()).toEqual([
       ['wrap', 'wrapSequence', 'wrapFallback', 'extract'],
@@ -82,12 +82,12 @@ describe('BlockMenu', () => {
     ]);
   });
 
-  it('extracts no blocks that do not follow each other', () => {
+  it('does not extract blocks that are not consecutive', () => {
     open(['a', 's']);
     expect(groups()[0]).toEqual(['wrap', 'wrapSequence', 'wrapFallback']);
   });
 
-  it('adds and pastes on free canvas', () => {
+  it('adds and pastes on the empty canvas', () => {
     open([], { isOnBlock: false });
     expect(groups()).toEqual([
       ['addBlock', 'paste'],
@@ -95,21 +95,21 @@ describe('BlockMenu', () => {
     ]);
   });
 
-  it('names the commands and their keys', () => {
+  it('shows the names and the keys of the commands', () => {
     open(['a']);
     expect(screen.getByTestId('menu-wrap')).toHaveTextContent('Wrap in…Ctrl+G');
     expect(screen.getByTestId('menu-delete')).toHaveTextContent('DeleteDel');
     expect(screen.getByTestId('menu-comment')).toHaveTextContent('Comment/');
   });
 
-  it('colours what removes', () => {
+  it('colours the commands that remove something', () => {
     open(['a']);
     const color = (id: string) => screen.getByTestId(id).style.getPropertyValue('--menu-item-color');
     expect(color('menu-delete')).toContain('failure');
     expect(color('menu-duplicate')).not.toContain('failure');
   });
 
-  it('does what is chosen, and closes', async () => {
+  it('runs the chosen command, and closes', async () => {
     const onClose = open(['a']);
     await user.click(screen.getByTestId('menu-disable'));
     expect(nodeOf('Main', 'a')?.disabled).toBe(true);

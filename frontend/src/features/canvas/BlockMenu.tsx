@@ -11,7 +11,7 @@ export interface MenuPoint {
   readonly isOnBlock: boolean;
 }
 
-/** The groups of the menu, by command `id`. */
+/** The groups of a block's menu, by the `id` of the commands. */
 const ON_BLOCK = [
   ['canvas.fix'],
   ['canvas.look'],
@@ -41,7 +41,7 @@ interface Item {
 
 const byId = new Map([...blockCommands, ...levelCommands].map((action) => [action.id, action]));
 
-/** The commands that are available now, in groups. */
+/** Returns the commands that are available now, in groups. */
 function itemsFor(isOnBlock: boolean): Item[][] {
   const offered = (id: string): Item[] => {
     const action = byId.get(id);
@@ -57,7 +57,7 @@ interface BlockMenuProps {
   readonly onClose: () => void;
 }
 
-/** The context menu of the canvas. */
+/** The context menu of the canvas and its blocks. */
 export function BlockMenu({ point, onClose }: BlockMenuProps) {
   const { t } = useTranslation('canvas');
   if (!point) return null;

@@ -33,7 +33,7 @@ const crumbs = () =>
     .map(({ textContent }) => textContent);
 
 describe('Breadcrumbs', () => {
-  it('lead from the main tree over its callers to this one', async () => {
+  it('go from the main tree through its callers to this one', async () => {
     const { openTree } = watchNavigation();
     open('Deep');
     expect(crumbs()).toEqual(['Main', 'Dock', 'Deep']);
@@ -44,7 +44,7 @@ describe('Breadcrumbs', () => {
   it.each([
     ['Main', ['Main']],
     ['Alone', ['Alone']],
-  ])('begin with %s, which nothing calls', (tree, expected) => {
+  ])('begin with %s, which no tree calls', (tree, expected) => {
     open(tree);
     expect(crumbs()).toEqual(expected);
   });
@@ -54,7 +54,7 @@ describe('Breadcrumbs', () => {
     expect(crumbs()).toEqual(['Ring2', 'Ring']);
   });
 
-  it('lead to the selected block, which is the current one', async () => {
+  it('go to the selected block, which is the current one', async () => {
     open('Deep', 'n2');
     expect(crumbs()).toEqual(['Main', 'Dock', 'Deep', 'N0', 'N1', 'N2']);
     expect(screen.getByRole('button', { name: 'N2' })).toHaveAttribute('aria-current', 'true');
@@ -65,7 +65,7 @@ describe('Breadcrumbs', () => {
     expect(now.selection()).toEqual([]);
   });
 
-  it('name all of five blocks, and of more the first and the last four', () => {
+  it('show all of up to five blocks, otherwise the first and the last four', () => {
     open('Deep', 'n4');
     expect(crumbs().slice(3)).toEqual(['N0', 'N1', 'N2', 'N3', 'N4']);
     act(() => useProjectStore.getState().select('Deep', ['n5']));
@@ -76,7 +76,7 @@ describe('Breadcrumbs', () => {
     expect(screen.getByText('…')).toHaveAttribute('title', 'N1 › N2 › N3');
   });
 
-  it('leave out what is selected in another tree', () => {
+  it('leave out a block that is selected in another tree', () => {
     open('Deep', 'n2');
     act(() => useProjectStore.getState().select('Main', ['s']));
     expect(crumbs()).toEqual(['Main', 'Dock', 'Deep']);

@@ -19,7 +19,7 @@ function nameOf(diagram: Diagram | undefined, id: NodeId): string {
   return node ? displayName(node) : id;
 }
 
-/** The trees above this one, up to the main tree. */
+/** Returns the trees above this one, up to the main tree. */
 function ownersOf(diagrams: Readonly<Record<string, Diagram>>, treeId: string, main: string): string[] {
   const owners: string[] = [];
   let tree = treeId;
@@ -32,12 +32,12 @@ function ownersOf(diagrams: Readonly<Record<string, Diagram>>, treeId: string, m
   return owners;
 }
 
-/** A long path shows this many blocks: the first, and the last ones. */
+/** The most blocks that the path shows: the first, and the last ones. */
 const NEAREST = 4;
 
 interface PartOfPath {
   readonly id: NodeId;
-  /** The blocks that are left out before this one. */
+  /** The blocks of the path that are left out before this one. */
   readonly passed: readonly NodeId[];
 }
 
@@ -49,7 +49,7 @@ function shortened(path: readonly NodeId[]): PartOfPath[] {
   });
 }
 
-/** The trees above this one, and the path from the root to the selected block. */
+/** The path to the selected block: the trees above this one, and the blocks from the root. */
 export const Breadcrumbs = memo(function Breadcrumbs({ treeId }: { readonly treeId: string }) {
   const { t } = useTranslation('canvas');
   const diagrams = useProjectStore((state) => state.diagrams);

@@ -9,14 +9,14 @@ import { useLiveStore } from '@/store/project/live';
 import { useProjectStore } from '@/store/project';
 import { Canvas } from './Canvas';
 
-/** What the session tells of a node that runs. */
+/** Returns the session's description of a running node. */
 function running(uid: number, tree_id: string, node_id: string): TreeNode {
   return { uid, parent: 0, type: '', kind: '', name: node_id, path: node_id, node_id, tree_id };
 }
 
 const rendered = vi.hoisted((): string[] => []);
 
-// The title is a part of every block: it renders as often as its block does.
+// The title is part of every block, so it renders exactly as often as its block.
 vi.mock('./block/BlockTitle', () => ({
   BlockTitle: ({ id }: { id: string }) => {
     rendered.push(id);
@@ -82,7 +82,7 @@ it('offers the fixes of a block', async () => {
   expect(screen.queryByTestId('fix-box')).toBeNull();
 });
 
-it('looks into a subtree by key, shows its live status, and changes nothing', () => {
+it('expands a subtree by a key, shows its live status, and changes nothing', () => {
   act(() => {
     useProjectStore.getState().select('MainTree', ['s']);
   });
@@ -99,15 +99,15 @@ it('looks into a subtree by key, shows its live status, and changes nothing', ()
   expect(screen.queryByTestId('node-s d')).toBeNull();
 });
 
-// Last: after a drag, the next click is not one, for as long as the event loop has not turned.
-/** A mouse event with its window, which jsdom does not take as an argument here. */
+// This test comes last: after a drag, React Flow ignores clicks until the event loop has turned.
+/** Fires a mouse event with its window, which jsdom does not accept as an argument here. */
 function mouse(type: 'mousedown' | 'mousemove' | 'mouseup', target: Element | Window, x: number): void {
   const event = new MouseEvent(type, { clientX: x, clientY: 20, bubbles: true, cancelable: true });
   Object.defineProperty(event, 'view', { value: window });
   fireEvent(target, event);
 }
 
-it('renders at most three blocks for a step of the hand that carries one', () => {
+it('renders at most three blocks for a step of a drag', () => {
   const block = screen.getByTestId('node-n3').closest<HTMLElement>('.react-flow__node')!;
   mouse('mousedown', block, 10);
   mouse('mousemove', window, 20);
@@ -115,7 +115,7 @@ it('renders at most three blocks for a step of the hand that carries one', () =>
   let before = '';
   for (let x = 50; x <= 200; x += 30) {
     mouse('mousemove', window, x);
-    // The canvas has no size here, so that it also moves away below the hand.
+    // The canvas has no size in jsdom, so the block also moves while the pointer rests.
     expect(block.style.translate).not.toBe(before);
     before = block.style.translate;
     expect(rendered.splice(0).length).toBeLessThanOrEqual(3);

@@ -7,7 +7,7 @@ interface CanvasProps {
   readonly treeId: string;
 }
 
-/** Draws one tree for editing. */
+/** The canvas of one tree. */
 export function Canvas({ treeId }: CanvasProps) {
   const exists = useProjectStore((state) => treeId in state.diagrams);
   if (!exists) return null;

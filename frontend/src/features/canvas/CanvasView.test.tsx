@@ -24,7 +24,7 @@ const store = () => useProjectStore.getState();
 const canvas = () => screen.getByTestId('canvas');
 const block = (id: string) => screen.getByTestId(`node-${id}`);
 const edge = (id: string) => document.querySelector<SVGElement>(`.react-flow__edge[data-id="${id}"]`)!;
-/** The menu of the free canvas. */
+/** The commands in the menu of the empty canvas. */
 const FREE = ['addBlock', 'paste', 'collapse1', 'collapse2', 'collapse3', 'collapse4'];
 const pane = () => document.querySelector<HTMLElement>('.react-flow__pane')!;
 const select = (...ids: string[]) => act(() => store().select('Main', ids));
@@ -36,12 +36,12 @@ function open(more: Partial<Diagram> = {}) {
 }
 
 beforeEach(() => {
-  // jsdom lays nothing out: whatever is in the page counts as seen.
+  // jsdom has no layout, so every element in the page counts as visible.
   Element.prototype.checkVisibility = () => true;
 });
 
 describe('the canvas', () => {
-  it('draws every block and what connects them', () => {
+  it('draws every block and every connection', () => {
     open();
     expect(['r', 'a', 'b', 's'].map((id) => block(id).dataset['type'])).toEqual([
       'Sequence',
@@ -57,7 +57,7 @@ describe('the canvas', () => {
     expect(screen.queryByTestId('ghost-block')).toBeNull();
   });
 
-  it('leaves out details from afar', () => {
+  it('leaves out details when zoomed out', () => {
     const { store: flow } = open();
     expect(canvas()).not.toHaveAttribute('data-names');
     act(() => flow.setState({ transform: [0, 0, 0.43] }));
@@ -68,19 +68,19 @@ describe('the canvas', () => {
     expect(canvas()).not.toHaveAttribute('data-names');
   });
 
-  it('says how to begin an empty tree', () => {
+  it('explains how to start an empty tree', () => {
     open({ root: null, nodes: {} });
     expect(screen.getByTestId('ghost-block')).toBeInTheDocument();
   });
 
-  it('has an overview where the user wants one', () => {
+  it('shows the overview if the user has switched it on', () => {
     open();
     expect(screen.queryByTestId('minimap')).toBeNull();
     act(() => setEditor({ minimap: true }));
     expect(screen.getByTestId('minimap')).toBeInTheDocument();
   });
 
-  it('tells a screen reader the selected block', () => {
+  it('announces the selected block to screen readers', () => {
     open();
     select('a');
     expect(document.getElementById('canvas-announcer')).toHaveTextContent(/^Sleep, Sleep, child 1 of 3/);
@@ -101,7 +101,7 @@ describe('a press', () => {
     expect(now.selection()).toEqual([]);
   });
 
-  it('on one of several means that one, unless a key adds to them', () => {
+  it('on one of several selected blocks selects it alone, unless a modifier key is held', () => {
     open();
     for (const keys of [{ shiftKey: true }, { ctrlKey: true }, { metaKey: true }]) {
       select('a', 'b');
@@ -112,7 +112,7 @@ describe('a press', () => {
     expect(now.selection()).toEqual(['b']);
   });
 
-  it('begins a selection of its own where another tree was in front', () => {
+  it('starts a new selection if another tree was in front', () => {
     open();
     act(() => store().select('Dock', ['n1']));
     fireEvent.click(block('a'));
@@ -120,7 +120,7 @@ describe('a press', () => {
     expect(now.selection()).toEqual(['a']);
   });
 
-  it('takes the keyboard, and puts the tree in front', () => {
+  it('gives the canvas the focus, and puts its tree in front', () => {
     open();
     act(() => store().setActiveTree('Dock'));
     fireEvent.pointerDown(pane());
@@ -128,20 +128,20 @@ describe('a press', () => {
     expect(store().activeTree).toBe('Main');
   });
 
-  it('on a tool or the way up leaves the keyboard with the blocks', () => {
+  it('on a tool or a breadcrumb leaves the focus on the blocks', () => {
     open();
     for (const place of ['Show the tools of the view', 'Main']) {
       (document.activeElement as HTMLElement).blur();
       const button = screen.getByRole('button', { name: place });
       fireEvent.pointerDown(button);
       expect(canvas()).toHaveFocus();
-      // False: the button does not take the focus.
+      // False: the default action, which moves the focus, was prevented.
       expect(fireEvent.mouseDown(button)).toBe(false);
     }
     expect(fireEvent.mouseDown(canvas())).toBe(true);
   });
 
-  it('on a field leaves the keyboard there', () => {
+  it('on a field leaves the focus there', () => {
     open();
     act(() => setEditor({ editing: { node: 'a', field: 'name' } }));
     const field = screen.getByRole('textbox', { name: 'Name' });
@@ -151,7 +151,7 @@ describe('a press', () => {
 });
 
 describe('a connection', () => {
-  it.each(['Delete', 'Backspace'])('is cut by %s when it was pressed', (key) => {
+  it.each(['Delete', 'Backspace'])('is removed by %s when it was pressed', (key) => {
     open();
     fireEvent.click(edge('b'));
     expect(edge('b').querySelector('[data-selected]')).not.toBeNull();
@@ -170,7 +170,7 @@ describe('a connection', () => {
     expect(childrenOf(now.diagram(), 'r')).toEqual(['b', 's']);
   });
 
-  it('lets go of the first one when another is pressed', () => {
+  it('is deselected when another one is pressed', () => {
     open();
     fireEvent.click(edge('a'));
     fireEvent.click(edge('b'));
@@ -180,7 +180,7 @@ describe('a connection', () => {
     expect(document.querySelector('g[data-selected]')).toBeNull();
   });
 
-  it('is not cut by another key', () => {
+  it('is not removed by another key', () => {
     open();
     fireEvent.click(edge('b'));
     fireEvent.keyDown(canvas(), { key: 'Home' });
@@ -208,7 +208,7 @@ describe('the menu', () => {
     expect(items()).toContain('extract');
   });
 
-  it('of the free canvas adds and pastes', () => {
+  it('of the empty canvas adds and pastes', () => {
     open();
     fireEvent.contextMenu(pane());
     expect(items()).toEqual(FREE);
@@ -223,7 +223,7 @@ describe('the menu', () => {
     await waitFor(() => expect(items()).toContain('wrap'));
   });
 
-  it('is that of a button while one has the focus', () => {
+  it('is that of a button while the button has the focus', () => {
     open();
     const button = screen.getByRole('button', { name: 'Show the tools of the view' });
     expect(fireEvent.keyDown(button, { key: 'ContextMenu' })).toBe(true);
@@ -231,7 +231,7 @@ describe('the menu', () => {
     expect(fireEvent.contextMenu(button)).toBe(true);
   });
 
-  it('is none inside of a subtree', () => {
+  it('does not open inside of a subtree', () => {
     open();
     act(() => toggleExpanded('Main', 's'));
     fireEvent.contextMenu(block('s n1'));
@@ -240,8 +240,8 @@ describe('the menu', () => {
   });
 });
 
-describe('two presses', () => {
-  it('on a block open what it stands for', () => {
+describe('a double click', () => {
+  it('on a block opens its document', () => {
     const { openTree } = watchNavigation();
     open();
     fireEvent.doubleClick(block('s'));
@@ -250,7 +250,7 @@ describe('two presses', () => {
     expect(now.editor().editing).toEqual({ node: 'a', field: 'name' });
   });
 
-  it('inside of a subtree go to its tree', () => {
+  it('inside of a subtree opens that tree', () => {
     watchNavigation();
     open();
     act(() => toggleExpanded('Main', 's'));
@@ -258,7 +258,7 @@ describe('two presses', () => {
     expect(store().revealed).toMatchObject({ tree: 'Dock', node: 'n1' });
   });
 
-  it('on free canvas ask for a block there', () => {
+  it('on the empty canvas opens the quick-add box there', () => {
     const { store: flow } = open();
     act(() => flow.setState({ transform: [100, 50, 2] }));
     fireEvent.doubleClick(pane(), { clientX: 301, clientY: 90 });
@@ -271,7 +271,7 @@ describe('two presses', () => {
     });
   });
 
-  it('on an empty canvas ask for the first block', () => {
+  it('on an empty tree opens the quick-add box for the first block', () => {
     open();
     act(() => store().apply('Main', 'delete', [removeSubtrees(['r'])]));
     fireEvent.doubleClick(pane());
@@ -280,7 +280,7 @@ describe('two presses', () => {
 });
 
 describe('a box over the canvas', () => {
-  it('adds a block, and gives the keyboard back', () => {
+  it('adds a block, and returns the focus', () => {
     open();
     select('b');
     fireEvent.keyDown(canvas(), { key: 'Tab' });
@@ -290,7 +290,7 @@ describe('a box over the canvas', () => {
     expect(canvas()).toHaveFocus();
   });
 
-  it('is for another tree drawn there', () => {
+  it('belongs to another tree that is drawn there', () => {
     open();
     act(() =>
       setEditor({ quickAdd: { tree: 'Dock', goal: { does: 'wrap', nodes: [] }, x: 0, y: 0, text: '' } }),
@@ -306,7 +306,7 @@ describe('a box over the canvas', () => {
     expect(canvas()).toHaveFocus();
   });
 
-  it('has the fixes of the selected block alone', () => {
+  it('has the fixes of the selected block only', () => {
     open();
     select('a');
     act(() => setEditor({ fixing: 'a' }));
@@ -319,7 +319,7 @@ describe('a box over the canvas', () => {
   });
 });
 
-it('takes a block from the palette', () => {
+it('accepts a block from the palette', () => {
   open();
   act(() => setEditor({ dragged: { type: 'Sleep' } }));
   const dataTransfer = { dropEffect: '' };
@@ -329,16 +329,16 @@ it('takes a block from the palette', () => {
   expect(nodeOf('Main', made!)?.type).toBe('Sleep');
 });
 
-it('draws only what is in view of a large tree', () => {
+it('draws only the visible part of a large tree', () => {
   const ids = Array.from({ length: 151 }, (_, at) => `n${at}`);
   const leaves = Object.fromEntries(ids.map((id) => [id, { type: 'Sleep' }]));
   open({ nodes: { r: { type: 'Sequence', children: ids }, ...leaves } });
   expect(screen.queryAllByTestId(/^node-n/).length).toBeLessThan(100);
 });
 
-it('brings a block into view that is asked for', async () => {
+it('scrolls to a block on request', async () => {
   const { view, store: flow } = open();
-  // In place of the view that React Flow has made.
+  // This replaces the view that React Flow has made.
   act(() => flow.setState({ panZoom: view as unknown as ReactFlowState['panZoom'] }));
   act(() => store().reveal('Main', 'b'));
   await waitFor(() => expect(view.setViewport).toHaveBeenCalled());

@@ -41,12 +41,18 @@ import classes from './Canvas.module.css';
 
 const nodeTypes = { block: Block };
 const edgeTypes = { tree: TreeEdge };
-/** Below these zooms blocks show only their names, and then only symbol, colour and status. */
+/**
+ * The zooms below which blocks show only their names, and below which they show only symbol, colour and
+ * status.
+ */
 const NAMES = 0.65;
 const FAR = 0.42;
 const DELETE_KEYS: string[] = [];
 const MULTI_KEYS = ['Meta', 'Control', 'Shift'];
-/** A press on a tool or a breadcrumb must leave the keyboard focus on the blocks. */
+/**
+ * Returns whether an element belongs to a toolbar or the breadcrumbs: a press there must leave the keyboard
+ * focus on the blocks.
+ */
 const isTool = (target: HTMLElement): boolean => target.closest('[role="toolbar"], nav') !== null;
 
 export function CanvasView({ treeId }: { readonly treeId: string }) {
@@ -73,7 +79,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
 
   const [projection] = useState(() => new FlowProjection());
   const { diagram, shown, layout, vocabulary, problems, selection } = tree;
-  // A selection rectangle also contains the connections between its blocks: then only the blocks count.
+  // A selection rectangle also selects the connections between its blocks; then only the blocks count.
   const chosenEdge = selection.size === 0 ? pressedEdge : null;
   const { nodes: resting, edges } = useMemo(
     () => projection.project({ diagram, shown, layout, vocabulary, problems, selection }),
@@ -126,13 +132,14 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
 
   const openMenuByKeys = (): void => {
     const [first] = useProjectStore.getState().selection;
-    // A key outside of a menu closes it, even the key that opens it.
+    // The menu opens after this event, since any key outside of a menu closes it, even the key that opened
+    // it.
     setTimeout(() => {
       setMenu({ ...pointOf(first), isOnBlock: first !== undefined });
     });
   };
 
-  // React Flow renders every block again when one of its listeners changes identity.
+  // The listener must keep its identity, since React Flow would otherwise render every block again.
   const onPaneContextMenu = useCallback(
     (event: MouseEvent | globalThis.MouseEvent) => {
       openMenu(event, null);
@@ -157,7 +164,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
   );
 
   return (
-    // The canvas is one stop of the Tab key: arrows walk inside, as in a tree widget.
+    // The canvas is a single Tab stop; the arrow keys move inside, as in a tree widget.
     // eslint-disable-next-line jsx-a11y/no-noninteractive-element-interactions
     <div
       ref={root}

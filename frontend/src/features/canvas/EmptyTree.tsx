@@ -4,7 +4,7 @@ import { useEditorStore } from '@/store/project/editor';
 import { openQuickAdd } from './quickAdd/open';
 import classes from './Canvas.module.css';
 
-/** The place of the first block: a click, a key or a block that is dropped there begins the tree. */
+/** The place of the first block of an empty tree: a click, a key or a dropped block starts the tree there. */
 export function EmptyTree({ treeId }: { readonly treeId: string }) {
   const { t } = useTranslation('canvas');
   const isDragged = useEditorStore((state) => state.dragged !== null);

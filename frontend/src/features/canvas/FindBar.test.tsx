@@ -27,7 +27,7 @@ beforeEach(() => {
 });
 
 describe('FindBar', () => {
-  it('takes the keyboard, and counts nothing yet', () => {
+  it('takes the focus, and shows no count yet', () => {
     expect(field()).toHaveFocus();
     expect(count()).toBe('');
   });
@@ -39,7 +39,7 @@ describe('FindBar', () => {
     expect(now.selection()).toEqual(['a']);
   });
 
-  it('walks round with Enter, and back with Shift', async () => {
+  it('goes to the next match with Enter, and back with Shift', async () => {
     await user.type(field(), 'sleep{Enter}');
     expect(now.selection()).toEqual(['b']);
     expect(count()).toBe('2 of 3');
@@ -50,7 +50,7 @@ describe('FindBar', () => {
     expect(count()).toBe('3 of 3');
   });
 
-  it('walks with its buttons', async () => {
+  it('goes to the matches with its buttons', async () => {
     await user.type(field(), 'sleep');
     await user.click(button('Next'));
     expect(now.selection()).toEqual(['b']);
@@ -59,14 +59,14 @@ describe('FindBar', () => {
     expect(now.selection()).toEqual(['c']);
   });
 
-  it('begins again with another text', async () => {
+  it('starts again with another text', async () => {
     await user.type(field(), 'sleep{Enter}');
     await user.type(field(), '{Backspace}');
     expect(count()).toBe('1 of 3');
     expect(now.selection()).toEqual(['a']);
   });
 
-  it('leaves the selection alone where it finds nothing', async () => {
+  it('leaves the selection unchanged if it finds nothing', async () => {
     await user.type(field(), 'sleep');
     await user.type(field(), 'zz{Enter}');
     expect(count()).toBe('0 of 0');
@@ -83,7 +83,7 @@ describe('FindBar', () => {
     expect(onClose).toHaveBeenCalledTimes(2);
   });
 
-  it('keeps its keys from the canvas', () => {
+  it('keeps its keys from reaching the canvas', () => {
     const onKey = vi.fn();
     document.addEventListener('keydown', onKey);
     fireEvent.keyDown(field(), { key: 'Delete' });

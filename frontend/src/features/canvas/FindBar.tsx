@@ -13,7 +13,7 @@ interface FindBarProps {
   readonly onClose: () => void;
 }
 
-/** Searches names, types, ports and comments of the tree; Enter selects the next match. */
+/** The search bar for names, types, ports and comments of the tree; Enter selects the next match. */
 export function FindBar({ treeId, onClose }: FindBarProps) {
   const { t } = useTranslation('canvas');
   const field = useRef<HTMLInputElement>(null);

@@ -28,14 +28,14 @@ function open(id: string, block?: DOMRect) {
 const box = () => screen.getByTestId('fix-box');
 
 describe('FixBox', () => {
-  it('tells what is wrong with the block, and puts the keyboard on the first fix', () => {
+  it('shows the problem of the block, and focuses the first fix', () => {
     open('a');
     expect(box()).toHaveAccessibleName('Fixes for “Nap”');
     expect(box()).toHaveTextContent('has a brace without its partner');
     expect(screen.getAllByRole('button')[0]).toHaveFocus();
   });
 
-  it('takes the keyboard itself where there is no fix', () => {
+  it('takes the focus itself if there is no fix', () => {
     open('g');
     expect(screen.queryByRole('button')).toBeNull();
     expect(box()).toHaveFocus();
@@ -78,7 +78,7 @@ describe('FixBox', () => {
     expect(onClose).toHaveBeenCalledOnce();
   });
 
-  it('is nothing of a block that is gone', () => {
+  it('is absent if the block was deleted', () => {
     open('gone');
     expect(screen.queryByTestId('fix-box')).toBeNull();
   });

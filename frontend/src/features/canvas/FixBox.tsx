@@ -8,14 +8,14 @@ import classes from './Canvas.module.css';
 interface FixBoxProps {
   readonly diagram: Diagram;
   readonly id: NodeId;
-  /** Called on closing; must return the focus to the canvas. */
+  /** Called when the box closes; must return the focus to the canvas. */
   readonly onClose: () => void;
 }
 
 const WIDTH = 320;
 const HEIGHT = 240;
 
-/** The problems of a block with their fixes, below the block; opened by pointer or keyboard. */
+/** A box below a block with its problems and their fixes; opened with the pointer or the keyboard. */
 export function FixBox({ diagram, id, onClose }: FixBoxProps) {
   const { t } = useTranslation('canvas');
   const box = useRef<HTMLDivElement>(null);
@@ -29,7 +29,7 @@ export function FixBox({ diagram, id, onClose }: FixBoxProps) {
   const left = Math.max(8, Math.min(x, window.innerWidth - WIDTH - 8));
   const top = Math.max(8, Math.min(y, window.innerHeight - HEIGHT - 8));
   return (
-    // Keys and the focus leaving close it, as with every box of the canvas.
+    // Escape, and a focus that leaves, close the box, like every box on the canvas.
     // eslint-disable-next-line jsx-a11y/no-noninteractive-element-interactions
     <div
       ref={box}

@@ -42,13 +42,13 @@ describe('TreeEdge', () => {
     expect(edge.querySelector('.react-flow__edge-interaction')).toHaveAttribute('stroke-width', '18');
   });
 
-  it('runs to the right in such a tree', () => {
+  it('runs to the right in a left-right tree', () => {
     const data = { tree: 'Main', node: 'a', isHorizontal: true };
     expect(open({ data, selected: true }).path()).toBe(elbow(10, 20, 110, 90, true));
     expect(document.querySelector('g[data-selected]')).not.toBeNull();
   });
 
-  it('has the status of the block that it leads to, in its own tree', () => {
+  it('has the status of its child block, in its own tree', () => {
     const { edge } = open({ target: 's d', data: { tree: 'Dock', node: 'd', isHorizontal: false } });
     act(() => useLiveStore.setState({ statuses: new Map([['Main/a', 'FAILURE']]) }));
     expect(edge.dataset['status']).toBe('IDLE');
@@ -56,7 +56,7 @@ describe('TreeEdge', () => {
     expect(edge.dataset['status']).toBe('RUNNING');
   });
 
-  it('follows the block in the hand, and no other', () => {
+  it('follows the dragged block, and no other', () => {
     const { path } = open();
     act(() => useDraggedBlocks.setState({ tops: new Set(['a']), dx: 7, dy: -9 }));
     expect(path()).toBe(elbow(10, 20, 117, 81, false));
@@ -65,7 +65,7 @@ describe('TreeEdge', () => {
     act(() => useDraggedBlocks.setState({ tops: new Set(), dx: 0, dy: 0 }));
   });
 
-  it('is straight and named by its target without data', () => {
+  it('is straight, and named by its target, without data', () => {
     const { edge, path } = open({ data: undefined, targetX: 10 });
     expect(path()).toBe('M10 20L10 90');
     act(() => useLiveStore.setState({ statuses: new Map([['/a', 'SUCCESS']]) }));

@@ -82,7 +82,7 @@ describe('FlowProjection', () => {
     expect(node('a')).not.toHaveProperty('draggable');
   });
 
-  it('connects above and below, or left and right', () => {
+  it('connects from top to bottom, or from left to right', () => {
     const { node } = project(input(main));
     const { width = 0, height = 0 } = node('r');
     expect(node('r').handles).toEqual([
@@ -98,7 +98,7 @@ describe('FlowProjection', () => {
     ]);
   });
 
-  it('has an edge to each child, called as the child', () => {
+  it('has an edge to each child, with the id of the child', () => {
     const { edges, edge } = project(input(main));
     expect(edges.map(({ id, source, target }) => [id, source, target])).toEqual(
       expect.arrayContaining([
@@ -116,13 +116,13 @@ describe('FlowProjection', () => {
     });
   });
 
-  it('marks drafts with all below them, and what may have more children', () => {
+  it('marks drafts with their subtrees, and blocks that can have more children', () => {
     const { node } = project(input(main));
     expect(['r', 'a', 'd', 'e'].map((id) => node(id).data.isDraft)).toEqual([false, false, true, true]);
     expect(['r', 'a', 'y', 'z'].map((id) => node(id).data.canGrow)).toEqual([true, false, false, false]);
   });
 
-  it('counts the blocks that a folded one hides, and draws none of them', () => {
+  it('counts the blocks that a folded block hides, and draws none of them', () => {
     const { node, nodes } = project(input(patched('f', { collapsed: true })));
     expect(node('f').data.folded).toBe(3);
     expect(node('r').data.folded).toBe(0);
@@ -138,7 +138,7 @@ describe('FlowProjection', () => {
     expect(['r', 's', 'f'].map((id) => node(id).selected)).toEqual([false, true, true]);
   });
 
-  it('looks into a SubTree whose tree is known, and lets nobody move what is inside', () => {
+  it('expands a SubTree whose tree is known, and fixes the blocks inside', () => {
     const closed = project(input(main));
     expect(['s', 'a'].map((id) => closed.node(id).data.look)).toEqual(['closed', null]);
     const { node, edge } = project(input(main, {}, ['s']));
@@ -152,7 +152,7 @@ describe('FlowProjection', () => {
     expect(project(input(patched('a', { tree: 'Inner' }))).node('a').data.look).toBeNull();
   });
 
-  it('leaves out what the layout places and no node is', () => {
+  it('leaves out a position without a node', () => {
     const given = input(main);
     const positions = { ...given.layout.positions, ghost: { x: 0, y: 0, width: 1, height: 1 } };
     const { nodes } = project({ ...given, layout: { ...given.layout, positions } });
@@ -171,7 +171,7 @@ describe('what has not changed', () => {
     expect(after.edges).toBe(before.edges);
   });
 
-  it('stays where another block changes', () => {
+  it('stays if another block changes', () => {
     const projection = new FlowProjection();
     const before = project(input(main), projection);
     const after = project(input(patched('x', { disabled: true })), projection);
@@ -185,7 +185,7 @@ describe('what has not changed', () => {
     for (const each of after.nodes) if (each.id !== 'x') expect(each).toBe(before.node(each.id));
   });
 
-  it('keeps its data where only the place or the selection changes', () => {
+  it('keeps its data if only the place or the selection changes', () => {
     const projection = new FlowProjection();
     const before = project(input(main), projection);
     const chosen = project(input(main, { selection: new Set(['a']) }), projection);
@@ -206,7 +206,7 @@ describe('what has not changed', () => {
     }
   });
 
-  it('is another edge where the parent or the direction is another', () => {
+  it('is another edge if the parent or the direction changes', () => {
     const projection = new FlowProjection();
     const before = project(input(main), projection);
     const moved: Diagram = {
@@ -225,7 +225,7 @@ describe('what has not changed', () => {
   });
 });
 
-it('marks the block in the hand alone', () => {
+it('marks only the dragged block', () => {
   const { nodes } = project(input(main));
   expect(withHeld(nodes, null)).toBe(nodes);
   const held = withHeld(nodes, 'a');

@@ -21,9 +21,9 @@ export interface BlockData extends Record<string, unknown> {
   readonly isDraft: boolean;
   readonly isHorizontal: boolean;
   readonly canGrow: boolean;
-  /** How many blocks are hidden below this one; 0 unless it is folded. */
+  /** The number of blocks that are hidden below this one; 0 unless it is folded. */
   readonly folded: number;
-  /** Whether a SubTree is expanded; null if it cannot be. */
+  /** Whether a SubTree is expanded; null if the block cannot be expanded. */
   readonly look: 'closed' | 'open' | null;
   /** The block's tree and node, if it is shown inside of an expanded SubTree. */
   readonly inside: Inside | null;
@@ -42,8 +42,8 @@ export interface FlowInput {
 }
 
 /**
- * The ends of connections. They are computed and not measured, so that they are right as soon as blocks
- * change.
+ * Returns the ends of a block's connections. They are computed and not measured, so that they are right as
+ * soon as blocks change.
  */
 function handlesOf({ width, height }: Box, isHorizontal: boolean): NodeHandle[] {
   const end = (type: 'source' | 'target', position: Position, x: number, y: number): NodeHandle => ({
@@ -74,7 +74,7 @@ const FACTS = [
 
 const sameData = (a: BlockData, b: BlockData): boolean => FACTS.every((key) => a[key] === b[key]);
 
-/** Returns the earlier list if no element has changed. */
+/** Returns the earlier list if no element has changed, otherwise the new one. */
 function kept<T>(before: readonly T[], now: T[]): T[] {
   const isSame = before.length === now.length && now.every((each, index) => each === before[index]);
   return isSame ? (before as T[]) : now;
@@ -89,7 +89,7 @@ function lookOf(id: NodeId, node: DiagramNode, { shown, vocabulary }: FlowInput)
 
 /**
  * Projects a tree to React Flow's nodes. Unchanged nodes and lists keep their identity, so that React renders
- * only the changed ones and React Flow need not compare the lists.
+ * only changed nodes and React Flow need not compare the lists.
  */
 export class FlowProjection {
   private nodes = new Map<NodeId, BlockNode>();
@@ -157,7 +157,7 @@ export class FlowProjection {
       selected: selection.has(id),
       data: sameContent ? known.data : data,
       ariaLabel: displayName(node),
-      // A name needs a role, also when zoomed out, where the block shows no text.
+      // An accessible name requires a role, even when the canvas is zoomed out and the block shows no text.
       ariaRole: 'group',
       ...(inside ? { draggable: false, selectable: false, connectable: false } : {}),
     };
@@ -186,13 +186,13 @@ export class FlowProjection {
   }
 }
 
-/** Marks the dragged block, so that it is drawn even when the canvas scrolls it out of view. */
+/** Marks the dragged block, so that it is drawn even while the canvas has scrolled it out of view. */
 export function withHeld(nodes: readonly BlockNode[], held: NodeId | null): BlockNode[] {
   if (held === null) return nodes as BlockNode[];
   return nodes.map((node) => (node.id === held ? { ...node, dragging: true } : node));
 }
 
-/** The position of a node for screen readers: "2 of 3". */
+/** Returns the position of a node among its siblings for screen readers: "2 of 3". */
 export function ordinal(
   diagram: Diagram,
   parent: NodeId | null,

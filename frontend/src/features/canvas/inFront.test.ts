@@ -7,7 +7,7 @@ let isVisible = true;
 
 beforeEach(() => {
   isVisible = true;
-  // jsdom lays nothing out.
+  // jsdom has no layout.
   Element.prototype.checkVisibility = () => isVisible;
   document.body.innerHTML = `
     <div data-testid="canvas" data-tree="Main" tabindex="0"><input id="inner"></div>
@@ -18,7 +18,7 @@ beforeEach(() => {
 const focus = (selector: string) => document.querySelector<HTMLElement>(selector)!.focus();
 
 describe('isOnCanvas', () => {
-  it('holds for the canvas and what is in it', () => {
+  it('is true for the canvas and the elements in it', () => {
     focus('[data-testid="canvas"]');
     expect(isOnCanvas()).toBe(true);
     focus('#inner');
@@ -29,7 +29,7 @@ describe('isOnCanvas', () => {
 });
 
 describe('isTreeInFront', () => {
-  it('holds while the canvas of the active tree is visible', () => {
+  it('is true while the canvas of the active tree is visible', () => {
     expect(isTreeInFront()).toBe(true);
     isVisible = false;
     expect(isTreeInFront()).toBe(false);

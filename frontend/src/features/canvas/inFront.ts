@@ -1,9 +1,12 @@
 import { useProjectStore } from '@/store/project';
 
-/** Keys for blocks count only while the canvas has the focus: elsewhere they edit text. */
+/**
+ * Returns whether the canvas has the focus: only then do keys apply to blocks, since elsewhere they edit
+ * text.
+ */
 export const isOnCanvas = (): boolean => document.activeElement?.closest('[data-testid="canvas"]') !== null;
 
-/** Whether the tree itself is visible, and not its text. */
+/** Returns whether the drawing of the active tree is visible, and not only its text. */
 export const isTreeInFront = (): boolean =>
   document
     .querySelector(

@@ -36,13 +36,13 @@ it('has the blocks with their places, problems and selection', () => {
   expect([...selection]).toEqual(['s']);
 });
 
-it('has the selection of the active tree alone', () => {
+it('has only the selection of the active tree', () => {
   const { result } = renderHook(() => useTree('Dock'));
   expect(result.current.selection.size).toBe(0);
   expect(Object.keys(result.current.layout.positions)).toEqual(['d']);
 });
 
-it('is empty of a tree that is gone', () => {
+it('is empty for a deleted tree', () => {
   const { result } = renderHook(() => useTree('Gone'));
   expect(result.current.diagram).toMatchObject({ id: 'Gone', root: null });
   expect(result.current.layout.width).toBe(0);
@@ -64,7 +64,7 @@ it('draws an expanded subtree in its place, and follows its changes', () => {
   expect(result.current.shown.diagram).toBe(result.current.diagram);
 });
 
-it('computes nothing again where another tree changes', () => {
+it('computes nothing again if another tree changes', () => {
   const { result } = renderHook(() => useTree('Main'));
   const before = result.current;
   act(() => {

@@ -11,11 +11,11 @@ import { useCompact } from './view/compact';
 
 export interface TreeOnCanvas {
   readonly diagram: Diagram;
-  /** The drawn tree, with the expanded trees of its SubTrees. */
+  /** The drawn tree, including the expanded trees of its SubTrees. */
   readonly shown: ExpandedTree;
   readonly vocabulary: Vocabulary;
   readonly layout: Layout;
-  /** Whether leaves are below each other. */
+  /** Whether leaves are drawn below each other. */
   readonly isCompact: boolean;
   readonly problems: ReadonlyMap<string, ShownProblem>;
   readonly selection: ReadonlySet<string>;
@@ -25,7 +25,7 @@ const NONE: readonly string[] = [];
 const CLOSED: ReadonlySet<string> = new Set();
 const NO_TREES: Readonly<Record<string, Diagram>> = {};
 
-/** All data of a tree that the canvas draws, computed once for each change. */
+/** Returns the data that the canvas draws of a tree, computed once for each change. */
 export function useTree(treeId: string): TreeOnCanvas {
   const stored = useProjectStore((state) => state.diagrams[treeId]);
   const vocabulary = useProjectStore((state) => state.vocabulary);

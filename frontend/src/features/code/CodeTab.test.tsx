@@ -50,14 +50,14 @@ describe('CodeTab', () => {
     expect(screen.queryByTestId('language-state')).toBeNull();
   });
 
-  it('says that a file is gone', () => {
+  it('shows that a file was deleted', () => {
     show(<CodeTab path={PATH} />);
     act(() => store().deleteFile(PATH));
     expect(screen.getByText('notes.md is not in this project any more.')).toBeInTheDocument();
     expect(screen.queryByTestId('code-editor')).toBeNull();
   });
 
-  it('follows what changes elsewhere, with the cursor where it was', () => {
+  it('follows changes from elsewhere, and keeps the cursor in place', () => {
     show(<CodeTab path={PATH} />);
     act(() => editor().dispatch({ selection: { anchor: 15 } }));
     act(() => store().setFileText(PATH, `zero ${TEXT}`));
@@ -68,14 +68,14 @@ describe('CodeTab', () => {
     expect(kept()).toBe(TEXT);
   });
 
-  it('leaves the ends of lines of a file as they are until it is edited', () => {
+  it('keeps the line ends of a file until it is edited', () => {
     act(() => store().setFileText(PATH, 'one\r\ntwo'));
     show(<CodeTab path={PATH} />);
     expect(shown()).toBe('one\ntwo');
     expect(kept()).toBe('one\r\ntwo');
   });
 
-  it('keeps what can be undone when the language of the page changes', () => {
+  it('keeps the undo steps when the language of the page changes', () => {
     onTestFinished(() => setLanguage('en'));
     show(<CodeTab path={PATH} />);
     type(0, 'x');
@@ -98,14 +98,14 @@ describe('CodeTab', () => {
 describe('the cursor', () => {
   const line = () => editor().state.doc.lineAt(editor().state.selection.main.head).number;
 
-  it('goes to a line that was asked for, behind its indent', () => {
+  it('goes to a requested line, behind its indentation', () => {
     act(() => aimAt(PATH, 2));
     show(<CodeTab path={PATH} />);
     expect(editor().state.selection.main.head).toBe(6);
     expect(editor().hasFocus).toBe(true);
   });
 
-  it('goes there once for each time', () => {
+  it('goes there once for each request', () => {
     show(<CodeTab path={PATH} />);
     expect(line()).toBe(1);
     act(() => aimAt(PATH, 2));
@@ -117,7 +117,7 @@ describe('the cursor', () => {
     expect(line()).toBe(2);
   });
 
-  it('goes to the last line where there are fewer, and nowhere for another file', () => {
+  it('goes to the last line if there are fewer, and ignores requests for another file', () => {
     show(<CodeTab path={PATH} />);
     act(() => aimAt('other.md', 2));
     expect(line()).toBe(1);
@@ -152,7 +152,7 @@ describe('marks', () => {
     expect(marks()).toEqual([]);
   });
 
-  it('show what the language server found, and what a run raised', () => {
+  it('show the findings of the language server, and the exceptions of a run', () => {
     show(<CodeTab path={PATH} />);
     const place = (character: number) => ({ line: 0, character });
     const finding = { from: place(0), to: place(3), severity: 'error', message: 'm', source: 's' } as const;
@@ -173,7 +173,7 @@ describe('marks', () => {
     expect(editor().dom.querySelector('.cm-faultLine')?.textContent).toBe('three');
   });
 
-  it('show where a text is not JSON, a moment after it was typed', async () => {
+  it('show where a text is not JSON, shortly after it was typed', async () => {
     show(<CodeTab path="a.json" />);
     await waitFor(() => expect(marks()).toEqual(['}']));
   });

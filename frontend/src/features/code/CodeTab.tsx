@@ -25,19 +25,21 @@ interface CodeTabProps {
   readonly path: string;
 }
 
-/** Marks changes that came from the store, so that they are not sent back as edits. */
+/** Marks changes that come from the store, so that they are not sent back as edits. */
 const fromStore = Annotation.define<boolean>();
 
 const KEPT = { history: historyField };
 
-/** The editor's state, kept while it is created again because its file or the page's language changed. */
+/**
+ * The editor's state while the editor is created again, because its file or the page's language has changed.
+ */
 interface Left {
   readonly state: unknown;
   readonly scroll: StateEffect<unknown>;
   readonly hadFocus: boolean;
 }
 
-/** Edits one file of the project. */
+/** The text editor of one file of the project. */
 export function CodeTab({ path }: CodeTabProps) {
   const { t } = useTranslation('code');
   const host = useRef<HTMLDivElement>(null);
@@ -107,17 +109,17 @@ export function CodeTab({ path }: CodeTabProps) {
 
 type ViewRef = { readonly current: EditorView | null };
 
-/** Applies changes that were made elsewhere: a merge, a rename, another tab's save. */
+/** Applies changes that were made elsewhere, such as a merge, a rename or another tab's save. */
 function useExternalText(view: ViewRef, text: string | null): void {
   useEffect(() => {
     if (view.current && text !== null) follow(view.current, text);
   }, [view, text]);
 }
 
-/** Sets the text of an editor; equal parts stay unchanged, with the cursors and marks in them. */
+/** Sets the text of an editor. Equal parts stay unchanged, so that cursors and marks in them stay. */
 function follow(editor: EditorView, text: string): void {
   const before = editor.state.doc.toString();
-  // The editor counts each line end as one character, whichever the file has.
+  // The editor counts each line end as one character, whatever the file contains.
   const after = text.replace(/\r\n?/g, '\n');
   if (before === after) return;
   editor.dispatch({
@@ -126,7 +128,10 @@ function follow(editor: EditorView, text: string): void {
   });
 }
 
-/** Marks the findings of a file; a new label creates a new editor, which has no marks yet. */
+/**
+ * Marks the findings in a file. `label` is a dependency: a new label creates a new editor, which has no marks
+ * yet.
+ */
 function useMarks(view: ViewRef, path: string, text: string | null, label: string): void {
   const served = useLanguageStore((state) => state.findings[path]);
   const linted = useTextFindings((state) => state.linted[path]);
@@ -146,7 +151,7 @@ function useMarks(view: ViewRef, path: string, text: string | null, label: strin
       ...textMarks(doc, errors),
     ];
     editor.dispatch(setDiagnostics(editor.state, marks));
-    // When marks and text arrive together, the new text moves the marks: they must be set again for it.
+    // When findings and text arrive together, the new text moves the marks, so they must be set again.
   }, [view, path, diagnostics, faults, text, served, linted, errors, label]);
 }
 

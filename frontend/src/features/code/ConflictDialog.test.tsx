@@ -42,7 +42,7 @@ const edit = (words: string) => {
 };
 
 describe('ConflictDialog', () => {
-  it('is not there without a conflict', () => {
+  it('is absent without a conflict', () => {
     show(<ConflictDialog />);
     expect(screen.queryByRole('dialog')).toBeNull();
   });
@@ -76,14 +76,14 @@ describe('ConflictDialog', () => {
     );
   });
 
-  it('takes the deletion of the server', async () => {
+  it('accepts the deletion on the server', async () => {
     await open(conflict('a.md', { theirs: null }));
     expect(screen.getByRole('textbox', { name: 'On the server' })).toHaveTextContent('');
     await button("Take the server's");
     expect(text('a.md')).toBeNull();
   });
 
-  it('asks for one file after the other', async () => {
+  it('asks about one file after the other', async () => {
     await open(conflict('a.md'), conflict('b.md'), conflict('c.md'));
     expect(screen.getByText(/2 more files follow\./)).toBeInTheDocument();
     await button('Keep mine');
@@ -92,7 +92,7 @@ describe('ConflictDialog', () => {
     expect(requests).toEqual([]);
   });
 
-  it('says why a choice could not be saved', async () => {
+  it('reports why a choice could not be saved', async () => {
     answers[SAVE] = refusal('The disk is full.');
     await open(conflict('a.md'));
     await button('Keep mine');

@@ -10,7 +10,10 @@ import classes from './code.module.css';
 
 const MergeView = lazyPart(async () => (await import('./MergeView')).MergeView);
 
-/** Another user saved the same file: shows both versions, and lets the user choose or merge. */
+/**
+ * A dialogue for a file that another user has also saved: it shows both versions, and lets the user choose
+ * one or merge them.
+ */
 export function ConflictDialog() {
   const { t } = useTranslation('code');
   const conflict = useSavingStore(({ state }) =>

@@ -42,7 +42,7 @@ describe('a new file', () => {
     ['action', 'New action', 'Name of the class and its file', 'FollowWall'],
     ['tree', 'New tree', 'Name of the tree', 'Patrol'],
     ['file', 'New file', 'Path in the project', 'assets/notes.md'],
-  ] as const)('%s is asked for', (kind, title, label, example) => {
+  ] as const)('%s asks for its name', (kind, title, label, example) => {
     expect(screen.queryByRole('dialog')).toBeNull();
     openNew(kind);
     expect(screen.getByRole('dialog', { name: title })).toBeInTheDocument();
@@ -53,7 +53,7 @@ describe('a new file', () => {
     expect(screen.getByTestId('file-dialog-ok')).toHaveTextContent('Create');
   });
 
-  it('is an action, of a template', async () => {
+  it('is an action, from a template', async () => {
     openNew('action');
     await name('Stop');
     await user.click(screen.getByRole('radio', { name: /Condition/ }));
@@ -86,7 +86,7 @@ describe('a new file', () => {
     expect(navigator.openFile).toHaveBeenCalledWith('assets/a.md', undefined);
   });
 
-  it('needs a good name, and says so once something was typed', async () => {
+  it('needs a valid name, and reports that once something was typed', async () => {
     openNew('action');
     expect(screen.queryByText('A name is needed.')).toBeNull();
     await ok();
@@ -101,7 +101,7 @@ describe('a new file', () => {
     expect(screen.queryByText('A name is needed.')).toBeNull();
   });
 
-  it('is not made when that is cancelled', async () => {
+  it('is not made after Cancel', async () => {
     openNew('tree');
     await name('Patrol');
     await user.click(screen.getByRole('button', { name: 'Cancel' }));
@@ -111,7 +111,7 @@ describe('a new file', () => {
 });
 
 describe('another name', () => {
-  it('of an action is that of its blocks, too', async () => {
+  it('of an action also renames its blocks', async () => {
     rename('actions/Turn.py');
     expect(screen.getByRole('dialog', { name: 'Rename' })).toBeInTheDocument();
     expect(screen.getByTestId('file-dialog-ok')).toHaveTextContent('Rename');
@@ -142,7 +142,7 @@ describe('another name', () => {
     expect(store().currentText('notes.md')).toBeNull();
   });
 
-  it('that is the old one changes nothing', async () => {
+  it('that is unchanged changes nothing', async () => {
     rename('actions/Turn.py');
     await ok();
     expect(isOpen()).toBe(false);
@@ -150,7 +150,7 @@ describe('another name', () => {
     expect(navigator.openFile).not.toHaveBeenCalled();
   });
 
-  it('may not be taken', async () => {
+  it('must not be taken', async () => {
     rename('notes.md');
     await name('actions/Turn.py');
     await ok();

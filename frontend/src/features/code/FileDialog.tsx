@@ -16,7 +16,9 @@ import {
 import { renameDocument } from './renaming';
 import { ACTION_TEMPLATES, actionSource, type ActionTemplate } from './templates';
 
-/** Asks for the name of a new file (and the kind of action), or for a new name of an existing file. */
+/**
+ * A dialogue for the name of a new file (with the kind of an action), or for a new name of an existing file.
+ */
 export function FileDialog() {
   const { t } = useTranslation('code');
   const dialog = useFileDialog((state) => state.dialog);

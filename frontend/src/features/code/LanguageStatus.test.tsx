@@ -25,13 +25,13 @@ describe('LanguageStatus', () => {
     [failed('No room.', false), 'No Python help: No room.'],
     [failed('No room.', true), 'No Python help: No room. It starts again by itself.'],
     [failed('', false), 'No Python help: The connection to the language server was lost.'],
-  ] as const)('says of %j: %s', (state, words) => {
+  ] as const)('shows %j as %s', (state, words) => {
     set(state);
     expect(says()).toBe(words);
     expect(screen.getByTestId('language-state')).toHaveAttribute('data-state', state.kind);
   });
 
-  it('offers to try again where that does not happen by itself', () => {
+  it('offers to try again if that does not happen by itself', () => {
     const retry = () => screen.queryByRole('button', { name: 'Try again' });
     expect(retry()).toBeNull();
     set(failed('No room.', true));

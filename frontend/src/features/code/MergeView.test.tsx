@@ -12,7 +12,7 @@ const view = (name: string) => {
 const text = (name: string) => view(name).state.doc.toString();
 
 describe('MergeView', () => {
-  it('shows both versions; only the own one can be edited', () => {
+  it("shows both versions; only the user's can be edited", () => {
     const onChange = vi.fn();
     show(<MergeView path="a.py" theirs="theirs" mine="mine" onChange={onChange} />);
     expect([text('On the server'), text('Yours')]).toEqual(['theirs', 'mine']);
@@ -22,7 +22,7 @@ describe('MergeView', () => {
     expect(onChange).toHaveBeenCalledExactlyOnceWith('mine too');
   });
 
-  it('brings a piece over from the server', async () => {
+  it("copies a piece from the server's version", async () => {
     const onChange = vi.fn();
     const { container } = show(
       <MergeView path="a.py" theirs={'a\nb\n'} mine={'a\nc\n'} onChange={onChange} />,
@@ -38,7 +38,7 @@ describe('MergeView', () => {
     expect(text('On the server')).toBe('a\nb\n');
   });
 
-  it('notifies the listener that it was given last', () => {
+  it('notifies the current listener', () => {
     const [first, second] = [vi.fn(), vi.fn()];
     const { rerender } = show(<MergeView path="a.py" theirs="" mine="" onChange={first} />);
     rerender(<MergeView path="a.py" theirs="" mine="" onChange={second} />);

@@ -15,7 +15,10 @@ interface MergeViewProps {
   readonly onChange: (merged: string) => void;
 }
 
-/** The server's version on the left; the user's on the right, editable, with arrows that copy pieces over. */
+/**
+ * Both versions of a file: the server's on the left, and the user's on the right, which can be edited, with
+ * arrows that copy pieces over.
+ */
 export function MergeView({ path, theirs, mine, onChange }: MergeViewProps) {
   const { t } = useTranslation('code');
   const host = useRef<HTMLDivElement>(null);

@@ -29,7 +29,7 @@ const press = (view: EditorView, key: string, keyCode: number, more: KeyboardEve
 beforeEach(() => openProject({}));
 
 describe('basics', () => {
-  it('names the editor, and lets the keyboard reach it', () => {
+  it('names the editor, and makes it reachable by keyboard', () => {
     const { contentDOM, dom } = open();
     expect(contentDOM.getAttribute('aria-label')).toBe('Source');
     expect(contentDOM.getAttribute('tabindex')).toBe('0');
@@ -44,7 +44,7 @@ describe('basics', () => {
     expect(open().state.readOnly).toBe(true);
   });
 
-  it('indents by Tab, and undoes that', () => {
+  it('indents by Tab, and undoes the indentation', () => {
     const view = open();
     press(view, 'Tab', 9);
     expect(view.state.doc.toString()).toBe('  one\ntwo');
@@ -52,13 +52,13 @@ describe('basics', () => {
     expect(view.state.doc.toString()).toBe('one\ntwo');
   });
 
-  it('searches on top', () => {
+  it('shows the search at the top', () => {
     const view = open();
     press(view, 'f', 70, { ctrlKey: true });
     expect(view.dom.querySelector('.cm-panels-top .cm-search')).not.toBeNull();
   });
 
-  it('changes the size of the letters', () => {
+  it('changes the font size', () => {
     const size = () => document.documentElement.style.getPropertyValue('--bts-code-size');
     press(open(), '0', 48, { ctrlKey: true });
     expect(size()).toBe('13px');
@@ -66,7 +66,7 @@ describe('basics', () => {
     expect(size()).toBe('14px');
   });
 
-  it('prefers the keys that it is given', () => {
+  it('prefers the given keys', () => {
     const run = vi.fn(() => true);
     const view = open([{ key: 'Tab', run }]);
     press(view, 'Tab', 9);

@@ -22,7 +22,7 @@ import { editorTheme } from './editorTheme';
 import { fontSizeKeys } from './fontSize';
 import { phrases } from './phrases';
 
-/** Extensions that every text editor has, for files and for a tree's XML; `keys` take precedence. */
+/** Returns the extensions of every text editor, for files and for a tree's XML; `keys` take precedence. */
 export function basics(label: string, keys: readonly KeyBinding[] = []): Extension {
   return [
     lineNumbers(),
@@ -39,7 +39,7 @@ export function basics(label: string, keys: readonly KeyBinding[] = []): Extensi
     lintGutter(),
     editorTheme,
     phrases(),
-    // The element is focusable anyway; the attribute tells accessibility checks that its scroll area can be
+    // The element is focusable anyway. The attribute shows accessibility checks that the scroll area can be
     // reached by keyboard.
     EditorView.contentAttributes.of({ 'aria-label': label, tabindex: '0' }),
     keymap.of([

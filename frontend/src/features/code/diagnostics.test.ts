@@ -47,7 +47,7 @@ describe('marks of findings', () => {
     expect(marked(place)).toBe(words);
   });
 
-  it('say what is wrong, and what to do', () => {
+  it('say what is wrong, and how to fix it', () => {
     const items = [
       diagnostic({ line: 1 }),
       diagnostic({ line: 1, severity: 'warning', hint: 'Add it.' }),

@@ -6,7 +6,10 @@ import { findingText } from '@/ui/findingText';
 
 const SEVERITY = { error: 'error', warning: 'warning', note: 'info' } as const;
 
-/** The range from a position to the end of its word or line. */
+/**
+ * Returns the range of the word at a position, or of the rest of the line; column 0 means the first character
+ * that is not blank.
+ */
 function spanAt(doc: Text, line: number, column: number): { from: number; to: number } {
   const { from, to, text } = doc.line(Math.min(Math.max(line, 1), doc.lines));
   const indent = text.length - text.trimStart().length;
@@ -16,7 +19,7 @@ function spanAt(doc: Text, line: number, column: number): { from: number; to: nu
   return { from: Math.min(start, end), to: end };
 }
 
-/** Messages for the lines of one file: findings of the checks, and exceptions of the run. */
+/** Returns the marks in one file: findings of the checks, and exceptions of the run. */
 export function marksFor(
   doc: Text,
   path: string,

@@ -3,7 +3,7 @@ import { EditorView } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
 import './code.css';
 
-/** Colours are tokens, so that one editor theme serves light and dark. */
+/** The theme of the editor. Its colours are tokens, so that it serves both the light and the dark theme. */
 const look = EditorView.theme({
   '&': { height: '100%', color: 'var(--bts-text)', backgroundColor: 'var(--bts-surface)' },
   '.cm-scroller': {
@@ -36,7 +36,7 @@ const look = EditorView.theme({
     borderRadius: 'var(--bts-radius-small)',
     boxShadow: 'var(--bts-shadow-raised)',
   },
-  // A diagnostic keeps its place beside the text when the documentation of the name arrives after it.
+  // A finding stays next to the text when the documentation of the name arrives later.
   '.cm-tooltip-hover': { display: 'flex', flexDirection: 'column' },
   '.cm-tooltip-above .cm-tooltip-lint': { order: 1 },
   '.cm-tooltip-below .cm-tooltip-lint': { order: -1 },

@@ -6,7 +6,7 @@ import { languageOf } from './modes';
 import { languageSupport } from './language/client';
 import { saveKeys } from './language/keys';
 
-/** All extensions of the editor of this file. */
+/** Returns all extensions of the editor of a file. */
 export function extensionsFor(path: string, label: string): Extension {
   return [
     basics(label, saveKeys(path)),

@@ -19,7 +19,7 @@ describe('servedMark', () => {
     });
   };
 
-  it('is at its place, counted from 0', () => {
+  it('is at its place, which counts from 0', () => {
     expect(mark([0, 7], [0, 9])).toEqual({
       from: 7,
       to: 9,
@@ -37,7 +37,7 @@ describe('servedMark', () => {
   });
 });
 
-it('knows findings of this text, whichever ends its lines have', () => {
+it('recognises findings of this text, whatever its line ends', () => {
   expect(isOf(doc, { text: 'import os\r\nx = 1' })).toBe(true);
   expect(isOf(doc, { text: 'import os' })).toBe(false);
   expect(isOf(doc, undefined)).toBe(false);
@@ -73,18 +73,18 @@ describe('lintMarks', () => {
     expect(marks([finding({ end: { line: 1, column: 1 } })])).toMatchObject([{ from: 7, to: 7 }]);
   });
 
-  it('are none without an answer, or about an older text', () => {
+  it('are absent without an answer, or for an older text', () => {
     expect(lintMarks(doc, {})).toEqual([]);
     expect(marks([finding()], false, Text.of(['import os']))).toEqual([]);
   });
 
-  it('leave syntax errors to the language server where it has found them', () => {
+  it('leave out syntax errors that the language server has found', () => {
     const found = [finding({ severity: 'error' }), finding()];
     expect(marks(found).map(({ severity }) => severity)).toEqual(['error', 'warning']);
     expect(marks(found, true).map(({ severity }) => severity)).toEqual(['warning']);
   });
 
-  it('fix what they are about', () => {
+  it('offer a fix', () => {
     const edits = [{ start: { line: 1, column: 1 }, end: { line: 2, column: 1 }, content: '' }];
     const [mark] = marks([finding({ fix: { message: 'Remove it', edits } })]);
     const view = new EditorView({ doc });

@@ -10,7 +10,7 @@ function offset(doc: Text, { line, character }: CodeFinding['from']): number {
   return Math.min(from + character, to);
 }
 
-/** A finding of the language server, mapped to the present text. */
+/** Returns the mark of a language server's finding in the current text. */
 export function servedMark(doc: Text, finding: CodeFinding): Mark {
   const from = offset(doc, finding.from);
   return {
@@ -22,12 +22,15 @@ export function servedMark(doc: Text, finding: CodeFinding): Mark {
   };
 }
 
-/** Whether findings refer to the text that the editor shows; it counts each line end as one character. */
+/** Returns whether findings refer to the text in the editor, which counts each line end as one character. */
 export function isOf(doc: Text, found: { readonly text: string } | undefined): boolean {
   return found !== undefined && Text.of(found.text.split(/\r\n?|\n/)).eq(doc);
 }
 
-/** Findings of ruff, each with a button that fixes it; none while they refer to an older text. */
+/**
+ * Returns the marks of ruff's findings, each with a button that fixes it; none while the findings refer to an
+ * older text.
+ */
 export function lintMarks(doc: Text, found: FileFindings): Mark[] {
   if (!isOf(doc, found.linted)) return [];
   return lintFindings(found).map((finding) => {

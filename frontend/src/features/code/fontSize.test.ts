@@ -11,7 +11,7 @@ beforeEach(() => {
   onTestFinished(() => localStorage.clear());
 });
 
-it('is 13 px at first, and what it was the last time', () => {
+it('is 13 px at first, then the last value', () => {
   applyKeptFontSize();
   expect(size()).toBe('13px');
   localStorage.setItem('bts.codeSize', '20');
@@ -29,13 +29,13 @@ it.each([
   expect(localStorage.getItem('bts.codeSize')).toBe(expected.replace('px', ''));
 });
 
-it('is put back by Mod-0', () => {
+it('is reset by Mod-0', () => {
   localStorage.setItem('bts.codeSize', '20');
   press('Mod-0');
   expect(size()).toBe('13px');
 });
 
-it('stays readable, and in the window', () => {
+it('stays readable, and fits the window', () => {
   localStorage.setItem('bts.codeSize', '28');
   press('Mod-=');
   expect(size()).toBe('28px');
@@ -44,6 +44,6 @@ it('stays readable, and in the window', () => {
   expect(size()).toBe('9px');
 });
 
-it('takes its keys from the browser', () => {
+it("prevents the browser's action for its keys", () => {
   expect(fontSizeKeys.every(({ preventDefault }) => preventDefault)).toBe(true);
 });

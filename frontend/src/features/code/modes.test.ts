@@ -22,6 +22,6 @@ it.each([
   expect(state.facet(indentUnit)).toBe(' '.repeat(indent));
 });
 
-it('knows files of XML by their names', () => {
+it('recognises XML files by their names', () => {
   expect(['a.xml', 'b/a.urdf', 'a.xml.txt', 'xml'].map(isXml)).toEqual([true, true, false, false]);
 });

@@ -8,7 +8,7 @@ import type { Extension } from '@codemirror/state';
 
 export const isXml = (path: string): boolean => /\.(xml|urdf|sdf|launch)$/.test(path);
 
-/** The syntax colours and indentation of a file, by its name. */
+/** Returns the syntax colouring and indentation for a file, by its name. */
 export function languageOf(path: string): Extension {
   if (path.endsWith('.py')) return [python(), indentUnit.of('    ')];
   if (path.endsWith('.json')) return [json(), indentUnit.of('  ')];

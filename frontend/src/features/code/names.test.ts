@@ -12,7 +12,7 @@ it.each([
   ['universe', 'yard', 'universes/yard.yaml'],
   ['robot', 'mine', 'robots/mine/robot.yaml'],
   ['file', 'assets/a.md', 'assets/a.md'],
-] as const)('a %s %s is at %s', (kind, name, path) => {
+] as const)('a %s %s is stored at %s', (kind, name, path) => {
   expect(pathFor(kind, name)).toBe(path);
 });
 

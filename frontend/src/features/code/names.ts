@@ -13,11 +13,11 @@ export function pathFor(kind: NamedKind, name: string): string {
 
 interface Taken {
   paths: Iterable<string>;
-  /** The node types of the catalogue and of the project. */
+  /** The node types in the catalogue and in the project. */
   types: ReadonlySet<string>;
 }
 
-/** The reason why a file cannot have this name; null if it can. */
+/** Returns the reason why a file cannot have this name; null if it can. */
 export function nameProblem(kind: NamedKind, name: string, { paths, types }: Taken): NameProblem | null {
   if (name.trim() === '') return 'empty';
   if (kind === 'action' && !isPythonName(name)) return 'notIdentifier';

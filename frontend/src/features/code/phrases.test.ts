@@ -3,7 +3,7 @@ import { expect, it, onTestFinished } from 'vitest';
 import { setLanguage } from '@/i18n';
 import { phrases } from './phrases';
 
-it('says the words of the editor in the language of the page', () => {
+it("translates the editor's texts", () => {
   onTestFinished(() => {
     setLanguage('en');
     localStorage.clear();

@@ -25,7 +25,7 @@ beforeEach(() => {
 const paths = () => Object.keys(store().files).sort();
 
 describe('renameDocument', () => {
-  it('gives a file another path', async () => {
+  it('moves a file to another path', async () => {
     await renameDocument('notes.md', 'docs/notes.md');
     expect(store().currentText('docs/notes.md')).toBe('words');
     expect(paths()).not.toContain('notes.md');
@@ -34,7 +34,7 @@ describe('renameDocument', () => {
     expect(useUniverseChoice.getState()).toMatchObject({ universe: 'other', robot: 'other' });
   });
 
-  it('gives a universe another name, also where the project runs in it', async () => {
+  it('renames a universe, also in the settings of the project', async () => {
     store().setSettings({ universe: 'yard' });
     await renameDocument('universes/yard.yaml', 'garden');
     expect(store().currentText('universes/garden.yaml')).toBe('name: yard');
@@ -43,7 +43,7 @@ describe('renameDocument', () => {
     expect(useUniverseChoice.getState()).toMatchObject({ universe: null, robot: null });
   });
 
-  it('gives a robot another name with all its files, and leaves other robots', async () => {
+  it('renames a robot with all its files, and leaves other robots', async () => {
     await renameDocument('robots/mine/robot.yaml', 'yours');
     expect(paths().filter((path) => path.startsWith('robots/'))).toEqual([
       'robots/minor/robot.yaml',
@@ -58,7 +58,7 @@ describe('renameDocument', () => {
     expect(useUniverseChoice.getState()).toMatchObject({ universe: null, robot: null });
   });
 
-  it('moves what is no text on the server, before the old files go', async () => {
+  it('copies binary files on the server before the old ones are deleted', async () => {
     const file = (path: string, content: string | null) => ({
       path,
       revision: 1,
@@ -82,7 +82,7 @@ describe('renameDocument', () => {
     expect(paths()).not.toContain('robots/mine/arm.stl');
   });
 
-  it('renames nothing where a file cannot be fetched', async () => {
+  it('renames nothing if a file cannot be fetched', async () => {
     const file = { path: 'a.png', revision: 1, size: 3, sha256: '', content: null };
     store().load(projectDetail(1, [file]));
     await expect(renameDocument('a.png', 'b.png')).rejects.toThrow('a.png: 404');

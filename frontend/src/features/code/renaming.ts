@@ -4,7 +4,7 @@ import { openFile, renamed } from '@/store/project/navigation';
 import { useUniverseChoice } from '@/store/run/universeChoice';
 import { fetchBinaries, putBinaries } from '@/store/saving/binary';
 
-/** Gives a universe, a robot with all its files, or another file a new name. */
+/** Renames a universe, a robot with all its files, or another file. */
 export async function renameDocument(path: string, name: string): Promise<void> {
   const project = useProjectStore.getState();
   const to = pathNamed(path, name);

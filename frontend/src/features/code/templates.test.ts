@@ -5,14 +5,14 @@ it('offers an action first', () => {
   expect(ACTION_TEMPLATES).toEqual(['action', 'condition', 'service', 'goal', 'control', 'decorator']);
 });
 
-it.each(ACTION_TEMPLATES)('names the class of a template “%s” as its file', (kind) => {
+it.each(ACTION_TEMPLATES)('names the class of the template “%s” after its file', (kind) => {
   const source = actionSource('FollowWall', kind);
   const base = { control: 'ControlNode', decorator: 'DecoratorNode' }[kind as string];
   expect(source).toContain(`class FollowWall(${base ?? 'py_trees.behaviour.Behaviour'}):`);
   expect(source).not.toContain('NewAction');
 });
 
-it('has another text for each', () => {
+it('has a different text for each', () => {
   expect(new Set(ACTION_TEMPLATES.map((kind) => actionSource('Go', kind))).size).toBe(
     ACTION_TEMPLATES.length,
   );

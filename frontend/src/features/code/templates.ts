@@ -5,13 +5,13 @@ import decorator from './templates/decorator.py?raw';
 import goal from './templates/goal.py?raw';
 import service from './templates/service.py?raw';
 
-/** Templates of new actions, in the order in which they are offered. */
+/** The templates of new actions, in the order of the dialogue. */
 const TEMPLATES = { action, condition, service, goal, control, decorator } as const;
 
 export type ActionTemplate = keyof typeof TEMPLATES;
 
 export const ACTION_TEMPLATES = Object.keys(TEMPLATES) as readonly ActionTemplate[];
 
-/** A template whose class has the action's name. */
+/** Returns the source of a template, with the action's name as its class. */
 export const actionSource = (name: string, template: ActionTemplate): string =>
   TEMPLATES[template].replaceAll('NewAction', name);

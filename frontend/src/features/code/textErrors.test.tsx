@@ -42,7 +42,7 @@ describe('textMarks', () => {
     expect(at(999)).toEqual(['', 'error', 'bad']);
   });
 
-  it('are there while they are about the text that is there', () => {
+  it('are shown only for the text that they refer to', () => {
     const text = Text.of(['{']);
     const errors = textErrors('a.json', '{');
     expect(textMarks(text, { text: '{', errors })).toHaveLength(1);
@@ -66,7 +66,7 @@ describe('useTextErrors', () => {
   }
   const pass = (ms: number) => act(() => vi.advanceTimersByTime(ms));
 
-  it('reads a moment after the last change', () => {
+  it('checks shortly after the last change', () => {
     const { rerender } = show(<Errors path="a.json" text="{" />);
     pass(200);
     rerender(<Errors path="a.json" text={'{\r\n\r}'} />);
@@ -82,13 +82,13 @@ describe('useTextErrors', () => {
   it.each([
     ['a.py', '('],
     ['a.json', null],
-  ])('does not read %s with %s', (path, text) => {
+  ])('does not check %s with %s', (path, text) => {
     show(<Errors path={path} text={text} />);
     pass(1000);
     expect(screen.getByText('not read')).toBeInTheDocument();
   });
 
-  it('forgets a file whose editor closes', () => {
+  it('forgets a file when its editor closes', () => {
     const { unmount } = show(<Errors path="a.json" text="{" />);
     pass(300);
     expect(useTextFindings.getState().errors['a.json']?.errors).toHaveLength(1);

@@ -10,7 +10,9 @@ import { isOf } from './findings';
 import { isXml } from './modes';
 
 const READ_AFTER_MS = 300;
-/** Longer texts are not parsed at each key, since that would delay typing. */
+/**
+ * The longest text that is checked while the user types; parsing a longer one at each key would delay typing.
+ */
 const LONGEST = 500_000;
 
 type Place = Omit<TextError, 'line'>;
@@ -20,7 +22,7 @@ function jsonErrors(text: string): Place[] {
     JSON.parse(text);
     return [];
   } catch {
-    // Each browser reports the position in its own way, or not at all.
+    // Browsers report the position differently, or not at all, so the parser finds it.
     let offset: number | null = null;
     jsonLanguage.parser.parse(text).iterate({
       enter: ({ type, from }) => {
@@ -58,7 +60,7 @@ function placesOf(path: string, text: string): Place[] {
   return isXml(path) ? xmlErrors(text) : [];
 }
 
-/** The syntax errors of a JSON, YAML or XML file. */
+/** Returns the syntax errors of a JSON, YAML or XML file. */
 export function textErrors(path: string, text: string): readonly TextError[] {
   if (text.length > LONGEST) return [];
   return placesOf(path, text).map(({ offset, message }) => ({
@@ -68,7 +70,10 @@ export function textErrors(path: string, text: string): readonly TextError[] {
   }));
 }
 
-/** Checks the text shortly after the last change; the findings leave the list with the editor. */
+/**
+ * Checks a text shortly after the last change. When the editor closes, its findings are removed from the
+ * list.
+ */
 export function useTextErrors(path: string, text: string | null): void {
   useEffect(() => {
     if (text === null || path.endsWith('.py')) return;
@@ -88,7 +93,7 @@ export function useTextErrors(path: string, text: string | null): void {
   );
 }
 
-/** Marks from the error to the end of its word, or of its line. */
+/** Returns the marks of syntax errors, each from the error to the end of its word, or of its line. */
 export function textMarks(doc: Text, found: TextErrors | undefined): Mark[] {
   if (!found || !isOf(doc, found)) return [];
   return found.errors.map(({ offset, message }) => {

@@ -23,14 +23,14 @@ const showLine = (more: Partial<LogLine> = {}, node?: ReturnType<typeof treeNode
 const row = () => document.querySelector('[data-level]') as HTMLElement;
 
 describe('ConsoleLine', () => {
-  it('has time, level, source and text', () => {
+  it('shows time, level, source and text', () => {
     showLine();
     expect(row()).toHaveTextContent('12.35Forwardsee Go.py:3');
     expect([row().dataset['level'], row().dataset['source']]).toEqual(['warning', 'action']);
     expect(screen.getByTitle('Main/drive/Forward::6')).toHaveTextContent('Forward');
   });
 
-  it('opens the block that wrote it', async () => {
+  it('opens the block that printed it', async () => {
     openProject({ trees: { Main: { n1: { type: 'AlwaysSuccess' } } } });
     const { openTree } = watchNavigation();
     showLine({}, treeNode(1, 0, 'Forward::6'));
@@ -46,7 +46,7 @@ describe('ConsoleLine', () => {
     expect(screen.queryByRole('button', { name: 'Forward' })).toBeNull();
   });
 
-  it('is of an extra node, or of its source', () => {
+  it('names the launch node, or the source', () => {
     const { unmount } = showLine({ node_path: '', source: 'launch' }, undefined, 'mapper');
     expect(screen.getByTitle('mapper')).toBeInTheDocument();
     unmount();
@@ -54,7 +54,7 @@ describe('ConsoleLine', () => {
     expect(screen.getByTitle('manager')).toBeInTheDocument();
   });
 
-  it('opens the line that it names', async () => {
+  it('opens the line that it mentions', async () => {
     const { openFile } = watchNavigation();
     showLine();
     await user.click(screen.getByRole('button', { name: 'Go.py:3' }));
@@ -69,7 +69,7 @@ describe('ConsoleLine', () => {
     ]);
   });
 
-  it('divides two runs', () => {
+  it('separates two runs', () => {
     showLine({ run: 2 });
     expect(screen.getByRole('separator', { name: 'Run 2' })).toBeInTheDocument();
   });

@@ -11,9 +11,9 @@ import { findLinks } from './links';
 interface ConsoleLineProps {
   readonly line: LogLine;
   readonly files: ReadonlySet<string>;
-  /** The block that printed it, if the running tree has it. */
+  /** The block that printed the line, if the running tree has it. */
   readonly node: TreeNode | undefined;
-  /** The name of the launch node that printed it. */
+  /** The name of the launch node that printed the line. */
   readonly launched: string | undefined;
 }
 
@@ -30,7 +30,7 @@ export const ConsoleLine = memo(function ConsoleLine({ line, files, node, launch
         {t('run', { count: line.run })}
       </div>
     );
-  // The engine numbers unnamed nodes: `Forward::6`.
+  // The engine adds a number to the path of an unnamed node: `Forward::6`.
   const name = (line.node_path.split('/').at(-1) ?? '').replace(/::\d+$/, '');
   const said = name || launched || line.source;
   return (

@@ -24,7 +24,7 @@ const log = (text: string, more: Partial<Log> = {}): Log => ({
 
 describe('ConsolePanel', () => {
   beforeEach(() => {
-    // jsdom has no layout; the list of visible rows needs a height to fill.
+    // jsdom has no layout, but the list of visible rows needs a height.
     vi.spyOn(Element.prototype, 'clientHeight', 'get').mockReturnValue(300);
     vi.spyOn(Element.prototype, 'clientWidth', 'get').mockReturnValue(600);
     useSessionStore.setState(initialSession, true);
@@ -48,7 +48,7 @@ describe('ConsolePanel', () => {
       </MantineProvider>,
     );
 
-  it('says what will be there before the first run', () => {
+  it('explains before the first run what it will show', () => {
     show();
     expect(screen.getByText(/The output of your actions/)).toBeInTheDocument();
   });
@@ -64,7 +64,7 @@ describe('ConsolePanel', () => {
     expect(openFile).toHaveBeenCalledWith('actions/Forward.py', 12);
   });
 
-  it('follows the end until one goes up, whatever else scrolls', () => {
+  it('follows the end until the user scrolls up, whatever else scrolls', () => {
     useSessionStore.setState(appendLogs(initialSession, [log('one'), log('two')]));
     show();
     const scroller = screen.getByRole('log');
@@ -80,7 +80,7 @@ describe('ConsolePanel', () => {
     scroll(400, 500);
     scroll(410, 900);
     expect(toEnd()).toBeNull();
-    // Fewer lines after a search, or a panel that was hidden.
+    // The list became shorter by a search or because the panel was hidden.
     scroll(300, 900);
     expect(toEnd()).toBeNull();
     fireEvent.wheel(scroller);
@@ -90,7 +90,7 @@ describe('ConsolePanel', () => {
     expect(toEnd()).toBeNull();
   });
 
-  it('does not scroll while something in it is pressed', async () => {
+  it('does not scroll while a line is pressed', async () => {
     useSessionStore.setState(appendLogs(initialSession, [log('one')]));
     show();
     const scroller = screen.getByRole('log');
@@ -111,7 +111,7 @@ describe('ConsolePanel', () => {
   const texts = () =>
     [...screen.getByRole('log').querySelectorAll('[data-level]')].map((line) => line.lastChild?.textContent);
 
-  it('filters by words, source and level', async () => {
+  it('filters by text, source and level', async () => {
     onTestFinished(() => useConsoleFilter.setState(useConsoleFilter.getInitialState(), true));
     show();
     write(
@@ -136,7 +136,7 @@ describe('ConsolePanel', () => {
     expect(screen.getByText('No line matches the filter.')).toBeInTheDocument();
   });
 
-  it('filters by an extra node of the run, also when that is gone', async () => {
+  it('filters by a launch node of the run, even after it has ended', async () => {
     onTestFinished(() => useConsoleFilter.setState(useConsoleFilter.getInitialState(), true));
     const node = { id: 'n1', name: 'mapper' } as LaunchNode;
     useSessionStore.setState({ launchNodes: [node] });
@@ -150,7 +150,7 @@ describe('ConsolePanel', () => {
     expect(texts()).toEqual(['map']);
   });
 
-  it('forgets all lines on demand', async () => {
+  it('clears all lines on demand', async () => {
     show();
     const clear = screen.getByRole('button', { name: 'Clear' });
     expect(clear).toBeDisabled();

@@ -14,7 +14,7 @@ import { filterLines, LEVELS, useConsoleFilter, type ConsoleFilter } from './fil
 const LINE_HEIGHT = 21;
 const SOURCES = ['all', 'action', 'world', 'manager', 'launch'] as const;
 
-/** The output of actions, world and manager; follows the end until the user scrolls up. */
+/** The output of actions, world and manager. The view follows the end until the user scrolls up. */
 export function ConsolePanel() {
   const { t } = useTranslation('console');
   const logs = useSessionStore((state) => state.logs);
@@ -29,7 +29,7 @@ export function ConsolePanel() {
   const lines = useMemo(() => filterLines(logs, filter), [logs, filter]);
   const [isFollowing, setFollowing] = useState(true);
   const scroller = useRef<HTMLDivElement>(null);
-  // The virtualizer keeps its own state; the compiler's memoisation does not apply to this component.
+  // The virtualizer has mutable state, so the compiler must not memoise this component.
   // eslint-disable-next-line react-hooks/incompatible-library
   const rows = useVirtualizer({
     count: lines.length,
@@ -53,7 +53,8 @@ export function ConsolePanel() {
     if (!element) return;
     const { scrollTop, scrollHeight, clientHeight } = element;
     const isAtEnd = scrollHeight - scrollTop - clientHeight < LINE_HEIGHT * 2;
-    // Only a user who scrolls up stops following: filtering, measuring and showing a hidden panel scroll too.
+    // Only scrolling up by the user stops the following: filtering, measuring and showing a hidden panel also
+    // scroll.
     if (isAtEnd || (scrollTop < top.current && isScrolling())) setFollowing(isAtEnd);
     top.current = scrollTop;
   };
@@ -112,7 +113,7 @@ export function ConsolePanel() {
         {...onHand}
         role="log"
         aria-label={t('label')}
-        // A region that scrolls has to be reachable by keyboard.
+        // A scrollable region must be reachable by keyboard.
         // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex
         tabIndex={0}
       >
@@ -146,7 +147,7 @@ export function ConsolePanel() {
   );
 }
 
-/** Scrolling counts as the user's for this long after a wheel or key event. */
+/** The time in ms after a wheel or key event in which scrolling counts as the user's. */
 const HAND_MS = 1000;
 
 /** Tracks the user's pointer and keys on the lines. */
@@ -157,23 +158,24 @@ function useHand() {
     lastMove.current = performance.now();
   };
   const hold = ({ currentTarget: { ownerDocument } }: PointerEvent) => {
-    // The click comes after this event, and must hit the pressed element.
+    // The click follows this event, and must hit the pressed element.
     const release = () => setTimeout(() => setHeld(false));
     setHeld(true);
     for (const end of ['pointerup', 'pointercancel'])
       ownerDocument.addEventListener(end, release, { once: true });
   };
   return {
-    /** A finger or a mouse button is down: the lines must not move until it is released. */
+    /** Whether a finger or a mouse button is down: then the lines must not move. */
     isHeld,
-    /** Whether the user is scrolling. */
+    /** Returns whether the user is scrolling. */
     isScrolling: () => isHeld || performance.now() - lastMove.current < HAND_MS,
     onHand: { onPointerDown: hold, onWheel: move, onTouchMove: move, onKeyDown: move },
   };
 }
 
 /**
- * The sources to choose from, with each launch node of the run; the chosen source stays even if it has ended.
+ * Returns the sources to choose from, including each launch node of the run; the chosen source stays in the
+ * list even if it has ended.
  */
 function useSources(names: ReadonlyMap<string, string>, chosen: string): { value: string; label: string }[] {
   const { t } = useTranslation('console');

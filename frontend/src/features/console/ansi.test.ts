@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { parseAnsi, plainText } from './ansi';
 
-/** A line with sequences written as `{1;31}`. */
+/** Returns a line in which `{1;31}` is replaced by the escape sequence. */
 const line = (text: string) => text.replace(/\{([\d;]*)\}/g, '\u001b[$1m');
 const styles = (codes: string) => parseAnsi(line(`${codes}x`)).at(-1)?.styles;
 
@@ -37,7 +37,7 @@ describe('parseAnsi', () => {
     expect(styles(codes)).toEqual(expected);
   });
 
-  it('drops sequences that are no style', () => {
+  it('drops sequences that set no style', () => {
     expect(plainText('x\u001b[2Ky')).toBe('xy');
     expect(parseAnsi('\u001b[2K')).toEqual([{ text: '', styles: [] }]);
     expect(parseAnsi('a\u001b[31Kb').map(({ styles: of }) => of)).toEqual([[], []]);

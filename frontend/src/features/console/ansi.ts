@@ -1,12 +1,12 @@
 export interface Span {
   text: string;
-  /** Style names: `red`, `bright-red`, `bold`, `dim`, `underline`. */
+  /** The names of styles: `red`, `bright-red`, `bold`, `dim`, `underline`. */
   styles: string[];
 }
 
 const COLORS = ['black', 'red', 'green', 'yellow', 'blue', 'magenta', 'cyan', 'white'];
 
-// Escape sequences begin with a control character; that is what is looked for.
+// Escape sequences begin with a control character, so the pattern must contain one.
 // eslint-disable-next-line no-control-regex
 const SEQUENCE = /\u001b\[([0-9;]*)([A-Za-z])/g;
 
@@ -25,7 +25,7 @@ function applyCode(styles: string[], code: number): string[] {
   return styles;
 }
 
-/** Splits a line at its ANSI sequences; sequences without a style (cursor moves) are dropped. */
+/** Splits a line at its ANSI sequences; sequences that set no style (such as cursor moves) are dropped. */
 export function parseAnsi(line: string): Span[] {
   const spans: Span[] = [];
   let styles: string[] = [];

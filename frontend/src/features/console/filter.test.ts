@@ -45,7 +45,7 @@ describe('filterLines', () => {
     expect(texts(filter)).toEqual(expected);
   });
 
-  it('knows the levels, the lowest first', () => {
+  it('has the levels in order, the lowest first', () => {
     expect(LEVELS).toEqual(['debug', 'info', 'warning', 'error']);
   });
 });
@@ -57,14 +57,14 @@ describe('a divider between runs', () => {
     );
   const divider = (run: number) => line('', { run });
 
-  it('passes every filter where there is something to divide', () => {
+  it('passes every filter if it has lines on both sides', () => {
     const all = [line('a'), divider(2), line('b'), line('c', { source: 'world' })];
     expect(of(all)).toEqual(['a', 2, 'b', 'c']);
     expect(of(all, { source: 'action', search: 'b' })).toEqual(['b']);
     expect(of(all, { source: 'action' })).toEqual(['a', 2, 'b']);
   });
 
-  it('is not first, last or double', () => {
+  it('is never first, last or repeated', () => {
     expect(of([divider(1), line('a'), divider(2), divider(3), line('b'), divider(4)])).toEqual(['a', 3, 'b']);
   });
 });

@@ -4,7 +4,7 @@ import type { LogLine } from '@/store/session/types';
 import { plainText } from './ansi';
 
 export interface ConsoleFilter {
-  /** A whole source, or one launch node by its id. */
+  /** `all`, a source, or one launch node by its id. */
   source: LogSource | 'all' | `launch:${string}`;
   /** The lowest level that is shown. */
   level: LogLevel;
@@ -13,7 +13,7 @@ export interface ConsoleFilter {
 
 export const LEVELS: LogLevel[] = ['debug', 'info', 'warning', 'error'];
 
-/** The filter of the console; other panels set it to show the lines that they link to. */
+/** The filter of the console. Other panels set it to show the lines that they link to. */
 export const useConsoleFilter = create<ConsoleFilter>(() => ({ source: 'all', level: 'info', search: '' }));
 
 const isOf = (line: LogLine, source: ConsoleFilter['source']) =>
@@ -31,7 +31,7 @@ export function filterLines(lines: readonly LogLine[], filter: ConsoleFilter): L
           plainText(line.text).toLowerCase().includes(wanted) ||
           line.node_path.toLowerCase().includes(wanted))),
   );
-  // A divider without a line on both of its sides divides nothing.
+  // A divider is kept only if there are lines on both of its sides.
   return found.filter((line, at) => line.run === undefined || isBetween(found, at));
 }
 

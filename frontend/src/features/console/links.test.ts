@@ -15,7 +15,7 @@ describe('findLinks', () => {
     expect(findLinks(text, FILES)).toEqual([{ text, path, line }]);
   });
 
-  it('leaves the words around', () => {
+  it('keeps the text around a link', () => {
     expect(findLinks('see Forward.py:1, Forward.py:2.', FILES)).toEqual([
       { text: 'see ' },
       { text: 'Forward.py:1', path: 'actions/Forward.py', line: 1 },
@@ -25,7 +25,7 @@ describe('findLinks', () => {
     ]);
   });
 
-  it('leaves files alone that are not of the project', () => {
+  it('ignores files that are not in the project', () => {
     expect(findLinks('lib/other.py:3', FILES)).toEqual([{ text: 'lib/other.py:3' }]);
     expect(findLinks('a.py:3 Forward.py:1', FILES)[0]).toEqual({ text: 'a.py:3 ' });
     expect(findLinks('', FILES)).toEqual([{ text: '' }]);

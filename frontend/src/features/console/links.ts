@@ -1,6 +1,9 @@
 export type Piece = { text: string } | { text: string; path: string; line: number };
 
-/** `Forward.py:12`, `actions/Forward.py:12`, and Python's own `File "actions/Forward.py", line 12`. */
+/**
+ * The notations of a line in a file: `Forward.py:12`, `actions/Forward.py:12`, and Python's `File
+ * "actions/Forward.py", line 12`.
+ */
 const LINK = /File "([\w./-]+\.py)", line (\d+)|([\w./-]+\.py):(\d+)/g;
 
 function fileOf(name: string, files: ReadonlySet<string>): string | null {
@@ -10,7 +13,7 @@ function fileOf(name: string, files: ReadonlySet<string>): string | null {
   return files.has(inActions) ? inActions : null;
 }
 
-/** Splits a text at mentions of lines in the project's files, so that these can be clicked. */
+/** Splits a text where it mentions lines of the project's files, so that the mentions can be links. */
 export function findLinks(text: string, files: ReadonlySet<string>): Piece[] {
   const pieces: Piece[] = [];
   let end = 0;

@@ -4,7 +4,7 @@ import { show, user } from '../../../harness/testing';
 import { CopyDialog } from './CopyDialog';
 
 describe('CopyDialog', () => {
-  it('has a title, and is left by its cross', async () => {
+  it('has a title, and closes', async () => {
     const onClose = vi.fn();
     show(
       <CopyDialog title="New robot" isOpen onClose={onClose}>
@@ -16,7 +16,7 @@ describe('CopyDialog', () => {
     expect(onClose).toHaveBeenCalledOnce();
   });
 
-  it('holds nothing while it is closed', () => {
+  it('has no content while it is closed', () => {
     show(
       <CopyDialog title="New robot" isOpen={false} onClose={() => undefined}>
         <p>the form</p>

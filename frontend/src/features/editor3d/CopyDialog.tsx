@@ -9,7 +9,7 @@ interface Props {
   readonly children: ReactNode;
 }
 
-/** A dialogue that makes a new document from an existing one; it contains a `CopyForm`. */
+/** A dialogue that makes a new document from an existing one, with a `CopyForm` inside. */
 export function CopyDialog({ title, isOpen, onClose, children }: Props) {
   const { t } = useTranslation('editor3d');
   return (

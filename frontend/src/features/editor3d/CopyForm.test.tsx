@@ -28,7 +28,7 @@ function form(more: Partial<Parameters<typeof CopyForm>[0]> = {}) {
 }
 
 describe('CopyForm', () => {
-  it('shows the first choice first, chosen, with a name of its own', async () => {
+  it('shows the initial choice first, selected, with a free name', async () => {
     const { name } = form();
     expect(screen.getByText('Start somewhere.')).toBeInTheDocument();
     expect(screen.getAllByRole('radio').map((radio) => (radio as HTMLInputElement).value)).toEqual([
@@ -40,7 +40,7 @@ describe('CopyForm', () => {
     await waitFor(() => expect(name).toHaveFocus());
   });
 
-  it('names a copy of the template a robot, and counts up where that is taken', () => {
+  it('names a copy of the template `robot`, with a number if that is taken', () => {
     expect(form({ first: 'template', taken: new Set(['my_robot', 'my_robot_2']) }).name).toHaveValue(
       'my_robot_3',
     );
@@ -56,7 +56,7 @@ describe('CopyForm', () => {
     expect(name).toHaveValue('own');
   });
 
-  it('makes what was asked for', async () => {
+  it('creates what was chosen', async () => {
     const { onCreate, name } = form();
     await user.click(screen.getByRole('switch', { name: 'Use it' }));
     await write(name, 'second');
@@ -78,7 +78,7 @@ describe('CopyForm', () => {
     expect(onCreate).toHaveBeenCalledWith('rover', '_own-1', true);
   });
 
-  it('makes it once, and says why it could not', async () => {
+  it('creates it once, and reports why it failed', async () => {
     let fail: (error: Error) => void = () => undefined;
     const onCreate = vi.fn(
       () =>
@@ -100,7 +100,7 @@ describe('CopyForm', () => {
     expect(screen.queryByRole('alert')).toBeNull();
   });
 
-  it('is left by Cancel', async () => {
+  it('closes by Cancel', async () => {
     const { onCancel } = form();
     await user.click(screen.getByRole('button', { name: 'Cancel' }));
     expect(onCancel).toHaveBeenCalledOnce();

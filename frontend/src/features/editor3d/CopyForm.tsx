@@ -18,11 +18,11 @@ interface CopyFormProps {
   readonly items: readonly UniverseInfo[];
   /** The initial choice, shown first so that it is visible without scrolling. */
   readonly first: string;
-  /** Ids in use, in small letters. */
+  /** The ids in use, in lower case. */
   readonly taken: ReadonlySet<string>;
   readonly words: Words;
   readonly testId: string;
-  /** Creates the document; the form shows the text of an exception. */
+  /** Creates the document. If it throws, the form shows the message. */
   readonly onCreate: (base: string, name: string, isUsed: boolean) => Promise<void>;
   readonly onCancel: () => void;
 }
@@ -34,7 +34,7 @@ function freeName(wish: string, taken: ReadonlySet<string>): string {
   }
 }
 
-/** Copies one of our universes or robots into the project. */
+/** A form that copies a built-in universe or robot into the project. */
 export function CopyForm({ items, first, taken, words, testId, onCreate, onCancel }: CopyFormProps) {
   const { t } = useTranslation('editor3d');
   const [base, setBase] = useState(first);
@@ -42,7 +42,7 @@ export function CopyForm({ items, first, taken, words, testId, onCreate, onCance
   const [isUsed, setUsed] = useState(true);
   const field = useRef<HTMLInputElement>(null);
   useEffect(() => {
-    // When the content arrives late, the dialogue's first button already has the focus.
+    // When the content arrives late, the first button of the dialogue already has the focus.
     const timer = setTimeout(() => field.current?.focus());
     return () => clearTimeout(timer);
   }, []);

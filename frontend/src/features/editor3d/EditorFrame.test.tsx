@@ -29,7 +29,7 @@ function frame(more: Partial<Parameters<typeof EditorFrame>[0]> = {}, isTextShow
 const texts = () => screen.queryAllByRole('radio').map((radio) => (radio as HTMLInputElement).value);
 
 describe('EditorFrame', () => {
-  it('shows tools and view, and no text until it is wanted', () => {
+  it('shows tools and view, and the text only on demand', () => {
     const editor = frame();
     expect(screen.getByTestId('frame')).toHaveAttribute('data-path', ROBOT);
     expect(screen.getByText('tools')).toBeInTheDocument();
@@ -39,7 +39,7 @@ describe('EditorFrame', () => {
     expect(texts()).toEqual([ROBOT, URDF]);
   });
 
-  it('chooses which of the texts is shown', async () => {
+  it('switches between the texts', async () => {
     const editor = frame({}, true);
     expect(screen.getByRole('radiogroup', { name: 'Which file' })).toBeInTheDocument();
     expect(screen.getByRole('radio', { name: 'robot.yaml' })).toBeChecked();
@@ -48,19 +48,19 @@ describe('EditorFrame', () => {
     expect(screen.getByRole('radio', { name: 'robot.urdf' })).toBeChecked();
   });
 
-  it('offers no choice of one text, and says that its editor loads', () => {
+  it('offers no choice for a single text, and shows that its editor is loading', () => {
     frame({ paths: [ROBOT] }, true);
     expect(texts()).toEqual([]);
     expect(screen.getByText('Loading the text editor')).toBeInTheDocument();
   });
 
-  it('shows the first text where the chosen one is gone', () => {
+  it('shows the first text if the chosen one was deleted', () => {
     const editor = frame({}, true);
     act(() => editor.store.setState({ shownText: 5 }));
     expect(screen.getByRole('radio', { name: 'robot.yaml' })).toBeChecked();
   });
 
-  it('says that a document cannot be shown, and offers its text', async () => {
+  it('reports that a document cannot be shown, and offers its text', async () => {
     const editor = frame({ children: null });
     expect(screen.getByRole('alert')).toHaveTextContent('It cannot be shown');
     await user.click(screen.getByRole('button', { name: 'Show the text' }));
@@ -73,7 +73,7 @@ describe('EditorFrame', () => {
     expect(screen.getByRole('heading', { name: '1 problem' })).toBeInTheDocument();
   });
 
-  it('shows text and problems alone where there is no file', () => {
+  it('shows text and problems alone if there is no file', () => {
     frame({ paths: [], problems: [PROBLEM] });
     expect(screen.getByTestId('frame-text')).toBeInTheDocument();
     expect(screen.queryByText('tools')).toBeNull();

@@ -26,11 +26,14 @@ interface EditorFrameProps {
   readonly problems: readonly DocumentProblem[];
   readonly words: Words;
   readonly toolbar: ReactNode;
-  /** View and panel; null if the document cannot be shown. */
+  /** The view and the panel; null if the document cannot be shown. */
   readonly children: ReactNode;
 }
 
-/** A document in 3D with its text beside; only the text where 3D is not available. */
+/**
+ * The frame of a 3D editor: the document in 3D with its text beside it, or only the text where 3D is not
+ * available.
+ */
 export function EditorFrame({ editor, testId, paths, problems, words, toolbar, children }: EditorFrameProps) {
   const { t } = useTranslation('editor3d');
   const { isTextShown, shownText } = useStore(editor.store);

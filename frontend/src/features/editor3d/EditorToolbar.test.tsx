@@ -33,7 +33,7 @@ function toolbar(modes: readonly Mode[] = ['move', 'turn']) {
 const button = (name: string) => screen.getByRole('button', { name });
 
 describe('the toolbar of an editor', () => {
-  it('chooses what dragging does, and leaves the drawing of walls by it', async () => {
+  it('sets the mode of dragging, and ends the wall tool', async () => {
     const { editor, state } = toolbar();
     expect(screen.getAllByRole('radio')).toHaveLength(2);
     expect(screen.getByText('own tool')).toBeInTheDocument();
@@ -57,7 +57,7 @@ describe('the toolbar of an editor', () => {
     ['From above (T)', 'top'],
     ['From the side (P)', 'default'],
     ['Go to the selection (F)', 'selection'],
-  ])('%s looks again', async (name, kind) => {
+  ])('%s moves the camera', async (name, kind) => {
     const { state } = toolbar();
     const before = state().viewpoint;
     await user.click(button(name));
@@ -65,12 +65,12 @@ describe('the toolbar of an editor', () => {
     expect(state().viewpoint).not.toBe(before);
   });
 
-  it('leaves undo to the one pair of buttons of the page', () => {
+  it('leaves undo to the buttons of the page', () => {
     toolbar();
     expect(screen.queryByRole('button', { name: /undo|redo/i })).toBeNull();
   });
 
-  it('shows and hides the text beside', async () => {
+  it('shows and hides the text', async () => {
     const { state } = toolbar();
     expect(button('The text')).toHaveAttribute('aria-pressed', 'false');
     await user.click(screen.getByTestId('text'));
@@ -78,7 +78,7 @@ describe('the toolbar of an editor', () => {
     expect(button('The text')).toHaveAttribute('aria-pressed', 'true');
   });
 
-  it('runs here where the project can run', async () => {
+  it('runs this document if the project can run', async () => {
     canRun();
     const { onRun } = toolbar();
     await user.click(screen.getByTestId('run-here'));
@@ -88,7 +88,7 @@ describe('the toolbar of an editor', () => {
     act(() => useRunStore.setState({ runBlocker: null }));
   });
 
-  it('does not offer to run where nothing can', () => {
+  it('has no run button without a command', () => {
     toolbar();
     expect(screen.getByTestId('run-here')).toBeDisabled();
   });

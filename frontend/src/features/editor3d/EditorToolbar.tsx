@@ -29,17 +29,20 @@ interface EditorToolbarProps {
   readonly label: string;
   readonly modes: readonly Mode[];
   readonly grids: readonly number[];
-  /** The label of the text. */
+  /** The label of the button that shows the text. */
   readonly textLabel: string;
   readonly textTestId: string;
   readonly onRun: () => void;
-  /** Tools that only this editor has. */
+  /** The tools that only this editor has. */
   readonly children?: ReactNode;
 }
 
 const gridLabel = (step: number): string => (step < 0.05 ? `${step * 1000} mm` : `${step} m`);
 
-/** Tools, grid, views, the text, and the button that runs a robot in this document. */
+/**
+ * The toolbar of a 3D editor: tools, grid, views, the text, and the button that runs a robot in this
+ * document.
+ */
 export function EditorToolbar(props: EditorToolbarProps) {
   const { editor, label, modes, grids, textLabel, textTestId, onRun, children } = props;
   const { t } = useTranslation('editor3d');

@@ -6,7 +6,7 @@ import { show, user } from '../../../harness/testing';
 import { DRAGGED, PaletteBar, PlaceButton, PlaceMenu } from './PlaceButton';
 
 describe('the palette of an editor', () => {
-  it('places by a click, and gives the view what is dragged there', async () => {
+  it('places a thing by a click, and passes its data to the view by a drag', async () => {
     const onPlace = vi.fn();
     show(
       <PaletteBar label="Parts">
@@ -33,7 +33,7 @@ describe('the palette of an editor', () => {
     expect(DRAGGED).toBe('application/x-bts-thing');
   });
 
-  it('opens several things under one button', async () => {
+  it('has several things under one button', async () => {
     show(
       <PlaceMenu icon={IconCube} label="Robots" testId="robots" position="right-start">
         <Menu.Item>Rover</Menu.Item>

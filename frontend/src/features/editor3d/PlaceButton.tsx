@@ -13,7 +13,7 @@ interface PaletteBarProps {
   readonly children: ReactNode;
 }
 
-/** The things that can be placed, at the edge of the view. */
+/** A bar at the edge of the view with the things that can be placed. */
 export function PaletteBar({ label, children }: PaletteBarProps) {
   return (
     <div className={classes['palette']} role="toolbar" aria-label={label} aria-orientation="vertical">
@@ -26,7 +26,7 @@ interface PlaceButtonProps {
   readonly icon: Icon;
   readonly label: string;
   readonly testId: string;
-  /** The value that the view receives when the button is dropped on it. */
+  /** The data that the view receives when the button is dropped on it. */
   readonly what: object;
   readonly onPlace: () => void;
 }
@@ -61,7 +61,7 @@ interface PlaceMenuProps {
   readonly children: ReactNode;
 }
 
-/** One button for several things that can be placed. */
+/** A button with a menu of several things that can be placed. */
 export function PlaceMenu({ icon: Icon, label, testId, position, children }: PlaceMenuProps) {
   return (
     <Menu position={position}>

@@ -30,13 +30,13 @@ describe('PoseFields', () => {
     ['z', '-1', [1, 2, -1, 0.1, 0.2, Math.PI / 4]],
     ['pitch', '90', [1, 2, 3, 0.1, Math.PI / 2, Math.PI / 4]],
     ['yaw', '180', [1, 2, 3, 0.1, 0.2, Math.PI]],
-  ])('change %s alone', async (axis, text, pose) => {
+  ])('change only %s', async (axis, text, pose) => {
     const onChange = fields();
     await write(`field-${axis}`, text);
     expect(onChange).toHaveBeenCalledExactlyOnceWith(pose.map((part) => expect.closeTo(part, 9) as number));
   });
 
-  it('step by decimetres or as told, and by 15 degrees', async () => {
+  it('step by decimetres or a given step, and by 15 degrees', async () => {
     const onChange = fields({ step: 0.5, testId: 'wheel' });
     await user.type(screen.getByTestId('wheel-x'), '{ArrowUp}');
     expect(onChange.mock.lastCall?.[0]).toEqual([1.5, 2, 3, 0.1, 0.2, Math.PI / 4]);
@@ -44,7 +44,7 @@ describe('PoseFields', () => {
     expect((onChange.mock.lastCall?.[0] as Pose)[5]).toBeCloseTo(Math.PI / 6);
   });
 
-  it('of something upright only have the heading', () => {
+  it('have only the heading for an upright thing', () => {
     fields({ isUpright: true });
     expect(screen.queryByTestId('field-roll')).toBeNull();
     expect(screen.queryByTestId('field-pitch')).toBeNull();

@@ -4,10 +4,10 @@ import { FieldGroup, NumberField } from './fields';
 
 interface PoseFieldsProps {
   readonly pose: Pose;
-  /** Only the heading can be changed, not roll and pitch. */
+  /** Whether only the heading can be changed, not roll and pitch. */
   readonly isUpright?: boolean;
   readonly step?: number;
-  /** The prefix of the fields' test ids. */
+  /** The prefix of the test ids of the fields. */
   readonly testId?: string;
   readonly onChange: (pose: Pose) => void;
 }
@@ -16,7 +16,7 @@ const PLACES = ['x', 'y', 'z'] as const;
 const ANGLES = ['roll', 'pitch', 'yaw'] as const;
 const DEGREES = 180 / Math.PI;
 
-/** Position in m and orientation in degrees. */
+/** Fields for a position in m and an orientation in degrees. */
 export function PoseFields({ pose, isUpright = false, step, testId = 'field', onChange }: PoseFieldsProps) {
   const { t } = useTranslation('editor3d');
   const set = (index: number, value: number) =>

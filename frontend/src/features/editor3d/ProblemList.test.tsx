@@ -20,12 +20,12 @@ const ONE = ['universes/hall.yaml'];
 const TWO = ['robots/mine/robot.yaml', 'robots/mine/robot.urdf'];
 
 describe('ProblemList', () => {
-  it('is absent while all is well', () => {
+  it('is absent without problems', () => {
     show(<ProblemList problems={[]} paths={ONE} title="0 problems" />);
     expect(screen.queryByRole('heading')).toBeNull();
   });
 
-  it('says where each is, and what it is', () => {
+  it('shows the place and the message of each', () => {
     show(
       <ProblemList
         problems={[problem(), problem({ kind: 'missing', params: { name: 'shape' }, line: 9 })]}
@@ -39,7 +39,7 @@ describe('ProblemList', () => {
     expect(second).toHaveTextContent(/^Line 9 shape is missing$/);
   });
 
-  it('names the file where there are several', () => {
+  it('names the file if there are several', () => {
     show(<ProblemList problems={[problem({ text: 1, path: [] })]} paths={TWO} title="1 problem" />);
     expect(screen.getByRole('button')).toHaveTextContent(/^robot\.urdf · Line 7 must be a number$/);
   });
@@ -50,7 +50,7 @@ describe('ProblemList', () => {
     expect(screen.getAllByRole('button')).toHaveLength(50);
   });
 
-  it('opens the line, shows the text beside, and selects the thing', async () => {
+  it('opens the line, shows the text, and selects the thing', async () => {
     const { openFile, aimAt } = watchNavigation();
     const editor = openUniverse();
     editor.store.setState({ isTextShown: false });
@@ -72,7 +72,7 @@ describe('ProblemList', () => {
     expect(openFile).not.toHaveBeenCalled();
   });
 
-  it('opens the file where there is no editor, and nothing where there is no file', async () => {
+  it('opens the file without an editor, and nothing without a file', async () => {
     const { openFile } = watchNavigation();
     show(<ProblemList problems={[problem({ text: 1 }), problem({ text: 2 })]} paths={TWO} title="2" />);
     const [there, gone] = screen.getAllByRole('button');

@@ -9,14 +9,14 @@ interface ProblemListProps {
   readonly problems: readonly DocumentProblem[];
   /** The files of the document. */
   readonly paths: readonly string[];
-  /** The heading for problems of the whole document. */
+  /** The heading above problems of the whole document. */
   readonly title: string;
   readonly editor?: Editor;
 }
 
 const SHOWN = 50;
 
-/** The problems of the document, each with links to its line and its thing. */
+/** A list of the document's problems, each with links to its line and its thing. */
 export function ProblemList({ problems, paths, title, editor }: ProblemListProps) {
   const { t } = useTranslation('editor3d');
   if (problems.length === 0) return null;

@@ -53,7 +53,7 @@ describe('ThingList', () => {
     expect(row('b').querySelector('[style*="background"]')).toBeNull();
   });
 
-  it('selects by clicks: one, with Control more and less, with Shift a range', async () => {
+  it('selects by clicks: one, toggled with Control, a range with Shift', async () => {
     const { selection } = list();
     await user.click(row('b'));
     expect(chosen()).toEqual(['b']);
@@ -70,7 +70,7 @@ describe('ThingList', () => {
     expect(selection()).toEqual(['a', 'b', 'c']);
   });
 
-  it('selects one where Shift has nothing to begin from', () => {
+  it('selects one if Shift has no start', () => {
     const { selection } = list();
     fireEvent.click(row('c'), { shiftKey: true });
     expect(selection()).toEqual(['c']);
@@ -133,7 +133,7 @@ describe('ThingList', () => {
     expect(onRename).toHaveBeenCalledOnce();
   });
 
-  it('refuses a name with its reason, and keeps the list as it is while one types', async () => {
+  it('refuses a name with its reason, and keeps the list unchanged meanwhile', async () => {
     const { onRename, onDelete, selection } = list();
     await user.dblClick(row('c'));
     const field = screen.getByRole('textbox', { name: 'Name' });
@@ -147,7 +147,7 @@ describe('ThingList', () => {
     expect(screen.queryByRole('textbox')).toBeNull();
   });
 
-  it('takes the name when one leaves the field', async () => {
+  it('applies the name when the focus leaves the field', async () => {
     const { onRename } = list();
     await user.dblClick(row('d'));
     await user.keyboard('e');
@@ -155,7 +155,7 @@ describe('ThingList', () => {
     expect(onRename).toHaveBeenCalledExactlyOnceWith('d', 'e');
   });
 
-  it('renames nothing where things have no names, or may only be seen', async () => {
+  it('renames nothing if things have no names, or in a read-only project', async () => {
     const { editor } = list(false);
     act(() => select(editor, ['a']));
     fireEvent.keyDown(row('a'), { key: 'F2' });
@@ -163,7 +163,7 @@ describe('ThingList', () => {
     expect(screen.queryByRole('textbox')).toBeNull();
   });
 
-  it('changes nothing in a project that may only be seen', async () => {
+  it('changes nothing in a read-only project', async () => {
     list(true, (editor) => {
       select(editor, ['a']);
       lookOnly();
@@ -175,7 +175,7 @@ describe('ThingList', () => {
     expect(screen.getByRole('button', { name: 'The world' })).toBeEnabled();
   });
 
-  it('brings the last selected row into sight', () => {
+  it('scrolls to the last selected row', () => {
     const { editor } = list();
     const into = vi.spyOn(Element.prototype, 'scrollIntoView');
     act(() => select(editor, ['a', 'd']));

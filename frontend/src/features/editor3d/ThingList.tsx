@@ -6,7 +6,7 @@ import { useStore } from 'zustand';
 import classes from './editor3d.module.css';
 import { isReadOnly, select, toggle, type Editor } from './editing';
 
-/** One row of the list. */
+/** One row of the list of things. */
 export interface Listed {
   readonly key: string;
   readonly name: string;
@@ -18,19 +18,19 @@ interface ThingListProps {
   readonly editor: Editor;
   readonly title: string;
   readonly things: readonly Listed[];
-  /** The document as a whole, which has no row. */
+  /** The label and icon of the document as a whole, which has no row in the list. */
   readonly whole: { readonly label: string; readonly icon: typeof IconBox };
   readonly onDuplicate: () => void;
   readonly onDelete: () => void;
   /**
-   * The reason why a name is invalid; null if it is valid. Without this function, things cannot be renamed
-   * here.
+   * Returns the reason why a name is invalid; null if it is valid. Without this function, the list cannot
+   * rename things.
    */
   readonly nameProblem?: (key: string, name: string) => string | null;
   readonly onRename?: (key: string, name: string) => void;
 }
 
-/** All things by name, in the order of the document. */
+/** The list of all things by name, in the order of the document. */
 export function ThingList(props: ThingListProps) {
   const { editor, title, things, whole, onDuplicate, onDelete, nameProblem, onRename } = props;
   const { t } = useTranslation('editor3d');
@@ -111,7 +111,7 @@ export function ThingList(props: ThingListProps) {
           const Icon = thing.icon;
           const isSelected = selection.includes(thing.key);
           return (
-            // The list hears the keys for all of its rows.
+            // The list handles the keys for all of its rows.
             // eslint-disable-next-line jsx-a11y/click-events-have-key-events
             <div
               key={thing.key}

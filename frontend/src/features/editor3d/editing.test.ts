@@ -21,7 +21,7 @@ const add = (editor: Editor, word: string, mergeKey?: string) =>
   change(editor, word, () => ({ texts: [`${textsOf(editor)[0] ?? ''}# ${word}\n`] }), mergeKey);
 
 describe('an editor', () => {
-  it('begins with nothing selected, and with the text beside where there is no WebGL', () => {
+  it('starts without a selection, and with the text if there is no WebGL', () => {
     expect(state(openUniverse())).toMatchObject({
       selection: [],
       waypoint: null,
@@ -51,7 +51,7 @@ describe('an editor', () => {
 });
 
 describe('a change', () => {
-  it('is written, and is one step of undo with the selection before and after', () => {
+  it('is written, in one undo step with the selection before and after', () => {
     const editor = openUniverse('a: 1\n');
     select(editor, ['x']);
     change(editor, 'move', () => ({ texts: ['a: 2\n'], select: ['y'] }));
@@ -60,7 +60,7 @@ describe('a change', () => {
     expect(state(editor).undoStack.past).toMatchObject([{ label: 'move', before: ['x'], after: ['y'] }]);
   });
 
-  it('joins the last one of the same key, but not after a selection', () => {
+  it('is merged with the last one of the same key, but not after a new selection', () => {
     const editor = openUniverse('');
     add(editor, 'one', 'key');
     add(editor, 'two', 'key');
@@ -73,7 +73,7 @@ describe('a change', () => {
     expect(labels(editor)).toEqual(['one', 'three', 'four', 'five']);
   });
 
-  it('keeps the chosen point of a way as long as the selection stays', () => {
+  it('keeps the selected waypoint as long as the selection stays', () => {
     const editor = openUniverse('');
     select(editor, ['walker'], 2);
     change(editor, 'way', () => ({ texts: ['a'], select: ['walker'] }));
@@ -85,7 +85,7 @@ describe('a change', () => {
     expect(state(editor).waypoint).toBeNull();
   });
 
-  it('of nothing is none, and what cannot be written is explained', () => {
+  it('without content is no step, and one that cannot be written is explained', () => {
     const editor = openUniverse('a: 1\n');
     change(editor, 'nothing', () => null);
     expect(labels(editor)).toEqual([]);
@@ -98,7 +98,7 @@ describe('a change', () => {
     expect(textAt(UNIVERSE)).toBe('a: 1\n');
   });
 
-  it('of a project that may only be seen is none, and neither is a step back', () => {
+  it('in a read-only project is refused, and so is undo', () => {
     const editor = openUniverse('');
     add(editor, 'one');
     lookOnly();
@@ -108,7 +108,7 @@ describe('a change', () => {
     expect(textAt(UNIVERSE)).toBe('# one\n');
   });
 
-  it('notes before it what came into the text from elsewhere', () => {
+  it('first records changes of the text from elsewhere', () => {
     const editor = openUniverse('a: 1\n');
     useProjectStore.getState().setFileText(UNIVERSE, 'a: 2\n');
     add(editor, 'move');
@@ -120,7 +120,7 @@ describe('a change', () => {
 });
 
 describe('followTexts', () => {
-  it('joins what is typed, and notes nothing where nothing was', () => {
+  it('merges typing, and records nothing without a change', () => {
     const editor = openUniverse('a');
     const before = state(editor);
     followTexts(editor);
@@ -134,7 +134,7 @@ describe('followTexts', () => {
 });
 
 describe('undo and redo', () => {
-  it('go through the steps, with what was selected', () => {
+  it('go through the steps, with their selections', () => {
     const editor = openUniverse('models: [{id: a, shape: box}, {id: b, shape: box}]\n');
     select(editor, ['a']);
     change(editor, 'one', () => ({ texts: ['models: [{id: b, shape: box}]\n'], select: ['b'] }));
@@ -151,7 +151,7 @@ describe('undo and redo', () => {
     expect(state(editor).undoStack.future).toEqual([]);
   });
 
-  it('select only what is there after them', () => {
+  it('select only things that exist afterwards', () => {
     const editor = openUniverse('models: []\n');
     select(editor, ['gone']);
     change(editor, 'one', () => ({ texts: ['models: [] \n'], select: ['also gone'] }));
@@ -168,7 +168,7 @@ describe('undo and redo', () => {
     expect([textAt(ROBOT), textAt(URDF)]).toEqual(before);
   });
 
-  it('make no file that is not there', () => {
+  it('do not create a missing file', () => {
     const editor = openRobot();
     useProjectStore.getState().deleteFile(URDF);
     change(editor, 'yaml', () => ({ texts: ['urdf: robot.urdf\n', '<robot/>'] }));
@@ -177,7 +177,7 @@ describe('undo and redo', () => {
 });
 
 describe('the selection', () => {
-  it('takes one in and out', () => {
+  it('toggles one thing', () => {
     const editor = openUniverse();
     toggle(editor, 'a');
     toggle(editor, 'b');
@@ -186,7 +186,7 @@ describe('the selection', () => {
     expect(state(editor).selection).toEqual(['b']);
   });
 
-  it('forgets the chosen point unless it names one', () => {
+  it('clears the selected waypoint unless it names one', () => {
     const editor = openUniverse();
     select(editor, ['a'], 0);
     expect(state(editor).waypoint).toBe(0);

@@ -11,41 +11,41 @@ export type Tool = 'select' | 'wall';
 
 export const TURN_STEP = Math.PI / 12;
 
-/** Operations of a view for keys and for placing things. */
+/** The operations of a view that keys and the palette use. */
 export interface ViewHandle {
-  /** The middle of the visible floor. */
+  /** Returns the middle of the visible floor. */
   center(): Point;
-  /** The direction away from the camera, along the nearest axis. */
+  /** Returns the direction away from the camera, along the nearest axis. */
   forward(): Point;
-  /** Cancels a gesture under way; returns whether there was one. */
+  /** Cancels the current gesture; returns whether there was one. */
   cancel(): boolean;
 }
 
 export interface EditorData {
   readonly undoStack: TextUndo;
   readonly selection: readonly string[];
-  /** The index of the chosen waypoint on the path of the selected person. */
+  /** The index of the selected waypoint on the path of the selected person. */
   readonly waypoint: number | null;
   readonly mode: Mode;
   readonly tool: Tool;
   readonly grid: number;
-  /** A new object moves the camera, even to the place of the previous request. */
+  /** A request to move the camera; a new object moves it even to the same place. */
   readonly viewpoint: { readonly kind: 'default' | 'top' | 'selection' };
   readonly isTextShown: boolean;
   /** The index of the shown text. */
   readonly shownText: number;
 }
 
-/** A kind of document: how its files and its things are found. */
+/** A kind of document: the rules that find its files and its things. */
 interface Kind {
-  /** The paths of all files; the first is fixed, its text can name the others. */
+  /** Returns the paths of all files. The first one is given, and its text can name the others. */
   readonly pathsOf: (first: string) => readonly string[];
-  /** Keys of the things that can be selected. */
+  /** Returns the keys of the things that can be selected. */
   readonly keysOf: (texts: readonly string[]) => Iterable<string>;
   readonly grid: number;
 }
 
-/** The state of a document that is edited in 3D: its steps of undo and its selection. */
+/** The editor of a document in 3D: its undo stack and its selection. */
 export interface Editor {
   /** The document's first file. */
   readonly path: string;
@@ -58,7 +58,10 @@ const known = new Map<string, Editor>();
 
 const keyOf = (path: string): string => `${useProjectStore.getState().projectId ?? ''}:${path}`;
 
-/** The editor of a document of the open project; it stays when the document's tab is closed. */
+/**
+ * Returns the editor of a document of the open project. The editor stays when the tab of the document is
+ * closed.
+ */
 export function editorFor(path: string, kind: Kind): Editor {
   const key = keyOf(path);
   let editor = known.get(key);
@@ -86,7 +89,7 @@ function textsAt(path: string, kind: Kind): readonly string[] {
   return [first, ...kind.pathsOf(first).map((other) => currentText(other) ?? '')];
 }
 
-/** The present texts. */
+/** Returns the current texts of a document. */
 export const textsOf = ({ path, kind }: Editor): readonly string[] => textsAt(path, kind);
 
 export const isReadOnly = (): boolean => useProjectStore.getState().role === 'viewer';
@@ -96,7 +99,7 @@ export function showIn(editor: Editor, view: ViewHandle | null): void {
   editor.view = view;
 }
 
-/** Records changes from the text editor or from elsewhere as steps of undo. */
+/** Records changes from the text editor or from elsewhere as undo steps. */
 export function followTexts(editor: Editor): void {
   const { undoStack, selection } = editor.store.getState();
   const step = { label: 'text', mergeKey: 'text', before: selection, after: selection };
@@ -110,7 +113,9 @@ interface Change {
   readonly select?: readonly string[] | undefined;
 }
 
-/** Changes the document; one step of undo, joined with the last one of the same `mergeKey`. */
+/**
+ * Changes the document as one undo step, which is merged with the last one if that has the same `mergeKey`.
+ */
 export function change(editor: Editor, label: string, make: () => Change | null, mergeKey?: string): void {
   if (isReadOnly()) return;
   let made: Change | null;

@@ -18,7 +18,7 @@ describe('NumberField', () => {
     await user.type(input, text);
   };
 
-  it('counts once one presses Enter or leaves it', async () => {
+  it('applies a number on Enter, or when the focus leaves it', async () => {
     const { input, onCommit } = field();
     await type(input, '3.5');
     expect(onCommit).not.toHaveBeenCalled();
@@ -29,7 +29,7 @@ describe('NumberField', () => {
     expect(onCommit).toHaveBeenLastCalledWith(4);
   });
 
-  it('says nothing of the number that it has, to a tenth of a millimetre', async () => {
+  it('reports nothing for the same number, to a tenth of a millimetre', async () => {
     const { input, onCommit } = field({ value: 2.00004 });
     expect(input).toHaveValue('2');
     await type(input, '2{Enter}');
@@ -38,7 +38,7 @@ describe('NumberField', () => {
     expect(onCommit).not.toHaveBeenCalled();
   });
 
-  it('restores the number where none was typed', async () => {
+  it('restores the number after invalid text', async () => {
     const { input, onCommit } = field();
     await type(input, '-{Enter}');
     expect(input).toHaveValue('2');
@@ -53,13 +53,13 @@ describe('NumberField', () => {
     [{ min: 1, max: 5 }, '9', 5],
     [{}, '123456', 10_000],
     [{}, '-123456', -10_000],
-  ])('keeps to its range %o', async (range, text, kept) => {
+  ])('stays in its range %o', async (range, text, kept) => {
     const { input, onCommit } = field(range);
     await type(input, `${text}{Enter}`);
     expect(onCommit).toHaveBeenCalledExactlyOnceWith(kept);
   });
 
-  it('steps with the arrows, with Shift by ten', async () => {
+  it('steps with the arrows, tenfold with Shift', async () => {
     const { input, onCommit } = field({ step: 0.5 });
     for (const keys of [
       '{ArrowUp}',
@@ -71,7 +71,7 @@ describe('NumberField', () => {
     expect(onCommit.mock.calls).toEqual([[2.5], [1.5], [7], [-3]]);
   });
 
-  it('steps by a tenth where nothing is said, from what is typed', async () => {
+  it('steps by a tenth by default, from the typed number', async () => {
     const { input, onCommit } = field();
     await user.type(input, '{ArrowUp}');
     expect(onCommit).toHaveBeenLastCalledWith(2.1);
@@ -81,11 +81,11 @@ describe('NumberField', () => {
     expect(onCommit).toHaveBeenLastCalledWith(0.1);
   });
 
-  it('names its unit', () => {
+  it('shows its unit', () => {
     expect(field({ unit: 'kg' }).input).toHaveValue('2 kg');
   });
 
-  it('is only seen in a project that may only be seen', () => {
+  it('cannot be edited in a read-only project', () => {
     openProject({});
     lookOnly();
     show(<NumberField label="Mass" value={2} onCommit={vi.fn()} />);
@@ -101,7 +101,7 @@ describe('TextField', () => {
     return { input: screen.getByTestId('name'), onCommit };
   }
 
-  it('counts once one presses Enter or leaves it, unless it is the same', async () => {
+  it('applies a text on Enter or when the focus leaves it, unless it is unchanged', async () => {
     const { input, onCommit } = field();
     await user.type(input, 's');
     expect(onCommit).not.toHaveBeenCalled();
@@ -116,7 +116,7 @@ describe('TextField', () => {
     expect(onCommit).not.toHaveBeenCalled();
   });
 
-  it('is left with Escape as it was', async () => {
+  it('discards the text on Escape', async () => {
     const { input, onCommit } = field();
     await user.type(input, 's{Escape}');
     expect(input).toHaveValue('crate');
@@ -124,7 +124,7 @@ describe('TextField', () => {
     expect(onCommit).not.toHaveBeenCalled();
   });
 
-  it('says why a text cannot be taken, but not of the one that it has', async () => {
+  it('reports why a text is invalid, except for the current one', async () => {
     const { input, onCommit } = field({ problem: (text) => `not ${text}` });
     expect(screen.queryByText('not crate')).toBeNull();
     expect(input).toBeValid();
@@ -135,13 +135,13 @@ describe('TextField', () => {
     expect(input).toHaveValue('crate');
   });
 
-  it('shows what it means where it is empty', () => {
+  it('shows a placeholder while it is empty', () => {
     expect(field({ value: '', placeholder: '/scan' }).input).toHaveAttribute('placeholder', '/scan');
   });
 });
 
 describe('ColorField', () => {
-  it('takes whole colours only, and says when one is done', async () => {
+  it('accepts only complete colours', async () => {
     openProject({});
     const onChange = vi.fn();
     const onEnd = vi.fn();
@@ -157,7 +157,7 @@ describe('ColorField', () => {
     expect(onEnd).toHaveBeenCalled();
   });
 
-  it('keeps how much one sees through', async () => {
+  it('keeps the transparency', async () => {
     openProject({});
     const onChange = vi.fn();
     show(<ColorField label="Colour" value="#11223344" onChange={onChange} onEnd={vi.fn()} />);
@@ -181,7 +181,7 @@ describe('ColorField', () => {
 });
 
 describe('FieldGroup', () => {
-  it('is named, three columns wide where nothing is said', () => {
+  it('has a title, and three columns by default', () => {
     show(
       <>
         <FieldGroup title="Size">a</FieldGroup>

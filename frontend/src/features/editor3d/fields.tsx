@@ -9,7 +9,7 @@ interface NumberFieldProps {
   readonly label: string;
   readonly value: number;
   readonly unit?: string;
-  /** Degrees, or degrees a second: shown with three digits. */
+  /** Whether the unit is degrees or degrees per second: then three digits are shown. */
   readonly isAngle?: boolean;
   readonly min?: number;
   readonly max?: number;
@@ -18,7 +18,9 @@ interface NumberFieldProps {
   readonly onCommit: (value: number) => void;
 }
 
-/** A number field; the value is applied on blur, on Enter, and on steps with the arrows. */
+/**
+ * A number field; the value is applied when the field loses the focus, on Enter, and when the arrows step it.
+ */
 export function NumberField({
   label,
   value,
@@ -72,7 +74,7 @@ interface TextFieldProps {
   readonly value: string;
   readonly testId?: string;
   readonly placeholder?: string;
-  /** The reason why the text is invalid; null if it is valid. */
+  /** Returns the reason why the text is invalid; null if it is valid. */
   readonly problem?: (value: string) => string | null;
   readonly onCommit: (value: string) => void;
 }
@@ -104,7 +106,10 @@ export function TextField({ label, value, testId, placeholder, problem, onCommit
   );
 }
 
-/** First soft colours for walls and furniture, then strong ones that a camera can detect. */
+/**
+ * The colours of the picker: first soft ones for walls and furniture, then strong ones that a camera can
+ * detect.
+ */
 const SWATCHES = [
   '#e9e4da',
   '#b8c4cf',
@@ -128,7 +133,7 @@ interface ColorFieldProps {
 }
 
 export function ColorField({ label, value, onChange, onEnd }: ColorFieldProps) {
-  // What is typed is no colour until its last digit.
+  // The typed text is an invalid colour until its last digit.
   const [draft, setDraft] = useState<{ of: string; text: string }>({ of: value, text: value });
   return (
     <ColorInput
@@ -154,7 +159,7 @@ export function ColorField({ label, value, onChange, onEnd }: ColorFieldProps) {
   );
 }
 
-/** Two or three fields of one kind in a row. */
+/** A row of two or three fields of one kind. */
 export function FieldGroup({
   title,
   columns = 3,

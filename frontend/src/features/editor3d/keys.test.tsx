@@ -28,7 +28,7 @@ beforeEach(() => {
 });
 
 describe('the keys of a view', () => {
-  /** Presses a key; returns whether the editor took it. */
+  /** Presses a key; returns whether the editor handled it. */
   const press = (key: string, more: object = {}) =>
     !fireEvent.keyDown(screen.getByTestId('view'), { key, ...more });
 
@@ -78,14 +78,14 @@ describe('the keys of a view', () => {
     ['f', 'selection'],
     ['t', 'top'],
     ['p', 'default'],
-  ])('%s looks again: %s', (key, kind) => {
+  ])('%s moves the camera: %s', (key, kind) => {
     const before = state().viewpoint;
     press(key);
     expect(state().viewpoint).toEqual({ kind });
     expect(state().viewpoint).not.toBe(before);
   });
 
-  it('end one thing at a time with Escape', () => {
+  it('Escape ends one thing at a time', () => {
     const cancel = vi.fn(() => true);
     showIn(editor, { center: () => [0, 0], forward: () => [1, 0], cancel });
     select(editor, ['a']);
@@ -114,12 +114,12 @@ describe('the keys of a view', () => {
     expect(text()).toBe('a: 2\n');
   });
 
-  it('are those of the editor too', () => {
+  it('include those of the editor', () => {
     press('w');
     expect(own).toHaveBeenCalledExactlyOnceWith(editor, expect.objectContaining({ key: 'w' }));
   });
 
-  it('leave all others to the page', () => {
+  it('leave all other keys to the page', () => {
     expect(press('x')).toBe(false);
     expect(press('q', { altKey: true })).toBe(false);
     expect(press('w', { ctrlKey: true })).toBe(false);
@@ -155,7 +155,7 @@ describe('the keys of a panel', () => {
     expect(text()).toBe('a: 2\n');
   });
 
-  it('leave what is typed to its field, and other keys to the page', () => {
+  it('leave typing to its field, and other keys to the page', () => {
     expect(press('input', 'z', { ctrlKey: true })).toBe(false);
     expect(press('area', 'z', { ctrlKey: true })).toBe(false);
     expect(press('button', 'z')).toBe(false);

@@ -5,7 +5,7 @@ const MODES: Readonly<Record<string, Mode>> = { m: 'move', r: 'turn', s: 'size' 
 
 export type Act = (editor: Editor, event: KeyboardEvent) => void;
 
-/** The actions of one editor for the keys that all editors share. */
+/** The functions that an editor provides for the keys that all editors share. */
 export interface KeyActs {
   readonly modes: readonly Mode[];
   nudge(along: number, aside: number, up: number, factor: number): void;
@@ -13,11 +13,11 @@ export interface KeyActs {
   remove(): void;
   duplicate(): void;
   all(): readonly string[];
-  /** Further keys of this editor alone. */
+  /** Additional keys that only this editor has. */
   readonly others?: Readonly<Record<string, Act>>;
 }
 
-/** Handles a key in the view, as listed in the how-to pages; other keys reach the page. */
+/** Handles a key in the view, as listed in the how-to pages; the page handles other keys. */
 export function onEditorKey(editor: Editor, event: KeyboardEvent, acts: KeyActs): void {
   if (event.altKey) return;
   const isControl = event.ctrlKey || event.metaKey;
@@ -71,7 +71,7 @@ function withControl(key: string, acts: KeyActs): Act | undefined {
   return table[key];
 }
 
-/** Undo and redo in the side panel, except while a text field has its own. */
+/** Handles undo and redo in the side panel, unless a text field with undo of its own has the focus. */
 export function onPanelKey(editor: Editor, event: KeyboardEvent): void {
   const isTyping = event.target instanceof HTMLInputElement || event.target instanceof HTMLTextAreaElement;
   const isControl = (event.ctrlKey || event.metaKey) && !event.altKey;

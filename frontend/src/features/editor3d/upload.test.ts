@@ -12,7 +12,7 @@ beforeEach(() => {
 const shown = () => vi.spyOn(notifications, 'show');
 
 describe('bringMesh', () => {
-  it('puts a mesh under a free name, and says how long it is', async () => {
+  it('stores a mesh under a free name, and returns its length', async () => {
     const { requests } = fakeServer(takesFile('assets/chair_3.stl'));
     expect(await bringMesh(new File([stl(30)], 'chair.STL'), 'assets')).toEqual({
       path: 'assets/chair_3.stl',
@@ -26,7 +26,7 @@ describe('bringMesh', () => {
     expect('assets/chair_3.stl' in useProjectStore.getState().files).toBe(true);
   });
 
-  it('leaves only letters that a path may have', async () => {
+  it('keeps only characters that a path may have', async () => {
     fakeServer(takesFile('meshes/my_ch_ir.v1.stl'));
     const mesh = await bringMesh(new File([stl(0.5)], 'my chäir.v1.stl'), 'meshes');
     expect(mesh).toEqual({ path: 'meshes/my_ch_ir.v1.stl', extent: 1 });
@@ -43,7 +43,7 @@ describe('bringMesh', () => {
     expect(requests).toEqual([]);
   });
 
-  it('refuses what is larger than the simulator reads', async () => {
+  it('refuses a mesh that is larger than the simulator reads', async () => {
     const message = shown();
     const file = new File([stl(1)], 'big.stl');
     Object.defineProperty(file, 'size', { value: 50_000_001 });
@@ -54,14 +54,14 @@ describe('bringMesh', () => {
     });
   });
 
-  it('takes what is just as large', async () => {
+  it('accepts a mesh of just that size', async () => {
     fakeServer(takesFile('assets/big.stl'));
     const file = new File([stl(1)], 'big.stl');
     Object.defineProperty(file, 'size', { value: 50_000_000 });
     expect(await bringMesh(file, 'assets')).toMatchObject({ path: 'assets/big.stl' });
   });
 
-  it('says that the server refused it', async () => {
+  it('reports a refusal of the server', async () => {
     const message = shown();
     fakeServer({});
     expect(await bringMesh(new File([stl(1)], 'a.stl'), 'assets')).toBeNull();

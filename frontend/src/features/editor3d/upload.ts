@@ -10,14 +10,14 @@ export const MESH_KINDS = '.stl,.obj,.dae,.ply,.glb';
 /** The largest mesh that the simulator reads, in bytes. */
 const LARGEST = 50_000_000;
 
-/** A mesh that was added to the project, and its longest side in the units of its file. */
+/** A mesh that was added to the project, with its longest side in the units of its file. */
 interface Brought {
   readonly path: string;
   readonly extent: number;
 }
 
 /**
- * Adds a mesh to a folder of the project after checking that it can be read; resolves to null if it cannot.
+ * Adds a mesh to a folder of the project, after checking that it can be read; resolves to null if it cannot.
  */
 export async function bringMesh(file: File, folder: string): Promise<Brought | null> {
   const { projectId, files } = useProjectStore.getState();

@@ -38,7 +38,7 @@ describe('undo of the document in front', () => {
     expect(undoTarget()).toBeNull();
   });
 
-  it('knows whether there is something to undo and redo, and does it', () => {
+  it('reports whether there is something to undo and redo, and does it', () => {
     const { editor } = begin();
     front(UNIVERSE);
     act(() => change(editor, 'one', () => ({ texts: ['a: 2\n'] })));
@@ -48,7 +48,7 @@ describe('undo of the document in front', () => {
     expect(undoTarget()).toMatchObject({ canUndo: false, canRedo: true });
   });
 
-  it('offers nothing in a project that may only be seen', () => {
+  it('offers nothing in a read-only project', () => {
     const editor = openUniverse('a: 1\n');
     change(editor, 'one', () => ({ texts: ['a: 2\n'] }));
     lookOnly();

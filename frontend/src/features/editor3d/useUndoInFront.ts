@@ -4,7 +4,7 @@ import { useUndoTarget } from '@/commands/undo';
 import { useTabs } from '@/workspace/tabs';
 import { isReadOnly, travel, type Editor } from './editing';
 
-/** Directs the page's undo and redo to this editor while its document is in front. */
+/** Makes the page's undo and redo act on this editor while its document is in front. */
 export function useUndoInFront(editor: Editor): void {
   const isInFront = useTabs(({ front }) => front?.kind === 'file' && front.path === editor.path);
   const canUndo = useStore(editor.store, ({ undoStack }) => undoStack.past.length > 0);

@@ -40,7 +40,7 @@ describe('Explorer', () => {
     show(<Explorer />);
   });
 
-  it('lists the files by what they are, in order', () => {
+  it('lists the files by kind, in order', () => {
     const names = Object.fromEntries(
       ['Trees', 'Actions', 'Universes', 'Robots', 'Other files'].map((title) => {
         const items = within(screen.getByRole('region', { name: title })).queryAllByRole('listitem');
@@ -103,7 +103,7 @@ describe('Explorer', () => {
     expect(useScope.getState().scope).toBe('file');
   });
 
-  it('deletes a file, and brings it back', async () => {
+  it('deletes a file, and restores it', async () => {
     await choose('README.md', 'Delete');
     expect(await screen.findByText('README.md was deleted.')).toBeInTheDocument();
     expect(screen.queryByTestId('file-README.md')).toBeNull();
@@ -122,7 +122,7 @@ describe('Explorer', () => {
     expect(tabs()).toEqual([]);
   });
 
-  it('keeps the main tree and the settings', async () => {
+  it('does not delete the main tree and the settings', async () => {
     await user.click(screen.getByRole('button', { name: 'More for Main' }));
     expect(await screen.findByRole('menuitem', { name: 'Delete' })).toBeDisabled();
     expect(screen.queryByRole('menuitem', { name: 'Make it the main tree' })).toBeNull();

@@ -37,7 +37,7 @@ function sectionOf(path: string): Section {
   return /^actions\/[^/]+\.py$/.test(path) ? 'actions' : 'others';
 }
 
-/** The project's files, grouped by kind. */
+/** The list of the project's files, grouped by kind. */
 export function Explorer() {
   const { t } = useTranslation('frame');
   const files = useProjectStore(useShallow((state) => Object.keys(state.files)));

@@ -40,7 +40,7 @@ describe('a file', () => {
     ['robots/mine/robot.yaml', false, false, 'mine', 'robot'],
     ['robots/mine/body.urdf', false, false, 'robots/mine/body.urdf', 'file-text'],
     ['README.md', false, false, 'README.md', 'file-text'],
-  ])('%s has a name and a sign', (path, isTree, isAction, name, sign) => {
+  ])('%s has a name and an icon', (path, isTree, isAction, name, sign) => {
     open(path, isTree, isAction);
     expect(item(path)).toHaveTextContent(name);
     expect(item(path).textContent).toBe(name);
@@ -48,7 +48,7 @@ describe('a file', () => {
     expect(icon(path)).toContain(sign);
   });
 
-  it('opens as what it is', async () => {
+  it('opens in the editor for its kind', async () => {
     open('trees/Dock.json', true);
     open('trees/Broken.json', true);
     for (const path of ['trees/Dock.json', 'trees/Broken.json']) await user.click(item(path));
@@ -93,7 +93,7 @@ describe('the menu', () => {
     expect(screen.getByRole('img', { name: 'The tree that Run starts' })).toBeInTheDocument();
   });
 
-  it('of the main tree keeps it', async () => {
+  it('of the main tree cannot delete it', async () => {
     open('trees/Main.json', true);
     expect(await menu('Main')).toEqual([
       ['Open', false],
@@ -122,7 +122,7 @@ describe('the menu', () => {
     expect(tabs()).toEqual([{ kind: 'file', path: 'README.md' }]);
   });
 
-  it('is missing beside the settings', () => {
+  it('is absent for the settings', () => {
     open('project.json');
     expect(screen.queryByRole('button', { name: /^More/ })).toBeNull();
   });

@@ -43,7 +43,7 @@ export function ExplorerItem({ path, isTree, isAction, worst }: ExplorerItemProp
           ? IconRobot
           : IconFileText;
 
-  // Also Shift+F10 and the menu key, which make the same event.
+  // Shift+F10 and the menu key cause the same event.
   const onContextMenu = (event: MouseEvent) => {
     if (path === 'project.json') return;
     event.preventDefault();

@@ -15,7 +15,7 @@ beforeEach(() => {
 });
 
 describe('a right click, or the menu key', () => {
-  it('duplicates, and takes it back', async () => {
+  it('duplicates, and undoes that', async () => {
     await choose('Duplicate');
     expect(paths()).toContain('notes/a_copy.md');
     await user.click(await screen.findByRole('button', { name: 'Undo' }));
@@ -32,7 +32,7 @@ describe('a right click, or the menu key', () => {
   });
 });
 
-it('is shut until it is asked for', () => {
+it('is closed until it is requested', () => {
   show(<ExplorerMenu path="b.md" name="b.md" isOpened={false} onChange={vi.fn()} onOpen={vi.fn()} />);
   expect(screen.getByRole('button', { name: 'More for b.md' })).toHaveAttribute('aria-expanded', 'false');
 });

@@ -29,7 +29,7 @@ interface ExplorerMenuProps {
   readonly onOpen: () => void;
 }
 
-/** What can be done with a file; its button, a right click, Shift+F10 and the menu key open it. */
+/** The menu of a file; its button, a right click, Shift+F10 and the menu key open it. */
 export function ExplorerMenu({ path, name, isOpened, onChange, onOpen }: ExplorerMenuProps) {
   const { t } = useTranslation('frame');
   const treeId = treeIdOf(path);

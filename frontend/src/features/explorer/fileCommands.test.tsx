@@ -64,14 +64,14 @@ describe('commands for the document in front', () => {
     await waitFor(() => expect(store().files).not.toHaveProperty(['README.md']));
   });
 
-  it('do nothing where none is in front', () => {
+  it('do nothing if none is in front', () => {
     run('file.rename');
     run('file.makeMain');
     expect(useFileDialog.getState().dialog).toBeNull();
     expect(store().mainTree).toBe('Main');
   });
 
-  it('have words', () => {
+  it('have labels', () => {
     for (const { labelKey } of fileCommands) expect(translates(labelKey)).toBe(true);
   });
 });

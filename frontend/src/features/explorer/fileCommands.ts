@@ -7,7 +7,7 @@ import { treeIdOf, treePath } from '@/store/project/state';
 import { removeDocument } from './removing';
 import { showPanel, useTabs } from '@/workspace/tabs';
 
-/** The file of the document in front. */
+/** Returns the path of the document in front. */
 function pathInFront(): string | null {
   const { front } = useTabs.getState();
   if (front?.kind === 'tree') return treePath(front.id);
@@ -26,7 +26,7 @@ const onFile = (act: (path: string) => void) => () => {
   if (path !== null) act(path);
 };
 
-/** The commands of the explorer's menu, for the document in front. */
+/** The commands of the explorer's menu, applied to the document in front. */
 export const fileCommands: readonly UserCommand[] = [
   {
     id: 'file.rename',

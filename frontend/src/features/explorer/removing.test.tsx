@@ -39,7 +39,7 @@ beforeEach(() => {
 });
 
 describe('a document that is removed', () => {
-  it('is gone with its tab, and comes back', async () => {
+  it('loses its tab, and can be restored', async () => {
     open();
     openTab({ kind: 'tree', id: 'Dock' });
     openTab({ kind: 'file', path: 'README.md' });
@@ -53,7 +53,7 @@ describe('a document that is removed', () => {
     expect(tabs()).toEqual([]);
   });
 
-  it('takes the files of its folder along, of a robot', async () => {
+  it('is deleted with its folder, if it is a robot', async () => {
     open();
     await remove('robots/mine/robot.yaml');
     expect(
@@ -65,7 +65,7 @@ describe('a document that is removed', () => {
     expect(store().currentText('robots/mine/body.urdf')).toBe('<robot/>');
   });
 
-  it('is no longer that of the project, until it comes back', async () => {
+  it('is removed from the settings until it is restored', async () => {
     open();
     act(() => store().setSettings({ universe: 'hall' }));
     await remove('universes/hall.yaml');
@@ -106,7 +106,7 @@ describe('a binary file', () => {
       })),
     );
 
-  it('is fetched before it is removed, and put back', async () => {
+  it('is fetched before it is deleted, and restored', async () => {
     const server = open({
       'GET /projects/p1/files/robots/mine/body.stl': new Response(new Uint8Array([1, 2, 3])),
     });

@@ -8,13 +8,14 @@ import { useUniverseChoice } from '@/store/run/universeChoice';
 import { fetchBinaries, putBinaries } from '@/store/saving/binary';
 import { closeTab } from '@/workspace/tabs';
 
-/** Deletes a document (of a robot all its files); the notification offers to undo this. */
+/** Deletes a document (all files of a robot); a notification offers to undo this. */
 export async function removeDocument(path: string): Promise<void> {
   const project = useProjectStore.getState();
   const files = filesOf(path);
   const name = documentName(path);
   try {
-    // Undo needs files that the browser does not hold: they are fetched before the deletion.
+    // Undo needs the content of binary files, which the page does not have, so they are fetched before the
+    // deletion.
     const binaries = await fetchBinaries(files.filter((file) => project.files[file]?.kind === 'binary'));
     const texts = files.flatMap((file) => {
       const text = project.currentText(file);

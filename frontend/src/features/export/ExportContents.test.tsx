@@ -30,7 +30,7 @@ it('saves first, so that the export has the latest edits', async () => {
   expect(asked()).toEqual([SAVE, PREVIEW]);
 });
 
-it('says that the latest edits are missing where they cannot be saved', async () => {
+it('reports that the latest edits are missing if they cannot be saved', async () => {
   open({ [SAVE]: refusal('No room.') });
   expect(await screen.findByText(NOT_SAVED)).toBeInTheDocument();
   expect(screen.getByText('Other downloads')).toBeInTheDocument();

@@ -7,7 +7,10 @@ import { saveNow } from '@/store/saving/autosave';
 import { OtherDownloads } from './OtherDownloads';
 import { PackageSection } from './PackageSection';
 
-/** Saves before the export, so that the export equals the screen. */
+/**
+ * The contents of the export dialogue. They save the project first, so that the export equals what the screen
+ * shows.
+ */
 export function ExportContents() {
   const { t } = useTranslation('export');
   const projectId = useProjectStore((state) => state.projectId);

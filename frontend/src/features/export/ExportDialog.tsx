@@ -6,7 +6,7 @@ import { closeExportDialog, useExportDialog } from '@/store/dialogs/export';
 
 const Contents = lazyPart(async () => (await import('./ExportContents')).ExportContents);
 
-/** Shows the content of an export before the download. */
+/** A dialogue with the contents of an export before the download. */
 export function ExportDialog() {
   const { t } = useTranslation('export');
   const isOpen = useExportDialog((state) => state.isOpen);

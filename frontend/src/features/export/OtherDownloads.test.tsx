@@ -49,7 +49,7 @@ describe('OtherDownloads', () => {
     expect(screen.getByRole('link', { name })).toHaveAttribute('download');
   });
 
-  it('draws the tree in front, in light colours first', async () => {
+  it('draws the tree in front, in light colours by default', async () => {
     useProjectStore.getState().setActiveTree('Dock');
     show(<OtherDownloads projectId="p1" />);
     expect(screen.getByRole('combobox', { name: 'Tree to draw' })).toHaveValue('Dock');
@@ -72,7 +72,7 @@ describe('OtherDownloads', () => {
     expect(await text()).toContain(paletteOf('dark')('canvas'));
   });
 
-  it('makes a PNG where the browser can', async () => {
+  it('makes a PNG if the browser can', async () => {
     const png = new Blob(['png']);
     vi.stubGlobal(
       'Image',
@@ -91,7 +91,7 @@ describe('OtherDownloads', () => {
     await vi.waitFor(() => expect(saved).toEqual([{ name: 'Main.png', blob: png }]));
   });
 
-  it('says that a picture could not be drawn', async () => {
+  it('reports that a picture could not be drawn', async () => {
     vi.stubGlobal(
       'Image',
       class {

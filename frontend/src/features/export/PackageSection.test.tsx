@@ -57,7 +57,7 @@ describe('PackageSection', () => {
     ).toEqual(['geometry_msgs', 'rclpy']);
   });
 
-  it('says how it is built and run, to be copied', async () => {
+  it('shows how the package is built and run, with copy buttons', async () => {
     await open(preview());
     const commands = 'colcon build && source install/setup.bash\nros2 launch bump bump.launch.py';
     expect(screen.getByTestId('take-away-commands').textContent).toBe(commands);
@@ -66,7 +66,7 @@ describe('PackageSection', () => {
     expect(screen.getByRole('button', { name: 'Copied' })).toBeInTheDocument();
   });
 
-  it('says what to know about it', async () => {
+  it('shows the notes about it', async () => {
     await open(preview({ diagnostics: [note('It has no test.', 'Write one.'), note('It has no licence.')] }));
     const alert = screen.getByRole('alert');
     expect(alert).toHaveTextContent('2 things to know');
@@ -77,7 +77,7 @@ describe('PackageSection', () => {
     ).toEqual(['It has no test. Write one.', 'It has no licence.']);
   });
 
-  it('has nothing to say about a package without findings', async () => {
+  it('has no notes for a package without findings', async () => {
     await open(preview());
     expect(screen.queryByRole('alert')).toBeNull();
   });
@@ -107,7 +107,7 @@ describe('PackageSection', () => {
     expect(screen.queryByText(/single underscores/)).toBeNull();
   });
 
-  it('says why there is no package', async () => {
+  it('reports why there is no package', async () => {
     const diagnostics = [{ ...note('Go is missing.', 'Add it.'), severity: 'error' as const }];
     fakeServer({ [PREVIEW]: refusal('The project has errors.', { diagnostics }) });
     show(<PackageSection projectId="p" />);
@@ -122,7 +122,7 @@ describe('PackageSection', () => {
     expect(screen.queryByRole('link')).toBeNull();
   });
 
-  it('does not ask for a package of a project with errors', async () => {
+  it('requests no package for a project with errors', async () => {
     const { requests } = fakeServer({ [PREVIEW]: preview() });
     openProject({ diagnostics: [{ ...note('Go is missing.', 'Add it.'), severity: 'error' }] });
     show(<PackageSection projectId="p" />);

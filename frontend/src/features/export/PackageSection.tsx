@@ -38,7 +38,7 @@ function bytes(size: number, language: string): string {
   return format.format(isSmall ? size : size / 1024);
 }
 
-/** Sorts the user's package before the engine that is exported with it. */
+/** Sorts the files so that the user's package comes before the engine that is exported with it. */
 function ownFirst<File extends { readonly path: string }>(name: string, files: readonly File[]): File[] {
   const isOther = ({ path }: File) => Number(!path.startsWith(`${name}/`));
   return files.toSorted((a, b) => isOther(a) - isOther(b));
@@ -92,7 +92,7 @@ function Commands({ name }: { readonly name: string }) {
   );
 }
 
-/** The ROS 2 package: name, files, dependencies, notes, and instructions to run it. */
+/** The section of the ROS 2 package: name, files, dependencies, notes, and instructions to run it. */
 export function PackageSection({ projectId }: PackageSectionProps) {
   const { t, i18n } = useTranslation('export');
   const diagnostics = useProjectStore((state) => state.diagnostics);
@@ -103,7 +103,7 @@ export function PackageSection({ projectId }: PackageSectionProps) {
   const { data, error } = useQuery({
     queryKey: ['package', projectId, name],
     queryFn: ({ signal }) => api.previewPackage(projectId, name, signal),
-    // The last save found errors: the server would refuse the package.
+    // If the last save found errors, the server would refuse the package.
     enabled: isValid && errors.length === 0,
     placeholderData: keepPreviousData,
     gcTime: 0,

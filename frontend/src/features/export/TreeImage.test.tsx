@@ -57,7 +57,7 @@ function draw(
 }
 
 const box = (x: number, y: number, width = 140, height = 44): Box => ({ x, y, width, height });
-/** The texts of a drawing: words, place, size and colour. */
+/** Returns the texts of a drawing, each with its place, size and colour. */
 const texts = (svg: SVGSVGElement) =>
   [...svg.querySelectorAll('text')].map((text) =>
     [
@@ -72,7 +72,7 @@ const edges = (svg: SVGSVGElement) =>
   [...svg.querySelectorAll('path[stroke="edge"]')].map((path) => path.getAttribute('d'));
 
 describe('TreeImage', () => {
-  it('has its blocks inside, with a margin', () => {
+  it('contains its blocks with a margin', () => {
     const svg = draw(
       { a: { type: 'Sequence' }, b: { type: 'Go' } },
       { a: box(0, 0), b: box(-50, 100, 200, 60) },
@@ -90,7 +90,7 @@ describe('TreeImage', () => {
     expect(svg.querySelector('title')?.textContent).toBe('Patrol');
   });
 
-  it('has room where there is no block', () => {
+  it('has a size even without blocks', () => {
     expect(draw({}, {}).getAttribute('viewBox')).toBe('-24 -24 48 48');
   });
 
@@ -137,7 +137,7 @@ describe('TreeImage', () => {
     expect(words?.length).toBeLessThan(15);
   });
 
-  it('calls a subtree by its tree only', () => {
+  it('shows only the tree of a subtree', () => {
     expect(texts(draw({ a: { type: 'SubTree', tree: 'Dock' } }, { a: box(0, 0) }))).toEqual([
       'Dock 54 27 14 text',
     ]);

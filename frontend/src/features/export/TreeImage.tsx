@@ -12,7 +12,7 @@ export interface TreeImageProps {
   readonly layout: Layout;
   readonly vocabulary: Vocabulary;
   readonly palette: Palette;
-  /** Elements drawn over the blocks. */
+  /** Elements that are drawn over the blocks. */
   readonly children?: ReactNode;
 }
 
@@ -20,7 +20,7 @@ const MARGIN = 24;
 const SANS = "Inter, 'Inter Variable', system-ui, 'Segoe UI', sans-serif";
 const MONO = "'JetBrains Mono', ui-monospace, Menlo, monospace";
 
-/** Shortens a text to a width in pixels at a font size. */
+/** Shortens a text to a width in px at a font size. */
 function cut(text: string, width: number, size: number): string {
   if (emWidth(text) * size <= width) return text;
   let kept = text;
@@ -98,7 +98,7 @@ function BlockImage({ id, node, box, spec, palette }: BlockImageProps) {
   );
 }
 
-/** The whole tree as a self-contained picture: for papers, slides and issues. */
+/** The whole tree as a self-contained picture, for papers, slides and issues. */
 export function TreeImage({ diagram, layout, vocabulary, palette, children }: TreeImageProps) {
   const boxes = Object.entries(layout.positions);
   const left = Math.min(0, ...boxes.map(([, box]) => box.x)) - MARGIN;

@@ -25,6 +25,6 @@ it.each([
   ['a_', false],
   ['_a', false],
   ['a-b', false],
-])('takes %s for the name of a package: %s', (name, isName) => {
+])('accepts %s as the name of a package: %s', (name, isName) => {
   expect(PACKAGE_NAME.test(name)).toBe(isName);
 });

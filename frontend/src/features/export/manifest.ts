@@ -1,4 +1,4 @@
-/** The packages that a `package.xml` depends on, sorted, each once. */
+/** Returns the packages that a `package.xml` depends on, sorted, each once. */
 export function dependenciesOf(manifest: string): string[] {
   const document = new DOMParser().parseFromString(manifest, 'application/xml');
   const found = [...document.querySelectorAll('depend, exec_depend')].map(
@@ -7,5 +7,5 @@ export function dependenciesOf(manifest: string): string[] {
   return [...new Set(found.filter(Boolean))].sort();
 }
 
-/** The names that ROS accepts for packages. */
+/** The package names that ROS accepts. */
 export const PACKAGE_NAME = /^[a-z][a-z0-9]*(_[a-z0-9]+)*$/;

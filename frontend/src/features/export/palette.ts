@@ -2,7 +2,7 @@ import tokens from '@/ui/tokens.css?raw';
 
 export type Theme = 'light' | 'dark';
 
-/** The value of a colour token (`--bts-<name>`) in a theme. */
+/** A function that returns the value of a colour token (`--bts-<name>`) in a theme. */
 export type Palette = (name: string) => string;
 
 const DARK = "[data-mantine-color-scheme='dark'] {";
@@ -17,7 +17,10 @@ const [lightBlock = '', darkBlock = ''] = tokens.split(DARK);
 const light = read(lightBlock);
 const dark = read(darkBlock);
 
-/** The colours of a theme, even of the one that the page does not show, since pictures are used elsewhere. */
+/**
+ * Returns the colours of a theme, also of the theme that the page does not show, since pictures are used
+ * elsewhere.
+ */
 export function paletteOf(theme: Theme): Palette {
   return (name) => (theme === 'dark' ? dark.get(name) : undefined) ?? light.get(name) ?? 'currentColor';
 }

@@ -13,7 +13,7 @@ const diagram = {
 } as unknown as Diagram;
 
 describe('svgOf', () => {
-  it.each(['light', 'dark'] as const)('is a document of its own in the %s theme', (theme) => {
+  it.each(['light', 'dark'] as const)('is a self-contained document in the %s theme', (theme) => {
     const text = svgOf(diagram, makeVocabulary([]), theme);
     expect(
       text.startsWith('<?xml version="1.0" encoding="UTF-8"?>\n<svg xmlns="http://www.w3.org/2000/svg"'),
@@ -66,26 +66,29 @@ describe('pngOf', () => {
     [4096, 10, 8192, 20],
     [8192, 4096, 8192, 4096],
     [100, 16_384, 50, 8192],
-  ])('draws %s × %s px twice as large, where browsers can: %s × %s', async (width, height, ...expected) => {
-    size = { width, height };
-    const png = new Blob(['png']);
-    const toBlob = canDraw(png);
-    expect(await pngOf('<svg>ä</svg>')).toBe(png);
-    expect(source).toBe('data:image/svg+xml;charset=utf-8,%3Csvg%3E%C3%A4%3C%2Fsvg%3E');
-    expect(drawn.mock.calls[0]?.slice(1)).toEqual([0, 0, ...expected]);
-    const canvas = toBlob.mock.contexts[0] as HTMLCanvasElement;
-    expect([canvas.width, canvas.height]).toEqual(expected);
-    expect(toBlob.mock.calls[0]?.[1]).toBe('image/png');
-  });
+  ])(
+    'draws %s × %s px at double size, up to the limit of browsers: %s × %s',
+    async (width, height, ...expected) => {
+      size = { width, height };
+      const png = new Blob(['png']);
+      const toBlob = canDraw(png);
+      expect(await pngOf('<svg>ä</svg>')).toBe(png);
+      expect(source).toBe('data:image/svg+xml;charset=utf-8,%3Csvg%3E%C3%A4%3C%2Fsvg%3E');
+      expect(drawn.mock.calls[0]?.slice(1)).toEqual([0, 0, ...expected]);
+      const canvas = toBlob.mock.contexts[0] as HTMLCanvasElement;
+      expect([canvas.width, canvas.height]).toEqual(expected);
+      expect(toBlob.mock.calls[0]?.[1]).toBe('image/png');
+    },
+  );
 
-  it('fails where the browser makes no picture', async () => {
+  it('fails if the browser makes no picture', async () => {
     canDraw(null);
     await expect(pngOf('<svg/>')).rejects.toThrow('The picture is empty.');
   });
 });
 
 describe('saveAs', () => {
-  it('offers a file for download, and forgets it later', () => {
+  it('offers a file for download, and revokes its URL later', () => {
     vi.useFakeTimers();
     onTestFinished(() => {
       vi.useRealTimers();

@@ -6,12 +6,12 @@ import type { Vocabulary } from '@/model/vocabulary';
 import { paletteOf, type Theme } from './palette';
 import { TreeImage } from './TreeImage';
 
-/** The scale of pictures: two pixels a point are sharp on high-resolution screens and in print. */
+/** The scale of pictures: two pixels per point look sharp on high-resolution screens and in print. */
 const SCALE = 2;
-/** Browsers refuse larger canvases; larger trees are drawn at a smaller scale. */
+/** The largest canvas in px that browsers accept; larger trees are drawn at a smaller scale. */
 const MAX_PIXELS = 8192;
 
-/** A tree as a standalone SVG document. */
+/** Returns a tree as a standalone SVG document. */
 export function svgOf(diagram: Diagram, vocabulary: Vocabulary, theme: Theme): string {
   const host = document.createElement('div');
   const root = createRoot(host);
@@ -27,7 +27,7 @@ export function svgOf(diagram: Diagram, vocabulary: Vocabulary, theme: Theme): s
   return `<?xml version="1.0" encoding="UTF-8"?>\n${text}\n`;
 }
 
-/** An SVG document as a PNG. */
+/** Converts an SVG document to a PNG. */
 export async function pngOf(svg: string): Promise<Blob> {
   const image = new Image();
   image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
@@ -42,7 +42,7 @@ export async function pngOf(svg: string): Promise<Blob> {
   });
 }
 
-/** Starts a download of data that the page made. */
+/** Starts the download of data that the page has made. */
 export function saveAs(blob: Blob, filename: string): void {
   const url = URL.createObjectURL(blob);
   const link = document.createElement('a');

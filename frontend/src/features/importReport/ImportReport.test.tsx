@@ -4,7 +4,7 @@ import { announceImport, closeImportReport } from '@/store/dialogs/importReport'
 import { show } from '../../../harness/testing';
 import { ImportReport } from './ImportReport';
 
-it('belongs to the project that was imported, once', () => {
+it('is shown for the imported project, once', () => {
   announceImport('p1', 'patrol.xml');
   const { rerender } = show(<ImportReport projectId="p2" />);
   expect(screen.queryByRole('dialog')).toBeNull();

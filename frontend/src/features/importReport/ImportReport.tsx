@@ -3,7 +3,7 @@ import { useTranslation } from 'react-i18next';
 import { closeImportReport, useImportReport } from '@/store/dialogs/importReport';
 import { ReportContents } from './ReportContents';
 
-/** What came in with an import, once, when its project is first open. */
+/** The report of an import, shown once when its project is first opened. */
 export function ImportReport({ projectId }: { readonly projectId: string }) {
   const { t } = useTranslation('importReport');
   const { projectId: imported, file } = useImportReport();

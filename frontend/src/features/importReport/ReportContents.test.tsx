@@ -33,7 +33,7 @@ function open(diagnostics: readonly Diagnostic[] = []) {
 beforeEach(() => useImportReport.setState({ projectId: null, file: '' }));
 
 describe('ReportContents', () => {
-  it('says what came in, and that nothing is missing', async () => {
+  it('says what was imported, and that nothing is missing', async () => {
     open();
     expect(screen.getByRole('dialog', { name: 'Imported from patrol.xml' })).toBeInTheDocument();
     expect(screen.getByTestId('import-report')).toHaveTextContent('1 tree1 action1 other file');
@@ -52,7 +52,7 @@ describe('ReportContents', () => {
     expect(useImportReport.getState().projectId).toBeNull();
   });
 
-  it('names what is wrong before what is to be written, each with what to do', async () => {
+  it('lists errors before stubs, each with its hint', async () => {
     const { openTree } = watchNavigation();
     const missing = {
       code: 'X1',
@@ -74,7 +74,7 @@ describe('ReportContents', () => {
   });
 });
 
-it('stands for itself', () => {
+it('is shown without a dialogue', () => {
   openProject({ trees: { Main: nodes } });
   show(<ReportContents />);
   expect(screen.getByTestId('import-report')).toHaveTextContent('1 tree');

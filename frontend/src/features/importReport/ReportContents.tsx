@@ -11,17 +11,20 @@ import { useProblems } from '@/store/problems/useProblems';
 import { useProblemText } from '@/ui/useProblemText';
 import classes from './importReport.module.css';
 
-/** The finding that an action is still the stub which the import made; it is at a block of this action. */
+/**
+ * The code of a finding that an action is still the stub which the import made; it is at a block of this
+ * action.
+ */
 const STUB = 'BT0613';
-/** More are in the panel of problems. */
+/** The number of findings that are shown; the Problems panel lists all. */
 const SHOWN = 8;
 
-/** The action that is still to be written, if this is what was found. */
+/** Returns the action that the user must still write, if the finding is a stub. */
 function stubOf({ code, problem }: ListedProblem): string | undefined {
   return code === STUB && problem.source === 'server' ? problem.values?.['name'] : undefined;
 }
 
-/** Leaves the report for the place of a finding; of a stub, for the source to be written. */
+/** Closes the report and opens the place of a finding; for a stub, the source to be written. */
 function look(row: ListedProblem): void {
   closeImportReport();
   const stub = stubOf(row);

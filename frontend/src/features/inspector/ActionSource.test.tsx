@@ -14,13 +14,13 @@ beforeEach(() => {
 });
 
 describe('ActionSource', () => {
-  it('is nothing for an action without a file', () => {
+  it('is absent for an action without a file', () => {
     const { container } = show(<ActionSource action="Gone" />);
     expect(container).not.toHaveTextContent('Source');
     expect(screen.queryByRole('button')).toBeNull();
   });
 
-  it('shows the source on demand, comes into view, and stays open for the next action', async () => {
+  it('shows the source on demand, scrolls to it, and stays open for the next action', async () => {
     const scroll = vi.spyOn(Element.prototype, 'scrollIntoView');
     const { unmount } = show(<ActionSource action="Drive" />);
     expect(screen.queryByTestId('action-source')).toBeNull();

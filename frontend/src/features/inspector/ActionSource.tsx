@@ -10,10 +10,10 @@ import classes from './Inspector.module.css';
 
 const SourceView = lazyPart(async () => (await import('./SourceView')).SourceView);
 
-/** The source stays open when the user selects another action. */
+/** Whether the source is open; it stays open when the user selects another action. */
 const useShown = create<{ isOpen: boolean }>(() => ({ isOpen: false }));
 
-/** The source of the block's action, read-only. */
+/** The source of the block's action, which cannot be edited here. */
 export function ActionSource({ action }: { readonly action: string }) {
   const { t } = useTranslation('inspector');
   const isOpen = useShown((state) => state.isOpen);

@@ -24,7 +24,7 @@ beforeEach(async () => {
   await vi.waitUntil(() => document.querySelectorAll('.cm-content').length === 2);
 });
 
-/** Adds a condition, whose field has the caret. */
+/** Adds a condition; its field then has the caret. */
 async function added() {
   await user.click(screen.getByRole('button', { name: 'Add condition' }));
   await user.click(await screen.findByRole('menuitem', { name: /On halt/ }));
@@ -44,7 +44,7 @@ describe('ConditionList', () => {
     expect(screen.queryByText('_skipIf')).toBeNull();
   });
 
-  it('offers those that the block has not', async () => {
+  it('offers those that the block does not have', async () => {
     await user.click(screen.getByRole('button', { name: 'Add condition' }));
     await screen.findByRole('menuitem', { name: /Skip if/ });
     expect(names()).toEqual(['_skipIf', '_failureIf', '_successIf', '_onSuccess', '_onFailure', '_onHalted']);
@@ -56,7 +56,7 @@ describe('ConditionList', () => {
     await vi.waitFor(() => expect(conditions()).toEqual({ _post: 'x := 1', _while: 'y < 2', _onHalted: '' }));
   });
 
-  it('has a new one from its first letter, and takes it back with it', async () => {
+  it('adds a new one with its first character, and removes it with its last', async () => {
     const field = await added();
     const view = EditorView.findFromDOM(field)!;
     act(() => view.dispatch({ changes: { from: 0, insert: 'x' } }));
@@ -66,7 +66,7 @@ describe('ConditionList', () => {
     expect(field).toBeInTheDocument();
   });
 
-  it('gives a new one up with Escape', async () => {
+  it('drops a new one with Escape', async () => {
     await added();
     await user.keyboard('{Escape}');
     expect(screen.queryByRole('textbox', { name: 'On halt' })).toBeNull();

@@ -26,13 +26,13 @@ const CONDITIONS = [
 type Condition = (typeof CONDITIONS)[number];
 
 /**
- * The condition that was just added, until the user leaves its field: while it is empty there, the tree does
- * not have it, so that nothing reports an empty script.
+ * Returns the condition that was just added, until the user leaves its field. While the field is empty, the
+ * tree does not contain the condition, so that no empty script is reported.
  */
 function useNewCondition(id: NodeId) {
   const [added, setAdded] = useState<{ readonly id: NodeId; readonly name: Condition } | null>(null);
   const name = added?.id === id ? added.name : null;
-  // Known at once: the focus leaves a field before the page is drawn without it.
+  // A reference, since the focus leaves a field before the page renders without it.
   const isOpen = useRef(false);
   return {
     name,
@@ -48,7 +48,7 @@ function useNewCondition(id: NodeId) {
   };
 }
 
-/** Scripts before and after the node's tick, in BT.CPP's script language. */
+/** Fields for the scripts before and after the node's tick, in BT.CPP's script language. */
 export function ConditionList({ diagram, id, node }: Target) {
   const { t } = useTranslation('inspector');
   const set = node.conditions ?? {};

@@ -30,7 +30,7 @@ beforeEach(() => {
 });
 
 describe('FaultOfRun', () => {
-  it('says what failed, also where nothing more is known of it', () => {
+  it('shows what failed, even without details', () => {
     expect(open()).toHaveTextContent('An action failed: boom');
     expect(screen.queryByRole('button')).toBeNull();
   });
@@ -46,7 +46,7 @@ describe('FaultOfRun', () => {
     expect(item).not.toHaveTextContent(/First|Of/);
   });
 
-  it('leads to the line', async () => {
+  it('opens the line', async () => {
     const { openFile } = watchNavigation();
     open(fault({ file: 'actions/Drive.py', line: 7 }));
     const button = screen.getByRole('button', { name: /Drive\.py/ });
@@ -57,7 +57,7 @@ describe('FaultOfRun', () => {
   });
 
   it.each([fault({ file: 'actions/Drive.py', line: 0 }), fault({ file: '', line: 7 })])(
-    'leads nowhere without a file and a line',
+    'opens nothing without a file and a line',
     (each) => {
       open(each);
       expect(screen.queryByRole('button')).toBeNull();

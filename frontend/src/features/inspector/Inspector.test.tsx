@@ -138,14 +138,14 @@ describe('Inspector', () => {
     expect(nodeOf('Main', 'a')?.conditions).toBeUndefined();
   });
 
-  it('keeps a comment', async () => {
+  it('stores a comment', async () => {
     await user.type(screen.getByLabelText('Comment'), 'slow');
     expect(nodeOf('Main', 'a')?.comment).toBe('slow');
     await user.clear(screen.getByLabelText('Comment'));
     expect(nodeOf('Main', 'a')?.comment).toBeUndefined();
   });
 
-  it('colours the block, and gives it back the colour of its family', async () => {
+  it('colours the block, and resets its colour to that of the family', async () => {
     const own = screen.getByRole('button', { name: 'Colour of the family' });
     expect(own).toHaveAttribute('aria-pressed', 'true');
     await user.click(screen.getByRole('button', { name: '#3f7d20' }));
@@ -164,7 +164,7 @@ describe('Inspector', () => {
     expect(nodeOf('Main', 'a')?.disabled).toBeUndefined();
   });
 
-  it('lets a subtree stand for any tree that does not contain it', async () => {
+  it('offers a subtree any tree that does not contain it', async () => {
     select('s');
     const tree = await screen.findByRole('combobox', { name: 'Tree' });
     expect(tree).toHaveValue('Dock');
@@ -182,7 +182,7 @@ describe('Inspector', () => {
     expect(await screen.findByText('Children: 1+')).toBeVisible();
   });
 
-  it('says what is wrong with a block of an unknown type', async () => {
+  it('shows the problem of a block of an unknown type', async () => {
     select('x');
     const panel = await screen.findByRole('region', { name: 'Nowhere' });
     expect(within(panel).getByRole('list')).toHaveTextContent(/Nowhere/);
@@ -201,7 +201,7 @@ describe('Inspector', () => {
     });
   });
 
-  it('shows what failed in the block in the last run', () => {
+  it('shows the fault of the block in the last run', () => {
     act(() => {
       useLiveStore.setState({ faults: new Map([['Main/a', 'boom']]) });
     });

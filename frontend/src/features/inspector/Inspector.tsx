@@ -16,7 +16,7 @@ import { targetOf } from './target';
 import { TreeField } from './TreeField';
 import classes from './Inspector.module.css';
 
-/** The commands for several blocks that also exist for one. */
+/** The commands for several blocks; each also exists for a single block. */
 const TOGETHER = ['canvas.wrap', 'canvas.extract', 'canvas.disable', 'edit.delete'] as const;
 
 interface Shown {
@@ -26,8 +26,8 @@ interface Shown {
 }
 
 /**
- * All properties of the selected block. The fields of a newly selected block render after the canvas, where
- * the user looks; typing in a field updates at once.
+ * The properties of the selected block. The fields of a newly selected block render after the canvas, since
+ * the user looks there; typing in a field updates at once.
  */
 export function Inspector() {
   const diagram = useProjectStore((state) => state.diagrams[state.activeTree ?? '']);

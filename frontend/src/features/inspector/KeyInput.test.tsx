@@ -32,7 +32,7 @@ function open(start = '', error: string | null = null) {
 const options = () => screen.queryAllByRole('option').map(({ textContent }) => textContent);
 
 describe('KeyInput', () => {
-  it('is named as its port, and shows how a key is written', () => {
+  it('has the label of its port, and shows how a key is written', () => {
     const { field } = open();
     expect(field).toHaveAccessibleName('goal');
     expect(field).toHaveAttribute('placeholder', '{goal}');
@@ -40,7 +40,7 @@ describe('KeyInput', () => {
     expect(screen.getByLabelText('Blackboard key')).toBeInTheDocument();
   });
 
-  it('offers the keys of the tree that go with what is typed', async () => {
+  it('offers the keys of the tree that match the typed text', async () => {
     const { field, onChange } = open();
     await user.click(field);
     expect(options()).toEqual(['{goal}', '{pose}', '{speed}']);
@@ -51,7 +51,7 @@ describe('KeyInput', () => {
     expect(field).toHaveValue('{speed}');
   });
 
-  it('is marked where the key is wrong', () => {
+  it('shows an error if the key is wrong', () => {
     expect(open('{', 'Bad.').field).toBeInvalid();
   });
 });

@@ -5,14 +5,14 @@ import { useTranslation } from 'react-i18next';
 interface KeyInputProps {
   readonly name: string;
   readonly labelledBy: string;
-  /** The port's text, including the braces. */
+  /** The text of the port, including the braces. */
   readonly value: string;
   readonly keys: readonly string[];
   readonly error: string | null;
   readonly onChange: (value: string) => void;
 }
 
-/** A blackboard key, with completion from the keys of the tree. */
+/** A field for a blackboard key, with completion from the keys of the tree. */
 export function KeyInput({ name, labelledBy, value, keys, error, onChange }: KeyInputProps) {
   const { t } = useTranslation('inspector');
   return (

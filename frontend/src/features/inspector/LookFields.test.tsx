@@ -26,7 +26,7 @@ describe('LookFields', () => {
     expect(own.innerHTML).toContain('--bts-control');
   });
 
-  it('shows the colour of what nobody knows', () => {
+  it('shows the colour of an unknown type', () => {
     show(<Fields id="x" />);
     expect(screen.getByRole('button', { name: 'Colour of the family' }).innerHTML).toContain('--bts-unknown');
   });

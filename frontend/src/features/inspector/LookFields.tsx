@@ -6,7 +6,7 @@ import { Section } from './Section';
 import type { Target } from './target';
 import classes from './Inspector.module.css';
 
-/** All are dark enough for a white symbol in both themes. */
+/** The colours of blocks; a white symbol is readable on all of them in both themes. */
 const COLORS = [
   '#b45309',
   '#a16207',
@@ -18,7 +18,7 @@ const COLORS = [
   '#52525b',
 ] as const;
 
-/** The block's colour, and whether the block is disabled. */
+/** Fields for the block's colour, and for disabling the block. */
 export function LookFields({ id, node, spec }: Target) {
   const { t } = useTranslation('inspector');
   return (

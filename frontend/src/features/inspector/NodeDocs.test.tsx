@@ -12,7 +12,7 @@ const spec = (more: Partial<NodeSpec>): NodeSpec => ({
 });
 
 describe('NodeDocs', () => {
-  it.each([undefined, spec({ summary: '' })])('is nothing where nothing is known', (known) => {
+  it.each([undefined, spec({ summary: '' })])('is absent without a description', (known) => {
     const { container } = show(<NodeDocs spec={known} />);
     expect(container.querySelector('h3')).toBeNull();
   });

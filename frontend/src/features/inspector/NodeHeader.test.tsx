@@ -28,7 +28,7 @@ beforeEach(() => {
 });
 
 describe('the name', () => {
-  it('is that of the block, and its type is what it is without', async () => {
+  it('is that of the block; without it, the type is the name', async () => {
     show(<Header id="a" />);
     expect(field()).toHaveValue('Go');
     expect(field()).toHaveAttribute('placeholder', 'Drive');
@@ -54,7 +54,7 @@ describe('the name', () => {
     expect(field()).toHaveValue('Go to');
   });
 
-  it('may begin as the type does', async () => {
+  it('may start like the type', async () => {
     show(<Header id="a" />);
     await user.clear(field());
     await user.type(field(), 'Drive');
@@ -65,7 +65,7 @@ describe('the name', () => {
     expect(nodeOf('Main', 'a')?.name).toBe('Drive on');
   });
 
-  it('of a subtree may begin as its tree does', async () => {
+  it("of a subtree may start like its tree's", async () => {
     show(<Header id="s" />);
     await user.type(field(), 'Dock');
     expect(field()).toHaveValue('Dock');

@@ -10,10 +10,11 @@ import { FamilyTile } from '@/ui/FamilyTile';
 import type { Target } from './target';
 import classes from './Inspector.module.css';
 
-/** Name, type, and a button that opens the block's document. */
+/** The header: name, type, and a button that opens the block's document. */
 export function NodeHeader({ tree, id, node, spec }: Target) {
   const { t } = useTranslation('inspector');
-  // The document drops outer blanks and a name that equals the type: neither may disturb the typing.
+  // The document drops outer blanks and a name that equals the type; the field keeps both while the user
+  // types.
   const [typed, setTyped] = useState('');
   const plain = typed.trim();
   const named = plain === node.type || plain === node.tree ? '' : plain;

@@ -46,7 +46,7 @@ beforeEach(() => {
 });
 
 describe('NodeProblems', () => {
-  it('is nothing for a block that has none', () => {
+  it('is absent for a block without problems', () => {
     show(<Problems id="g" />);
     expect(screen.queryByRole('list')).toBeNull();
   });
@@ -77,7 +77,7 @@ describe('NodeProblems', () => {
     expect(items()).toHaveLength(3);
   });
 
-  it('has the fault of a block that is right', () => {
+  it('has the fault of a block without problems', () => {
     show(<Problems id="g" />);
     act(() => useLiveStore.setState({ faults: new Map([['Dock/g', 'boom']]) }));
     expect(screen.queryByRole('list')).toBeNull();

@@ -16,7 +16,7 @@ interface NodeProblemsProps {
   readonly onFixed?: () => void;
 }
 
-/** The block's problems and their fixes; the fault of the last run is first. */
+/** The list of the block's problems with their fixes; the fault of the last run comes first. */
 export function NodeProblems({ diagram, id, onFixed }: NodeProblemsProps) {
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const diagnostics = useProjectStore((state) => state.diagnostics);

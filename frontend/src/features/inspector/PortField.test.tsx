@@ -32,7 +32,7 @@ function Field({ spec, start = null, onChange }: FieldProps) {
 
 const onRenameKey = vi.fn();
 
-/** Shows the field, and returns its input and the last value it reported. */
+/** Shows the field; returns its input and a function for the last reported value. */
 function field(spec: Partial<PortSpec>, start: string | null = null) {
   const onChange = vi.fn();
   show(<Field spec={{ ...port('x', 'double'), ...spec } as PortSpec} start={start} onChange={onChange} />);
@@ -51,7 +51,7 @@ describe('PortField', () => {
     expect(onRenameKey).toHaveBeenLastCalledWith(key);
   });
 
-  it('offers to rename no key where there is none', () => {
+  it('does not offer to rename a missing key', () => {
     field({}, '0.5');
     expect(screen.queryByRole('button', { name: /^Rename this key/ })).toBeNull();
   });
@@ -81,7 +81,7 @@ describe('PortField', () => {
     expect(last()).toBe('0.39');
   });
 
-  it('steps from zero where there is no default, and never what is no number', async () => {
+  it('steps from zero without a default, and does not step invalid numbers', async () => {
     const { input, last } = field({ type: 'int' });
     input().focus();
     await user.keyboard('{ArrowDown}');
@@ -92,7 +92,7 @@ describe('PortField', () => {
     expect(last()).toBe('ab');
   });
 
-  it('keeps an empty text as a text', async () => {
+  it('keeps an empty text as a value', async () => {
     const { input, last } = field({ type: 'string' }, 'a');
     await user.clear(input());
     expect(last()).toBe('');
@@ -123,7 +123,7 @@ describe('PortField', () => {
     expect(last()).toBe('0.3');
   });
 
-  it('completes a key from those of the tree', async () => {
+  it('completes a key from the keys of the tree', async () => {
     const { input, last } = field({}, '{');
     await user.click(input());
     await user.keyboard('go');
@@ -149,19 +149,19 @@ describe('PortField', () => {
     expect(last()).toBe('side');
   });
 
-  it('writes an output only to a key', () => {
+  it('accepts only a key for an output', () => {
     const { input } = field({ direction: 'output' });
     expect(input()).toHaveAttribute('placeholder', '{x}');
     expect(screen.queryByRole('button', { name: /Use a/ })).toBeNull();
   });
 
-  it('goes back to the default', async () => {
+  it('resets the default', async () => {
     const { last } = field({ default: '0.3' }, '2');
     await user.click(screen.getByRole('button', { name: 'Back to the default' }));
     expect(last()).toBeNull();
   });
 
-  it('keeps a required port set', () => {
+  it('has no reset for a required port', () => {
     field({ required: true }, '2');
     expect(screen.queryByRole('button', { name: 'Back to the default' })).toBeNull();
   });

@@ -11,26 +11,26 @@ import classes from './Inspector.module.css';
 
 interface PortFieldProps {
   readonly port: PortSpec;
-  /** null: no value is set. */
+  /** null if no value is set. */
   readonly value: string | null;
   readonly keys: readonly string[];
   readonly error: string | null;
   readonly onChange: (value: string | null) => void;
-  /** The port was just added: its value takes the caret. */
+  /** Whether the port was just added: then its value gets the caret. */
   readonly isNew?: boolean;
   /** Called when the focus leaves the field. */
   readonly onLeave?: () => void;
-  /** Present for a port that is set without being declared. */
+  /** Present only for a port that is set but not declared. */
   readonly onRemove?: (() => void) | undefined;
-  /** Present for a port that all blocks of the type share. */
+  /** Present only for a port that all blocks of the type share. */
   readonly onRename?: ((name: string) => void) | undefined;
-  /** Renames the key that the port names, wherever it is the same entry. */
+  /** Renames the key that the port names, wherever the key is the same entry. */
   readonly onRenameKey: (key: string) => void;
   /** The names of the other ports. */
   readonly taken: readonly string[];
 }
 
-/** One port: a value or a blackboard key, with the widget for its type. */
+/** The field of one port: a value or a blackboard key, with the widget for its type. */
 export function PortField(props: PortFieldProps) {
   const { port, value, keys, error, onChange, onRemove, onRename, onRenameKey } = props;
   const { taken, isNew = false, onLeave } = props;

@@ -42,7 +42,7 @@ describe('the ports of a block', () => {
     expect(screen.queryByText('This node has no ports.')).toBeNull();
   });
 
-  it('are none', () => {
+  it('can be absent', () => {
     show(<List id="b" />);
     expect(screen.getByText('This node has no ports.')).toBeInTheDocument();
   });
@@ -56,7 +56,7 @@ describe('the ports of a block', () => {
     expect(portsOf('a')).toEqual({ speed: '1', extra: 'e' });
   });
 
-  it('are marked where their value is wrong', async () => {
+  it('show an error if their value is wrong', async () => {
     show(<List id="a" />);
     expect(screen.getByTestId('port-count')).toBeInvalid();
     expect(screen.getByTestId('port-speed')).toBeValid();
@@ -82,7 +82,7 @@ describe('the ports of a block', () => {
 });
 
 describe('a subtree', () => {
-  it('takes another port, as a key of its name, alone', async () => {
+  it('gets another port, as a key of its name, alone', async () => {
     show(<List id="s" />);
     await user.click(adding()!);
     expect(nameField()).toHaveFocus();
@@ -92,7 +92,7 @@ describe('a subtree', () => {
     expect(screen.queryByRole('button', { name: /^Rename (?!this key)/ })).toBeNull();
   });
 
-  it('takes none of a name that it has, and none after Escape', async () => {
+  it('gets none with a taken name, and none after Escape', async () => {
     show(<List id="s" />);
     await user.click(adding()!);
     await user.type(nameField(), 'far');
@@ -124,7 +124,7 @@ describe('blocks of an action that declares no ports', () => {
   });
 });
 
-it('takes ports of a type that nobody knows', async () => {
+it('accepts ports of an unknown type', async () => {
   show(<List id="x" />);
   expect(fields()).toEqual(['lost']);
   expect(adding()).not.toBeNull();

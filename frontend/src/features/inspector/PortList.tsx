@@ -31,13 +31,13 @@ const extraPort = (name: string): PortSpec => ({
 });
 
 /**
- * Whether all blocks of the type have the same ports: of an action that declares none, or that is not written
- * yet.
+ * Returns whether all blocks of the type have the same ports: those of an action that declares none, or that
+ * does not exist yet.
  */
 const isShared = ({ node, spec }: Pick<Target, 'node' | 'spec'>): boolean =>
   node.type !== 'SubTree' && (spec === undefined || (spec.source === 'action' && spec.open));
 
-/** Ports of the block, declared ones first; an open type accepts further ones. */
+/** The ports of the block, declared ones first; an open type accepts additional ones. */
 export function PortList(target: Target) {
   const { diagram, id, node, spec } = target;
   const { t } = useTranslation('inspector');

@@ -12,7 +12,7 @@ function open(before?: string) {
 }
 
 describe('PortNameInput', () => {
-  it('begins empty, or with the present name selected', () => {
+  it('starts empty, or with the current name', () => {
     const { field } = open();
     expect(field).toHaveFocus();
     expect(field).toHaveValue('');
@@ -25,14 +25,14 @@ describe('PortNameInput', () => {
     expect(field).toBeValid();
   });
 
-  it('answers with Enter, once', async () => {
+  it('reports the name on Enter, once', async () => {
     const { onDone, field } = open();
     await user.type(field, 'aim{Enter}');
     fireEvent.blur(field);
     expect(onDone).toHaveBeenCalledExactlyOnceWith('aim', true);
   });
 
-  it('answers when it is left', async () => {
+  it('reports the name when the focus leaves it', async () => {
     const { onDone, field } = open();
     await user.type(field, 'aim');
     expect(onDone).not.toHaveBeenCalled();
@@ -40,7 +40,7 @@ describe('PortNameInput', () => {
     expect(onDone).toHaveBeenCalledExactlyOnceWith('aim', false);
   });
 
-  it('changes nothing with Escape, which stays in the panel', async () => {
+  it('changes nothing with Escape, which does not leave the panel', async () => {
     const { onDone, field } = open();
     await user.type(field, 'aim');
     const letter = createEvent.keyDown(field, { key: 'a' });
@@ -52,7 +52,7 @@ describe('PortNameInput', () => {
     expect(onDone).toHaveBeenCalledExactlyOnceWith(null, false);
   });
 
-  it('changes nothing where the name is the same', () => {
+  it('changes nothing if the name is the same', () => {
     const { onDone, field } = open('goal');
     fireEvent.blur(field);
     expect(onDone).toHaveBeenCalledExactlyOnceWith(null, false);

@@ -4,14 +4,14 @@ import { useTranslation } from 'react-i18next';
 import { canBePort } from '@/model/ports';
 
 interface PortNameInputProps {
-  /** The present name; empty for a new port. */
+  /** The current name; empty for a new port. */
   readonly before?: string;
   readonly taken: readonly string[];
-  /** Called with the name, or with null if it did not change; `byKey`: Enter was pressed. */
+  /** Called with the name, or with null if it did not change; `byKey` is true after Enter. */
   readonly onDone: (name: string | null, byKey: boolean) => void;
 }
 
-/** Names a port of an open action or subtree. */
+/** A field for the name of a port of an open action or SubTree. */
 export function PortNameInput({ before = '', taken, onDone }: PortNameInputProps) {
   const { t } = useTranslation('inspector');
   const field = useRef<HTMLInputElement>(null);
@@ -51,7 +51,7 @@ export function PortNameInput({ before = '', taken, onDone }: PortNameInputProps
           event.currentTarget.blur();
         }
         if (event.key !== 'Escape') return;
-        // The key leaves this field, not the panel.
+        // The key must only leave this field, not the panel.
         event.preventDefault();
         finish(null);
       }}

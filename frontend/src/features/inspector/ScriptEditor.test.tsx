@@ -24,7 +24,7 @@ function open(start: string, more: { labelledBy?: string; label?: string } = { l
   const { unmount } = show(<Field />);
   const field = screen.getByRole('textbox');
   const view = EditorView.findFromDOM(field)!;
-  /** Types at the end. */
+  /** Types text at the end of the script. */
   const type = (insert: string) =>
     act(() => {
       const from = view.state.doc.length;
@@ -48,7 +48,7 @@ async function completionsOf(text: string): Promise<string[]> {
 }
 
 describe('ScriptEditor', () => {
-  it('is named by a text or an element, and corrects no spelling', () => {
+  it('has the label of a text or an element, and checks no spelling', () => {
     expect(open('x').field).toHaveAccessibleName('While');
     expect(screen.getByTestId('script')).toHaveAttribute('spellcheck', 'false');
   });
@@ -59,7 +59,7 @@ describe('ScriptEditor', () => {
     expect(field).not.toHaveAttribute('aria-label');
   });
 
-  it('reports what is typed, and not what it was given', () => {
+  it('reports typed text, but not its initial text', () => {
     const { onChange, type, view } = open('x := 1');
     type('0');
     expect(onChange).toHaveBeenCalledExactlyOnceWith('x := 10');
@@ -68,13 +68,13 @@ describe('ScriptEditor', () => {
     expect(onChange).toHaveBeenCalledOnce();
   });
 
-  it('is gone with its field', () => {
+  it('is removed with its field', () => {
     const { unmount } = open('x');
     unmount();
     expect(document.querySelector('.cm-editor')).toBeNull();
   });
 
-  it('offers keys first, then statuses and truth', async () => {
+  it('offers keys first, then statuses and booleans', async () => {
     const names = await completionsOf('S');
     expect(names).toEqual(expect.arrayContaining(['SUCCESS', 'SKIPPED']));
     expect(await completionsOf('go')).toEqual(['goal']);
@@ -89,7 +89,7 @@ describe('ScriptEditor', () => {
     );
   });
 
-  it('offers nothing within a string, and again behind it', async () => {
+  it('offers nothing inside of a string, and again after it', async () => {
     expect(await completionsOf("x := 'go")).toEqual([]);
     expect(await completionsOf("x := 'a' .. go")).toEqual(['goal']);
   });
@@ -110,12 +110,12 @@ describe('ScriptEditor', () => {
     expect(spans[0]!.className).toBe(classOf['name']);
   });
 
-  it('gives each kind a colour of its own', () => {
+  it('gives each kind its own colour', () => {
     const names = Object.values(colours).map(({ name }) => name);
     expect(new Set(names).size).toBe(4);
   });
 
-  it('marks an error where it is, and says what to do', async () => {
+  it('marks an error at its place, with a hint', async () => {
     const { view } = open('x := 1 % 2');
     const found: [number, number, string][] = [];
     await vi.waitUntil(() => {
@@ -137,5 +137,5 @@ describe('ScriptEditor', () => {
   });
 });
 
-/** The class of each kind of word, as it is first met. */
+/** The CSS class of each kind of word, in the order of appearance. */
 const colours: Record<string, Record<string, string>> = {};

@@ -52,7 +52,7 @@ const look = EditorView.theme({
   },
 });
 
-/** Completions for scripts: blackboard keys, statuses and booleans. */
+/** Returns the completion of scripts: blackboard keys, statuses and booleans. */
 function completions(keys: () => readonly string[]): CompletionSource {
   return (context) => {
     const word = context.matchBefore(/[@A-Za-z_]\w*/);
@@ -72,12 +72,12 @@ function completions(keys: () => readonly string[]): CompletionSource {
 
 export interface ScriptEditorProps {
   readonly value: string;
-  /** Blackboard keys, for completion. */
+  /** The blackboard keys for the completion. */
   readonly keys: readonly string[];
   readonly testId: string;
   readonly labelledBy?: string;
   readonly label?: string;
-  /** The field was just added: it takes the caret and scrolls into view. */
+  /** Whether the field was just added: then it gets the caret and scrolls into view. */
   readonly isNew?: boolean;
   readonly onChange: (value: string) => void;
   readonly onLeave?: () => void;
@@ -85,7 +85,7 @@ export interface ScriptEditorProps {
   readonly onCancel?: () => void;
 }
 
-/** A script editor with colours, marks at errors, and completion; see ScriptInput. */
+/** A script editor with syntax colours, marks at errors, and completion; see ScriptInput. */
 export function ScriptEditor(props: ScriptEditorProps) {
   const { value, testId, labelledBy, label } = props;
   const { t } = useTranslation();
@@ -134,7 +134,7 @@ export function ScriptEditor(props: ScriptEditorProps) {
             ({ state }) => {
               const text = state.doc.toString();
               const facts = readScript(text);
-              // An empty script is reported beside the field.
+              // The form reports an empty script beside the field.
               if (text.trim() === '' || !isProblem(facts)) return [];
               const { message, hint } = scriptText(facts, latest.current.t);
               const [from, to] = facts.span;

@@ -32,7 +32,7 @@ describe('ScriptInput', () => {
     expect(screen.getByRole('textbox', { name: 'While' })).toHaveTextContent('x := 1');
   });
 
-  it('says below the field what is wrong with the script, as soon as it is', () => {
+  it('shows below the field what is wrong with the script at once', () => {
     open('x := 1');
     expect(error()).toBeNull();
     act(() => setText('x % 2'));

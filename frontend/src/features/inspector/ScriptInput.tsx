@@ -13,7 +13,7 @@ const focus = (field: HTMLTextAreaElement | null): void => {
 const ScriptEditor = lazyPart(async () => (await import('./ScriptEditor')).ScriptEditor);
 
 /**
- * An editor for blackboard scripts that checks while the user types; a plain field until the editor is
+ * An editor for blackboard scripts that checks while the user types. It is a plain field until the editor has
  * loaded.
  */
 export function ScriptInput(props: ScriptEditorProps) {

@@ -3,7 +3,7 @@ import { expect, it } from 'vitest';
 import { show } from '../../../harness/testing';
 import { SourceView } from './SourceView';
 
-it('shows a text with line numbers, to be read and not written', () => {
+it('shows a text with line numbers, which cannot be edited', () => {
   const { unmount } = show(<SourceView path="actions/Drive.py" text={'class Drive:\n    pass'} />);
   const text = screen.getByRole('textbox', { name: 'Source of actions/Drive.py' });
   expect(text).toHaveTextContent('class Drive: pass');

@@ -10,7 +10,7 @@ interface SourceViewProps {
   readonly text: string;
 }
 
-/** A file's text with syntax colours, read-only. */
+/** The text of a file with syntax colours, which cannot be edited. */
 export function SourceView({ path, text }: SourceViewProps) {
   const { t } = useTranslation('inspector');
   const host = useRef<HTMLDivElement>(null);

@@ -33,14 +33,14 @@ describe('TreeField', () => {
     expect(options()).toEqual(['Dock', 'Park']);
   });
 
-  it('keeps name and ports with another tree', async () => {
+  it('keeps name and ports after a change of the tree', async () => {
     show(<Field id="s" />);
     await user.click(field());
     await user.click(screen.getByRole('option', { name: 'Park' }));
     expect(nodeOf('Main', 's')).toEqual({ type: 'SubTree', tree: 'Park', name: 'Home', ports: { x: '1' } });
   });
 
-  it('keeps the tree that is chosen again', async () => {
+  it('does nothing if the same tree is chosen', async () => {
     show(<Field id="s" />);
     await user.click(field());
     await user.click(screen.getByRole('option', { name: 'Dock' }));

@@ -8,7 +8,7 @@ import { useProjectStore } from '@/store/project';
 import type { Target } from './target';
 import classes from './Inspector.module.css';
 
-/** The tree of a SubTree; trees that would contain themselves are not offered. */
+/** The field for the tree of a SubTree; it does not offer trees that would then contain themselves. */
 export function TreeField({ tree, id, node }: Target) {
   const { t } = useTranslation('inspector');
   const vocabulary = useProjectStore((state) => state.vocabulary);

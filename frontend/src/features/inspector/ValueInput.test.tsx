@@ -38,14 +38,14 @@ describe('a number', () => {
     ['-0.1', '{ArrowUp}{ArrowUp}', '0.1'],
     ['2.5', '{Shift>}{ArrowUp}{/Shift}', '3.5'],
     ['7', '{Shift>}{ArrowDown}{/Shift}', '-3'],
-  ])('%s becomes with %s %s', async (value, keys, expected) => {
+  ])('%s becomes, with %s, %s', async (value, keys, expected) => {
     const { field, onChange } = open('double', value);
     field().focus();
     await user.keyboard(keys);
     expect(onChange).toHaveBeenLastCalledWith(expected);
   });
 
-  it.each(['int', 'double'])('of the type %s brings the keys for numbers of a phone', (type) => {
+  it.each(['int', 'double'])('of the type %s shows the numeric keyboard on phones', (type) => {
     expect(open(type, '1').field()).toHaveAttribute('inputmode', 'decimal');
   });
 
@@ -65,7 +65,7 @@ describe('a number', () => {
     expect(onChange).toHaveBeenLastCalledWith('1');
   });
 
-  it('does not step while it is none', async () => {
+  it('does not step an invalid number', async () => {
     const { field, onChange } = open('int', 'many');
     field().focus();
     await user.keyboard('{ArrowUp}{Home}');
@@ -91,16 +91,16 @@ describe('a text', () => {
     expect(onChange).toHaveBeenLastCalledWith('');
   });
 
-  it('is marked where it is wrong', () => {
+  it('shows an error if it is wrong', () => {
     expect(open('string', 'a').field()).toBeValid();
   });
 
-  it('is marked with an error', () => {
+  it('shows an error', () => {
     expect(open('string', 'a', {}, 'Bad.').field()).toBeInvalid();
   });
 });
 
-describe('truth', () => {
+describe('a boolean', () => {
   it.each([
     ['true', null, 'true'],
     ['TRUE', null, 'true'],
@@ -114,14 +114,14 @@ describe('truth', () => {
     expect(screen.getByRole('radio', { name: expected })).toBeChecked();
   });
 
-  it('is chosen', async () => {
+  it('can be chosen', async () => {
     const { onChange } = open('bool', null);
     await user.click(screen.getByRole('radio', { name: 'true' }));
     expect(onChange).toHaveBeenCalledExactlyOnceWith('true');
   });
 });
 
-it('writes a script in an editor of its own', async () => {
+it('edits a script in its own editor', async () => {
   const { onChange } = open('script', null);
   expect(onChange).not.toHaveBeenCalled();
   expect(await screen.findByRole('textbox', { name: 'speed' })).toBeInTheDocument();

@@ -9,13 +9,13 @@ interface ValueInputProps {
   readonly port: PortSpec;
   readonly labelledBy: string;
   readonly value: string | null;
-  /** Blackboard keys of the tree. */
+  /** The blackboard keys of the tree. */
   readonly keys: readonly string[];
   readonly error: string | null;
   readonly onChange: (value: string | null) => void;
 }
 
-/** Steps a number by one unit of its last written decimal, by ten with Shift. */
+/** Changes a number by steps of the last decimal that is written. */
 function stepped(text: string, by: number): string {
   const decimals = /\.(\d+)/.exec(text)?.[1]?.length ?? 0;
   return (Number(text) + by * 10 ** -decimals).toFixed(decimals);
@@ -23,7 +23,7 @@ function stepped(text: string, by: number): string {
 
 const mono = { input: { fontFamily: 'var(--bts-font-mono)' } };
 
-/** The widget for a literal value of the port's type. */
+/** The field for a literal value, with the widget for the port's type. */
 export function ValueInput({ port, labelledBy, value, keys, error, onChange }: ValueInputProps) {
   const { t } = useTranslation('inspector');
   const selectsAll = useFirstPress();
@@ -89,7 +89,7 @@ export function ValueInput({ port, labelledBy, value, keys, error, onChange }: V
       onKeyDown={onKeyDown}
       onChange={(event) => {
         const text = event.currentTarget.value;
-        // An empty text is a value of a text port, but not of a number port.
+        // An empty text is a valid value of a text port, but not of a number port.
         onChange(isNumber && text === '' ? null : text);
       }}
     />

@@ -37,14 +37,14 @@ describe('ports of an action that declares none', () => {
     await user.type(screen.getByLabelText('Name of the port'), `${name}{Enter}`);
   };
 
-  it('have the caret in the value of a new one, named with Enter', async () => {
+  it('get the caret in the value of a new one, named with Enter', async () => {
     await add('goal');
     expect(screen.getByTestId('port-goal')).toHaveFocus();
     await user.tab();
     expect(screen.getByTestId('port-goal')).not.toHaveFocus();
   });
 
-  it('are added to, renamed on and taken from all its blocks, each in one step', async () => {
+  it('are added, renamed and removed on all its blocks, each in one step', async () => {
     await add('goal');
     expect([portsOf('Main', 'a'), portsOf('Main', 'b'), portsOf('Other', 'c')]).toEqual(
       Array(3).fill({ goal: '{goal}' }),
@@ -60,7 +60,7 @@ describe('ports of an action that declares none', () => {
     expect(portsOf('Other', 'c')).toEqual({ goal: '{goal}' });
   });
 
-  it('are not called as something that XML has for itself, or as another port', async () => {
+  it('cannot have a name that XML reserves, or that of another port', async () => {
     for (const name of ['name', '_skipIf', '3d']) {
       await add(name);
       expect(screen.getByText(/A letter first/)).toBeVisible();

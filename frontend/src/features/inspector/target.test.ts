@@ -10,7 +10,7 @@ const diagram = {
 };
 
 describe('targetOf', () => {
-  it('has the block, its tree and what is known of its type', () => {
+  it('has the block, its tree and the description of its type', () => {
     const spec = vocabulary.specs.get('Turn');
     expect(targetOf(diagram, 'a', vocabulary)).toEqual({
       diagram,
@@ -27,7 +27,7 @@ describe('targetOf', () => {
     [undefined, 'a'],
     [diagram, undefined],
     [diagram, 'gone'],
-  ])('is nothing without a diagram, a selection or its block', (tree, id) => {
+  ])('is null without a diagram, a selection or its block', (tree, id) => {
     expect(targetOf(tree, id, vocabulary)).toBeNull();
   });
 });

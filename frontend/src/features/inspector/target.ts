@@ -11,7 +11,7 @@ export interface Target {
   readonly spec: NodeSpec | undefined;
 }
 
-/** The block with what is known of its type; null where there is no such block. */
+/** Returns the block with the description of its type; null if there is no such block. */
 export function targetOf(
   diagram: Diagram | undefined,
   id: NodeId | undefined,

@@ -5,7 +5,7 @@ import { useProjectStore } from '@/store/project';
 import { openProject, show, user, watchNavigation } from '../../../harness/testing';
 import { PlanView } from './PlanView';
 
-it('shows what changes by tree, and what is left to the user', async () => {
+it('shows the changes by tree, and the places that the user must check', async () => {
   openProject({
     trees: {
       Main: {

@@ -9,12 +9,12 @@ import classes from './keys.module.css';
 
 interface PlanViewProps {
   readonly plan: RenamePlan;
-  /** The old name. */
+  /** The old name of the key. */
   readonly name: string;
   readonly forest: Forest;
 }
 
-/** What renaming a key will change, by tree, and what it leaves to the user. */
+/** The list of changes that renaming a key makes, by tree, and of the places that the user must check. */
 export function PlanView({ plan, name, forest }: PlanViewProps) {
   const { t } = useTranslation('keys');
   const trees = [...new Set(plan.changes.map(({ tree }) => tree))];
@@ -73,7 +73,7 @@ function ChangeRow({ change }: { readonly change: KeyChange }) {
   );
 }
 
-/** Lines of Python that may mean the key: each opens its place. */
+/** The lines of Python that may mean the key; each is a link to its place. */
 function PythonLines({ name }: { readonly name: string }) {
   const { t } = useTranslation('keys');
   const files = useProjectStore((state) => state.files);

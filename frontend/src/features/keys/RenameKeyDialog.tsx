@@ -3,7 +3,7 @@ import { useTranslation } from 'react-i18next';
 import { closeRenameKey, useRenameKey } from '@/store/dialogs/renameKey';
 import { RenameKeyForm } from './RenameKeyForm';
 
-/** Renames a key of the blackboard wherever it is the same entry. */
+/** The dialogue that renames a blackboard key wherever it is the same entry. */
 export function RenameKeyDialog() {
   const { t } = useTranslation('keys');
   const { isOpen, key } = useRenameKey();

@@ -24,7 +24,7 @@ const newName = () => screen.getByTestId('rename-key-new');
 const submit = () => screen.getByRole('button', { name: 'Rename' });
 
 describe('RenameKeyForm', () => {
-  it('renames the key that it is opened for, and takes that back', async () => {
+  it('renames the given key, and undoes that', async () => {
     show(<RenameKeyForm start={{ board: 'In', name: 'k' }} onDone={onDone} />);
     expect(newName()).toHaveValue('k');
     expect(submit()).toBeDisabled();
@@ -39,7 +39,7 @@ describe('RenameKeyForm', () => {
     expect(nodeOf('In', 'i')?.ports).toEqual({ msec: '{k}' });
   });
 
-  it('says why a name cannot be', async () => {
+  it('reports why a name is invalid', async () => {
     show(<RenameKeyForm start={{ board: 'In', name: 'k' }} onDone={onDone} />);
     await user.clear(newName());
     await user.type(newName(), 'a b');

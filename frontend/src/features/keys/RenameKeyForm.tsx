@@ -9,21 +9,21 @@ import { undoNotification } from '@/ui/undoNotification';
 import { PlanView } from './PlanView';
 
 interface RenameKeyFormProps {
-  /** null: the user chooses. */
+  /** null: the user chooses the key. */
   readonly start: Key | null;
   readonly onDone: () => void;
 }
 
 const idOf = ({ board, name }: Key): string => `${board} ${name}`;
 
-/** The key of the project's list that is the same entry as another one. */
+/** Returns the key in the project's list that is the same entry as a given key. */
 function listed(keys: readonly Key[], start: Key | null, forest: Forest): Key | undefined {
   if (!start) return undefined;
   const scope = scopeOf(forest, start.board, start.name);
   return keys.find(({ board, name }) => name === start.name && scope.has(board)) ?? start;
 }
 
-/** Old and new name of a key, and what the change will do. */
+/** The form with the old and the new name of a key, and the changes to be made. */
 export function RenameKeyForm({ start, onDone }: RenameKeyFormProps) {
   const { t } = useTranslation('keys');
   const diagrams = useProjectStore((state) => state.diagrams);

@@ -31,14 +31,14 @@ describe('LessonPanel', () => {
     expect(document.querySelector('script')).toBeNull();
   });
 
-  it('does what a button says, and says so', async () => {
+  it('does what a button says, and reports it', async () => {
     open({ 'lessons/en.md': english });
     await user.click(screen.getByRole('button', { name: 'Try it' }));
     expect(nodeOf('Main', 'a')?.ports).toEqual({ msec: '500' });
     expect(screen.getByRole('status')).toHaveTextContent('msec of “Sleep” is now 500.');
   });
 
-  it('says when the block is gone', async () => {
+  it('reports a missing block', async () => {
     open({ 'lessons/en.md': '[Try it](try:select=Gone)' });
     await user.click(screen.getByRole('button', { name: 'Try it' }));
     expect(screen.getByRole('status')).toHaveTextContent('There is no block “Gone” any more');
@@ -64,7 +64,7 @@ describe('LessonPanel', () => {
     expect(useProjectStore.getState().files['lessons/en.md']).toBeDefined();
   });
 
-  it('keeps whether lessons open by themselves', async () => {
+  it('stores whether lessons open by themselves', async () => {
     open({ 'lessons/en.md': english });
     await user.click(screen.getByRole('checkbox'));
     expect(JSON.parse(localStorage.getItem('bts.lessons')!)).toEqual({ opens: false, closed: [] });

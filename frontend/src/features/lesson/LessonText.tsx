@@ -38,7 +38,7 @@ function Inline({ spans, onTry }: Actor & { readonly spans: Spans }) {
 function Piece({ block, onTry }: Actor & { readonly block: Block }) {
   switch (block.kind) {
     case 'heading': {
-      // The page's own title is of level 1.
+      // The title of the page has level 1.
       const Tag = (['h2', 'h3', 'h4'] as const)[block.level - 1] ?? 'h4';
       return (
         <Tag>

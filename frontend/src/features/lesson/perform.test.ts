@@ -55,7 +55,7 @@ describe('perform', () => {
     ['try:set=Gone.speed=1', 'noBlock'],
     ['try:set=Go.lost=1', 'noPort'],
     ['try:open=actions/Gone.py', 'noFile'],
-  ])('says what is missing for %s, and changes nothing', (address, kind) => {
+  ])('reports what is missing for %s, and changes nothing', (address, kind) => {
     open();
     const { changeCounter } = useProjectStore.getState();
     expect(tried(address).kind).toBe(kind);

@@ -6,7 +6,7 @@ import { useProjectStore } from '@/store/project';
 import { openFile, openTree } from '@/store/project/navigation';
 import { runProject } from '@/store/run/run';
 
-/** What came of a *Try it* button; its texts are `lesson:outcome.<kind>`. */
+/** The outcome of a *Try it* button; its texts are `lesson:outcome.<kind>`. */
 export interface Outcome {
   readonly kind: 'selected' | 'set' | 'opened' | 'running' | 'readOnly' | 'noBlock' | 'noPort' | 'noFile';
   readonly values: Readonly<Record<string, string>>;
@@ -25,7 +25,7 @@ function select(block: string): Outcome {
   return { kind: 'selected', values: { block } };
 }
 
-/** Sets a port in one step of undo, of the tree that it brings to the front. */
+/** Sets a port in one undo step, and brings its tree to the front. */
 function set({ block, port, value }: Extract<Try, { kind: 'set' }>): Outcome {
   const { diagrams, mainTree, vocabulary, role } = useProjectStore.getState();
   const values = { block, port, value };
@@ -49,7 +49,7 @@ function open(path: string, line: number | null): Outcome {
   return { kind: 'opened', values: { path } };
 }
 
-/** Does what a *Try it* button says. */
+/** Performs the action of a *Try it* button. */
 export function perform(act: Try): Outcome {
   switch (act.kind) {
     case 'select':

@@ -49,20 +49,20 @@ describe('a behaviour', () => {
     expect(row.queryByText('Version 1.2')).toBeNull();
   });
 
-  it('leaves out a description that is empty', async () => {
+  it('leaves out an empty description', async () => {
     const row = open(null, { doc: '' });
     await unfold();
     expect(row.queryByText('Looks for the dock first.')).toBeNull();
   });
 
-  it('is updated where the project has another version', async () => {
+  it('can be updated if the project has another version', async () => {
     const row = open('1.1');
     expect(row.getByTestId('update-Dock')).toBeInTheDocument();
     await unfold();
     expect(row.getByText('Here: 1.1')).toBeInTheDocument();
   });
 
-  it.each([null, '1.2'])('is not updated where the project has %s', (taken) => {
+  it.each([null, '1.2'])('cannot be updated if the project has %s', (taken) => {
     expect(open(taken).queryByTestId('update-Dock')).toBeNull();
   });
 
@@ -76,7 +76,7 @@ describe('a behaviour', () => {
 });
 
 describe('a behaviour that is inserted', () => {
-  it('comes with its files, and says so', async () => {
+  it('brings its files, and reports that', async () => {
     open();
     await user.click(screen.getByRole('button', { name: 'Insert Dock' }));
     const { diagrams, currentText } = useProjectStore.getState();
@@ -85,7 +85,7 @@ describe('a behaviour that is inserted', () => {
     expect(await screen.findByText('Dock is in the tree, with its actions.')).toBeInTheDocument();
   });
 
-  it('has another name where the project has a tree of that name', async () => {
+  it('gets another name if the project has a tree of that name', async () => {
     useProjectStore.getState().addFile('trees/Dock.json', oneBlock('Dock', 'AlwaysFailure'));
     open();
     await user.click(screen.getByTestId('insert-Dock'));

@@ -13,11 +13,11 @@ const UpdateDialog = lazyPart(async () => (await import('./UpdateDialog')).Updat
 
 interface BehaviourRowProps {
   readonly offer: Offer;
-  /** The version in the project; null if the project does not have the behaviour. */
+  /** The version that the project contains; null if it does not contain the behaviour. */
   readonly takenVersion: string | null;
 }
 
-/** One behaviour: description, picture, and buttons to add it. */
+/** The row of a behaviour: description, picture, and buttons to add it. */
 export function BehaviourRow({ offer, takenVersion }: BehaviourRowProps) {
   const { t } = useTranslation('library');
   const [isOpen, setOpen] = useState(false);

@@ -81,7 +81,7 @@ describe('Library', () => {
     expect(row.queryByText('More about Dock.')).toBeNull();
   });
 
-  it('says why there is no library', async () => {
+  it('reports why there is no library', async () => {
     open({
       'GET /catalog/behaviours': Response.json({ detail: 'It is away.', code: 'gone' }, { status: 404 }),
     });
@@ -125,7 +125,7 @@ describe('Library', () => {
     await waitFor(() => expect(offers()).toEqual(['Dock', 'Follow']));
   });
 
-  it('says that it is loading, and not yet that there is nothing', async () => {
+  it('shows that it is loading, and not yet that it is empty', async () => {
     open();
     expect(screen.getByLabelText('Loading the behaviours')).toBeInTheDocument();
     expect(screen.queryByText('No behaviour is like that.')).toBeNull();
@@ -134,7 +134,7 @@ describe('Library', () => {
     expect(screen.queryByText('No behaviour is like that.')).toBeNull();
   });
 
-  it('finds words of the summary, the name and the description, whatever their case', async () => {
+  it('finds text in the summary, the name and the description, whatever its case', async () => {
     open();
     await screen.findByTestId('behaviour-Dock');
     const search = screen.getByLabelText('Search behaviours');

@@ -16,7 +16,7 @@ interface SourceProps {
   readonly onChange: (source: string) => void;
 }
 
-/** Chooses where the behaviours come from; a project is found by its name. */
+/** The field that chooses the source of the behaviours; a project is found by its name. */
 function Source({ value, onChange }: SourceProps) {
   const { t } = useTranslation('library');
   const projectId = useProjectStore((state) => state.projectId);
@@ -48,7 +48,7 @@ function Source({ value, onChange }: SourceProps) {
   );
 }
 
-/** Reusable behaviours: the built-in library, and the trees of the user's other projects. */
+/** The panel of reusable behaviours: the built-in library, and the trees of the user's other projects. */
 export function Library() {
   const { t, i18n } = useTranslation('library');
   const record = useProjectStore((state) => state.currentText('assets/library.json'));

@@ -58,7 +58,7 @@ describe('UpdateDialog', () => {
     expect(onClose).toHaveBeenCalledOnce();
   });
 
-  it('notes the version where no file changes', async () => {
+  it('stores the version if no file changes', async () => {
     show(<UpdateDialog offer={offer('1.1', 'class Dock: old')} onClose={onClose} />);
     expect(screen.getByText('The files are the same; only the version is noted.')).toBeInTheDocument();
     expect(screen.queryByTestId(/^difference-/)).toBeNull();

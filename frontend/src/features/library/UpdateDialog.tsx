@@ -11,7 +11,7 @@ import { differencesOf, updateBehaviour, type Difference } from '@/store/project
 import classes from './library.module.css';
 import type { Offer } from './useReusables';
 
-/** One file before and after, side by side. */
+/** One file before and after the update, side by side. */
 function FileDifference({ difference }: { readonly difference: Difference }) {
   const { t } = useTranslation('library');
   const host = useRef<HTMLDivElement>(null);
@@ -53,7 +53,7 @@ interface UpdateDialogProps {
   readonly onClose: () => void;
 }
 
-/** Shows the changes of an update before it is made. */
+/** A dialogue with the changes of an update before it is made. */
 export function UpdateDialog({ offer, onClose }: UpdateDialogProps) {
   const { t } = useTranslation('library');
   const [differences] = useState(() => differencesOf(offer));

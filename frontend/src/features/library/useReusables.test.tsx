@@ -44,14 +44,14 @@ describe('useLibrary', () => {
     ]);
   });
 
-  it('has no words where there are none', async () => {
+  it('has empty texts if there are none', async () => {
     fakeServer({ 'GET /catalog/behaviours': [{ ...behaviour, summary: {} }] });
     const { result } = query(() => useLibrary('en'));
     await waitFor(() => expect(result.current.data?.[0]?.summary).toBe(''));
   });
 });
 
-it('lists the other projects, the newest first, by a search', async () => {
+it('lists the other projects that match a search, the newest first', async () => {
   const path = '/projects?search=ro&sort=-updated_at&shelf=current&offset=0&limit=48';
   const items = [
     { id: 'p1', name: 'Robot' },
@@ -74,7 +74,7 @@ describe('useTreesOf', () => {
   };
   const files = [...detail.files, { ...projectFile('mesh.stl', 1, ''), content: null }];
 
-  it('has the trees of a project, with what is known of it', async () => {
+  it('has the trees of a project, with their descriptions', async () => {
     fakeServer({ 'GET /projects/p2': { ...detail, files } });
     const { result } = query(() => useTreesOf('p2'));
     await waitFor(() => expect(result.current.data).toBeDefined());
@@ -91,7 +91,7 @@ describe('useTreesOf', () => {
     expect(result.current.data?.[0]?.diagram).toMatchObject({ id: 'Patrol', root: 'n1' });
   });
 
-  it('asks for nothing without a project', () => {
+  it('requests nothing without a project', () => {
     const { requests } = fakeServer({});
     const { result } = query(() => useTreesOf(null));
     expect(result.current.fetchStatus).toBe('idle');

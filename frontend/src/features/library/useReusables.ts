@@ -26,7 +26,7 @@ function offerOf(behaviour: BehaviourInfo, language: string): Offer {
   };
 }
 
-/** The built-in library. */
+/** Returns the behaviours of the built-in library. */
 export function useLibrary(language: string) {
   return useQuery({
     queryKey: ['behaviours'],
@@ -36,7 +36,7 @@ export function useLibrary(language: string) {
   });
 }
 
-/** The newest of the user's other projects that match a search. */
+/** Returns the user's other projects that match a search, the newest first. */
 export function useOtherProjects(projectId: string | null, search: string) {
   return useQuery({
     queryKey: ['projects', 'to reuse', search],
@@ -47,7 +47,7 @@ export function useOtherProjects(projectId: string | null, search: string) {
   });
 }
 
-/** The trees of one other project. */
+/** Returns the trees of another project. */
 export function useTreesOf(project: string | null) {
   return useQuery({
     queryKey: ['reusables', project],

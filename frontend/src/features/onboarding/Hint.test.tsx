@@ -33,13 +33,13 @@ describe('Hint', () => {
     [['build'], 'run', /Press Run/],
     [['run'], 'build', /Drag blocks onto the tree/],
     [['build', 'run'], 'find', /found with Ctrl\+K/],
-  ] as const)('after %o is that to %s', (read, id, text) => {
+  ] as const)('after %o is the one to %s', (read, id, text) => {
     open(...read);
     expect(hint()).toBe(id);
     expect(screen.getByRole('status')).toHaveTextContent(text);
   });
 
-  it('is none when all were read', () => {
+  it('is absent after all were read', () => {
     open('build', 'run', 'find');
     expect(hint()).toBeUndefined();
   });

@@ -7,7 +7,7 @@ import { useSessionStore } from '@/store/session/store';
 import { finishHint, HINTS, useHints } from './hints';
 import classes from './onboarding.module.css';
 
-/** One hint at a time for new users, in the status bar. */
+/** A hint for new users in the status bar, one at a time. */
 export function Hint() {
   const { t } = useTranslation('onboarding');
   const id = useHints(({ done }) => HINTS.find((each) => !done.includes(each)));

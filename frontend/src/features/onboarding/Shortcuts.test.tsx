@@ -38,13 +38,13 @@ beforeEach(() => {
 });
 
 describe('Shortcuts', () => {
-  it('is closed until it is opened', () => {
+  it('is closed at first', () => {
     expect(screen.queryByTestId('shortcuts')).toBeNull();
     act(openShortcuts);
     expect(screen.getByRole('dialog', { name: 'Keyboard shortcuts' })).toBeInTheDocument();
   });
 
-  it('has the commands that have keys, by groups that have any', () => {
+  it('has the commands with keys, in groups', () => {
     act(openShortcuts);
     expect(titles()).toEqual(['Run', 'Edit', 'On the canvas']);
     expect(rows('Edit')).toEqual([

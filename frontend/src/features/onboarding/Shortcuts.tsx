@@ -7,7 +7,7 @@ import { closeShortcuts, useShortcutsDialog } from '@/store/dialogs/shortcuts';
 
 const GROUPS: readonly CommandGroup[] = ['run', 'edit', 'canvas', 'project', 'view', 'go'];
 
-/** Keys of the canvas that are not commands of the table; their texts are `key.<id>`. */
+/** The keys of the canvas that are not in the command table; their texts are `key.<id>`. */
 const CANVAS_KEYS: readonly (readonly [id: string, keys: string])[] = [
   ['walk', '← ↑ → ↓'],
   ['move', '$mod+← ↑ → ↓'],
@@ -16,7 +16,7 @@ const CANVAS_KEYS: readonly (readonly [id: string, keys: string])[] = [
   ['menu', 'Shift+F10'],
 ];
 
-/** All shortcuts; they are read from the table of commands, so that none is missing. */
+/** The list of all shortcuts. It is read from the command table, so that none is missing. */
 export function Shortcuts() {
   const { t } = useTranslation('onboarding');
   const isOpen = useShortcutsDialog((state) => state.isOpen);

@@ -30,7 +30,7 @@ it('shows three hints, one after the other, and none of them again', async () =>
   }
   expect(seen).toEqual(['build', 'run', 'find']);
   expect(screen.queryByTestId('hint')).toBeNull();
-  // As after a reload.
+  // This simulates a reload.
   vi.resetModules();
   const { useHints: reloaded } = await import('./hints');
   expect(reloaded.getState().done).toEqual(seen);

@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-/** The hints for first users in order; their texts are `onboarding:hint.<id>`. */
+/** The hints for new users, in order; their texts are `onboarding:hint.<id>`. */
 export const HINTS = ['build', 'run', 'find'] as const;
 export type HintId = (typeof HINTS)[number];
 
@@ -11,7 +11,7 @@ function known(): readonly HintId[] {
   return HINTS.filter((id) => words.includes(id));
 }
 
-/** The hints that the user of this browser has read, or has followed without reading. */
+/** The hints that the user of this browser has read, or has followed without reading them. */
 export const useHints = create<{ readonly done: readonly HintId[] }>(() => ({ done: known() }));
 
 /** Marks a hint as finished, so that it is never shown again. */

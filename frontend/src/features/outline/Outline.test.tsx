@@ -11,11 +11,11 @@ const outline = () => screen.getByTestId('outline');
 const ids = () => screen.queryAllByRole('treeitem').map(({ id }) => id.slice('outline-'.length));
 const select = (...chosen: string[]) => act(() => store().select('Main', chosen));
 const chosen = () => screen.getAllByRole('treeitem', { selected: true }).map(({ id }) => id);
-/** Presses a key; returns whether the outline took it. */
+/** Presses a key; returns whether the outline handled it. */
 const press = (key: string) => !fireEvent.keyDown(outline(), { key });
 
 function open(height = 560) {
-  // jsdom has no layout: the height of the list decides how many lines are drawn.
+  // jsdom has no layout; the height of the list determines how many lines are drawn.
   vi.spyOn(Element.prototype, 'clientHeight', 'get').mockReturnValue(height);
   vi.spyOn(Element.prototype, 'clientWidth', 'get').mockReturnValue(240);
   show(<Outline />);
@@ -60,7 +60,7 @@ describe('the outline', () => {
     expect(ids().length).toBeLessThanOrEqual(10 + 8 + 1);
   });
 
-  it('says that there are no blocks yet, or no tree', () => {
+  it('shows that there are no blocks yet, or no tree', () => {
     openDiagram({ root: null, nodes: {}, drafts: [] });
     open();
     expect(screen.getByText('The tree has no blocks yet.')).toBeInTheDocument();
@@ -139,7 +139,7 @@ describe('keys', () => {
     expect(openFile).toHaveBeenCalledExactlyOnceWith('actions/Grasp.py');
   });
 
-  it('that mean nothing here are left to the page', () => {
+  it('without a meaning here are left to the page', () => {
     open();
     select('a');
     expect(press('F5')).toBe(false);

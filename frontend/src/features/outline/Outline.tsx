@@ -12,7 +12,7 @@ import classes from './Outline.module.css';
 
 const ROW = 28;
 
-/** The tree as indented lines, for reading and for the keyboard. */
+/** The tree as indented lines, easy to read and to use with the keyboard. */
 export function Outline() {
   const { t } = useTranslation('outline');
   const diagram = useProjectStore((state) => state.diagrams[state.activeTree ?? '']);
@@ -25,7 +25,7 @@ export function Outline() {
   const { slot, onPress, wasDragged } = useRowDrag(list, diagram, rows, ROW);
   const [first] = selection;
   const at = rows.findIndex((row) => row.id === first);
-  // The virtualiser keeps mutable state, which the compiler must not memoise.
+  // The virtualizer has mutable state, so the compiler must not memoise this component.
   // eslint-disable-next-line react-hooks/incompatible-library
   const virtual = useVirtualizer({
     count: rows.length,

@@ -34,12 +34,12 @@ function open(id: string, more: Partial<OutlineLine> = {}, isSelected = false) {
 }
 
 describe('a line of the outline', () => {
-  it('has the name, and the type where it is another', () => {
+  it('shows the name, and the type if it differs', () => {
     expect(open('r').textContent).toBe('WorkSequence');
     expect(screen.getByRole('treeitem')).not.toHaveAttribute('aria-expanded');
   });
 
-  it('has the type once where it is the name', () => {
+  it('shows the type once if it is the name', () => {
     expect(open('a', { isDraft: true }).textContent).toBe('SleepNot connected');
   });
 
@@ -50,7 +50,7 @@ describe('a line of the outline', () => {
     expect(row).toHaveAttribute('aria-selected', 'true');
   });
 
-  it('shows the status in the run, and says that the block is disabled', () => {
+  it('shows the status in the run, and that the block is disabled', () => {
     act(() =>
       useProjectStore
         .getState()
@@ -70,7 +70,7 @@ describe('a line of the outline', () => {
     expect(row).toHaveAttribute('data-status', 'RUNNING');
   });
 
-  it('shows its block at a press', () => {
+  it('reveals its block at a press', () => {
     const row = open('a');
     expect(row).not.toHaveAttribute('data-disabled');
     fireEvent.click(row);
@@ -80,7 +80,7 @@ describe('a line of the outline', () => {
     });
   });
 
-  it('folds, without showing its block', async () => {
+  it('folds without revealing its block', async () => {
     expect(open('r', { hasChildren: true })).toHaveAttribute('aria-expanded', 'true');
     await user.click(screen.getByRole('button', { name: 'Fold Work' }));
     expect(nodeOf('Main', 'r')?.collapsed).toBe(true);

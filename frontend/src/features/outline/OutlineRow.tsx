@@ -18,13 +18,13 @@ interface OutlineRowProps {
   readonly spec: NodeSpec | undefined;
   readonly isSelected: boolean;
   readonly top: number;
-  /** Where a dragged line would be dropped at this one. */
+  /** The place at this line where a dragged line would be dropped; null if there is none. */
   readonly mark: OutlineSlot['edge'] | null;
   readonly onPress: (event: PointerEvent, id: NodeId) => void;
   readonly wasDragged: { readonly current: boolean };
 }
 
-/** One line: symbol, name, type if it differs from the name, and status. The list handles the keys. */
+/** One line: symbol, name, type if it differs from the name, and status. The list handles its keys. */
 export function OutlineRow(props: OutlineRowProps) {
   const { tree, row, node, spec, isSelected, top, mark, onPress, wasDragged } = props;
   const { t } = useTranslation('outline');

@@ -9,7 +9,7 @@ import { useRowDrag } from './useRowDrag';
 
 const row = (id: string) => document.getElementById(`outline-${id}`)!;
 const lines = ['r', 'a', 'b', 'f', 'x'];
-/** The height in the list of a share of a line. */
+/** Returns the height in the list, in px, of a place within a line; `share` is from 0 to 1. */
 const yOf = (id: string, share: number) => 28 * (lines.indexOf(id) + share);
 
 beforeEach(() => {
@@ -48,21 +48,21 @@ describe('a line of the outline', () => {
     expect(childrenOf(now.diagram(), 'r')).toEqual(['a', 'b', 'f']);
   });
 
-  it('is moved below another', () => {
+  it('is moved below another block', () => {
     drag('a', 'f', 0.5);
     expect(row('f')).toHaveAttribute('data-mark', 'onto');
     drop();
     expect(childrenOf(now.diagram(), 'f')).toEqual(['x', 'a']);
   });
 
-  it('takes the other selected lines along', () => {
+  it('moves together with the other selected lines', () => {
     act(() => useProjectStore.getState().select('Main', ['b', 'a']));
     drag('b', 'f', 0.5);
     drop();
     expect(childrenOf(now.diagram(), 'f')).toEqual(['x', 'a', 'b']);
   });
 
-  it('stays where it is after Escape, at its own place, and after a click', () => {
+  it('stays in place after Escape, at its own place, and after a click', () => {
     const before = now.diagram();
     drag('a', 'f', 0.5);
     act(() => void fireEvent.keyDown(document.body, { key: 'Escape' }));
@@ -77,7 +77,7 @@ describe('a line of the outline', () => {
     expect(now.diagram()).toBe(before);
   });
 
-  it('is neither the root nor moved by another button', () => {
+  it('is not the root, and not moved by another button', () => {
     const before = now.diagram();
     drag('r', 'f', 0.5);
     drop();
@@ -86,7 +86,7 @@ describe('a line of the outline', () => {
     expect(now.diagram()).toBe(before);
   });
 
-  it('is not shown by the click at the end of a drag', () => {
+  it('is not revealed by the click at the end of a drag', () => {
     drag('a', 'b', 0.1);
     drop();
     fireEvent.click(row('a'));
@@ -98,7 +98,7 @@ describe('a line of the outline', () => {
   });
 });
 
-it('marks nothing without a press, and takes no line of a tree that is closed', () => {
+it('marks nothing without a press, and moves nothing in a closed tree', () => {
   const { result } = renderHook(() => useRowDrag({ current: document.body }, undefined, [], 28));
   const press = { button: 0, pointerType: 'mouse', currentTarget: document.body, pointerId: 1 };
   act(() => result.current.onPress(press as unknown as Parameters<typeof result.current.onPress>[0], 'a'));

@@ -7,16 +7,21 @@ import { useProjectStore } from '@/store/project';
 import { change } from '@/store/project/edits/blocks';
 import { cancellable } from '@/ui/cancellable';
 
-/** A smaller movement is a click. */
+/** The distance in px below which a movement counts as a click. */
 const CLICK_PX = 5;
 
-/** The selected blocks, if the pressed one is one of them. */
+/**
+ * Returns the blocks that a drag moves: the selected ones if the pressed block is one of them, otherwise the
+ * pressed one.
+ */
 function movedBy(diagram: Diagram, id: NodeId): readonly NodeId[] {
   const { selection } = useProjectStore.getState();
   return selection.length > 1 && selection.includes(id) ? topmost(diagram, selection) : [id];
 }
 
-/** Drags lines of the outline to another place of the tree; Escape leaves all as it was. */
+/**
+ * Returns the handlers that drag lines of the outline to another place of the tree; Escape cancels the drag.
+ */
 export function useRowDrag(
   list: RefObject<HTMLElement | null>,
   diagram: Diagram | undefined,
@@ -25,7 +30,7 @@ export function useRowDrag(
 ) {
   const [slot, setSlot] = useState<OutlineSlot | null>(null);
   const end = useRef<() => void>(() => undefined);
-  /** Whether the click at the end of a drag is none. */
+  /** Whether the next click only ends a drag. */
   const wasDragged = useRef(false);
   useEffect(() => () => end.current(), []);
 

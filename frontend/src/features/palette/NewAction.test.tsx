@@ -16,7 +16,7 @@ beforeEach(() => {
 });
 
 describe('NewAction', () => {
-  it('takes the keyboard, and says what the name is for', () => {
+  it('takes the focus, and explains the name', () => {
     expect(name()).toHaveFocus();
     expect(screen.getByText(/it names the class and the file/)).toBeInTheDocument();
     expect(create()).toBeDisabled();

@@ -7,7 +7,7 @@ import { openAction } from '@/store/project/navigation';
 import { useProjectStore } from '@/store/project';
 import classes from './Palette.module.css';
 
-/** Names a new action; its file is made from a template and opened. */
+/** A field for the name of a new action, which is made from a template and opened. */
 export function NewAction({ onDone }: { readonly onDone: () => void }) {
   const { t } = useTranslation('palette');
   const vocabulary = useProjectStore((state) => state.vocabulary);

@@ -25,7 +25,7 @@ describe('Palette', () => {
     expect(nodes()[0]?.children).toHaveLength(1);
   });
 
-  it('adds a tree as a subtree, and not into itself', async () => {
+  it('adds a tree as a subtree, but not to itself', async () => {
     await user.click(screen.getByRole('button', { name: 'Add Dock' }));
     expect(nodes()[1]).toMatchObject({ type: 'SubTree', tree: 'Dock' });
     expect(screen.queryByRole('button', { name: 'Add Main' })).toBeNull();
@@ -94,20 +94,20 @@ describe('Palette', () => {
       expect(screen.queryByLabelText('Name of the action')).toBeNull();
     });
 
-    it.each(['3D', 'class', 'a b'])('is not called “%s”', async (bad) => {
+    it.each(['3D', 'class', 'a b'])('cannot have the name “%s”', async (bad) => {
       expect(create()).toBeDisabled();
       await user.type(name(), `${bad}{Enter}`);
       expect(create()).toBeDisabled();
       expect(useProjectStore.getState().files).not.toHaveProperty([`actions/${bad}.py`]);
     });
 
-    it('is not called as another block', async () => {
+    it('cannot have the name of another block', async () => {
       await user.type(name(), 'Sequence');
       expect(screen.getByText('This name is already in use.')).toBeInTheDocument();
       expect(create()).toBeDisabled();
     });
 
-    it('is left out when it is cancelled', async () => {
+    it('is not made after Cancel', async () => {
       await user.click(screen.getByRole('button', { name: 'Cancel' }));
       expect(screen.queryByLabelText('Name of the action')).toBeNull();
     });

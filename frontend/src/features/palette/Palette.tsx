@@ -16,11 +16,11 @@ function groupOf({ spec }: Choice): Group {
   return isLeaf && spec.source === 'builtin' ? 'builtin' : spec.family;
 }
 
-/** Every available block by family; the user's own come first. */
+/** The list of all available blocks by family; the user's own come first. */
 export function Palette() {
   const { t } = useTranslation('palette');
   const vocabulary = useProjectStore((state) => state.vocabulary);
-  // The blocks that may be added depend on which tree it is, not on its content.
+  // The blocks that may be added depend on the tree's id, not on its content.
   const tree = useProjectStore((state) => state.diagrams[state.activeTree ?? '']?.id ?? null);
   const [search, setSearch] = useState('');
   const [isNaming, setIsNaming] = useState(false);

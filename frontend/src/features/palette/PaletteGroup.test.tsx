@@ -41,14 +41,14 @@ describe('PaletteGroup', () => {
     [undefined, true, false],
     ['No actions yet.', true, false],
     ['No actions yet.', false, true],
-  ])('without blocks, with the words %s and a search: %s, is shown: %s', (empty, isSearching, isShown) => {
+  ])('without blocks, with the text %s and a search: %s, is shown: %s', (empty, isSearching, isShown) => {
     const words = empty === undefined ? {} : { empty };
     show(<PaletteGroup title="Control" choices={[]} isSearching={isSearching} {...words} />);
     expect(title() !== null).toBe(isShown);
     expect(screen.queryByText('No actions yet.') !== null).toBe(isShown);
   });
 
-  it('says nothing of empty where it has blocks', () => {
+  it('does not show the empty text if it has blocks', () => {
     show(<PaletteGroup title="Control" choices={choices} isSearching={false} empty="None." />);
     expect(screen.queryByText('None.')).toBeNull();
   });

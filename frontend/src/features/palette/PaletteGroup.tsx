@@ -8,11 +8,11 @@ interface PaletteGroupProps {
   readonly title: string;
   readonly choices: readonly Choice[];
   readonly isSearching: boolean;
-  /** The text that is shown if there are no blocks and the search is empty. */
+  /** The text for an empty group while the search is empty. */
   readonly empty?: string;
 }
 
-/** One family of the palette; it can be folded, and a search unfolds it. */
+/** A family of the palette, which can be folded; a search unfolds it. */
 export function PaletteGroup({ title, choices, isSearching, empty }: PaletteGroupProps) {
   const [isOpen, setIsOpen] = useState(true);
   if (choices.length === 0 && (empty === undefined || isSearching)) return null;

@@ -26,7 +26,7 @@ describe('PaletteItem', () => {
     expect(now.selection()).toEqual([added]);
   });
 
-  it('is named by the tree that it calls', async () => {
+  it('has the name of the tree that it calls', async () => {
     show(<PaletteItem choice={dock} />);
     expect(screen.getByTestId('palette-Dock')).toHaveAccessibleName('Add Dock');
     await user.click(screen.getByTestId('palette-Dock'));
@@ -49,7 +49,7 @@ describe('PaletteItem', () => {
     expect(now.editor()).toMatchObject({ dragged: null, slot: null });
   });
 
-  it('tells what it does below the pointer', async () => {
+  it('shows its description in a tooltip', async () => {
     show(<PaletteItem choice={dock} />);
     await user.hover(screen.getByTestId('palette-Dock'));
     expect(await screen.findByText(dock.spec.summary)).toBeInTheDocument();

@@ -8,7 +8,7 @@ import { setEditor } from '@/store/project/editor';
 import { FamilyTile } from '@/ui/FamilyTile';
 import classes from './Palette.module.css';
 
-/** A block of the palette: a drag adds it to the tree where it is dropped, a click where it fits. */
+/** A block of the palette: a drag adds it where it is dropped, a click adds it where it fits. */
 export const PaletteItem = memo(function PaletteItem({ choice }: { readonly choice: Choice }) {
   const { t } = useTranslation('palette');
   const { kind, spec, label } = choice;

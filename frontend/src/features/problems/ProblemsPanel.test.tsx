@@ -40,7 +40,7 @@ afterEach(() => {
 });
 
 describe('ProblemsPanel', () => {
-  it('says that the project can run', () => {
+  it('shows that the project can run', () => {
     open();
     expect(screen.getByText('No problems: the project can run.')).toBeInTheDocument();
     expect(screen.queryByRole('list')).toBeNull();
@@ -68,7 +68,7 @@ describe('ProblemsPanel', () => {
     expect(tree).toHaveTextContent('DockX1');
   });
 
-  it('leads to the block', async () => {
+  it('opens the block', async () => {
     const { openTree } = open(finding({ tree: 'Dock', node: 'd' }));
     await user.click(rows()[0]!);
     expect(openTree).toHaveBeenCalledWith('Dock');
@@ -78,7 +78,7 @@ describe('ProblemsPanel', () => {
     });
   });
 
-  it('leads to the line, the file or the tree', async () => {
+  it('opens the line, the file or the tree', async () => {
     const { openFile, openTree } = open(
       finding({ file: 'a.py', line: 3 }),
       finding({ file: 'b.py' }),
@@ -104,7 +104,7 @@ describe('ProblemsPanel', () => {
     expect(nodeOf('Main', 'a')?.ports?.['msec']).toBe('{');
   });
 
-  it('says what is wrong and what to do, with its code', () => {
+  it('shows the message and the hint, with the code', () => {
     open(finding({ hint: 'Do this.', severity: 'warning' }), finding({ code: 'X2', message: 'No hint.' }));
     const [error, warning] = rows();
     expect(error).toHaveTextContent('No hint. X2');
@@ -118,7 +118,7 @@ describe('ProblemsPanel', () => {
     expect(rows().map(({ dataset }) => dataset['code'])).toEqual(['A', 'C', 'B']);
   });
 
-  it('offers no fixes for a block that is gone', () => {
+  it('offers no fixes for a deleted block', () => {
     open(finding({ code: 'BT0203', tree: 'Main', node: 'gone', port: 'msec' }));
     expect(screen.queryAllByTestId(/^fix-/)).toEqual([]);
   });
@@ -129,7 +129,7 @@ describe('ProblemsPanel', () => {
     expect(screen.queryByText(/can run/)).toBeNull();
   });
 
-  it('lists the fault of the run, and leads to its line', async () => {
+  it('lists the fault of the run, and opens its line', async () => {
     const { openFile } = open();
     const fault = {
       kind: 'exception',
@@ -148,7 +148,7 @@ describe('ProblemsPanel', () => {
     expect(openFile).toHaveBeenCalledWith('actions/Go.py', 1);
   });
 
-  it('lists what is found in a text, and leads to its line', async () => {
+  it('lists the findings in a text, and opens their lines', async () => {
     const { openFile } = open();
     const place = { line: 2, character: 4 };
     const served = {
@@ -164,7 +164,7 @@ describe('ProblemsPanel', () => {
     expect(openFile).toHaveBeenCalledWith('actions/Go.py', 3);
   });
 
-  it('says it in the words of the editor where that finds the same', () => {
+  it("uses the editor's text if the editor has the same finding", () => {
     openWith('{', finding({ code: 'BT0203', tree: 'Main', node: 'a', port: 'msec', message: 'Server.' }));
     expect(rows()[0]).toHaveTextContent('has a brace without its partner');
     expect(rows()[0]).not.toHaveTextContent('Server.');

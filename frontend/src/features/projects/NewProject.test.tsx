@@ -35,7 +35,7 @@ function open(projects: number) {
 beforeEach(() => localStorage.clear());
 
 describe('NewProject', () => {
-  it('shows templates and examples apart, with places for those that still come', async () => {
+  it('shows templates and examples separately, with placeholders while they load', async () => {
     open(0);
     expect(screen.getByTestId('examples-loading')).toBeInTheDocument();
     expect(await screen.findByTestId('new-from-laser_bump_and_go')).toBeInTheDocument();
@@ -44,7 +44,7 @@ describe('NewProject', () => {
     expect(headings).toEqual(['Templates', 'Examples that teach']);
   });
 
-  it('folds them once there are projects; an empty one is a click away', async () => {
+  it('folds them if there are projects; the empty template is one click away', async () => {
     open(1);
     await screen.findByRole('button', { name: 'Empty project' });
     await waitFor(() => expect(screen.queryByTestId('examples-loading')).toBeNull());

@@ -9,9 +9,12 @@ import { isExample } from './examples/shelf';
 import { useSortedTemplates } from './templates';
 import { useFold } from './useFold';
 
-/** Project zips of BT Studio and of JdeRobot, trees as XML, and projects of Groot2. */
+/**
+ * The files that can be imported: project zips of BT Studio and of JdeRobot, trees as XML, and projects of
+ * Groot2.
+ */
 const IMPORTS = '.zip,.xml,.btproj,application/zip,text/xml';
-/** As many cards as there are at least, while the server is asked. */
+/** The placeholders while the server is asked: as many as there will be cards at least. */
 const PLACES = [1, 2, 3];
 
 interface NewProjectProps {
@@ -23,7 +26,10 @@ interface NewProjectProps {
   readonly importButton: RefObject<HTMLButtonElement | null>;
 }
 
-/** The ways to begin: templates and examples, which fold once there are projects, and an import. */
+/**
+ * The section with the ways to begin: templates and examples, which are folded once there are projects, and
+ * an import.
+ */
 export function NewProject({ onCreate, pending, onImport, isImporting, importButton }: NewProjectProps) {
   const { t } = useTranslation('projects');
   const { isFolded, isKnown, toggle } = useFold();

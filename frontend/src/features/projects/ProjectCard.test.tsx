@@ -29,7 +29,7 @@ const address = () => window.location.pathname;
 beforeEach(() => window.history.pushState(null, '', '/'));
 
 describe('ProjectCard', () => {
-  it('says when the project was changed', () => {
+  it('shows when the project was changed', () => {
     open({}, 'current', { updated_at: new Date(Date.now() - 3 * 60_000).toISOString() });
     expect(screen.getByText('Changed 3 minutes ago')).toBeInTheDocument();
   });
@@ -45,13 +45,13 @@ describe('ProjectCard', () => {
   });
 
   it.each([{ ctrlKey: true }, { metaKey: true }, { button: 1 }])(
-    'leaves it to the browser to open another tab',
+    'leaves a click for another tab to the browser',
     (press) => {
       open();
       let isTaken = true;
       const leave = (event: Event) => {
         isTaken = event.defaultPrevented;
-        // jsdom opens no page.
+        // jsdom cannot open pages.
         event.preventDefault();
       };
       window.addEventListener('click', leave, { once: true });
@@ -60,7 +60,7 @@ describe('ProjectCard', () => {
     },
   );
 
-  it('opens no deleted project, and restores it', async () => {
+  it('does not open a deleted project, but restores it', async () => {
     const requests = open({ 'POST /projects/p%201/restore': noContent() }, 'deleted');
     expect(screen.queryByRole('link', { name: 'Bump' })).toBeNull();
     expect(screen.getByTitle('Bump')).toBeInTheDocument();
@@ -83,7 +83,7 @@ describe('renaming', () => {
     return () => requests.map(({ body }) => body);
   }
 
-  it('begins with the name selected', async () => {
+  it('starts with the name selected', async () => {
     await rename();
     expect(field()).toHaveValue('Bump');
     expect([field().selectionStart, field().selectionEnd]).toEqual([0, 4]);
@@ -92,7 +92,7 @@ describe('renaming', () => {
   it.each([
     ['Enter', '{Enter}'],
     ['leaving the field', '{Tab}'],
-  ])('keeps a name by %s', async (_, key) => {
+  ])('saves a name by %s', async (_, key) => {
     const names = await rename({ [RENAME]: noContent() });
     await user.clear(field());
     field().focus();
@@ -113,7 +113,7 @@ describe('renaming', () => {
     expect(field()).toHaveValue('Bump');
   });
 
-  it('keeps the old name where none was typed', async () => {
+  it('keeps the old name after an empty one', async () => {
     const names = await rename();
     await user.clear(field());
     field().focus();
@@ -122,7 +122,7 @@ describe('renaming', () => {
     expect(names()).toEqual([]);
   });
 
-  it('refuses a name that is a path, until it is another', async () => {
+  it('refuses a path as a name, until it is changed', async () => {
     const names = await rename();
     await user.clear(field());
     await user.type(field(), 'a/b{Enter}');
@@ -132,7 +132,7 @@ describe('renaming', () => {
     expect(link()).toBeInTheDocument();
   });
 
-  it('stays in the field with a name that the server refuses', async () => {
+  it('keeps a name that the server refuses in the field', async () => {
     await rename({ [RENAME]: refusal('The name is taken.', { hint: 'Take another.' }) });
     await user.clear(field());
     await user.type(field(), 'Taken{Enter}');
@@ -140,7 +140,7 @@ describe('renaming', () => {
     expect(field()).toHaveValue('Taken');
   });
 
-  it('keeps the focus when the menu that started it gives it back', async () => {
+  it('keeps the focus when the menu that started it returns it', async () => {
     const names = await rename();
     fireEvent.blur(field(), { relatedTarget: picture() });
     await waitFor(() => expect(field()).toHaveFocus());

@@ -18,12 +18,12 @@ interface ProjectCardProps {
   readonly actions: ReturnType<typeof useProjectCommands>;
 }
 
-/** Selects the text, so that typing replaces the name. */
+/** Selects the text of a field, so that typing replaces the name. */
 function focusAll(input: HTMLInputElement | null): void {
   input?.select();
 }
 
-/** A project with its picture; a deleted project can only be restored. */
+/** A card for a project with its picture; the only command for a deleted project is to restore it. */
 export function ProjectCard({ project, shelf, actions }: ProjectCardProps) {
   const { t, i18n } = useTranslation('projects');
   const [isRenaming, setRenaming] = useState(false);
@@ -43,7 +43,7 @@ export function ProjectCard({ project, shelf, actions }: ProjectCardProps) {
     setRefusal(isKept && problem ? t(`settings:problem.${problem}`) : null);
     if (isKept && problem) return;
     if (isKept && wanted && wanted !== project.name) {
-      // A refused name stays in its field, with the reason.
+      // A refused name stays in its field, and the reason is shown.
       const onError = (error: Error) => setRefusal(reasonOf(error));
       actions.rename.mutate({ project, name: wanted }, { onError });
       return;
@@ -53,7 +53,8 @@ export function ProjectCard({ project, shelf, actions }: ProjectCardProps) {
   };
   const onBlur = (event: FocusEvent<HTMLInputElement>) => {
     const input = event.currentTarget;
-    // When it has closed, the menu that started the renaming returns the focus to its button.
+    // When the menu that started the renaming closes, it returns the focus to its button; the field takes the
+    // focus back.
     if (input.closest('article')?.contains(event.relatedTarget)) setTimeout(() => input.focus());
     else finish(true);
   };

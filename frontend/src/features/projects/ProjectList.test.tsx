@@ -46,7 +46,7 @@ describe('ProjectList', () => {
     expect(screen.queryByTestId('more-projects')).toBeNull();
   });
 
-  it('shows a project that was made since the list was seen, however soon', async () => {
+  it('shows a project that was made after the list was cached', async () => {
     const answers: Record<string, unknown> = { [list()]: named() };
     open(answers);
     expect(await screen.findByText('No projects yet')).toBeInTheDocument();
@@ -64,7 +64,7 @@ describe('ProjectList', () => {
     await waitFor(() => expect(cards()).toEqual(['Bump', 'Go']));
   });
 
-  it('searches a moment after the last key', async () => {
+  it('searches shortly after the last key', async () => {
     const asked = open({
       [list()]: named('Go', 'Bump'),
       [list('bump')]: named('Bump'),
@@ -80,7 +80,7 @@ describe('ProjectList', () => {
     expect(asked()).toEqual([list(), list('bump'), list('bumper')]);
   });
 
-  it('offers an example where there is none', async () => {
+  it('offers an example if there is none', async () => {
     const answers: Record<string, unknown> = { [list()]: named(), 'POST /projects': projectDetail(1, []) };
     const asked = open(answers);
     await user.click(await screen.findByRole('button', { name: 'Open the bump-and-go example' }));
@@ -99,7 +99,7 @@ describe('ProjectList', () => {
     expect(cards()).toEqual([]);
   });
 
-  it('offers to restore on the shelf of the deleted, and nothing of the shelf before', async () => {
+  it('offers to restore deleted projects, and shows none of the previous shelf', async () => {
     open({ [list()]: named('Go'), [list('', '-updated_at', 'deleted')]: named('Old') });
     await screen.findByText('Go');
     await shelf('Deleted');
@@ -109,7 +109,7 @@ describe('ProjectList', () => {
     expect(screen.getByTestId('project-card')).toHaveTextContent(/^Old/);
   });
 
-  it('fetches the next page on demand, and says how many are left', async () => {
+  it('fetches the next page on demand, and shows how many are left', async () => {
     open({
       [list()]: page([summary('a'), summary('b')], 5, 2),
       [list('', '-updated_at', 'current', 2)]: page([summary('c'), summary('d'), summary('e')], 5),
@@ -119,7 +119,7 @@ describe('ProjectList', () => {
     expect(screen.queryByTestId('more-projects')).toBeNull();
   });
 
-  it('says why the list cannot be read, and tries again', async () => {
+  it('reports why the list cannot be read, and tries again', async () => {
     const answers: Record<string, unknown> = { [list()]: refusal('Not now.', { status: 503 }) };
     open(answers);
     expect(await screen.findByRole('alert')).toHaveTextContent('Your projects could not be loadedNot now.');

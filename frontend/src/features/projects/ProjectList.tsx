@@ -26,7 +26,7 @@ interface ProjectListProps {
 
 const SHELVES: readonly ProjectShelf[] = ['current', 'archived', 'deleted'];
 
-/** The user's projects, with search and order. */
+/** The list of the user's projects, with search and sorting. */
 export function ProjectList({ actions, searchField }: ProjectListProps) {
   const { t } = useTranslation('projects');
   const [search, setSearch] = useState('');
@@ -37,7 +37,7 @@ export function ProjectList({ actions, searchField }: ProjectListProps) {
   const { data, error, refetch, hasNextPage, isFetchingNextPage, fetchNextPage } = found;
   const projects = data?.pages.flatMap((page) => page.items) ?? [];
   const total = data?.pages[0]?.total ?? 0;
-  // A cached empty list may be out of date.
+  // A cached empty list may be outdated.
   const isKnown = found.isFetchedAfterMount || found.isPlaceholderData;
   const isEmpty = isKnown && data !== undefined && projects.length === 0;
 

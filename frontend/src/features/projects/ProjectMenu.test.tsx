@@ -24,7 +24,7 @@ async function open(answers: Readonly<Record<string, unknown>> = {}, shelf: Proj
 const choose = (name: string) => user.click(screen.getByRole('menuitem', { name }));
 
 describe('ProjectMenu', () => {
-  it('offers what can be done with a project', async () => {
+  it('offers the commands for a project', async () => {
     await open();
     expect(screen.getAllByRole('menuitem').map(({ textContent }) => textContent)).toEqual([
       'Rename',
@@ -38,7 +38,7 @@ describe('ProjectMenu', () => {
     expect(download).toHaveAttribute('download');
   });
 
-  it('begins to rename', async () => {
+  it('starts renaming', async () => {
     const asked = await open();
     await choose('Rename');
     expect(onRename).toHaveBeenCalledOnce();
@@ -80,7 +80,7 @@ describe('ProjectMenu', () => {
     ['Duplicate', 'POST /projects/p1/duplicate'],
     ['Archive', 'POST /projects/p1/archive'],
     ['Delete', 'DELETE /projects/p1'],
-  ])('says why %s was refused', async (item, request) => {
+  ])('reports why %s was refused', async (item, request) => {
     await open({ [request]: refusal('It runs.', { hint: 'Stop it.' }) });
     await choose(item);
     expect(await screen.findByText('That did not work')).toBeInTheDocument();

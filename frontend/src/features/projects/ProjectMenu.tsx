@@ -20,7 +20,7 @@ interface ProjectMenuProps {
   readonly onRename: () => void;
 }
 
-/** The commands for a project that do not open it. */
+/** The menu of commands for a project that do not open it. */
 export function ProjectMenu({ project, shelf, actions, onRename }: ProjectMenuProps) {
   const { t } = useTranslation('projects');
   const isArchived = shelf === 'archived';

@@ -25,7 +25,7 @@ const open = (...changes: Diagnostic[]) =>
   );
 
 describe('RepairDialog', () => {
-  it('shows each change, and asks', async () => {
+  it('lists each change, and asks for confirmation', async () => {
     open(change(3, '&'), change(7, '<'));
     expect(
       screen.getByText(/^tree.xml is not well-formed XML: 2 characters in attributes/),
@@ -47,7 +47,7 @@ describe('RepairDialog', () => {
     expect([onRepair.mock.calls.length, onClose.mock.calls.length]).toEqual([1, 1]);
   });
 
-  it('counts one change as one', () => {
+  it('uses the singular for one change', () => {
     open(change(3, '&'));
     expect(screen.getByText(/a character in an attribute must be escaped/)).toBeInTheDocument();
   });

@@ -8,7 +8,7 @@ interface Props {
   readonly onClose: () => void;
 }
 
-/** Asks whether to repair a file on import, and lists each change. */
+/** A dialogue that asks whether to repair a file on import, and lists each change. */
 export function RepairDialog({ offer, onRepair, onClose }: Props) {
   const { t } = useTranslation('projects');
   const changes = offer?.changes ?? [];

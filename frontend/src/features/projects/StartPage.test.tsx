@@ -33,7 +33,7 @@ async function open() {
 const field = () => document.querySelector('input[type="file"]') as HTMLInputElement;
 
 describe('StartPage', () => {
-  it('has templates, projects, and the menu of the account', async () => {
+  it('has templates, projects, and the account menu', async () => {
     await open();
     expect(document.title).toBe('BT Studio');
     expect(screen.getByRole('heading', { level: 1 })).toHaveTextContent('New project');
@@ -95,7 +95,7 @@ describe('StartPage', () => {
     expect(screen.getByRole('searchbox', { name: 'Search projects' })).toHaveFocus();
   });
 
-  it('has the command palette, and closes it when it is left', async () => {
+  it('has the command palette, and unregisters at the end', async () => {
     const { unmount } = await open();
     act(() => openPalette());
     expect(await screen.findByText('New project: Empty project')).toBeInTheDocument();

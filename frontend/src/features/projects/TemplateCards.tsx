@@ -12,7 +12,7 @@ interface TemplateCardsProps {
   readonly pending: string | null;
 }
 
-/** The shelf of templates: beginnings to build on, which do nothing by themselves. */
+/** The cards of templates: starting points, which do nothing by themselves. */
 export function TemplateCards({ templates, onCreate, pending }: TemplateCardsProps) {
   const { t } = useTranslation('projects');
   return (

@@ -61,7 +61,7 @@ describe('TreePicture', () => {
   it.each([
     ['vertical', 'the lower edge'],
     ['horizontal', 'the right edge'],
-  ])('joins %s trees at %s', (layout) => {
+  ])('joins the blocks of %s trees at %s', (layout) => {
     const host = draw(tree(pair, layout));
     const [a, b] = boxes(host);
     if (!a || !b) throw new Error('Two blocks are missing.');
@@ -73,7 +73,7 @@ describe('TreePicture', () => {
     expect(numbers(host.querySelector('path')?.getAttribute('d'))).toEqual([...start, ...bends, ...end]);
   });
 
-  it('ignores where the user put the blocks', () => {
+  it('ignores manual positions', () => {
     const [a] = boxes(draw(tree({ a: { type: 'Sequence', position: [5000, 5000] } })));
     expect([a?.x, a?.y]).toEqual([0, 0]);
   });
@@ -82,7 +82,7 @@ describe('TreePicture', () => {
     ['cannot be read', { nodes: 3 }],
     ['is missing', null],
     ['is empty', tree({})],
-  ])('leaves a place where a diagram %s', (_, diagram) => {
+  ])('shows a placeholder if a diagram %s', (_, diagram) => {
     const host = draw(diagram);
     expect(host.querySelector('svg')).toBeNull();
     expect(host.querySelector('div')).toHaveAttribute('aria-hidden', 'true');

@@ -9,7 +9,7 @@ import classes from './projects.module.css';
 
 interface TreePictureProps {
   readonly diagram: unknown;
-  /** Types that the project's own code makes conditions. */
+  /** Types that are conditions according to the project's own code. */
   readonly conditions?: readonly string[] | undefined;
 }
 
@@ -26,7 +26,7 @@ function read(document: unknown): Picture | null {
     const layout = layoutTree(diagram, vocabulary, { ignorePositions: true });
     return layout.width > 0 ? { diagram, layout } : null;
   } catch {
-    // The diagram's error is reported when the project is opened; here its card has no picture.
+    // The diagram has an error, which is reported when the project is opened; the card shows no picture.
     return null;
   }
 }
@@ -49,7 +49,7 @@ function familyOf(node: DiagramNode | undefined, conditions: readonly string[] =
   return specOf(vocabulary, node)?.family ?? (conditions.includes(node.type) ? 'condition' : 'action');
 }
 
-/** A small picture of a tree: shapes and colours only; of a large tree, its top. */
+/** A small picture of a tree with shapes and colours only; for a large tree, only the top. */
 export const TreePicture = memo(function TreePicture({ diagram: document, conditions }: TreePictureProps) {
   const picture = useMemo(() => read(document), [document]);
   const root = picture && picture.layout.positions[picture.diagram.root ?? ''];

@@ -22,7 +22,7 @@ describe('pictureFrame', () => {
     expect(frame).toMatchObject({ x: -16, y: -16, height: 720, cropped: 'right' });
   });
 
-  it('knows what is inside', () => {
+  it('tells whether a block is inside', () => {
     const frame = box(0, 0);
     expect([box(99, 39), box(100, 0), box(-100, 0), box(0, 40)].map((each) => isInside(frame, each))).toEqual(
       [true, false, false, false],

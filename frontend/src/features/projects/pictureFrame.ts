@@ -1,15 +1,18 @@
 import type { Box } from '@/model/layout';
 
 export interface PictureFrame extends Box {
-  /** The side on which the tree continues. */
+  /** The side on which the tree continues outside of the picture; null if there is none. */
   readonly cropped: 'bottom' | 'right' | null;
 }
 
 const MARGIN = 16;
-/** The largest part of a tree that a card shows, in the units of the layout: more would be dots. */
+/** The largest part of a tree that a card shows, in layout units: a larger part would be dots. */
 const LARGEST = { width: 1500, height: 720 } as const;
 
-/** The part of a tree that its small picture shows: all of it, or its top with the root in the middle. */
+/**
+ * Returns the part of a tree that its small picture shows: the whole tree, or its top with the root in the
+ * middle.
+ */
 export function pictureFrame(boxes: readonly Box[], root: Box, isVertical: boolean): PictureFrame {
   const left = Math.min(...boxes.map(({ x }) => x)) - MARGIN;
   const top = Math.min(...boxes.map(({ y }) => y)) - MARGIN;
@@ -19,7 +22,7 @@ export function pictureFrame(boxes: readonly Box[], root: Box, isVertical: boole
     return { x: left, y: top, width, height, cropped: null };
   }
   const shown = { width: Math.min(width, LARGEST.width), height: Math.min(height, LARGEST.height) };
-  // The window never leaves the tree, however far aside its root is.
+  // The frame stays within the tree, however far to the side the root is.
   const within = (middle: number, size: number, start: number, all: number) =>
     Math.min(Math.max(middle - size / 2, start), start + all - size);
   return isVertical
@@ -27,7 +30,7 @@ export function pictureFrame(boxes: readonly Box[], root: Box, isVertical: boole
     : { ...shown, x: left, y: within(root.y + root.height / 2, shown.height, top, height), cropped: 'right' };
 }
 
-/** Whether any of a box is inside. */
+/** Returns whether a part of a box is inside of the frame. */
 export const isInside = (frame: Box, box: Box): boolean =>
   box.x < frame.x + frame.width &&
   box.x + box.width > frame.x &&

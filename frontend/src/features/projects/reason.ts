@@ -1,6 +1,6 @@
 import { ApiError } from '@/api/errors';
 
-/** The server's message with its hint. */
+/** Returns the server's message together with its hint. */
 export function reasonOf(error: Error): string {
   return error instanceof ApiError && error.hint ? `${error.message} ${error.hint}` : error.message;
 }

@@ -18,7 +18,7 @@ function Ids() {
 }
 
 describe('useSortedTemplates', () => {
-  it('has the empty project at once, and the known ones in their order', async () => {
+  it('has the empty project at once, and the known ones in order', async () => {
     const templates = ['mine', 'visual_follow_person', 'yours', 'laser_bump_and_go'].map(template);
     fakeServer({ 'GET /catalog/templates': templates });
     show(<Ids />);
@@ -28,14 +28,14 @@ describe('useSortedTemplates', () => {
     ).toBeInTheDocument();
   });
 
-  it('has an empty project once', async () => {
+  it('has an empty project only once', async () => {
     fakeServer({ 'GET /catalog/templates': [template('empty'), template('laser_bump_and_go')] });
     show(<Ids />);
     expect(await screen.findByText('laser_bump_and_go empty')).toBeInTheDocument();
   });
 });
 
-it('says what a template is in the language of the page, where it has words for it', () => {
+it('translates the text of a template if there is a translation', () => {
   const say = ((key: string) => t(`projects:${key}`)) as TFunction<'projects'>;
   expect(templateText(say, template('empty'), 'name')).toBe('Empty project');
   expect(templateText(say, template('empty'), 'description')).toBe('A blank canvas in a walled room.');

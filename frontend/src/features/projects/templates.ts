@@ -6,7 +6,7 @@ import type { TemplateInfo } from '@/api/types';
 import { translates } from '@/i18n';
 import { SHELF } from './examples/shelf';
 
-/** The order of known templates; others follow. */
+/** The order of the known templates; unknown ones follow. */
 const ORDER: readonly string[] = [...SHELF.map(([id]) => id), 'empty'];
 
 const EMPTY: TemplateInfo = { id: 'empty', name: '', description: '', conditions: [] };
@@ -17,14 +17,14 @@ function sorted(templates: readonly TemplateInfo[]): TemplateInfo[] {
   return all.sort((a, b) => place(a) - place(b));
 }
 
-/** Templates and examples; before the server has answered, the empty project alone. */
+/** Returns templates and examples in order; until the server answers, only the empty project. */
 export function useSortedTemplates(): { readonly all: readonly TemplateInfo[]; readonly isKnown: boolean } {
   const { data } = useQuery({ queryKey: ['templates'], queryFn: api.templates, staleTime: Infinity });
   const all = useMemo(() => sorted(data ?? []), [data]);
   return { all, isKnown: data !== undefined };
 }
 
-/** The texts of a template, in the user's language if there is a translation. */
+/** Returns a text of a template: the translation if there is one. */
 export function templateText(
   t: TFunction<'projects'>,
   template: TemplateInfo,

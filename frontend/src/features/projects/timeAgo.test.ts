@@ -20,10 +20,10 @@ it.each([
   [31_536_000, 'last year'],
   [3 * 31_536_000, '3 years ago'],
   [-7200, 'in 2 hours'],
-])('says of %s s ago: %s', (seconds, words) => {
+])('shows %s s ago as %s', (seconds, words) => {
   expect(timeAgo(before(seconds), 'en', NOW)).toBe(words);
 });
 
-it('speaks the language of the page, of the present', () => {
+it("uses the page's language, and the current time by default", () => {
   expect(timeAgo(new Date(Date.now() - 3 * 60_000 - 1000).toISOString(), 'es')).toBe('hace 3 minutos');
 });

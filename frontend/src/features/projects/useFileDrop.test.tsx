@@ -13,7 +13,7 @@ function Page() {
 const files = { types: ['Files'], files: [file] };
 const words = { types: ['text/plain'], files: [] };
 const state = () => screen.getByText(/over|away/).textContent;
-/** Whether the page took the event from the browser. */
+/** Fires a drag event; returns whether the page handled it. */
 const fire = (type: 'dragOver' | 'drop', dataTransfer?: object) => !fireEvent[type](window, { dataTransfer });
 
 function leave(to: Element | null): void {
@@ -28,7 +28,7 @@ beforeEach(() => {
 });
 
 describe('useFileDrop', () => {
-  it('notices files over the page, and takes the first', () => {
+  it('shows that files are over the page, and accepts the first', () => {
     expect(state()).toBe('away');
     expect(fire('dragOver', files)).toBe(true);
     expect(state()).toBe('over');
@@ -37,7 +37,7 @@ describe('useFileDrop', () => {
     expect(onDrop).toHaveBeenCalledExactlyOnceWith(file);
   });
 
-  it('notices that they left', () => {
+  it('resets when the files leave', () => {
     fire('dragOver', files);
     leave(document.body);
     expect(state()).toBe('over');
@@ -45,7 +45,7 @@ describe('useFileDrop', () => {
     expect(state()).toBe('away');
   });
 
-  it('leaves words, and empty hands, to the browser', () => {
+  it('leaves text, and empty drags, to the browser', () => {
     expect(fire('dragOver', words)).toBe(false);
     expect(fire('drop', words)).toBe(false);
     expect(fire('dragOver')).toBe(false);
@@ -55,7 +55,7 @@ describe('useFileDrop', () => {
   });
 });
 
-it('takes nothing once it is gone', () => {
+it('accepts nothing after it is unmounted', () => {
   cleanup();
   expect(fire('dragOver', files)).toBe(false);
   expect(fire('drop', files)).toBe(false);

@@ -4,8 +4,9 @@ import { useProjects } from './useProjects';
 const KEY = 'bts.start.folded';
 
 /**
- * Whether templates and examples are folded: as the user left them in this visit, else once there are projects.
- * Until the server has answered, they are as at the last visit, so that nothing moves.
+ * Returns whether templates and examples are folded: as the user left them during this visit, otherwise only
+ * if there are projects. Until the server answers, the state of the last visit is kept, so that nothing
+ * moves.
  */
 export function useFold(): { isFolded: boolean; isKnown: boolean; toggle: () => void } {
   const { data } = useProjects('', '-updated_at', 'current');

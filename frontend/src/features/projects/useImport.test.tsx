@@ -45,7 +45,7 @@ describe('useImport', () => {
     expect(screen.getByText('idle')).toBeInTheDocument();
   });
 
-  it('offers the repairs of a file, and makes them when asked', async () => {
+  it('offers to repair a file, and does it on confirmation', async () => {
     answers[IMPORT] = refusal('Not well-formed.', { diagnostics: [finding('BT0740'), finding('BT0740')] });
     answers[`${IMPORT}&repair=true`] = projectDetail(1, []);
     await click('import');
@@ -57,7 +57,7 @@ describe('useImport', () => {
     expect(requests.at(-1)?.body).toBe(file);
   });
 
-  it('leaves a file alone whose repair was declined', async () => {
+  it('imports nothing if the repair is declined', async () => {
     answers[IMPORT] = refusal('Not well-formed.', { diagnostics: [finding('BT0740')] });
     await click('import');
     await screen.findByText('tree.xml: 1 repairs');
@@ -70,7 +70,7 @@ describe('useImport', () => {
   it.each([
     ['has other faults, too', [finding('BT0740'), finding('BT0101')]],
     ['has none', []],
-  ])('says why a file was refused that %s', async (_, diagnostics) => {
+  ])('reports why a file was refused that %s', async (_, diagnostics) => {
     answers[IMPORT] = refusal('Not a project.', { hint: 'Take a zip.', diagnostics });
     await click('import');
     expect(await screen.findByText('That did not work')).toBeInTheDocument();

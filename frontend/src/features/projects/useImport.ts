@@ -12,7 +12,7 @@ import { reasonOf } from './reason';
 /** The translator's code for a character that a repair would escape. */
 const REPAIRABLE = 'BT0740';
 
-/** A file that can be imported after a repair, and the changes of that repair. */
+/** A file that can be imported after a repair, with the changes that the repair makes. */
 export interface RepairOffer {
   readonly file: File;
   readonly changes: readonly Diagnostic[];
@@ -23,7 +23,7 @@ const repairsOf = (error: Error): readonly Diagnostic[] => {
   return found.every(({ code }) => code === REPAIRABLE) ? found : [];
 };
 
-/** Imports a file; if a repair makes it readable, asks before it is repaired. */
+/** Returns functions that import a file; if the file needs a repair, the user is asked first. */
 export function useImport() {
   const { t } = useTranslation('projects');
   const [offer, setOffer] = useState<RepairOffer | null>(null);

@@ -70,7 +70,7 @@ describe('useProjectCommands', () => {
     expect(asked()).toEqual([list(0), request, list(0)]);
   });
 
-  it('names a project on its known revision', async () => {
+  it('renames a project based on its known revision', async () => {
     answers['PATCH /projects/a'] = noContent();
     await click('rename');
     await expect.poll(() => requests[1]?.body).toEqual({ name: 'New', base_revision: 3 });
@@ -80,7 +80,7 @@ describe('useProjectCommands', () => {
     ['create', 'POST /projects'],
     ['restore', 'POST /projects/a/restore'],
     ['unarchive', 'POST /projects/a/unarchive'],
-  ])('says why %s was refused', async (command, request) => {
+  ])('reports why %s was refused', async (command, request) => {
     answers[request] = refusal('No room.', { hint: 'Delete one.' });
     await click(command);
     expect(await screen.findByText('No room. Delete one.')).toBeInTheDocument();
@@ -88,7 +88,7 @@ describe('useProjectCommands', () => {
     expect(window.location.pathname).toBe('/');
   });
 
-  it('leaves it to the card to say why a name was refused', async () => {
+  it('leaves the report of a refused name to the card', async () => {
     answers['PATCH /projects/a'] = refusal('The name is taken.');
     await click('rename');
     expect(await screen.findByText('The name is taken.')).toBeInTheDocument();

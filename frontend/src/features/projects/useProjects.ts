@@ -7,19 +7,19 @@ import { navigate, projectPath } from '@/store/route';
 import { reasonOf } from './reason';
 import { undoNotification } from '@/ui/undoNotification';
 
-/** The projects of one shelf, page by page. */
+/** Returns the projects of one shelf, page by page. */
 export function useProjects(search: string, sort: ProjectSort, shelf: ProjectShelf) {
   return useInfiniteQuery({
     queryKey: ['projects', search, sort, shelf],
     queryFn: ({ pageParam, signal }) => api.listProjects({ search, sort, shelf, offset: pageParam }, signal),
     initialPageParam: 0,
     getNextPageParam: (page) => page.next_offset ?? undefined,
-    // A project of one shelf must not show with the commands of another.
+    // Projects of one shelf must not appear with the commands of another.
     placeholderData: (previous, query) => (query?.queryKey[3] === shelf ? previous : undefined),
   });
 }
 
-/** The commands for projects on the start page; failures are shown as notifications. */
+/** Returns the commands for projects on the start page; they report failures as notifications. */
 export function useProjectCommands() {
   const { t } = useTranslation('projects');
   const queries = useQueryClient();

@@ -11,7 +11,7 @@ interface StartCommands {
   readonly search: () => void;
 }
 
-/** The commands of the start page's buttons, for the command palette and for keys. */
+/** Registers the commands of the start page's buttons, for the command palette and for keys. */
 export function useStartCommands(actions: StartCommands): void {
   const { t } = useTranslation('projects');
   const { all: templates } = useSortedTemplates();

@@ -44,7 +44,7 @@ beforeEach(() => {
 });
 
 describe('CompareTab', () => {
-  it('asks for a revision', () => {
+  it('asks for a revision to be chosen', () => {
     fakeServer({});
     show(<CompareTab />);
     expect(screen.getByText('Choose a revision to see what it changed.')).toBeInTheDocument();
@@ -63,7 +63,7 @@ describe('CompareTab', () => {
     expect(screen.queryByText(/ada/)).toBeNull();
   });
 
-  it('calls it by its newest name, and by its author among several', async () => {
+  it('shows the newest name, and the author if there are several', async () => {
     open();
     await screen.findByTestId('text-difference');
     answers[`GET ${REVISIONS}?limit=100`] = {
@@ -75,13 +75,13 @@ describe('CompareTab', () => {
     expect(screen.getByText(/ada ·/)).toBeInTheDocument();
   });
 
-  it('says that there is no difference', async () => {
+  it('shows that there is no difference', async () => {
     open({}, []);
     expect(await screen.findByTestId('no-difference')).toHaveTextContent('The two versions are equal.');
     expect(screen.queryByRole('heading', { level: 3 })).toBeNull();
   });
 
-  it('says why the differences cannot be read', async () => {
+  it('reports why the differences cannot be read', async () => {
     fakeServer({ [`GET ${REVISIONS}/5/diff?against=4`]: refusal('Not now.', { status: 503 }) });
     useComparison.setState({
       comparison: { revision: revision(5), before: 4, against: 'before', path: null },
@@ -95,7 +95,7 @@ describe('CompareTab', () => {
 describe('files', () => {
   const files = [file('a.py', 'added'), file('b.py', 'removed'), file('c.py', 'changed')];
 
-  it('are listed with what happened to them, and chosen', async () => {
+  it('are listed with their kind of change, and can be chosen', async () => {
     open({}, files);
     const list = within(await screen.findByRole('list', { name: 'Files that differ' }));
     const rows = () =>
@@ -112,12 +112,12 @@ describe('files', () => {
     expect(rows()[2]?.[2]).toBe('true');
   });
 
-  it('begin with the one that was in front', async () => {
+  it('start with the one that was in front', async () => {
     open({ path: 'b.py' }, files);
     expect(await screen.findByRole('heading', { level: 3 })).toHaveTextContent('b.py');
   });
 
-  it('begin with the first where the one in front does not differ', async () => {
+  it('start with the first if the one in front does not differ', async () => {
     open({ path: 'other.py' }, files);
     expect(await screen.findByRole('heading', { level: 3 })).toHaveTextContent('a.py');
   });
@@ -126,7 +126,7 @@ describe('files', () => {
 describe('the other side', () => {
   const against = () => screen.getByTestId('against');
 
-  it('is the present, or another revision', async () => {
+  it('is the current state, or another revision', async () => {
     open();
     await screen.findByTestId('text-difference');
     expect(against()).toHaveValue('the state before it');
@@ -166,7 +166,7 @@ describe('restoring', () => {
     expect(requests.find(({ method }) => method === 'POST')?.body).toEqual({ paths: files });
   });
 
-  it('offers no file where none differs', async () => {
+  it('offers no file if none differs', async () => {
     open({}, []);
     await screen.findByTestId('no-difference');
     await user.click(screen.getByRole('button', { name: 'Restore' }));
@@ -175,7 +175,7 @@ describe('restoring', () => {
     ]);
   });
 
-  it('is for those who may edit', async () => {
+  it('is only for editors', async () => {
     useProjectStore.setState({ role: 'viewer' });
     open();
     await screen.findByTestId('text-difference');

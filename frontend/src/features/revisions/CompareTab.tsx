@@ -12,7 +12,7 @@ import { useDifferences } from './useSides';
 import { useRevisions } from './useRevisions';
 import { sayRevision } from './words';
 
-/** Compares a revision with another state, and restores it. */
+/** The tab that compares a revision with another state, and restores it. */
 export function CompareTab() {
   const { t } = useTranslation('revisions');
   const comparison = useComparison((state) => state.comparison);
@@ -79,7 +79,7 @@ interface AgainstSelectProps {
   readonly present: number;
 }
 
-/** Chooses the state to compare with: the one before, the present, or any other revision. */
+/** A field that chooses the state to compare with: the one before, the current one, or any other revision. */
 function AgainstSelect({ comparison, present }: AgainstSelectProps) {
   const { t } = useTranslation('revisions');
   const { items } = useRevisions('', true);

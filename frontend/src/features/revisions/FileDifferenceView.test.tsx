@@ -27,19 +27,19 @@ describe('a file', () => {
     expect(screen.queryByRole('radio')).toBeNull();
   });
 
-  it('is empty on the side where it was not there', async () => {
+  it('is empty on the side where it did not exist', async () => {
     open('actions/Go.py', undefined, text('new'));
     expect(await screen.findByTestId('text-difference')).toBeInTheDocument();
     expect(editors()).toEqual(['', 'new']);
   });
 
-  it('that is no text cannot be compared', async () => {
+  it('that is not text cannot be compared', async () => {
     open('a.png', text('\u0000'), text('\u0000'));
     expect(await screen.findByText(/This file is not text/)).toBeInTheDocument();
     expect(screen.queryByTestId('text-difference')).toBeNull();
   });
 
-  it('says why it cannot be read', async () => {
+  it('reports why it cannot be read', async () => {
     open('a.py', refusal('Not now.', { status: 503 }), text('new'));
     expect(await screen.findByText('The revisions cannot be read: Not now.')).toBeInTheDocument();
   });
@@ -49,7 +49,7 @@ describe('a tree', () => {
   const path = 'trees/Main.json';
   const [older, newer] = [oneBlock('Main', 'Sequence'), oneBlock('Main', 'Fallback')];
 
-  it('is a picture first', async () => {
+  it('is shown as a picture first', async () => {
     open(path, text(older), text(newer));
     expect(await screen.findByTestId('picture-difference')).toBeInTheDocument();
     expect(choice('Picture')).toBeChecked();
@@ -57,7 +57,7 @@ describe('a tree', () => {
     expect(screen.queryByTestId('text-difference')).toBeNull();
   });
 
-  it('is JSON on demand', async () => {
+  it('is shown as JSON on demand', async () => {
     open(path, text(older), text(newer));
     await screen.findByTestId('picture-difference');
     await user.click(choice('JSON'));
@@ -65,7 +65,7 @@ describe('a tree', () => {
     expect(screen.queryByTestId('picture-difference')).toBeNull();
   });
 
-  it('is XML on demand', async () => {
+  it('is shown as XML on demand', async () => {
     open(path, text(older), text(newer), { [XML]: { xml: '<Sequence/>', ranges: [] } });
     await screen.findByTestId('picture-difference');
     await user.click(choice('XML'));
@@ -73,7 +73,7 @@ describe('a tree', () => {
     expect(editors()).toEqual(['<Sequence/>', '<Sequence/>']);
   });
 
-  it('says why there is no XML', async () => {
+  it('reports why there is no XML', async () => {
     open(path, text(older), text(newer), { [XML]: refusal('The tree is too deep.') });
     await screen.findByTestId('picture-difference');
     await user.click(choice('XML'));
@@ -82,13 +82,13 @@ describe('a tree', () => {
     ).toBeInTheDocument();
   });
 
-  it('that was not there is drawn as new', async () => {
+  it('that did not exist is drawn as new', async () => {
     open(path, undefined, text(newer));
     expect(await screen.findByTestId('picture-difference')).toBeInTheDocument();
     expect(screen.getByRole('list', { name: 'List of differences' })).toHaveTextContent('+Fallback added');
   });
 
-  it('that cannot be read is text only', async () => {
+  it('that cannot be read is shown as text only', async () => {
     open(path, text('{'), text(newer));
     expect(await screen.findByTestId('text-difference')).toBeInTheDocument();
     expect(editors()).toEqual(['{', newer]);

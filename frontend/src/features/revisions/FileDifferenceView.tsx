@@ -16,7 +16,7 @@ interface FileDifferenceViewProps {
   readonly sides: Sides;
 }
 
-/** The differences of one file: a picture of a tree, or the text of any other file. */
+/** The differences in one file: a picture for a tree, and the text for any other file. */
 export function FileDifferenceView({ path, sides }: FileDifferenceViewProps) {
   const { t } = useTranslation('revisions');
   const found = useFileSides(path, sides);

@@ -23,7 +23,7 @@ describe('LabelButton', () => {
     expect(screen.queryByLabelText('Name of this revision')).toBeNull();
   });
 
-  it('forgets what was typed when it is closed', async () => {
+  it('drops the typed text when it is closed', async () => {
     const { requests } = fakeServer({});
     show(<LabelButton revision={revision(3)} />);
     await user.click(button());
@@ -35,7 +35,7 @@ describe('LabelButton', () => {
     expect(requests).toEqual([]);
   });
 
-  it('says why a name was refused', async () => {
+  it('reports why a name was refused', async () => {
     fakeServer({ [NAME]: refusal('The name is taken.') });
     show(<LabelButton revision={revision(3)} />);
     await user.click(button());

@@ -6,7 +6,7 @@ import { useTranslation } from 'react-i18next';
 import type { Revision } from '@/api/revisions';
 import { useLabel } from './useRevisions';
 
-/** Gives a revision a name. */
+/** The button that gives a revision a name. */
 export function LabelButton({ revision }: { readonly revision: Revision }) {
   const { t } = useTranslation('revisions');
   const [isOpen, setOpen] = useState(false);

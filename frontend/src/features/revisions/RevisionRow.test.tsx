@@ -31,7 +31,7 @@ beforeEach(() => {
 });
 
 describe('RevisionRow', () => {
-  it('says what was done and how long ago, and is chosen', async () => {
+  it('shows the change and its age, and can be chosen', async () => {
     row();
     expect(choice()).toHaveTextContent(/^Edited MainTree#3.* ago$/);
     expect(time()).toHaveAttribute('datetime', '2026-01-01T10:03:00.000Z');
@@ -42,13 +42,13 @@ describe('RevisionRow', () => {
     expect(onUnfold).not.toHaveBeenCalled();
   });
 
-  it('has its name first', () => {
+  it('shows its name first', () => {
     row({ revision: revision(3, { label: 'Works' }), isChosen: true });
     expect(choice()).toHaveTextContent(/^WorksEdited MainTree/);
     expect(choice()).toHaveAttribute('aria-current', 'true');
   });
 
-  it('names the author among several', () => {
+  it('shows the author if there are several', () => {
     row({ isAlone: false });
     expect(choice()).toHaveTextContent(/ada$/);
   });
@@ -67,17 +67,17 @@ describe('RevisionRow', () => {
     expect(onChoose).not.toHaveBeenCalled();
   });
 
-  it('is shown unfolded', () => {
+  it('is shown as unfolded', () => {
     row({ count: 2, isUnfolded: true });
     expect(screen.getByRole('button', { name: '2 saves' })).toHaveAttribute('aria-expanded', 'true');
   });
 
-  it('has no group to unfold for one save', () => {
+  it('has no fold button for one save', () => {
     row();
     expect(screen.queryByTestId('saves-3')).toBeNull();
   });
 
-  it('is named by those who may edit', () => {
+  it('can be named by editors', () => {
     const { unmount } = row();
     expect(screen.getByRole('button', { name: 'Name revision 3' })).toBeEnabled();
     unmount();

@@ -10,7 +10,7 @@ import { sayRevision } from './words';
 
 interface RevisionRowProps {
   readonly revision: Revision;
-  /** The number of saves in the row; 1 within an opened group. */
+  /** The number of saves in the row; 1 within an expanded group. */
   readonly count: number;
   readonly isChosen: boolean;
   readonly isUnfolded?: boolean;
@@ -20,7 +20,7 @@ interface RevisionRowProps {
   readonly onUnfold?: () => void;
 }
 
-/** One revision, or the group of saves of one sitting. */
+/** The row of a revision, or of a group of saves. */
 export function RevisionRow({
   revision,
   count,

@@ -39,7 +39,7 @@ beforeEach(() => {
 });
 
 describe('scope', () => {
-  it('is the whole project where no document is in front', async () => {
+  it('is the whole project if no document is in front', async () => {
     const asked = open({ [LIST]: page(2) });
     expect(await screen.findByTestId('revision-2')).toBeInTheDocument();
     expect(asked()).toEqual([LIST]);
@@ -66,12 +66,12 @@ describe('scope', () => {
 });
 
 describe('list', () => {
-  it('says that there is nothing', async () => {
+  it('shows that there are no revisions', async () => {
     open({ [LIST]: page() });
     expect(await screen.findByText(/Nothing has been saved here yet/)).toBeInTheDocument();
   });
 
-  it('joins the saves of one sitting, and unfolds them', async () => {
+  it('groups the saves of one sitting, and unfolds them', async () => {
     open({ [LIST]: page(4, 3, 2) });
     await screen.findByTestId('revision-4');
     expect(rows()).toEqual(['revision-4']);
@@ -83,7 +83,7 @@ describe('list', () => {
     expect(rows()).toEqual(['revision-4']);
   });
 
-  it('names authors where there are several', async () => {
+  it('shows authors if there are several', async () => {
     const items = [revision(4), revision(3, { author: 'bob' })];
     open({ [LIST]: { items, next_before: null } });
     expect(await screen.findByTestId('revision-4')).toHaveTextContent(/ada$/);
@@ -101,7 +101,7 @@ describe('list', () => {
     expect(screen.queryByRole('button', { name: 'Older ones' })).toBeNull();
   });
 
-  it('says why it cannot be read, and tries again', async () => {
+  it('reports why it cannot be read, and tries again', async () => {
     const answers: Record<string, unknown> = { [LIST]: refusal('Not now.', { status: 503 }) };
     open(answers);
     const alert = await screen.findByRole('alert');
@@ -115,7 +115,7 @@ describe('list', () => {
 });
 
 describe('choice', () => {
-  it('compares a group with the state before it, in a tab of its own', async () => {
+  it('compares a group with the state before it, in a separate tab', async () => {
     open({ [LIST]: page(4, 3, 2) });
     const openTabs = watchTabs();
     await user.click(await screen.findByTestId('revision-4'));
@@ -129,7 +129,7 @@ describe('choice', () => {
     expect(screen.getByTestId('revision-3')).toHaveAttribute('aria-current', 'true');
   });
 
-  it('shows the file in front, and stays with the present where that was compared', async () => {
+  it('shows the file in front, and keeps comparing with the current state', async () => {
     open({ [TREE]: page(2) }, { kind: 'tree', id: 'Main' });
     act(() => {
       useComparison.setState({
@@ -140,7 +140,7 @@ describe('choice', () => {
     expect(comparison()).toMatchObject({ against: 'now', path: 'trees/Main.json' });
   });
 
-  it('does not stay with another revision', async () => {
+  it('does not keep comparing with another revision', async () => {
     open({ [LIST]: page(2) });
     act(() => {
       useComparison.setState({ comparison: { revision: revision(9), before: 8, against: 5, path: null } });

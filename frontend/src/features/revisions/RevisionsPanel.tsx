@@ -13,7 +13,7 @@ import { RevisionRow } from './RevisionRow';
 import { setScope, useScope } from '@/store/revisions/scope';
 import { useRevisions } from './useRevisions';
 
-/** The revisions of the document in front, or of the project. */
+/** The panel with the revisions of the document in front, or of the project. */
 export function RevisionsPanel() {
   const { t } = useTranslation('revisions');
   const panel = useRef<HTMLDivElement>(null);

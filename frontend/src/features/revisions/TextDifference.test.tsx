@@ -8,7 +8,7 @@ const texts = () =>
 const many = Array.from({ length: 30 }, (_, line) => `line ${line}`);
 
 describe('TextDifference', () => {
-  it('shows both texts side by side, not to be edited', () => {
+  it('shows both texts side by side, read-only', () => {
     show(<TextDifference path="a.py" before="old" after="new" />);
     expect(texts()).toEqual([
       ['Before', 'old'],
@@ -32,7 +32,7 @@ describe('TextDifference', () => {
     expect(screen.queryByRole('button')).toBeNull();
   });
 
-  it('leaves out what is equal over many lines', () => {
+  it('leaves out long equal parts', () => {
     const after = [...many.slice(0, -1), 'changed'].join('\n');
     show(<TextDifference path="a.txt" before={many.join('\n')} after={after} />);
     expect(screen.getAllByText('26 unchanged lines')).toHaveLength(2);
@@ -40,7 +40,7 @@ describe('TextDifference', () => {
     expect(screen.getAllByText('line 27')).toHaveLength(2);
   });
 
-  it('follows its texts', () => {
+  it('follows changes of its texts', () => {
     const { rerender } = show(<TextDifference path="a.py" before="old" after="new" />);
     rerender(<TextDifference path="a.py" before="old" after="newer" />);
     expect(texts()).toEqual([
@@ -49,7 +49,7 @@ describe('TextDifference', () => {
     ]);
   });
 
-  it('dims the ids and positions of XML only', () => {
+  it('dims ids and positions in XML only', () => {
     const text = '<a _bts_id="x"/>';
     const { container, unmount } = show(<TextDifference path="tree.xml" before={text} after={text} />);
     expect(container.querySelectorAll('.cm-metadata')).toHaveLength(2);

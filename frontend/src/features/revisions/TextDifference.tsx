@@ -11,7 +11,7 @@ import { dimMetadata } from '@/features/xml/ranges';
 import classes from './history.module.css';
 
 interface TextDifferenceProps {
-  /** The path of the file, which selects the syntax. */
+  /** The path of the file, which determines the syntax colours. */
   readonly path: string;
   readonly before: string;
   readonly after: string;
@@ -19,7 +19,7 @@ interface TextDifferenceProps {
 
 const COLLAPSE = { margin: 3, minSize: 6 };
 
-/** Two texts side by side; one below the other in narrow windows. */
+/** Two texts side by side, or one below the other in narrow windows. */
 export function TextDifference({ path, before, after }: TextDifferenceProps) {
   const { t } = useTranslation('revisions');
   const host = useRef<HTMLDivElement>(null);

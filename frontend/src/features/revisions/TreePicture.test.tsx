@@ -43,7 +43,7 @@ const ring = (id: string) => mark(id).querySelector('rect') as SVGRectElement;
 beforeEach(() => openProject({}));
 
 describe('TreePicture', () => {
-  it('says in words what came, went, changed and moved', () => {
+  it('lists what was added, removed, changed and moved', () => {
     show(<TreePicture before={before} after={after} />);
     expect(screen.getByText(/blocks differ/)).toHaveTextContent('5 blocks differ');
     expect(rows()).toEqual([
@@ -83,7 +83,7 @@ describe('TreePicture', () => {
     expect(ring('new').getAttribute('stroke-width')).toBe('3');
   });
 
-  it('is shown in full size, or as a whole', async () => {
+  it('is shown in full size, or fitted', async () => {
     show(<TreePicture before={before} after={after} />);
     const larger = screen.getByRole('button', { name: 'In full size' });
     expect([larger.getAttribute('aria-pressed'), picture().dataset['large']]).toEqual(['false', undefined]);
@@ -93,7 +93,7 @@ describe('TreePicture', () => {
     expect(picture().dataset['large']).toBeUndefined();
   });
 
-  it('says that no block differs', () => {
+  it('shows that no block differs', () => {
     show(<TreePicture before={before} after={before} />);
     expect(screen.getByText('No block differs; positions may.')).toBeInTheDocument();
     expect(rows()).toEqual([]);

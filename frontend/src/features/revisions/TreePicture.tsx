@@ -19,7 +19,7 @@ interface TreePictureProps {
   readonly after: Diagram;
 }
 
-/** A sign in addition to the colour: colour alone is not accessible. */
+/** A sign for each kind of change, since colour alone is not accessible. */
 const SIGNS: Record<ChangeKind, string> = { added: '+', removed: '−', changed: '≠', moved: '⇄' };
 const COLORS: Record<ChangeKind, string> = {
   added: 'var(--bts-success)',
@@ -29,7 +29,7 @@ const COLORS: Record<ChangeKind, string> = {
 };
 const onThePage = (name: string) => `var(--bts-${name})`;
 
-/** Both states of a tree in one picture, with added, removed, changed and moved blocks marked and listed. */
+/** Both states of a tree in one picture; added, removed, changed and moved blocks are marked and listed. */
 export function TreePicture({ before, after }: TreePictureProps) {
   const { t } = useTranslation('revisions');
   const vocabulary = useProjectStore((state) => state.vocabulary);
@@ -44,7 +44,7 @@ export function TreePicture({ before, after }: TreePictureProps) {
   const Zoom = isLarge ? IconZoomOut : IconZoomIn;
   return (
     <div className={classes['pictured']}>
-      {/* The list says the same in words. */}
+      {/* The list gives the same information as text. */}
       <div
         className={classes['picture']}
         data-large={isLarge || undefined}
@@ -121,7 +121,7 @@ interface MarksProps {
   readonly chosen: string | null;
 }
 
-/** A ring and a sign round each block that differs. */
+/** The marks: a ring and a sign around each block that differs. */
 function Marks({ difference, layout, chosen }: MarksProps) {
   return [...difference.changes].map(([id, { kind }]) => {
     const box = layout.positions[id];

@@ -20,7 +20,7 @@ it.each([
   expect(sidesOf(comparison(against), 9)).toEqual(sides);
 });
 
-it('changes a part of the comparison, where there is one', () => {
+it('changes a part of the comparison, if there is one', () => {
   setComparison({ against: 'now' });
   expect(useComparison.getState().comparison).toBeNull();
   useComparison.setState({ comparison: comparison('before') });

@@ -1,15 +1,15 @@
 import { create } from 'zustand';
 import type { Revision } from '@/api/revisions';
 
-/** The state that a revision is compared with: the one before, the present, or another revision. */
+/** The state that a revision is compared with: the one before, the current one, or another revision. */
 export type Against = 'before' | 'now' | number;
 
 export interface Comparison {
   readonly revision: Revision;
-  /** The revision before its group of saves. */
+  /** The number of the revision before this one's group of saves. */
   readonly before: number;
   readonly against: Against;
-  /** The file that is shown; null: the first file that differs. */
+  /** The path of the file that is shown; null for the first file that differs. */
   readonly path: string | null;
 }
 
@@ -21,7 +21,7 @@ export function setComparison(change: Partial<Comparison>): void {
   );
 }
 
-/** The two revisions, the older first. */
+/** Returns the two revisions, the older first. */
 export function sidesOf({ revision, before, against }: Comparison, present: number): [number, number] {
   if (against === 'before') return [before, revision.number];
   const other = against === 'now' ? present : against;

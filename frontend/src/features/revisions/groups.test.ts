@@ -12,11 +12,11 @@ const save = (number: number, minute: number, more: Partial<Revision> = {}): Rev
 const numbers = (revisions: readonly Revision[]) =>
   groupRevisions(revisions).map(({ saves }) => saves.map(({ number }) => number));
 
-it('joins the saves of one sitting', () => {
+it('groups the saves of one sitting', () => {
   expect(numbers([save(5, 50), save(4, 31), save(3, 30), save(2, 21)])).toEqual([[5], [4, 3, 2]]);
 });
 
-it('keeps authors, messages and labels apart', () => {
+it('separates authors, messages and labels', () => {
   const revisions = [
     save(5, 4),
     save(4, 3, { author: 'bob' }),

@@ -1,6 +1,6 @@
 import type { Revision } from '@/api/revisions';
 
-/** The saves of one sitting: one author and one message, without a long break. The newest comes first. */
+/** Consecutive saves with the same author and message and without a long break, the newest first. */
 export interface RevisionGroup {
   readonly newest: Revision;
   readonly saves: readonly Revision[];
@@ -18,7 +18,7 @@ function continues(later: Revision, earlier: Revision): boolean {
   );
 }
 
-/** Groups the many revisions of autosaving; a labelled revision begins a group, so that it is visible. */
+/** Groups the many revisions of autosaving. A labelled revision begins a group, so that it is visible. */
 export function groupRevisions(revisions: readonly Revision[]): RevisionGroup[] {
   const groups: Revision[][] = [];
   for (const revision of revisions) {

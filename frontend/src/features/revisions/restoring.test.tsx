@@ -17,7 +17,7 @@ beforeEach(() => {
 });
 
 describe('restore', () => {
-  it('restores files, says so, and offers to undo that', async () => {
+  it('restores files, reports that, and offers to undo it', async () => {
     const { requests } = fakeServer({
       'POST /projects/p1/revisions/2/restore': detail(5, 'old'),
       'POST /projects/p1/revisions/4/restore': detail(6, 'new'),
@@ -33,14 +33,14 @@ describe('restore', () => {
     ]);
   });
 
-  it('says that nothing had to change', async () => {
+  it('reports that nothing had to change', async () => {
     fakeServer({ 'POST /projects/p1/revisions/2/restore': detail(4, 'new') });
     await restore(2, []);
     expect(await screen.findByText('The project already equals revision 2.')).toBeInTheDocument();
     expect(screen.queryByRole('button', { name: 'Undo' })).toBeNull();
   });
 
-  it('says why a revision cannot be restored', async () => {
+  it('reports why a revision cannot be restored', async () => {
     fakeServer({ 'POST /projects/p1/revisions/2/restore': refusal('It was removed.') });
     await restore(2, []);
     expect(await screen.findByText('The revision could not be restored')).toBeInTheDocument();

@@ -3,7 +3,7 @@ import { t } from '@/i18n';
 import { undoNotification } from '@/ui/undoNotification';
 import { restoreRevision } from '@/store/revisions/restore';
 
-/** Restores files (all, if none are named) from a revision, and offers to undo this. */
+/** Restores files (all, if none are named) from a revision; a notification offers to undo this. */
 export async function restore(number: number, paths: readonly string[]): Promise<void> {
   try {
     const { previous, isChanged } = await restoreRevision(number, paths);

@@ -59,7 +59,7 @@ describe('useRevisions', () => {
   it.each([
     ['is hidden', false, true],
     ['has no project', true, false],
-  ])('asks for nothing while it %s', async (_, isVisible, hasProject) => {
+  ])('requests nothing while it %s', async (_, isVisible, hasProject) => {
     const asked = open({}, '', isVisible, hasProject);
     await act(() => Promise.resolve());
     expect(asked()).toEqual([]);

@@ -5,7 +5,7 @@ import { useProjectStore } from '@/store/project';
 
 const keyOf = (projectId: string | null) => ['revisions', projectId] as const;
 
-/** The revisions of a file, or of the project when the path is empty; the newest first. */
+/** Returns the revisions of a file, or of the whole project if the path is empty; the newest come first. */
 export function useRevisions(path: string, isVisible: boolean) {
   const projectId = useProjectStore((state) => state.projectId);
   const revision = useProjectStore((state) => state.revision);
@@ -19,14 +19,14 @@ export function useRevisions(path: string, isVisible: boolean) {
     enabled: isVisible && projectId !== null,
   });
   useEffect(() => {
-    // A new revision was saved here or elsewhere.
+    // A new revision was saved, here or elsewhere.
     void client.invalidateQueries({ queryKey: keyOf(projectId) });
   }, [client, projectId, revision]);
   const items: Revision[] = found.data?.pages.flatMap((page) => page.items) ?? [];
   return { ...found, items };
 }
 
-/** Sets or removes the name of a revision. */
+/** Returns a function that sets or removes the name of a revision. */
 export function useLabel(): (number: number, label: string) => Promise<void> {
   const client = useQueryClient();
   const projectId = useProjectStore((state) => state.projectId);

@@ -23,7 +23,7 @@ describe('diagramOf', () => {
     });
   });
 
-  it('is empty where there was no file, and null where it cannot be read', () => {
+  it('is empty if there was no file, and null if it cannot be read', () => {
     expect(diagramOf(null, 'Main')).toMatchObject({ id: 'Main', root: null, nodes: {}, drafts: [] });
     expect(diagramOf('{', 'Main')).toBeNull();
   });
@@ -40,7 +40,7 @@ describe('useDifferences', () => {
     );
   }
 
-  it('asks for the newer revision against the older', async () => {
+  it('requests the newer revision compared with the older', async () => {
     const asked = open({ [`${FILE}/5/diff?against=2`]: { files: [{ path: 'a.py' }, { path: 'b.py' }] } });
     show(<Files />);
     expect(await screen.findByText('a.py b.py')).toBeInTheDocument();
@@ -61,14 +61,14 @@ describe('useFileSides', () => {
     expect(await screen.findByText('old | new')).toBeInTheDocument();
   });
 
-  it('has none where the file was not there, or is no text', async () => {
+  it('has no text where the file did not exist, or is not text', async () => {
     const asked = open({ [`${FILE}/5/files/a.png`]: text('\u0000') });
     show(<Sides path="a.png" older={0} />);
     expect(await screen.findByText('null | null')).toBeInTheDocument();
     expect(asked()).toEqual([`${FILE}/5/diff?against=0`, `${FILE}/5/files/a.png`]);
   });
 
-  it('asks for no file of a revision that does not have it', async () => {
+  it('does not request a file from a revision without it', async () => {
     const diff = `${FILE}/5/diff?against=2`;
     const asked = open({
       [diff]: {
@@ -87,7 +87,7 @@ describe('useFileSides', () => {
     expect(asked()).toEqual([diff, `${FILE}/5/files/new.py`, `${FILE}/2/files/old.py`]);
   });
 
-  it('passes a refusal on', async () => {
+  it('passes an error on', async () => {
     open({ [`${FILE}/2/files/a`]: refusal('Not now.', { status: 503 }), [`${FILE}/5/files/a`]: text('x') });
     show(<Sides path="a" />);
     expect(await screen.findByText('Not now.')).toBeInTheDocument();
@@ -118,7 +118,7 @@ describe('useXmlSides', () => {
     expect(JSON.parse((requests[0]?.body as { diagram: string }).diagram)).toMatchObject({ id: 'Main' });
   });
 
-  it('has no text where there was no tree', async () => {
+  it('has no text where the tree did not exist', async () => {
     const { requests } = fakeServer({ [WRITE]: { xml: '<Sequence/>', ranges: [] } });
     show(<Xml hasBefore={false} hasAfter={false} />);
     expect(await screen.findByText('[] []')).toBeInTheDocument();

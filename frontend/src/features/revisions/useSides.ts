@@ -7,7 +7,7 @@ import { useProjectStore } from '@/store/project';
 
 type Sides = readonly [older: number, newer: number];
 
-/** The files that differ between two revisions. */
+/** Returns the files that differ between two revisions. */
 export function useDifferences([older, newer]: Sides, enabled = true) {
   const projectId = useProjectStore((state) => state.projectId) ?? '';
   return useQuery({
@@ -25,7 +25,7 @@ export interface FileSides {
   readonly after: string | null;
 }
 
-/** A file in two revisions; null if it does not exist there or is not text. */
+/** Returns the text of a file in two revisions; null where the file does not exist or is not text. */
 export function useFileSides(path: string | null, [older, newer]: Sides) {
   const projectId = useProjectStore((state) => state.projectId) ?? '';
   const differences = useDifferences([older, newer], path !== null);
@@ -34,7 +34,7 @@ export function useFileSides(path: string | null, [older, newer]: Sides) {
     queryKey: ['file-sides', projectId, path, older, newer],
     queryFn: async ({ signal }): Promise<FileSides> => {
       const text = (number: number) => revisions.text(projectId, number, path ?? '', signal);
-      // A file that is not in a revision is not asked for.
+      // A file that a revision lacks is not requested.
       const [before, after] = await Promise.all([
         change === 'added' ? null : text(older),
         change === 'removed' ? null : text(newer),
@@ -46,7 +46,7 @@ export function useFileSides(path: string | null, [older, newer]: Sides) {
   });
 }
 
-/** The diagram in a revision; an empty one if it did not exist, null if it cannot be drawn. */
+/** Returns the diagram of a text; an empty one if the file did not exist, null if it cannot be drawn. */
 export function diagramOf(text: string | null, id: string): Diagram | null {
   const none = { format: 'bt-studio/diagram', version: 1, id, root: null, nodes: {}, drafts: [] };
   try {
@@ -56,7 +56,7 @@ export function diagramOf(text: string | null, id: string): Diagram | null {
   }
 }
 
-/** Both states of a tree as XML; an empty text if it did not exist. */
+/** Returns both states of a tree as XML; the text is empty where the tree did not exist. */
 export function useXmlSides(before: Diagram | null, after: Diagram | null, sides: Sides) {
   const id = after?.id ?? before?.id ?? '';
   return useQuery({

@@ -16,7 +16,7 @@ it.each([
   ['Import of a friend', 'Import of a friend'],
   ['My own words', 'My own words'],
   ['', 'Revision 7'],
-])('says “%s” as “%s”', (message, words) => {
+])('translates “%s” to “%s”', (message, words) => {
   const say = i18next.getFixedT('en', 'revisions');
   expect(sayRevision(revision(7, { message }), say)).toBe(words);
 });

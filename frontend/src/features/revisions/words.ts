@@ -1,7 +1,7 @@
 import type { TFunction } from 'i18next';
 import type { Revision } from '@/api/revisions';
 
-/** Messages that the server and autosaving write, with the keys of their translations. */
+/** The messages that the server and autosaving write, with the keys of their translations. */
 const KNOWN: readonly (readonly [RegExp, string])[] = [
   [/^Edit (\d+) files$/, 'message.editMany'],
   [/^Edit (.+)$/, 'message.edit'],
@@ -13,7 +13,7 @@ const KNOWN: readonly (readonly [RegExp, string])[] = [
   [/^Change the settings$/, 'message.settings'],
 ];
 
-/** The message of a revision, translated if it is one of our own. */
+/** Returns the message of a revision, translated if the server or autosaving wrote it. */
 export function sayRevision({ message, number }: Revision, t: TFunction<'revisions'>): string {
   for (const [pattern, key] of KNOWN) {
     const found = pattern.exec(message);

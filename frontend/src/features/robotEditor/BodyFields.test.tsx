@@ -42,7 +42,7 @@ describe('the fields of a body', () => {
     expect(link().mass).toBe(1000);
   });
 
-  it('change how it slides, ahead and sideways', async () => {
+  it('change its friction, ahead and sideways', async () => {
     const { robot } = fields('caster_link');
     expect(screen.getByTestId('part-friction')).toHaveValue('0');
     await write('part-friction', '0.5');
@@ -51,7 +51,7 @@ describe('the fields of a body', () => {
     expect(screen.queryByTestId('part-skid')).toBeNull();
   });
 
-  it('ask for the sliding sideways of a wheel, up to all of it', async () => {
+  it('have the sideways friction of a wheel, up to 1', async () => {
     const { robot } = fields('wheel_left_link', { isSized: false });
     await write('part-skid', '0.5');
     expect(robot().raw['skid']).toMatchObject({ wheel_left_link: 0.5 });
@@ -62,26 +62,26 @@ describe('the fields of a body', () => {
     expect(screen.queryByTestId('shape-0-x')).toBeNull();
   });
 
-  it('ask for no friction of what touches nothing', () => {
+  it('have no friction if nothing is touched', () => {
     fields('camera_link');
     expect(screen.queryByTestId('part-friction')).toBeNull();
     expect(screen.queryByTestId('part-skid')).toBeNull();
   });
 
-  it('say what each shape is, and open the only one', () => {
+  it('name each shape, and open it if it is the only one', () => {
     fields('base_link');
     const summary = screen.getByText(/Box · seen and touched/);
     expect(summary.closest('details')).toHaveAttribute('open');
     expect(summary.querySelector('span')).toHaveStyle({ background: 'rgb(63, 111, 181)' });
   });
 
-  it('say what is only seen, or only touched', () => {
+  it('name shapes that are only visual, or only collision', () => {
     fields('wheel_left_link', { isSized: false });
     expect(screen.getAllByText(/only seen/)).not.toHaveLength(0);
     expect(screen.getByText(/Sphere · only touched/).closest('details')).not.toHaveAttribute('open');
   });
 
-  it('change size and place of a shape, seen and touched together', async () => {
+  it('change size and place of a shape, visual and collision together', async () => {
     const { bodies } = fields('base_link');
     await write('shape-0-size-0', '0.5');
     await write('shape-0-z', '0.2');
@@ -96,7 +96,7 @@ describe('the fields of a body', () => {
     expect(bodies()[0]!.visual!.size).toEqual([0.5, 10, 0.001]);
   });
 
-  it('make it another shape', async () => {
+  it('change the kind of a shape', async () => {
     const { bodies } = fields('base_link');
     expect(screen.getByText('Size (m)')).toBeInTheDocument();
     await choose(shape(), 'Cylinder');
@@ -105,7 +105,7 @@ describe('the fields of a body', () => {
     expect(screen.queryByTestId('shape-0-size-2')).toBeNull();
   });
 
-  it('offer a mesh where there is one, and then which', async () => {
+  it('offer a mesh if there is one, and then the choice of mesh', async () => {
     const texts = { 'robots/mine/meshes/a.stl': '', 'robots/mine/meshes/b.stl': '' };
     const { bodies } = fields('base_link', { texts });
     expect(screen.queryByTestId('shape-0-file')).toBeNull();
@@ -116,7 +116,7 @@ describe('the fields of a body', () => {
     expect(bodies()[0]!.visual?.file).toBe('meshes/b.stl');
   });
 
-  it('offer no mesh where there is none', async () => {
+  it('offer no mesh if there is none', async () => {
     fields('base_link');
     await user.click(shape());
     expect((await screen.findAllByRole('option')).map(({ textContent }) => textContent)).toEqual([
@@ -126,7 +126,7 @@ describe('the fields of a body', () => {
     ]);
   });
 
-  it('paint it, one step a colour', async () => {
+  it('set the colour, one undo step each', async () => {
     const { editor, bodies } = fields('base_link');
     const color = screen.getByRole('textbox', { name: 'Colour' });
     expect(color).toHaveValue('#3f6fb5');
@@ -142,7 +142,7 @@ describe('the fields of a body', () => {
     expect(editor.store.getState().undoStack.sealed).toBe(true);
   });
 
-  it('keep how much one sees through what is painted', async () => {
+  it('keep the transparency of the colour', async () => {
     const texts = { [URDF]: robotUrdf.replace('0.247 0.435 0.71 1', '0.247 2 -1 0.5') };
     const { bodies } = fields('base_link', { texts });
     const color = screen.getByRole('textbox', { name: 'Colour' });
@@ -152,7 +152,7 @@ describe('the fields of a body', () => {
     expect(bodies()[0]!.visual?.color).toEqual([1, 0, 0, 0.5]);
   });
 
-  it('add and remove shapes, but leave the base one', async () => {
+  it('add and remove shapes, but keep the last one of the base', async () => {
     const { bodies } = fields('base_link');
     await user.click(screen.getByTestId('add-body'));
     expect(bodies()).toHaveLength(2);
@@ -164,7 +164,7 @@ describe('the fields of a body', () => {
     expect(bodies()).toHaveLength(1);
   });
 
-  it('bring a mesh to it', async () => {
+  it('upload a mesh for it', async () => {
     const { bodies } = fields('base_link');
     const input = screen.getByTestId('body-mesh-file');
     const opened = vi.spyOn(input, 'click').mockImplementation(() => undefined);
@@ -177,7 +177,7 @@ describe('the fields of a body', () => {
     );
   });
 
-  it('are only seen in a project that may only be seen', () => {
+  it('cannot be edited in a read-only project', () => {
     fields('base_link', { prepare: lookOnly });
     expect(screen.queryByTestId('add-body')).toBeNull();
     expect(screen.queryByRole('button', { name: 'Remove this shape' })).toBeNull();
@@ -185,7 +185,7 @@ describe('the fields of a body', () => {
     expect(within(screen.getByRole('group', { name: 'Body' })).getByTestId('part-mass')).toBeDisabled();
   });
 
-  it('are empty for a link that is not there', () => {
+  it('are empty for a missing link', () => {
     fields('gone');
     expect(screen.queryByTestId('part-mass')).toBeNull();
   });

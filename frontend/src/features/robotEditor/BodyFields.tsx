@@ -22,7 +22,7 @@ interface BodyFieldsProps {
   readonly robot: Robot;
   /** The name of the link. */
   readonly name: string;
-  /** The shapes of a driven wheel change with its radius and width. */
+  /** Whether the shapes change with the radius and width, as those of a driven wheel. */
   readonly isSized: boolean;
 }
 
@@ -40,7 +40,7 @@ const hex = (color: readonly number[]): string =>
     )
     .join('')}`;
 
-/** A link's mass and its visual and collision shapes. */
+/** The fields for a link's mass and its visual and collision shapes. */
 export function BodyFields({ editor, robot, name, isSized }: BodyFieldsProps) {
   const { t } = useTranslation('robotEditor');
   const files = useProjectStore((state) => state.files);

@@ -20,7 +20,7 @@ describe('the fields of the whole robot', () => {
     expect(screen.getByText(/Select a part to change it/)).toBeInTheDocument();
   });
 
-  it('change the drive, but for what the wheels say', async () => {
+  it('change the drive, except for values that the wheels determine', async () => {
     const robot = fields();
     await write('value-wheel_torque', '3');
     expect(robot().drive['wheel_torque']).toBe(3);
@@ -29,7 +29,7 @@ describe('the fields of the whole robot', () => {
     expect(screen.getByText('Drive')).toBeInTheDocument();
   });
 
-  it('choose what it takes as a command', async () => {
+  it('choose the type of its commands', async () => {
     const robot = fields();
     const select = screen.getByTestId('command-type');
     expect([...(select as HTMLSelectElement).options].map(({ text }) => text)).toEqual([
@@ -41,7 +41,7 @@ describe('the fields of the whole robot', () => {
     expect(robot().commandType).toBe('twist_stamped');
   });
 
-  it('leave the truth out of the file where it is not said', async () => {
+  it('leave the ground truth out of the file if it is not set', async () => {
     const robot = fields();
     const truth = screen.getByRole('checkbox', { name: /Says where it truly is/ });
     await user.click(truth);
@@ -86,7 +86,7 @@ describe('the fields of the wheels', () => {
     expect(screen.getByTestId(field)).toHaveValue(value);
   });
 
-  it('have no width where they are no cylinders', () => {
+  it('have no width for wheels that are no cylinders', () => {
     wheels({ [URDF]: robotUrdf.replace(/<cylinder[^>]*>/g, '<sphere radius="0.05"/>') });
     expect(screen.queryByTestId('wheel-width')).toBeNull();
     expect(screen.getByTestId('wheel-radius')).toBeInTheDocument();

@@ -12,7 +12,7 @@ interface DriveFieldsProps {
   readonly robot: Robot;
 }
 
-/** Properties of the whole robot: name, wheels and drive. */
+/** The fields for the whole robot: name, wheels and drive. */
 export function DriveFields({ editor, robot }: DriveFieldsProps) {
   const { t } = useTranslation('robotEditor');
   return (
@@ -62,7 +62,7 @@ export function DriveFields({ editor, robot }: DriveFieldsProps) {
   );
 }
 
-/** The properties of all driven wheels. */
+/** The fields for all driven wheels. */
 export function WheelFields({ editor, robot }: DriveFieldsProps) {
   const { t } = useTranslation('robotEditor');
   const width = wheelWidth(robot);

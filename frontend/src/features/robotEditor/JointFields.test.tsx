@@ -31,7 +31,7 @@ function fields(
 }
 
 describe('the fields of a joint', () => {
-  it('say how it moves, and are closed where it does not', () => {
+  it('show how it moves, and are closed for a fixed joint', () => {
     fields();
     const details = screen.getByTestId('joint');
     expect(details).not.toHaveAttribute('open');
@@ -50,7 +50,7 @@ describe('the fields of a joint', () => {
     expect(joint().name).toBe('hinge');
   });
 
-  it('let it turn, and then ask for its axis and its limits in degrees', async () => {
+  it('make it turn, and then show its axis and its limits in degrees', async () => {
     const { joint } = fields();
     await choose(screen.getByTestId('joint-type'), 'turns between limits');
     expect(joint()).toMatchObject({ type: 'revolute', axis: [0, 0, 1] });
@@ -74,7 +74,7 @@ describe('the fields of a joint', () => {
     expect(joint().axis.map((part) => Math.round(part))).toEqual([1, 0, -1]);
   });
 
-  it('count the way of a sliding joint in metres', async () => {
+  it('show the range of a prismatic joint in metres', async () => {
     const { joint } = fields(asType('prismatic', '<limit lower="0" upper="0.3" effort="1" velocity="1"/>'));
     expect(screen.getByText('Limits (m)')).toBeInTheDocument();
     await user.type(screen.getByTestId('joint-upper'), '{ArrowUp}');
@@ -87,13 +87,13 @@ describe('the fields of a joint', () => {
     expect(joint().limits?.[0]).toBeCloseTo((-85 * Math.PI) / 180, 4);
   });
 
-  it('have no limits where it turns round and round', () => {
+  it('have no limits for a continuous joint', () => {
     fields(asType('continuous'));
     expect(screen.getByTestId('joint-axis-x')).toBeInTheDocument();
     expect(screen.queryByTestId('joint-lower')).toBeNull();
   });
 
-  it('give it a motor, change it, and take it away', async () => {
+  it('give it a motor, change it, and remove it', async () => {
     const { robot } = fields(asType('continuous'));
     const motor = () => motorOf(robot(), 'caster_joint');
     expect(screen.queryByTestId('value-topic')).toBeNull();
@@ -106,7 +106,7 @@ describe('the fields of a joint', () => {
     expect(motor()).toBeNull();
   });
 
-  it('leave the joint of a driven wheel as it is', () => {
+  it('cannot change the joint of a driven wheel', () => {
     fields({}, 'wheel_left_joint');
     expect(screen.getByText('Joint · turns round and round')).toBeInTheDocument();
     expect(screen.getByTestId('joint')).not.toHaveAttribute('open');
@@ -114,14 +114,14 @@ describe('the fields of a joint', () => {
     expect(screen.queryByTestId('joint-motor')).toBeNull();
   });
 
-  it('name a kind that cannot be chosen here', async () => {
+  it('show a type that cannot be chosen here', async () => {
     fields(asType('floating'));
     expect(screen.getByText('Joint · floating')).toBeInTheDocument();
     await user.click(screen.getByTestId('joint-type'));
     expect((await screen.findAllByRole('option')).at(-1)).toHaveTextContent('floating');
   });
 
-  it('are only seen in a project that may only be seen', () => {
+  it('cannot be edited in a read-only project', () => {
     fields(asType('continuous'), 'caster_joint', lookOnly);
     expect(screen.getByTestId('joint-type')).toBeDisabled();
     expect(screen.getByTestId('joint-motor')).toBeDisabled();

@@ -30,7 +30,7 @@ const AXES = ['x', 'y', 'z'] as const;
 const ENDS = ['lower', 'upper'] as const;
 const DEGREES = 180 / Math.PI;
 
-/** The joint between a part and its parent: fixed, or driven by a motor about or along an axis. */
+/** The fields for the joint between a part and its parent: its type, its axis and its motor. */
 export function JointFields({ editor, robot, joint }: JointFieldsProps) {
   const { t } = useTranslation('robotEditor');
   const { name, type } = joint;
@@ -109,7 +109,8 @@ function Motion({ editor, robot, joint }: JointFieldsProps) {
               onCommit={(value) => {
                 const [lower, upper] = limits ?? [0, 0];
                 const wish = value / factor;
-                // A limit that was set to the other one may be beyond it by what was rounded.
+                // A limit that is set to the value of the other one may exceed it, because values are rounded
+                // for display.
                 const next: [number, number] =
                   at === 0 ? [Math.min(wish, upper), upper] : [lower, Math.max(wish, lower)];
                 edit(editor, 'joint', (now) => setJoint(now, name, { limits: next }));

@@ -27,7 +27,7 @@ const name = () => screen.findByTestId<HTMLInputElement>('new-robot-name');
 beforeEach(() => closeNewRobot());
 
 describe('the dialogue for a new robot', () => {
-  it('offers our template first, and the robots that we ship', async () => {
+  it('offers the template first, then the built-in robots', async () => {
     dialog();
     expect(await name()).toHaveValue('my_robot');
     expect(screen.getByRole('radio', { name: /Two wheels/ })).toBeChecked();
@@ -35,7 +35,7 @@ describe('the dialogue for a new robot', () => {
     expect(screen.getByText(/A base, two driven wheels/)).toBeInTheDocument();
   });
 
-  it('makes a robot of the template, runs with it, and opens it', async () => {
+  it('makes a robot from the template, runs with it, and opens it', async () => {
     const { openFile } = dialog();
     await user.type(await name(), '{Enter}');
     await waitFor(() => expect(openFile).toHaveBeenCalledWith('robots/my_robot/robot.yaml', undefined));
@@ -46,7 +46,7 @@ describe('the dialogue for a new robot', () => {
     expect(useNewRobot.getState().base).toBeNull();
   });
 
-  it('copies a robot that we ship, with its own URDF, and only that where it is not to be used', async () => {
+  it('copies a built-in robot with its URDF, and only copies it if it is not to be used', async () => {
     const { openFile } = dialog('own_rover');
     expect(await name()).toHaveValue('my_own_rover');
     await user.click(screen.getByRole('switch', { name: 'Run this project with it' }));

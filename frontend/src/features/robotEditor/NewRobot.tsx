@@ -9,7 +9,7 @@ import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
 import { closeNewRobot, ownRobots, TEMPLATE, useNewRobot } from '@/store/dialogs/newRobot';
 
-/** Adds a robot to the project: a copy of the template or of one of our robots. */
+/** The dialogue that adds a robot to the project: a copy of the template or of a built-in robot. */
 export function NewRobot() {
   const { t } = useTranslation('robotEditor');
   const base = useNewRobot((state) => state.base);

@@ -18,7 +18,7 @@ function fields(key: string, texts: Record<string, string> = {}) {
 }
 
 describe('the fields of a part', () => {
-  it('of the base: a body, but no place and no joint', () => {
+  it('of the base: a body, but no pose and no joint', () => {
     fields('link base_link');
     expect(screen.getByTestId('part-fields')).toHaveAttribute('data-part', 'link base_link');
     expect(screen.getByRole('textbox', { name: 'Name · Base' })).toHaveValue('base_link');
@@ -28,7 +28,7 @@ describe('the fields of a part', () => {
     expect(screen.queryByTestId('wheel-radius')).toBeNull();
   });
 
-  it('of a wheel: the wheels together, whose shapes are not sized one by one', () => {
+  it('of a wheel: those of all wheels, without sizes of single shapes', () => {
     fields('link wheel_left_link');
     expect(screen.getByRole('textbox', { name: 'Name · Driven wheel' })).toBeInTheDocument();
     expect(screen.getByTestId('wheel-radius')).toBeInTheDocument();
@@ -36,7 +36,7 @@ describe('the fields of a part', () => {
     expect(screen.getByTestId('joint')).toBeInTheDocument();
   });
 
-  it('of a sensor: its values, its place, and the body that it shows', async () => {
+  it('of a sensor: its values, its pose, and its body', async () => {
     const { robot } = fields('sensor scan');
     expect(screen.getByRole('textbox', { name: 'Name · LIDAR' })).toHaveValue('scan');
     await write('value-range_max', '5');
@@ -46,7 +46,7 @@ describe('the fields of a part', () => {
     expect(partOf(robot(), 'sensor scan')?.pose[2]).toBeCloseTo(0.3);
   });
 
-  it('of a sensor on the base: no body, since the base shows it', () => {
+  it('of a sensor on the base: no body, which is that of the base', () => {
     const imu = `${robotYaml}  - {name: imu, kind: imu, link: base_link, topic: /imu, rate_hz: 30}\n`;
     fields('sensor imu', { [ROBOT]: imu });
     expect(screen.queryByTestId('part-mass')).toBeNull();
@@ -71,7 +71,7 @@ describe('the fields of a part', () => {
     expect(robot().urdf.links.has('caster_link')).toBe(false);
   });
 
-  it('step the place by the grid, or by a millimetre', async () => {
+  it('step the position by the grid, or by a millimetre', async () => {
     const { editor, part } = fields('link caster_link');
     const start = part().pose[0];
     await user.type(screen.getByTestId('field-x'), '{ArrowUp}');

@@ -18,7 +18,7 @@ interface PartFieldsProps {
   readonly part: Part;
 }
 
-/** All properties of one part. */
+/** The fields for all properties of a part. */
 export function PartFields({ editor, robot, part }: PartFieldsProps) {
   const { t } = useTranslation('robotEditor');
   const { key, kind, sensor, link, name } = part;

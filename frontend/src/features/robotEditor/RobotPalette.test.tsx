@@ -23,7 +23,7 @@ describe('the palette of a robot', () => {
     expect(screen.getByRole('toolbar', { name: 'Parts to add' })).toBeInTheDocument();
   });
 
-  it('says that there are no meshes yet, and brings one', async () => {
+  it('shows that there are no meshes yet, and uploads one', async () => {
     const { robot } = palette();
     await user.click(screen.getByTestId('add-mesh'));
     expect(await screen.findByText('This robot has no meshes yet')).toBeInTheDocument();
@@ -40,7 +40,7 @@ describe('the palette of a robot', () => {
     );
   });
 
-  it('offers the meshes beside the URDF', async () => {
+  it('offers the meshes in the folder of the URDF', async () => {
     const { robot } = palette({ 'robots/mine/meshes/a.stl': '', 'assets/b.stl': '' });
     await user.click(screen.getByTestId('add-mesh'));
     expect(await screen.findByText('Of this robot')).toBeInTheDocument();

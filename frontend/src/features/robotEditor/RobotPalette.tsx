@@ -33,7 +33,7 @@ const ICONS: Readonly<Record<Addable, typeof IconCube>> = {
   cylinder: IconCylinder,
 };
 
-/** The parts that can be added to a robot. */
+/** The palette with the parts that can be added to a robot. */
 export function RobotPalette({ editor }: { readonly editor: RobotEditor }) {
   const { t } = useTranslation('robotEditor');
   return (
@@ -53,7 +53,9 @@ export function RobotPalette({ editor }: { readonly editor: RobotEditor }) {
   );
 }
 
-/** Adds visual parts from a mesh: one of the robot's, or one that is uploaded now. */
+/**
+ * The menu that adds visual parts from a mesh: an existing one of the robot, or one that the user uploads.
+ */
 function MeshMenu({ editor }: { readonly editor: RobotEditor }) {
   const { t } = useTranslation('robotEditor');
   const paths = useProjectStore((state) => state.files);

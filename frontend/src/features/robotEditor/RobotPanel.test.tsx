@@ -13,7 +13,7 @@ const PATH = 'robots/mine/robot.yaml';
 let editor: RobotEditor;
 let runs = 0;
 
-/** The panel with the robot as it is now. */
+/** The panel, with the current robot. */
 function Panel() {
   useProjectStore((state) => state.files);
   const { robot } = readingOf(editor);
@@ -30,7 +30,7 @@ const write = (testId: string, text: string) => type(testId, `${text}{Enter}`);
 
 beforeEach(() => {
   openProject({ texts: { [PATH]: robotYaml, 'robots/mine/robot.urdf': robotUrdf } });
-  // An editor outlives its tab, and belongs to one project.
+  // An editor outlives its tab but belongs to one project, so each test needs a new project.
   useProjectStore.setState({ projectId: `p${(runs += 1)}` });
   editor = editorOf(PATH);
   show(<Panel />);
@@ -46,7 +46,7 @@ describe('the fields of the whole robot', () => {
     expect(robot().name).toBe('Rover');
   });
 
-  it('size all wheels together, within their range', async () => {
+  it('change the size of all wheels together, within their range', async () => {
     await write('wheel-radius', '0.05');
     expect(robot().wheelRadius).toBe(0.05);
     await write('wheel-track', '0.4');
@@ -55,7 +55,7 @@ describe('the fields of the whole robot', () => {
     expect(robot().wheelRadius).toBe(2);
   });
 
-  it('choose how it is driven', async () => {
+  it('choose its commands', async () => {
     await user.selectOptions(screen.getByTestId('command-type'), 'Twist');
     expect(robot().commandType).toBe('twist');
     const truth = screen.getByTestId('ground-truth');
@@ -83,7 +83,7 @@ describe('the fields of a sensor', () => {
 
   const lidar = () => robot().parts.find(({ kind }) => kind === 'lidar')!.sensor!.raw;
 
-  it('change its topic, and refuse what is none', async () => {
+  it('change its topic, and refuse an invalid one', async () => {
     await write('value-topic', '/laser');
     expect(lidar()['topic']).toBe('/laser');
     await type('value-topic', 'no topic');
@@ -92,7 +92,7 @@ describe('the fields of a sensor', () => {
     expect(lidar()['topic']).toBe('/laser');
   });
 
-  it('take whole numbers of rays', async () => {
+  it('accept whole numbers of rays', async () => {
     await write('value-rays', '90.4');
     expect(lidar()['rays']).toBe(90);
   });

@@ -41,13 +41,13 @@ const ICONS: Readonly<Record<PartKind, typeof IconBox>> = {
   battery: IconBattery3,
 };
 
-/** The list of parts, and the fields of the selected one; of the whole robot if none is selected. */
+/** The list of parts, with the fields of the selected part, or of the whole robot if none is selected. */
 export function RobotPanel({ editor, robot }: RobotPanelProps) {
   const { t } = useTranslation('robotEditor');
   const selection = useStore(editor.store, (state) => state.selection);
   const part = selection.length === 1 ? partOf(robot, selection[0] ?? '') : undefined;
   return (
-    // Only undo and redo are taken here, on their way from the controls within.
+    // The panel handles only undo and redo, when their keys bubble up from the controls inside.
     // eslint-disable-next-line jsx-a11y/no-static-element-interactions
     <div className={classes['panel']} onKeyDown={(event) => onPanelKey(editor, event)}>
       <ThingList

@@ -23,19 +23,19 @@ const size = (scene: RobotScene, key: string) =>
     .toArray()
     .map((part) => Math.round(part * 1e3) / 1e3);
 
-/** What is seen of a sensor's sight: the lines after the frame. */
+/** Returns the drawn field of view of a sensor: the lines after the frame. */
 const sight = (scene: RobotScene, key: string) => objectsOf(scene.nodeOf(key)!, THREE.LineSegments).at(1);
 const reach = (lines: THREE.LineSegments) =>
   Math.max(...valuesOf(lines.geometry).filter((_, at) => at % 3 === 0));
 
 describe('RobotScene', () => {
-  it('draws each part where it is, as large as it is', () => {
+  it('draws each part at its pose, in its size', () => {
     const { scene } = shown();
     expect(scene.group.children).toHaveLength(6);
     expect(size(scene, 'link base_link')).toEqual([0.3, 0.22, 0.1]);
     expect(size(scene, 'sensor scan')).toEqual([0.07, 0.07, 0.04]);
     expect(scene.nodeOf('sensor camera')?.position.toArray()).toEqual([0.162, 0, 0.11]);
-    // A wheel lies on its side.
+    // The wheel's cylinder lies on its side.
     expect(size(scene, 'link wheel_left_link')).toEqual([0.1, 0.032, 0.1]);
   });
 
@@ -46,7 +46,7 @@ describe('RobotScene', () => {
     expect([r, g, b].map((part) => Math.round(part * 1000) / 1000)).toEqual([0.247, 0.435, 0.71]);
   });
 
-  it('shows a small cube for a part that nothing is seen of, and nothing for a battery', () => {
+  it('shows a small cube for an invisible part, and nothing for a battery', () => {
     const yaml = `${robotYaml}  - {name: imu, kind: imu, link: base_link, topic: /imu, rate_hz: 30}
   - {name: battery, kind: battery, topic: /battery, voltage: 12, capacity_ah: 4}
 `;
@@ -55,7 +55,7 @@ describe('RobotScene', () => {
     expect(scene.nodeOf('sensor battery')?.children).toEqual([]);
   });
 
-  it('shows what a LIDAR sees, as far as it does not hide the robot', () => {
+  it('shows the rays of a LIDAR, at a length that does not hide the robot', () => {
     const { scene } = shown();
     const ring = sight(scene, 'sensor scan')!;
     expect(reach(ring)).toBeCloseTo(0.8);
@@ -66,18 +66,18 @@ describe('RobotScene', () => {
     expect(Math.min(...points.filter((_, at) => at % 3 === 0))).toBeCloseTo(-0.8);
   });
 
-  it('shows the sector that a LIDAR sees', () => {
+  it('shows the sector of a LIDAR', () => {
     const { scene } = shown(robotYaml.replace('rays: 360', `rays: 360\n    fov: ${Math.PI}`));
     const points = valuesOf(sight(scene, 'sensor scan')!.geometry);
     const axis = (offset: number) => points.filter((_, at) => at % 3 === offset);
     expect(Math.min(...axis(0))).toBeCloseTo(0);
     expect([Math.min(...axis(1)), Math.max(...axis(1))]).toEqual([expect.closeTo(-0.8), expect.closeTo(0.8)]);
     expect(axis(2).every((z) => z === 0)).toBe(true);
-    // 72 pieces of the rim, and 13 rays.
+    // The ring has 72 pieces, and there are 13 rays.
     expect(points).toHaveLength((72 + 13) * 2 * 3);
   });
 
-  it('shows the pyramid that a camera sees', () => {
+  it('shows the pyramid of a camera', () => {
     const { scene } = shown();
     const pyramid = sight(scene, 'sensor camera')!;
     expect(reach(pyramid)).toBeCloseTo(0.4);
@@ -85,7 +85,7 @@ describe('RobotScene', () => {
     expect(side).toBeCloseTo(0.4 * Math.tan(0.6), 3);
   });
 
-  it('draws again what has changed only', () => {
+  it('draws only changed parts again', () => {
     const { scene, show } = shown();
     const [base, camera] = ['link base_link', 'sensor camera'].map((key) => scene.nodeOf(key));
     show(robotYaml.replace('fov: 1.2', 'fov: 0.8'), robotUrdf);
@@ -97,7 +97,7 @@ describe('RobotScene', () => {
     expect(moved?.position.x).toBe(0.2);
   });
 
-  it('knows which parts move together', () => {
+  it('returns the parts that move together', () => {
     const { scene } = shown();
     expect(scene.heldNodesOf(['sensor scan'])).toEqual([scene.nodeOf('sensor scan')]);
     expect(scene.heldNodesOf(['link base_link'])).toHaveLength(6);
@@ -106,7 +106,7 @@ describe('RobotScene', () => {
   });
 
   it.each(['meshes/a.stl', './meshes/a.stl', 'package://mine/meshes/a.stl', 'file://meshes/a.stl'])(
-    'finds the mesh %s beside the URDF',
+    'finds the mesh %s in the folder of the URDF',
     async (name) => {
       openProject({});
       fakeServer({ 'GET /projects/p1/files/robots/mine/meshes/a.stl': new Response(stl(1)) });

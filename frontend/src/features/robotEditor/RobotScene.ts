@@ -8,10 +8,10 @@ import type { Pose } from '@/model/document/values';
 import { below, type Solid } from '@/model/robot/urdf';
 import type { Part, Robot } from '@/model/robot/types';
 
-/** An invisible part is shown as a small cube. */
+/** The size in m of the cube that is drawn for an invisible part. */
 const HANDLE_M = 0.024;
 const HANDLE_COLOR = [0.44, 0.49, 1, 1];
-/** The longest drawn range of a sensor: its real range would hide the robot. */
+/** The longest drawn range of a sensor in m; its real range would hide the robot. */
 const FARTHEST_M = 0.8;
 const FRAME_PAD_M = 0.006;
 
@@ -26,7 +26,7 @@ const number = (value: unknown, fallback: number): number => (typeof value === '
 export class RobotScene extends ThingScene<Part> {
   private robot: Robot | null = null;
 
-  /** `folder` is the folder of the URDF; mesh names are relative to it. */
+  /** Creates the scene. `folder` is the folder of the URDF, to which the mesh names are relative. */
   constructor(
     isSimple: boolean,
     onArrival: () => void,
@@ -40,7 +40,7 @@ export class RobotScene extends ThingScene<Part> {
     this.show(robot.parts);
   }
 
-  /** The objects that a gesture moves: the given parts and all parts attached to them. */
+  /** Returns the objects that a gesture moves: the given parts and all parts attached to them. */
   heldNodesOf(keys: readonly string[]): THREE.Object3D[] {
     const { robot } = this;
     if (!robot) return [];
@@ -95,7 +95,7 @@ export class RobotScene extends ThingScene<Part> {
   }
 }
 
-/** The field of view of a sensor in its own frame: a ring or a pyramid. */
+/** Returns the lines of a sensor's field of view in its own frame: a ring or a pyramid. */
 function sightOf({ sensor }: Part): THREE.BufferGeometry | null {
   if (sensor?.kind === 'camera') {
     return pyramidOf({ fov: number(sensor.raw['fov'], 1.047), range: FARTHEST_M / 2 });

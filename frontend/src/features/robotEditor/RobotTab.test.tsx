@@ -19,7 +19,7 @@ function tab(texts: Record<string, string> = {}) {
 }
 
 describe('the tab of a robot', () => {
-  it('shows view, panel and tools, and no problem of a good robot', () => {
+  it('shows view, panel and tools, and no problem for a valid robot', () => {
     tab();
     expect(screen.getByTestId('robot-editor')).toHaveAttribute('data-path', ROBOT);
     expect(screen.getByTestId('robot-view')).toBeInTheDocument();
@@ -31,7 +31,7 @@ describe('the tab of a robot', () => {
     ]);
   });
 
-  it('notes what was typed into either text as a step of undo', () => {
+  it('records edits of either text as an undo step', () => {
     const { editor } = tab();
     const type = (path: string, from: string, to: string) => {
       act(() => {
@@ -46,7 +46,7 @@ describe('the tab of a robot', () => {
     expect(editor.store.getState().undoStack.past).toHaveLength(2);
   });
 
-  it('offers both texts, or the one that is there', () => {
+  it('offers both texts, or the existing one', () => {
     const { editor } = tab();
     act(() => editor.store.setState({ isTextShown: true }));
     expect(screen.getByRole('radio', { name: 'robot.urdf' })).toBeInTheDocument();
@@ -65,13 +65,13 @@ describe('the tab of a robot', () => {
     expect(screen.getByTestId('robot-view')).toBeInTheDocument();
   });
 
-  it('shows the texts alone where there is no such robot', () => {
+  it('shows only the texts if there is no such robot', () => {
     openRobot();
     show(<RobotTab path="robots/gone/robot.yaml" />);
     expect(screen.getByTestId('robot-editor-text')).toBeInTheDocument();
   });
 
-  it('runs this robot once, whatever the project names', async () => {
+  it("runs this robot once, whatever the project's robot is", async () => {
     const { run } = tab();
     await user.click(screen.getByTestId('run-here'));
     expect(useUniverseChoice.getState().robot).toBe('mine');

@@ -11,7 +11,7 @@ import { editorOf, GRIDS, urdfPathOf, type RobotEditor } from './editor';
 import { RobotPanel } from './RobotPanel';
 import { RobotView } from './RobotView';
 
-/** The editor of a robot in the project: 3D view, configuration and URDF. */
+/** The tab of a robot in the project: 3D view, configuration and URDF. */
 export function RobotTab({ path }: { readonly path: string }) {
   const { t } = useTranslation('robotEditor');
   const editor = useMemo(() => editorOf(path), [path]);
@@ -47,7 +47,7 @@ export function RobotTab({ path }: { readonly path: string }) {
   );
 }
 
-/** The tools of all editors, and a button that runs the robot in the chosen universe. */
+/** The toolbar: the tools of all editors, and a button that runs the robot in the chosen universe. */
 function RobotToolbar({ editor }: { readonly editor: RobotEditor }) {
   const { t } = useTranslation('robotEditor');
   const runHere = () => {

@@ -16,7 +16,7 @@ function view(prepare: () => void = () => undefined) {
 }
 
 describe('the view of a robot', () => {
-  it('is one control, which says what it shows where there is no WebGL', () => {
+  it('is one control, with a description if there is no WebGL', () => {
     view();
     expect(screen.getByRole('application', { name: /^The robot in 3D\./ })).toHaveAttribute(
       'data-things',
@@ -25,7 +25,7 @@ describe('the view of a robot', () => {
     expect(screen.getByRole('note')).toHaveTextContent('the robot is not shown in 3D');
   });
 
-  it('takes the keys of the editor', () => {
+  it('handles the keys of the editor', () => {
     const { editor, robot, press, pose } = view();
     act(() => select(editor, ['sensor camera']));
     press('ArrowUp', { shiftKey: true });
@@ -47,7 +47,7 @@ describe('the view of a robot', () => {
     expect(editor.store.getState().selection).toHaveLength(6);
   });
 
-  it('announces what is selected, and where', () => {
+  it('announces the selection and its position', () => {
     const { editor } = view();
     const status = screen.getByRole('status');
     expect(status).toBeEmptyDOMElement();
@@ -59,7 +59,7 @@ describe('the view of a robot', () => {
     expect(status).toBeEmptyDOMElement();
   });
 
-  it('has no palette in a project that may only be seen', () => {
+  it('has no palette in a read-only project', () => {
     view(lookOnly);
     expect(screen.queryByRole('toolbar', { name: 'Parts to add' })).toBeNull();
   });

@@ -23,7 +23,7 @@ interface RobotViewProps {
   readonly robot: Robot;
 }
 
-/** Keys of the view, as listed in `docs/how-to/make-a-robot.md`. */
+/** Returns the keys of the view, as listed in `docs/how-to/make-a-robot.md`. */
 const keysOf = (editor: RobotEditor): KeyActs => ({
   modes: ['move', 'turn'],
   nudge: (along, aside, up, factor) => nudge(editor, along, aside, up, factor),
@@ -33,7 +33,7 @@ const keysOf = (editor: RobotEditor): KeyActs => ({
   all: () => readingOf(editor).robot?.parts.map(({ key }) => key) ?? [],
 });
 
-/** The robot in 3D, with all joints at zero. */
+/** The 3D view of the robot, with all joints at zero. */
 export function RobotView({ editor, robot }: RobotViewProps) {
   const { t } = useTranslation('robotEditor');
   const selection = useStore(editor.store, (state) => state.selection);

@@ -14,7 +14,7 @@ function fields(kind: FieldsOf, values: JsonObject = {}, without: readonly strin
 }
 
 describe('ValueFields', () => {
-  it('show what is said, and the default where nothing is', () => {
+  it('show the values, and the defaults of missing ones', () => {
     fields('lidar', { rays: 90, topic: '/front', noise_m: 'much' });
     expect(screen.getByTestId('value-rays')).toHaveValue('90');
     expect(screen.getByTestId('value-topic')).toHaveValue('/front');
@@ -23,14 +23,14 @@ describe('ValueFields', () => {
     expect(screen.getByText('Measures')).toBeInTheDocument();
   });
 
-  it('leave out what stands elsewhere', () => {
+  it('leave out fields that are shown elsewhere', () => {
     fields('drive', {}, ['track']);
     expect(screen.queryByTestId('value-track')).toBeNull();
     expect(screen.getByTestId('value-wheel_radius')).toBeInTheDocument();
     expect(screen.getByText('Drive')).toBeInTheDocument();
   });
 
-  it('take whole numbers where they count', async () => {
+  it('accept only whole numbers for counts', async () => {
     const onChange = fields('lidar', { rays: 90 });
     await write('value-rays', '120.6');
     expect(onChange).toHaveBeenLastCalledWith('rays', 121);
@@ -48,7 +48,7 @@ describe('ValueFields', () => {
     expect(onChange).toHaveBeenLastCalledWith('fov', expect.closeTo((175 * Math.PI) / 180, 6));
   });
 
-  it('count angles in degrees, also their bounds', async () => {
+  it('show angles in degrees, also their bounds', async () => {
     const onChange = fields('drive', { max_angular: Math.PI });
     expect(screen.getByTestId('value-max_angular')).toHaveValue('180');
     await write('value-max_angular', '90');
@@ -81,13 +81,13 @@ describe('ValueFields', () => {
     expect(onChange).toHaveBeenCalledExactlyOnceWith('topic', `/${'a'.repeat(199)}`);
   });
 
-  it('let a topic be left out that need not be there', async () => {
+  it('accept an empty topic if it is optional', async () => {
     const onChange = fields('camera', { topic: '/image', depth_topic: '/depth' });
     await write('value-depth_topic', '{Backspace}');
     expect(onChange).toHaveBeenCalledExactlyOnceWith('depth_topic', undefined);
   });
 
-  it('name the values of a motor as its own', () => {
+  it('name the values of a motor differently', () => {
     fields('motor', { topic: '/arm' });
     expect(screen.getByRole('group', { name: 'Motor' })).toBeInTheDocument();
     expect(screen.getByLabelText('Begins at')).toBeInTheDocument();

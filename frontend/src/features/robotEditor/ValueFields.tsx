@@ -6,7 +6,7 @@ import { fieldsOf, type Field, type FieldsOf } from '@/model/robot/rules';
 interface ValueFieldsProps {
   readonly kind: FieldsOf;
   readonly values: JsonObject;
-  /** Fields that are shown elsewhere. */
+  /** The fields that are shown elsewhere. */
   readonly without?: readonly string[];
   readonly onChange: (field: string, value: Json | undefined) => void;
 }
@@ -16,7 +16,10 @@ const TOPIC = /^\/[A-Za-z0-9_/]+$/;
 const DEGREES = 180 / Math.PI;
 const ANGLES = new Set(['fov', 'max_angular', 'angular_acceleration']);
 
-/** All values that the format allows for a sensor, the drive or a motor: topics first, then the numbers. */
+/**
+ * The fields for all values that the format allows for a sensor, the drive or a motor: topics first, then
+ * numbers.
+ */
 export function ValueFields({ kind, values, without = [], onChange }: ValueFieldsProps) {
   const { t } = useTranslation('robotEditor');
   const fields = fieldsOf(kind).filter(({ name }) => !without.includes(name));

@@ -24,7 +24,7 @@ describe('placePart', () => {
     expect(pose(editor, key!).slice(0, 2)).toEqual([0.1, -0.05]);
   });
 
-  it('puts it where one of its kind usually sits otherwise', () => {
+  it('puts it at the usual place of its kind otherwise', () => {
     const editor = openRobot();
     placePart(editor, 'imu');
     expect(part(editor, selected(editor)[0]!)).toMatchObject({ kind: 'imu', name: 'imu' });
@@ -34,7 +34,7 @@ describe('placePart', () => {
 });
 
 describe('placeMesh', () => {
-  it('adds a piece of body that looks like it', () => {
+  it('adds a body part that is drawn with the mesh', () => {
     const editor = openRobot();
     placeMesh(editor, { file: 'meshes/arm.stl', scale: 0.001 });
     const { name } = part(editor, selected(editor)[0]!)!;
@@ -44,8 +44,8 @@ describe('placeMesh', () => {
   });
 });
 
-describe('what is selected of a robot', () => {
-  it('is removed, but for its base', () => {
+describe('the selected parts of a robot', () => {
+  it('are removed, except for the base', () => {
     const editor = openRobot();
     select(editor, ['sensor scan', 'link base_link']);
     removeSelected(editor);
@@ -53,7 +53,7 @@ describe('what is selected of a robot', () => {
     expect(part(editor, 'link base_link')).toBeDefined();
   });
 
-  it('is copied five centimetres beside itself', () => {
+  it('are copied five centimetres beside themselves', () => {
     const editor = openRobot();
     select(editor, ['sensor camera']);
     duplicateSelected(editor);
@@ -61,7 +61,7 @@ describe('what is selected of a robot', () => {
     expect(pose(editor, 'sensor camera_2')).toEqual([0.162, 0.05, 0.11, 0, 0, 0]);
   });
 
-  it('moves by steps of the grid along the axes of the view; one undo takes all steps back', () => {
+  it('move by steps of the grid along the axes of the view; one undo reverts all steps', () => {
     const editor = openRobot();
     select(editor, ['sensor camera']);
     const start = pose(editor, 'sensor camera');
@@ -78,7 +78,7 @@ describe('what is selected of a robot', () => {
     expect(pose(editor, 'sensor camera')).toEqual(start);
   });
 
-  it('moves by a millimetre without a grid', () => {
+  it('move by a millimetre without a grid', () => {
     const editor = openRobot();
     editor.store.setState({ grid: 0 });
     select(editor, ['sensor camera']);
@@ -86,7 +86,7 @@ describe('what is selected of a robot', () => {
     expect(pose(editor, 'sensor camera')[0]).toBe(0.163);
   });
 
-  it('turns about its own upright axis', () => {
+  it('turn about their own vertical axes', () => {
     const editor = openRobot();
     select(editor, ['sensor camera']);
     turnSelected(editor, Math.PI / 2);

@@ -8,7 +8,7 @@ import { edit, type RobotEditor } from './editor';
 
 const selected = (editor: RobotEditor) => editor.store.getState().selection;
 
-/** Adds a part at the place of the drop, or at the usual place for its kind. */
+/** Adds a part at a place, or at the usual place for its kind. */
 export function placePart(editor: RobotEditor, kind: Addable, at?: Point): void {
   const { grid } = editor.store.getState();
   const point = at ? ([snapped(at[0], grid), snapped(at[1], grid)] as const) : undefined;
@@ -28,7 +28,7 @@ export function duplicateSelected(editor: RobotEditor): void {
   edit(editor, 'duplicate', (robot) => duplicateParts(robot, selected(editor), [0, 0.05]));
 }
 
-/** Moves the selection by grid steps; presses of the same key join to one step of undo. */
+/** Moves the selection by grid steps; repeated presses of a key are merged into one undo step. */
 export function nudge(editor: RobotEditor, along: number, aside: number, up: number, factor = 1): void {
   const { grid, selection } = editor.store.getState();
   const step = (grid || 0.001) * factor;

@@ -66,7 +66,7 @@ describe('the editor of a robot', () => {
     expect(editor.store.getState().undoStack.past).toHaveLength(2);
   });
 
-  it('selects after a step back what is still there', () => {
+  it('selects after undo what still exists', () => {
     const editor = openRobot();
     select(editor, ['sensor scan', 'sensor gone']);
     edit(editor, 'name', (robot) => ({ ...setValue(robot, ['name'], 'a'), select: ['sensor camera'] }));
@@ -75,7 +75,7 @@ describe('the editor of a robot', () => {
     expect(editor.store.getState().selection).toEqual(['sensor scan']);
   });
 
-  it('leaves texts alone that cannot be read, or may only be seen', () => {
+  it('leaves unreadable texts, and those of a read-only project, unchanged', () => {
     const broken = openRobot({ [ROBOT]: 'a: [' });
     edit(broken, 'name', (robot) => setValue(robot, ['name'], 'a'));
     expect(text(ROBOT)).toBe('a: [');

@@ -11,14 +11,19 @@ export type RobotEditor = Editor;
 
 const folderOf = (path: string): string => path.slice(0, path.lastIndexOf('/') + 1);
 
-/** The path of a robot's URDF beside its `robot.yaml`; null if the URDF cannot be shown. */
+/**
+ * Returns the path of a robot's URDF, which is relative to its `robot.yaml`; null if the URDF cannot be
+ * shown.
+ */
 export function urdfPathOf(path: string, yaml: string): string | null {
   const name = urdfNameOf(yaml);
   const isOurs = /\.urdf$/i.test(name) && !name.startsWith('/') && !name.split('/').includes('..');
   return isOurs ? `${folderOf(path)}${name}` : null;
 }
 
-/** The editor of a robot of the open project; it stays when the robot's tab is closed. */
+/**
+ * Returns the editor of a robot of the open project. The editor stays when the tab of the robot is closed.
+ */
 export const editorOf = (path: string): RobotEditor =>
   editorFor(path, {
     pathsOf: (yaml) => {
@@ -29,7 +34,7 @@ export const editorOf = (path: string): RobotEditor =>
     grid: 0.005,
   });
 
-/** The present robot, as far as its texts can be read. */
+/** Returns the current robot, as far as its texts can be read. */
 export function readingOf({ path }: RobotEditor): RobotReading {
   const { currentText } = useProjectStore.getState();
   const yaml = currentText(path) ?? '';
@@ -37,7 +42,7 @@ export function readingOf({ path }: RobotEditor): RobotReading {
   return readRobot(yaml, urdf === null ? null : currentText(urdf));
 }
 
-/** Changes the robot; one step of undo, joined with the last one of the same `mergeKey`. */
+/** Changes the robot as one undo step, which is merged with the last one if that has the same `mergeKey`. */
 export function edit(
   editor: RobotEditor,
   label: string,

@@ -54,20 +54,20 @@ describe('the gizmo on a robot', () => {
     expect(handles.stand()?.mode).toBe('move');
   });
 
-  it('leaves the base where it is', () => {
+  it('does not move the base', () => {
     const { editor, handles } = begin();
     select(editor, ['link base_link']);
     expect(handles.stand()).toBeNull();
     expect(handles.held()).toEqual([]);
   });
 
-  it('takes the parts along that hang on another', () => {
+  it('moves the parts that are attached to another', () => {
     const { editor, scene, handles } = begin();
     select(editor, ['link caster_link', 'link base_link']);
     expect(handles.held()).toEqual([scene.nodeOf('link caster_link')]);
   });
 
-  it('puts one part where it is', () => {
+  it('places one part', () => {
     const { editor, pose, gesture } = begin();
     select(editor, ['sensor camera']);
     gesture('move', (pivot) => pivot.position.set(0.2, 0.1, 0.3));
@@ -76,7 +76,7 @@ describe('the gizmo on a robot', () => {
     expect(editor.store.getState().undoStack.past.map(({ label }) => label)).toEqual(['move', 'turn']);
   });
 
-  it('moves several parts by the same way', () => {
+  it('moves several parts by the same offset', () => {
     const { editor, pose, gesture } = begin();
     select(editor, ['link base_link', 'sensor camera', 'sensor scan']);
     gesture('move', (pivot) => pivot.position.add(new THREE.Vector3(0.1, -0.05, 0.02)));

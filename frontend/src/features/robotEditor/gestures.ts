@@ -7,14 +7,14 @@ import { partOf, type Part } from '@/model/robot/types';
 import { edit, readingOf, type RobotEditor } from './editor';
 import type { RobotScene } from './RobotScene';
 
-/** The selected parts that can be moved. */
+/** Returns the selected parts that can be moved. */
 function movable(editor: RobotEditor): Part[] {
   const { robot } = readingOf(editor);
   const { selection } = editor.store.getState();
   return robot ? robot.parts.filter((part) => selection.includes(part.key) && jointOf(robot, part)) : [];
 }
 
-/** The results of the gizmo's gestures on the parts of a robot. */
+/** Returns the handlers of the gizmo's gestures on the parts of a robot. */
 export function handlesOf(editor: RobotEditor, scene: RobotScene): Handles {
   return {
     stand: () => {
@@ -57,8 +57,8 @@ export function handlesOf(editor: RobotEditor, scene: RobotScene): Handles {
 }
 
 /**
- * The results of the pointer's gestures on the parts of a robot: the base is fixed, other parts move at their
- * height.
+ * Returns the handlers of the pointer's drags of a robot's parts: the base is fixed, and other parts move at
+ * their height.
  */
 export function dragHandlerOf(editor: RobotEditor, scene: RobotScene): DragHandler {
   return {

@@ -6,13 +6,13 @@ import { bringHere, meshesOf, urdfFolder } from './meshes';
 const inFolder = () => openRobot({ [ROBOT]: 'urdf: urdf/mine.urdf\n', 'robots/mine/urdf/mine.urdf': '' });
 
 describe('the meshes of a robot', () => {
-  it('lie beside its URDF', () => {
+  it('are in the folder of its URDF', () => {
     expect(urdfFolder(openRobot())).toBe('robots/mine/');
     expect(urdfFolder(inFolder())).toBe('robots/mine/urdf/');
     expect(urdfFolder(openRobot({ [ROBOT]: 'urdf: ../other.urdf\n' }))).toBe('robots/mine/');
   });
 
-  it('are named from there, in order', () => {
+  it('are named relative to it, in order', () => {
     const paths = [
       'robots/mine/urdf/meshes/wheel.dae',
       'robots/mine/urdf/arm.STL',
@@ -27,7 +27,7 @@ describe('the meshes of a robot', () => {
     [3, 1],
     [3.1, 0.001],
     [200, 0.001],
-  ])('of %s units are brought with the scale %s', async (width, scale) => {
+  ])('of %s units are added with the scale %s', async (width, scale) => {
     const editor = openRobot();
     fakeServer(takesFile('robots/mine/meshes/arm.stl'));
     expect(await bringHere(editor, new File([stl(width)], 'arm.stl'))).toEqual({
@@ -36,7 +36,7 @@ describe('the meshes of a robot', () => {
     });
   });
 
-  it('are not brought where they cannot be read', async () => {
+  it('are not added if they cannot be read', async () => {
     const editor = openRobot();
     fakeServer({});
     expect(await bringHere(editor, new File([EMPTY_STL], 'arm.stl'))).toBeNull();

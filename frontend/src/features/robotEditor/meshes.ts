@@ -4,17 +4,19 @@ import { FILES } from '@/model/universe/types';
 import { useProjectStore } from '@/store/project';
 import { urdfPathOf, type RobotEditor } from './editor';
 
-/** The largest part in m: larger meshes are assumed to be in mm, as drawing programs often use. */
+/**
+ * The largest plausible part in m: larger meshes are assumed to be in mm, which drawing programs often use.
+ */
 const LARGEST_M = 3;
 const MILLIMETRE = 0.001;
 
-/** The folder of the URDF; mesh names are relative to it. */
+/** Returns the folder of the URDF, to which mesh names are relative. */
 export function urdfFolder({ path }: RobotEditor): string {
   const urdf = urdfPathOf(path, useProjectStore.getState().currentText(path) ?? '') ?? path;
   return urdf.slice(0, urdf.lastIndexOf('/') + 1);
 }
 
-/** The meshes beside the URDF, by their names in it. */
+/** Returns the meshes in the URDF's folder, by their names in the URDF. */
 export function meshesOf(editor: RobotEditor, paths: readonly string[]): string[] {
   const folder = urdfFolder(editor);
   return paths
@@ -23,7 +25,7 @@ export function meshesOf(editor: RobotEditor, paths: readonly string[]): string[
     .sort((a, b) => a.localeCompare(b));
 }
 
-/** Adds a mesh beside the URDF; resolves to its name in the URDF, or to null if it cannot be used. */
+/** Adds a mesh in the URDF's folder; resolves to its name in the URDF, or to null if it cannot be used. */
 export async function bringHere(editor: RobotEditor, file: File): Promise<MeshFile | null> {
   const folder = urdfFolder(editor);
   const mesh = await bringMesh(file, `${folder}meshes`);

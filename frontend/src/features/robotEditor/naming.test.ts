@@ -11,7 +11,7 @@ const t = i18next.getFixedT('en', 'robotEditor');
 const BAD = 'Letters, digits and _ only; the first is a letter';
 
 describe('nameWords', () => {
-  it('says why a link or a joint cannot have a name', () => {
+  it('reports why a link or a joint cannot have a name', () => {
     const problem = nameWords(robot, 'link', 'base_link', t);
     expect(problem('chassis')).toBeNull();
     expect(problem('base_link')).toBeNull();
@@ -26,7 +26,7 @@ describe('nameWords', () => {
 describe('sensorWords', () => {
   const problem = sensorWords(robot, robot.sensors[0]!, t);
 
-  it.each(['front', 'Front_2', 'scan', 'a'.repeat(80)])('takes %s', (name) => {
+  it.each(['front', 'Front_2', 'scan', 'a'.repeat(80)])('accepts %s', (name) => {
     expect(problem(name)).toBeNull();
   });
 

@@ -2,7 +2,10 @@ import type { TFunction } from 'i18next';
 import { nameProblem, type Named } from '@/model/robot/names';
 import type { Robot, Sensor } from '@/model/robot/types';
 
-/** The reason why a link's or a joint's name is invalid; `t` translates in the namespace `robotEditor`. */
+/**
+ * Returns a function that gives the reason why a link's or a joint's name is invalid; `t` translates in the
+ * namespace `robotEditor`.
+ */
 export const nameWords =
   (robot: Robot, what: Named, now: string, t: TFunction<'robotEditor'>) =>
   (wish: string): string | null => {
@@ -11,7 +14,7 @@ export const nameWords =
     return problem === 'form' ? t('badName') : t('editor3d:problem.sameId', { id: wish });
   };
 
-/** The reason why a sensor's name is invalid. */
+/** Returns a function that gives the reason why a sensor's name is invalid. */
 export const sensorWords =
   (robot: Robot, sensor: Sensor, t: TFunction<'robotEditor'>) =>
   (wish: string): string | null => {

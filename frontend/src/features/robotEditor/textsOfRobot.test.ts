@@ -5,7 +5,7 @@ import { fakeServer } from '../../../harness/testing';
 import { textsOfRobot } from './textsOfRobot';
 
 describe('textsOfRobot', () => {
-  it('are those of our template, named after its folder', async () => {
+  it('are those of the template, named after its folder', async () => {
     const { requests } = fakeServer({});
     const texts = await textsOfRobot(TEMPLATE, 'my_first_robot');
     expect(texts.yaml).toMatch(/^name: "?My first robot"?$/m);
@@ -14,7 +14,7 @@ describe('textsOfRobot', () => {
     expect(requests).toEqual([]);
   });
 
-  it('are those of a robot that we ship, under the name that it gives its URDF', async () => {
+  it('are those of a built-in robot, under the name of its URDF', async () => {
     fakeServer({
       'GET /catalog/robots/rover/config': new Response('name: Rover\nurdf: rover.urdf\n'),
       'GET /catalog/robots/rover/urdf': new Response('<robot name="rover"/>'),
@@ -26,7 +26,7 @@ describe('textsOfRobot', () => {
     });
   });
 
-  it('name the URDF where the robot does not', async () => {
+  it('name the URDF if the robot does not', async () => {
     fakeServer({
       'GET /catalog/robots/rover/config': new Response('name: Rover\n'),
       'GET /catalog/robots/rover/urdf': new Response('<robot/>'),

@@ -12,8 +12,8 @@ interface RobotTexts {
 }
 
 /**
- * The files of a new robot, copied from the template or from one of our robots; its name is that of its
- * folder.
+ * Returns the files of a new robot, copied from the template or from a built-in robot; its name is that of
+ * its folder.
  */
 export async function textsOfRobot(base: string, name: string): Promise<RobotTexts> {
   const [yaml, urdf] =

@@ -23,7 +23,7 @@ function begin() {
 }
 
 describe('useBringMesh', () => {
-  it('asks for a file of a kind that can be read', async () => {
+  it('asks for a file of a readable kind', async () => {
     const { input } = begin();
     expect(input).not.toBeVisible();
     expect(input.accept).toBe('.stl,.obj,.dae,.ply,.glb');
@@ -32,7 +32,7 @@ describe('useBringMesh', () => {
     expect(opened).toHaveBeenCalledOnce();
   });
 
-  it('hands out what was brought; the same file can be chosen again', async () => {
+  it('passes the mesh on; the same file can be chosen again', async () => {
     const { input, onMesh } = begin();
     fakeServer(takesFile('robots/mine/meshes/arm.stl'));
     await user.upload(input, new File([stl(1)], 'arm.stl'));
@@ -40,7 +40,7 @@ describe('useBringMesh', () => {
     expect(input.value).toBe('');
   });
 
-  it('hands out nothing of a file that cannot be read', async () => {
+  it('passes nothing on for an unreadable file', async () => {
     const { input, onMesh } = begin();
     fakeServer({});
     await user.upload(input, new File([EMPTY_STL], 'arm.stl'));

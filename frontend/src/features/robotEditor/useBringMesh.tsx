@@ -4,7 +4,7 @@ import type { MeshFile } from '@/model/robot/bodies';
 import type { RobotEditor } from './editor';
 import { bringHere } from './meshes';
 
-/** Uploads a mesh for the robot: `ask` opens the file dialogue, and the page must render `input`. */
+/** Uploads a mesh for the robot: `ask` opens the file dialogue, and the caller must render `input`. */
 export function useBringMesh(
   editor: RobotEditor,
   testId: string,

@@ -44,7 +44,7 @@ describe('ExecutorState', () => {
     expect(shown({})).toBe('paused');
   });
 
-  it('says how the last run ended', () => {
+  it('shows how the last run ended', () => {
     const finished = {
       status: 'FAILURE',
       reason: 'root_finished',
@@ -66,7 +66,7 @@ describe('ExecutorState', () => {
     expect(state()).toHaveTextContent(/^Running$/);
   });
 
-  it('tells a fault from a stop by hand, and a tick that hangs with its seconds', () => {
+  it('distinguishes a fault from a stop by hand, and shows the seconds of a hanging tick', () => {
     const finished = { status: 'IDLE', message: '', node_id: '', tree_id: '', node_path: '' } as const;
     const words = (change: Partial<SessionData>) => {
       useSessionStore.setState({ ...initialSession, executor: 'visualization_ready', ...change });

@@ -5,7 +5,7 @@ import { useSessionStore } from '@/store/session/store';
 import classes from './run.module.css';
 import { useShownState } from './useShownState';
 
-/** The executor's state in one word, with the rung of the ladder as tooltip. */
+/** The state of the executor in one word, with its rung of the ladder as a tooltip. */
 export function ExecutorState() {
   const { t } = useTranslation('run');
   const executor = useSessionStore((state) => state.executor);
@@ -24,7 +24,7 @@ export function ExecutorState() {
         <span className={classes['dot']} aria-hidden="true" />
         <span className={classes['stateText']}>
           {t(`state.${shown}`)}
-          {/* Not for screen readers, which would say every second. */}
+          {/* Hidden from screen readers, which would announce the seconds every second. */}
           {shown === 'silent' ? <span aria-hidden="true"> ({silentS} s)</span> : null}
           {shown === 'visualization_ready' && finished && finished.status !== 'IDLE'
             ? ` · ${t(`status.${finished.status}`)}`
@@ -35,7 +35,7 @@ export function ExecutorState() {
   );
 }
 
-/** The seconds since the executor's last answer, or since a tick was reported as hanging. */
+/** Returns the seconds since the executor's last answer, or since a hanging tick began. */
 function useSilence(): number {
   const silentS = useSessionStore((state) => state.silentS);
   const isHanging = useSessionStore((state) => state.isHanging);
@@ -51,5 +51,5 @@ function useSilence(): number {
   return silentS > 0 ? silentS : HANG_REPORTED_S + hangsS;
 }
 
-/** The executor reports a tick that has not returned for this long, s. */
+/** The time in s after which the executor reports a tick that has not returned. */
 const HANG_REPORTED_S = 3;

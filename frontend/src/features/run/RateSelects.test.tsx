@@ -19,7 +19,7 @@ beforeEach(() => {
 });
 
 describe('RateSelects', () => {
-  it('offers rates and speeds, the present one checked', async () => {
+  it('offers rates and speeds, with the current one checked', async () => {
     show(<RateSelects />);
     await user.click(screen.getByRole('button', { name: 'Ticks a second: 20 Hz' }));
     const rates = screen.getAllByRole('menuitemradio');
@@ -41,7 +41,7 @@ describe('RateSelects', () => {
     expect(screen.getByTestId('sim-speed')).toHaveTextContent('×0.25');
   });
 
-  it('only shows them to those who may not run', () => {
+  it('is read-only for users who may not run', () => {
     useRunStore.setState({ runBlocker: 'viewer' });
     show(<RateSelects />);
     expect(screen.getByTestId('tick-rate')).toBeDisabled();
@@ -64,7 +64,7 @@ describe('RateMenus', () => {
       </Menu>,
     );
 
-  it('offers the same within a menu', async () => {
+  it('offers the same in a menu', async () => {
     open();
     expect(screen.getByTestId('menu-tick-rate')).toHaveTextContent('Ticks a second: 20 Hz');
     expect(screen.getByTestId('menu-sim-speed')).toHaveTextContent('Simulation speed: ×1');
@@ -73,7 +73,7 @@ describe('RateMenus', () => {
     expect(tickHz()).toBe(50);
   });
 
-  it('only shows them to those who may not run', () => {
+  it('is read-only for users who may not run', () => {
     useRunStore.setState({ runBlocker: 'guest' });
     open();
     expect(screen.getByTestId('menu-tick-rate')).toBeDisabled();

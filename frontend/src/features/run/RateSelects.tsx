@@ -15,7 +15,7 @@ interface RateSelectProps {
   readonly options: readonly number[];
   readonly format: (value: number) => string;
   readonly testId: string;
-  /** Guests and viewers see the rates but cannot change them. */
+  /** Whether the rates can only be read, as by guests and viewers. */
   readonly isDisabled: boolean;
   readonly onChoose: (value: number) => void;
 }
@@ -64,7 +64,7 @@ function Choices({ value, options, format, onChoose }: ChoicesProps) {
   );
 }
 
-/** The tick rate and the speed of simulated time. */
+/** Returns the menus of the tick rate and of the speed of simulated time. */
 function useRates(): readonly RateSelectProps[] {
   const { t } = useTranslation('run');
   const tickHz = useProjectStore((state) => state.settings?.tick_hz ?? DEFAULT_TICK_HZ);
@@ -96,7 +96,7 @@ export function RateSelects() {
   return useRates().map((rate) => <RateSelect key={rate.testId} {...rate} />);
 }
 
-/** The same rates in a menu, for windows that are too narrow for both. */
+/** The rates as menus, for windows that are too narrow for both. */
 export function RateMenus() {
   return useRates().map(({ label, value, options, format, testId, isDisabled, onChoose }) => (
     <Menu.Sub key={testId}>

@@ -111,7 +111,7 @@ describe('RunControls', () => {
     });
   });
 
-  it('lets a viewer run nothing', async () => {
+  it('does not let a viewer run', async () => {
     await open('application_running', 'viewer');
     expect(button('Run')).toHaveAttribute('aria-disabled', 'true');
     for (const name of ['Pause', 'Step one tick', 'Stop (the world stays)', 'End the session'])
@@ -121,7 +121,7 @@ describe('RunControls', () => {
     expect(useRunStore.getState()).toMatchObject({ stage: null, runBlocker: 'viewer' });
   });
 
-  it('lets a guest run nothing', async () => {
+  it('does not let a guest run', async () => {
     await open('visualization_ready', 'driver', 'guest');
     await waitFor(() => {
       expect(button('Run')).toHaveAttribute('aria-disabled', 'true');
@@ -129,7 +129,7 @@ describe('RunControls', () => {
     expect(useRunStore.getState().runBlocker).toBe('guest');
   });
 
-  it('sets the rate of ticks for the project and for what runs', async () => {
+  it('sets the tick rate of the project and of the run', async () => {
     await open('application_running');
     await user.click(button('Ticks a second: 20 Hz'));
     await user.click(await screen.findByRole('menuitemradio', { name: '50 Hz' }));
@@ -146,7 +146,7 @@ describe('RunControls', () => {
     expect(button('Simulation speed: ×max')).toBeVisible();
   });
 
-  it('has the rest in a menu', async () => {
+  it('has the other commands in a menu', async () => {
     await open('application_running');
     await user.click(button('More ways to run'));
     await user.click(await screen.findByRole('menuitem', { name: /Reset the world/ }));
@@ -159,7 +159,7 @@ describe('RunControls', () => {
     expect(useStatusRate.getState().hz).toBe(2);
   });
 
-  it('says that the program changed since it was started', async () => {
+  it('shows that the program has changed since it was started', async () => {
     await open('application_running');
     act(() => {
       useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter });

@@ -34,7 +34,7 @@ export function RunControls() {
     <Group gap={4} wrap="nowrap">
       <Tooltip
         label={runBlocker ? t(`runBlocker.${runBlocker}`) : `${t('runHelp')} (${shortcutLabel('F5')})`}
-        // The pressed button's tooltip would lie on the message of the run.
+        // The tooltip is disabled after a press, since it would cover the message of the run.
         disabled={isPressed && !isBlocked}
         multiline
         maw={340}

@@ -37,7 +37,7 @@ async function open(isDisabled = false) {
 }
 
 describe('RunMenu', () => {
-  it('has the commands that there are, with their keys', async () => {
+  it('has the available commands, with their keys', async () => {
     await open();
     const item = screen.getByRole('menuitem', { name: /^Step ten ticks/ });
     expect(item).toHaveTextContent('Step ten ticksCtrl+F10');
@@ -46,13 +46,13 @@ describe('RunMenu', () => {
     expect(screen.queryByRole('menuitem', { name: /Reset the world/ })).toBeNull();
   });
 
-  it('disables what cannot be done now', async () => {
+  it('disables unavailable commands', async () => {
     await open();
     expect(screen.getByRole('menuitem', { name: /^Restart/ })).toBeDisabled();
     expect(screen.getByRole('menuitem', { name: /^Step ten/ })).toBeEnabled();
   });
 
-  it('disables everything for those who may not run, but for what they see', async () => {
+  it('disables everything for users who may not run, except for view options', async () => {
     await open(true);
     expect(screen.getByRole('menuitem', { name: /^Step ten/ })).toBeDisabled();
     await user.click(screen.getByRole('menuitemcheckbox', { name: 'Follow the running block' }));
@@ -65,7 +65,7 @@ describe('RunMenu', () => {
     expect(screen.getByRole('menuitemcheckbox')).toHaveAttribute('aria-checked', 'true');
   });
 
-  it('sets how often statuses change', async () => {
+  it('sets the update rate of statuses', async () => {
     await open();
     const rates = [
       'As they change',

@@ -18,7 +18,7 @@ const COMMANDS = [
   'run.connectRos',
 ];
 
-/** Rare commands, and options for the statuses on blocks. */
+/** The menu of rare commands, and of options for the statuses on blocks. */
 export function RunMenu({ isDisabled }: { readonly isDisabled: boolean }) {
   const { t } = useTranslation('run');
   const table = useCommandTable((state) => state.commands);

@@ -24,7 +24,7 @@ describe('commands of a run', () => {
     ['visualization_ready', ['run', 'restart', 'resetWorld', 'end']],
     ['application_running', ['run', 'pause', 'step', 'stop', 'step10', 'restart', 'resetWorld', 'end']],
     ['paused', ['run', 'resume', 'step', 'stop', 'step10', 'restart', 'resetWorld', 'end']],
-  ] as const)('may be given while the executor is %s', (state: State, expected) => {
+  ] as const)('are available while the executor is %s', (state: State, expected) => {
     executor.emit('state-changed', { state, reason: '' });
     const asked = [
       'run',
@@ -41,7 +41,7 @@ describe('commands of a run', () => {
     expect(asked.filter(isEnabled)).toEqual(expected);
   });
 
-  it('start nothing while a run starts, or where it is not allowed', () => {
+  it('start nothing while a run starts, or if it is not allowed', () => {
     executor.emit('state-changed', { state: 'paused', reason: '' });
     useRunStore.setState({ stage: 'saving' });
     expect([isEnabled('run'), isEnabled('restart')]).toEqual([false, false]);

@@ -67,7 +67,7 @@ describe('following', () => {
     expect(openTree).not.toHaveBeenCalled();
   });
 
-  it('shows what runs as soon as it is switched on', () => {
+  it('shows the running block as soon as it is switched on', () => {
     run(1, 3, 4);
     toggleFollowing();
     vi.advanceTimersByTime(700);
@@ -75,7 +75,7 @@ describe('following', () => {
     expect(revealed()).toMatchObject({ tree: 'Main', node: 'n4', count: 1 });
   });
 
-  it('shows another block after a readable time, and the last one of several', () => {
+  it('shows another block after a readable time, and only the last of several', () => {
     toggleFollowing();
     vi.advanceTimersByTime(700);
     run(1, 2);

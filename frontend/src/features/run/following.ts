@@ -6,7 +6,9 @@ import { useSessionStore } from '@/store/session/store';
 import type { TreeNode } from '@/generated/messages';
 
 const KEY = 'bts.followRunning';
-/** The shortest time between two moves of the view: short enough to keep up, long enough to read. */
+/**
+ * The shortest time between two moves of the view: short enough to keep up with the run, long enough to read.
+ */
 const SHORTEST_MS = 700;
 
 export const useFollowing = create<{ isOn: boolean }>(() => ({ isOn: localStorage.getItem(KEY) === '1' }));
@@ -17,7 +19,7 @@ export function toggleFollowing(): void {
   useFollowing.setState({ isOn });
 }
 
-/** The first running leaf of the tree: the robot's present activity. */
+/** Returns the first running leaf of the tree, which is the robot's current activity. */
 export function runningLeaf(
   nodes: readonly TreeNode[],
   isRunning: (node: TreeNode) => boolean,
@@ -26,7 +28,10 @@ export function runningLeaf(
   return nodes.find((node) => node.node_id !== '' && isRunning(node) && !parents.has(node.uid));
 }
 
-/** Scrolls the canvas to the running block while the option is on; the selection stays. */
+/**
+ * Scrolls the canvas to the running block while the option is on, without changing the selection; returns a
+ * function that stops it.
+ */
 export function followRunning(): () => void {
   let shown = '';
   let timer: ReturnType<typeof setTimeout> | undefined;

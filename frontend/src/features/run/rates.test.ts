@@ -29,7 +29,7 @@ describe('commands for rates', () => {
     expect(Object.values(commands()).every(({ group }) => group === 'rates')).toBe(true);
   });
 
-  it('say what they set', () => {
+  it('have labels with their values', () => {
     const label = (id: string) => [commands()[id]?.labelKey, commands()[id]?.labelValues];
     expect(label('run.tickRate.5')).toEqual(['run:command.tickRate', { hz: 5 }]);
     expect(label('run.speed.0.5')).toEqual(['run:command.speed', { speed: 0.5 }]);
@@ -38,7 +38,7 @@ describe('commands for rates', () => {
     expect(label('run.statusRate.0')).toEqual(['run:command.everyStatus', { hz: 0 }]);
   });
 
-  it('set it', () => {
+  it('set the rate', () => {
     perform('run.tickRate.5');
     perform('run.speed.0.5');
     perform('run.statusRate.10');
@@ -47,7 +47,7 @@ describe('commands for rates', () => {
     expect(useStatusRate.getState().hz).toBe(10);
   });
 
-  it('set nothing of the run for those who may not run', () => {
+  it('set nothing of the run for users who may not run', () => {
     useRunStore.setState({ runBlocker: 'viewer' });
     perform('run.tickRate.5');
     perform('run.speed.0.5');

@@ -3,11 +3,11 @@ import { setSpeed, setTickRate } from '@/store/run/commands';
 import { useRunStore } from '@/store/run/store';
 import { setStatusRate, STATUS_RATES } from '@/store/session/statusRate';
 
-/** The tick rates that can be chosen, Hz. */
+/** The tick rates that can be chosen, in Hz. */
 export const TICK_RATES = [1, 2, 5, 10, 20, 50, 100] as const;
-/** The tick rate of a project whose settings have none, Hz. */
+/** The tick rate, in Hz, of a project whose settings have none. */
 export const DEFAULT_TICK_HZ = 20;
-/** The speeds of simulated time; zero is as fast as the machine can. */
+/** The speeds of simulated time that can be chosen; zero means as fast as possible. */
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 5, 10, 0] as const;
 
 const mayRun = () => useRunStore.getState().runBlocker === null;

@@ -9,7 +9,7 @@ function Page() {
   return <p>{useHasChanged() ? 'changed' : 'as it runs'}</p>;
 }
 
-it('compares the project with what runs', () => {
+it('compares the project with the running program', () => {
   onTestFinished(() => useRunStore.setState(useRunStore.getInitialState(), true));
   openProject({});
   const runs = () => act(() => useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter }));

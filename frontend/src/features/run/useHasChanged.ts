@@ -1,7 +1,7 @@
 import { useProjectStore } from '@/store/project';
 import { useRunStore } from '@/store/run/store';
 
-/** Whether the project was edited since the running program was started. */
+/** Returns whether the project was edited since the running program was started. */
 export function useHasChanged(): boolean {
   const ranAt = useRunStore((state) => state.ranAt);
   return useProjectStore((state) => state.changeCounter !== ranAt);

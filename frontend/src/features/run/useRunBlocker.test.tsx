@@ -19,7 +19,7 @@ it.each([
   ['guest', 'viewer', 'guest'],
   ['user', 'viewer', 'viewer'],
   ['user', 'driver', null],
-] as const)('of a %s who is %s of the session is %s', async (who, of, blocker) => {
+] as const)('for a %s who is %s of the session is %s', async (who, of, blocker) => {
   onTestFinished(() => {
     useSessionStore.setState(initialSession, true);
     useRunStore.setState(useRunStore.getInitialState(), true);

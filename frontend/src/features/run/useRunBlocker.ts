@@ -3,7 +3,7 @@ import { useMe } from '@/features/accounts/useMe';
 import { useRunStore, type RunBlocker } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 
-/** The reason why this user may not run the project; shortcuts read it from the store. */
+/** Returns the reason why the user may not run the project, and stores it for the shortcuts. */
 export function useRunBlocker(): RunBlocker | null {
   const isGuest = useMe()?.role === 'guest';
   const isViewer = useSessionStore((state) => state.introspection?.role === 'viewer');

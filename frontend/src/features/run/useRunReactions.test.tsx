@@ -34,14 +34,14 @@ describe('a run that was refused', () => {
       useRunStore.setState({ failure: { stage: 'checking', code: 'x', message: '', hint: '', diagnostics } }),
     );
 
-  it('shows its problems', () => {
+  it('shows the problems', () => {
     const diagnostics: Diagnostic[] = [{ code: 'X1', severity: 'error', message: 'bad' }];
     fail(diagnostics);
     expect(showPanel).toHaveBeenCalledExactlyOnceWith('problems');
     expect(useProjectStore.getState().diagnostics).toEqual(diagnostics);
   });
 
-  it('shows no list where there is none', () => {
+  it('shows no list if there are no problems', () => {
     fail([]);
     expect(showPanel).not.toHaveBeenCalled();
   });
@@ -97,7 +97,7 @@ describe('the messages about a run', () => {
     },
   });
 
-  it('leave with the first edit, but for those of launch nodes', () => {
+  it('are removed with the first edit, except for those of launch nodes', () => {
     const node = { id: 'x', name: 'x', package: '', executable: '', file: 'launch/a.yaml', line: 3 };
     const ofNode = fault('process', 'launch/a.yaml');
     useSessionStore.setState({

@@ -12,7 +12,7 @@ interface Frame {
   openFile: (path: string, line?: number) => void;
 }
 
-/** Shows the user the error: the list of problems, or the line that raised it. */
+/** Shows an error to the user: opens the list of problems, or the line that raised the exception. */
 export function useRunReactions({ showPanel, openFile }: Frame): void {
   const failure = useRunStore((state) => state.failure);
   const fault = useSessionStore((state) => state.faults.at(-1));
@@ -25,23 +25,27 @@ export function useRunReactions({ showPanel, openFile }: Frame): void {
     const { actions, setChecked } = useProjectStore.getState();
     setChecked({ diagnostics: failure.diagnostics, actions });
     showPanel('problems');
-    // The frame's functions never change what they do.
+    // The frame's functions never change, so they are not listed as dependencies.
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, [failure]);
 
   const told = useRef(new WeakSet<Fault>());
   useEffect(() => {
-    // An older fault is the last one again when the user dismisses a newer one.
+    // When the user dismisses a fault, an older one becomes the last again, and must not be shown a second
+    // time.
     if (!fault || told.current.has(fault)) return;
     useSessionStore.getState().faults.forEach((each) => told.current.add(each));
-    // The end of a launch node does not end the run, and must not change what the user sees.
+    // The end of a launch node does not end the run, so it must not change what the user sees.
     if (!fault.file || fault.line <= 0 || fault.kind === 'process') return;
     if (fault.file in useProjectStore.getState().files) openFile(fault.file, fault.line);
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, [fault]);
 }
 
-/** Messages about the last run leave with the first edit, which answers them; those of launch nodes stay. */
+/**
+ * Removes the messages about the last run at the first edit, since the user has reacted to them; those of
+ * launch nodes stay. Returns a function that stops it.
+ */
 function forgetWithTheFirstEdit(): () => void {
   return useProjectStore.subscribe(({ changeCounter, projectId }, before) => {
     if (changeCounter === before.changeCounter || projectId !== before.projectId) return;

@@ -6,7 +6,7 @@ import { shownState } from './useShownState';
 const shown = (change: Partial<SessionData>) => shownState({ ...initialSession, ...change });
 const end = { status: 'FAILURE', message: '', node_id: '', tree_id: '', node_path: '' } as const;
 
-it('is a fault only where nobody asked for the end, and until the next run', () => {
+it('is a fault only if the end was not requested, and until the next run', () => {
   const died = { ...end, reason: 'process_died' } as const;
   expect(shown({ executor: 'visualization_ready', finished: died })).toBe('fault');
   expect(shown({ executor: 'connected', finished: died })).toBe('fault');

@@ -2,10 +2,10 @@ import { useSessionStore } from '@/store/session/store';
 import type { SessionData } from '@/store/session/types';
 import type { State } from '@/generated/messages';
 
-/** A rung of the ladder, or the more urgent truth that hides it. */
+/** The displayed state: a rung of the ladder, or a more urgent condition that hides the rung. */
 export type ShownState = State | 'lost' | 'silent' | 'launching' | 'fault';
 
-/** The ends of a run that nobody asked for. */
+/** The ends of a run that are faults. */
 const FAULTS = new Set(['action_raised', 'process_died']);
 
 export function shownState(state: SessionData): ShownState {

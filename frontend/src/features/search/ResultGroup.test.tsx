@@ -35,7 +35,7 @@ describe('ResultGroup', () => {
     expect(onReplace).toHaveBeenLastCalledWith([group.rows[1]]);
   });
 
-  it('replaces nothing while the search is not that of the form', () => {
+  it('replaces nothing while the results are outdated', () => {
     show(<ResultGroup group={group} isReplacing isFresh={false} onReplace={onReplace} />);
     expect(screen.getByRole('button', { name: /^Replace all in/ })).toBeDisabled();
   });

@@ -17,9 +17,9 @@ import classes from './search.module.css';
 interface ResultGroupProps {
   readonly group: Group;
   readonly isReplacing: boolean;
-  /** Whether the replacements are those of the present search; until then nothing is replaced. */
+  /** Whether the replacements are those of the current search; before that, nothing can be replaced. */
   readonly isFresh: boolean;
-  /** null: the project is read-only. */
+  /** null if the project is read-only. */
   readonly onReplace: ((rows: readonly Row[]) => void) | null;
 }
 
@@ -32,7 +32,7 @@ function DocumentIcon({ path }: { readonly path: string }) {
   );
 }
 
-/** The hits of one tree or file; its heading folds them. */
+/** The hits in one tree or file; the heading folds them. */
 export function ResultGroup({ group: { path, rows }, isReplacing, isFresh, onReplace }: ResultGroupProps) {
   const { t } = useTranslation('search');
   const [isFolded, setFolded] = useState(false);

@@ -32,7 +32,7 @@ beforeEach(() => {
 });
 
 describe('ResultRow', () => {
-  it('marks the hit in its line, and opens that', async () => {
+  it('marks the hit in its line, and opens the line', async () => {
     const { openFile } = watchNavigation();
     open(inFile);
     expect(row()).toHaveTextContent('go = goLine 2');
@@ -58,13 +58,13 @@ describe('ResultRow', () => {
     expect(onReplace).toHaveBeenCalledOnce();
   });
 
-  it('shows none that is not of the present search', () => {
+  it('shows no outdated replacement', () => {
     open(inFile, { isReplacing: true, isFresh: false });
     expect(document.querySelector('ins')).toBeNull();
     expect(screen.getByRole('button', { name: 'Replace this one' })).toBeDisabled();
   });
 
-  it('is locked where it only refers to something', () => {
+  it('is locked if it is a reference', () => {
     open(inTree('type', 'go'), { isReplacing: true });
     expect(screen.getByRole('img', { name: /Rename that instead/ })).toBeInTheDocument();
     expect(screen.queryByRole('button', { name: 'Replace this one' })).toBeNull();

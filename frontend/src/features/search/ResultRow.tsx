@@ -13,13 +13,13 @@ import classes from './search.module.css';
 interface ResultRowProps {
   readonly row: Row;
   readonly isReplacing: boolean;
-  /** Whether the replacements are those of the present search; until then nothing is replaced. */
+  /** Whether the replacements are those of the current search; before that, nothing can be replaced. */
   readonly isFresh: boolean;
-  /** null: the project is read-only. */
+  /** null if the project is read-only. */
   readonly onReplace: (() => void) | null;
 }
 
-/** Shows the block or line of a hit. */
+/** Opens the block or line of a hit. */
 function go({ path, place }: Passage, line: number): void {
   const tree = treeIdOf(path);
   if (!place || tree === null) return openFile(path, line);
@@ -27,7 +27,7 @@ function go({ path, place }: Passage, line: number): void {
   useProjectStore.getState().reveal(tree, place.node);
 }
 
-/** One hit with its line, and what the replacement makes of it. */
+/** The row of a hit: its line, and the line after the replacement. */
 export function ResultRow({ row: { passage, hit }, isReplacing, isFresh, onReplace }: ResultRowProps) {
   const { t } = useTranslation('search');
   const { before, hit: found, after, line } = excerptOf(passage.text, hit.start, hit.end);
@@ -75,7 +75,7 @@ export function ResultRow({ row: { passage, hit }, isReplacing, isFresh, onRepla
   );
 }
 
-/** The block and the field in it. */
+/** The block of a hit, and the field in the block. */
 function BlockPlace({ passage: { path, place } }: { readonly passage: Passage }) {
   const { t } = useTranslation('search');
   const node = useProjectStore(({ diagrams }) => place && diagrams[treeIdOf(path) ?? '']?.nodes[place.node]);

@@ -17,7 +17,7 @@ beforeEach(() => {
 const field = () => screen.getByTestId('search-text');
 
 describe('SearchForm', () => {
-  it('keeps what is typed and chosen', async () => {
+  it('stores the text and the options', async () => {
     show(<SearchForm wrong={null} onReplaceAll={null} onDown={onDown} />);
     await user.type(field(), 'speed');
     const whole = screen.getByRole('button', { name: 'Whole words only' });
@@ -26,19 +26,19 @@ describe('SearchForm', () => {
     expect(useSearchStore.getState()).toMatchObject({ text: 'speed', isWholeWord: true, isRegex: false });
   });
 
-  it('goes to the hits by arrow and Enter', async () => {
+  it('moves to the hits by arrow and Enter', async () => {
     show(<SearchForm wrong={null} onReplaceAll={null} onDown={onDown} />);
     await user.type(field(), 'a{ArrowDown}{Enter}');
     expect(onDown).toHaveBeenCalledTimes(2);
   });
 
-  it('says what is wrong at its field', () => {
+  it('shows an error at its field', () => {
     show(<SearchForm wrong="Not an expression" onReplaceAll={null} onDown={onDown} />);
     expect(field()).toBeInvalid();
     expect(field()).toHaveAccessibleDescription('Not an expression');
   });
 
-  it('offers to replace all where something can be replaced', async () => {
+  it('offers to replace all if something can be replaced', async () => {
     const onReplaceAll = vi.fn();
     show(<SearchForm wrong={null} onReplaceAll={onReplaceAll} onDown={onDown} />);
     const unfold = screen.getByRole('button', { name: 'Replace' });
@@ -50,7 +50,7 @@ describe('SearchForm', () => {
     expect(useSearchStore.getState().replacement).toBe('v');
   });
 
-  it('gets the keyboard with its command, and gives it back with Escape', async () => {
+  it('gets the focus with its command, and returns it with Escape', async () => {
     const run = vi.fn();
     const row = { id: 'go.tree', group: 'go', labelKey: 'frame:command.goToTree', run } as const;
     onTestFinished(registerCommands([row]));

@@ -15,12 +15,12 @@ const TOGGLES = [
 
 interface SearchFormProps {
   readonly wrong: string | null;
-  /** null: there is nothing to replace. */
+  /** null if there is nothing to replace. */
   readonly onReplaceAll: (() => void) | null;
   readonly onDown: () => void;
 }
 
-/** The fields of the search: text, how it is read, and its replacement. */
+/** The form of the search: text, options, and replacement. */
 export function SearchForm({ wrong, onReplaceAll, onDown }: SearchFormProps) {
   const { t } = useTranslation('search');
   const { text, replacement, isReplacing, asked, ...query } = useSearchStore();

@@ -30,7 +30,7 @@ async function search(text: string): Promise<void> {
 }
 
 describe('SearchPanel', () => {
-  it('says what is searched before anything is typed', () => {
+  it('explains what is searched before anything is typed', () => {
     expect(screen.getByRole('status')).toHaveTextContent('every line of all files');
   });
 
@@ -61,7 +61,7 @@ describe('SearchPanel', () => {
     expect(rows()[1]).toHaveFocus();
   });
 
-  it('reads the text by its switches', async () => {
+  it('uses its options for the text', async () => {
     await search('SPEED');
     await user.click(screen.getByRole('button', { name: 'Match upper and lower case' }));
     await waitFor(() => expect(screen.getByRole('status')).toHaveTextContent('Nothing was found.'));
@@ -70,7 +70,7 @@ describe('SearchPanel', () => {
     expect(field()).toBeInvalid();
   });
 
-  it('previews and makes a replacement, which is taken back in one step', async () => {
+  it('previews and makes a replacement, which is undone in one step', async () => {
     await search('speed');
     await user.click(screen.getByRole('button', { name: 'Replace' }));
     await user.type(screen.getByTestId('search-replacement'), 'v');
@@ -98,7 +98,7 @@ describe('SearchPanel', () => {
     expect(useProjectStore.getState().currentText('actions/Go.py')).not.toContain('speed');
   });
 
-  it('replaces nothing in a read-only project, and says so', async () => {
+  it('replaces nothing in a read-only project, and reports that', async () => {
     await search('speed');
     act(() => useProjectStore.setState({ role: 'viewer' }));
     act(() => setSearch({ isReplacing: true }));

@@ -12,14 +12,14 @@ import { useSearchStore } from './searchStore';
 import { useSearch, type SearchState } from './useSearch';
 import classes from './search.module.css';
 
-/** Moves the focus from row to row; from elsewhere to the first one. */
+/** Moves the focus to the next or previous row; from elsewhere, to the first one. */
 function walk(list: HTMLElement | null, step: 1 | -1): void {
   const rows = [...(list?.querySelectorAll<HTMLElement>('[data-row]') ?? [])];
   const at = rows.findIndex((row) => row === list?.ownerDocument.activeElement);
   rows[at < 0 ? 0 : at + step]?.focus();
 }
 
-/** Search in all trees and files of the project, with replacement. */
+/** The search panel: search in all trees and files of the project, with replacement. */
 export function SearchPanel() {
   const { t } = useTranslation('search');
   const isReplacing = useSearchStore((state) => state.isReplacing);
@@ -55,7 +55,7 @@ export function SearchPanel() {
       />
       <Summary state={state} />
       <ScrollArea className={classes['results'] ?? ''} type="auto" scrollbarSize={8}>
-        {/* The rows are buttons: the arrows only move among them. */}
+        {/* The rows are buttons; the arrow keys only move the focus among them. */}
         {/* eslint-disable-next-line jsx-a11y/no-static-element-interactions */}
         <div ref={list} onKeyDown={onKey}>
           {results?.groups.map((group) => (
@@ -73,7 +73,7 @@ export function SearchPanel() {
   );
 }
 
-/** What was found, or why nothing was. */
+/** The number of hits, or the reason why there are none. */
 function Summary({ state }: { readonly state: SearchState }) {
   const { t } = useTranslation('search');
   return (

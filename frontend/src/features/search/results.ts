@@ -2,7 +2,7 @@ import { canReplace, type Passage } from '@/model/search/passages';
 import type { Hit, Hits } from '@/model/search/seek';
 import type { Replacement } from '@/store/project/edits/replace';
 
-/** One hit with the text where it stands. */
+/** A hit, with the text that contains it. */
 export interface Row {
   readonly passage: Passage;
   readonly hit: Hit;
@@ -33,7 +33,7 @@ export function resultsOf(passages: readonly Passage[], { hits, isCut }: Hits): 
   return { groups: [...groups].map(([path, rows]) => ({ path, rows })), count: hits.length, isCut };
 }
 
-/** The hits that can be replaced, joined by the text where they stand. */
+/** Returns the hits that can be replaced, grouped by the text that contains them. */
 export function replacementsOf(rows: readonly Row[]): Replacement[] {
   const byPassage = new Map<Passage, Hit[]>();
   for (const { passage, hit } of rows) {

@@ -2,7 +2,7 @@ import { describe, expect, it, vi } from 'vitest';
 import { seek, type SearchAnswer, type SearchRequest } from '@/model/search/seek';
 import { DEADLINE_MS, SearchRunner } from './runner';
 
-/** A worker of this thread; `hangs` never answers. */
+/** A worker that runs in the test's thread; with `hangs` it never answers. */
 class FakeWorker {
   isEnded = false;
   onmessage: ((event: { data: SearchAnswer }) => void) | null = null;
@@ -36,7 +36,7 @@ describe('SearchRunner', () => {
     expect(await runner.run(request('b'))).toMatchObject({ hits: [{ start: 2 }] });
   });
 
-  it('stops a search that takes without end, and works after that', async () => {
+  it('stops an endless search, and works after that', async () => {
     vi.useFakeTimers();
     const stuck = new FakeWorker(true);
     const runner = runnerOf(stuck, new FakeWorker());
@@ -48,7 +48,7 @@ describe('SearchRunner', () => {
     expect(await runner.run(request('a'))).toMatchObject({ isCut: false });
   });
 
-  it('gives up a search for the next one', async () => {
+  it('cancels a search for the next one', async () => {
     const stuck = new FakeWorker(true);
     const runner = runnerOf(stuck, new FakeWorker());
     const first = runner.run(request('a'));

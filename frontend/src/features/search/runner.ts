@@ -1,20 +1,20 @@
 import type { SearchAnswer, SearchRequest } from '@/model/search/seek';
 
-/** The time after which an expression counts as one that takes without end. */
+/** The time in ms after which a search is stopped, since its expression may take forever. */
 export const DEADLINE_MS = 5000;
 
 export type Outcome = SearchAnswer | 'too-slow' | 'replaced';
 
 const makeWorker = () => new Worker(new URL('./searchWorker.ts', import.meta.url), { type: 'module' });
 
-/** Searches in a worker, one request at a time: a new one replaces the one before. */
+/** Runs searches in a worker, one at a time: a new request cancels the previous one. */
 export class SearchRunner {
   private worker: Worker | null = null;
   private stop: ((outcome: Outcome) => void) | null = null;
 
   constructor(private readonly make: () => Worker = makeWorker) {}
 
-  /** Resolves with the hits, or why there are none; never rejects. */
+  /** Resolves with the hits, or with the reason why there are none; never rejects. */
   run(request: SearchRequest): Promise<Outcome> {
     this.stop?.('replaced');
     const worker = (this.worker ??= this.make());
@@ -33,7 +33,7 @@ export class SearchRunner {
     });
   }
 
-  /** Ends the worker, and what it is doing. */
+  /** Stops the worker, and the search that it runs. */
   end(): void {
     if (this.stop) this.stop('replaced');
     else this.drop();

@@ -14,14 +14,14 @@ function select(text: string): void {
 }
 
 describe('openSearch', () => {
-  it('asks for the keyboard with the selected text', () => {
+  it('requests the focus, with the selected text', () => {
     select(' speed ');
     openSearch();
     openSearch();
     expect(useSearchStore.getState()).toMatchObject({ text: 'speed', asked: 2 });
   });
 
-  it.each(['', 'two\nlines', 'x'.repeat(300)])('keeps its text where %j is selected', (text) => {
+  it.each(['', 'two\nlines', 'x'.repeat(300)])('keeps its text if %j is selected', (text) => {
     select(text);
     setSearch({ text: 'mine' });
     openSearch(document, { isReplacing: true });

@@ -8,13 +8,13 @@ interface SearchData {
   readonly isWholeWord: boolean;
   readonly isRegex: boolean;
   readonly replacement: string;
-  /** Whether the row for the replacement is open. */
+  /** Whether the row for the replacement is shown. */
   readonly isReplacing: boolean;
-  /** Increases with each request for the field of the search. */
+  /** Increases with each request to focus the search field. */
   readonly asked: number;
 }
 
-/** What is searched for; it outlives the panel, and is not saved. */
+/** The search. It outlives the panel, but is not saved. */
 export const useSearchStore = create<SearchData>(() => ({
   text: '',
   matchesCase: false,
@@ -27,13 +27,16 @@ export const useSearchStore = create<SearchData>(() => ({
 
 export const setSearch = (patch: Partial<SearchData>): void => useSearchStore.setState(patch);
 
-/** Text of one line that is selected on the page; a whole file is no search. */
+/**
+ * Returns the selected text of the page if it is short and on one line, otherwise an empty text: a whole file
+ * is not meant as a search.
+ */
 function selectedText(page: Document): string {
   const text = page.getSelection()?.toString() ?? '';
   return text.length <= 200 && !/[\r\n]/.test(text) ? text.trim() : '';
 }
 
-/** Shows the search with the selected text in its field. */
+/** Shows the search panel, with the selected text in its field. */
 export function openSearch(page: Document = document, patch: Partial<SearchData> = {}): void {
   const text = selectedText(page);
   letGoOfDocument();

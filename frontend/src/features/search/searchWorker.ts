@@ -1,4 +1,7 @@
-/** Searches beside the page: an expression that takes without end is stopped with this worker. */
+/**
+ * Runs searches beside the page. If an expression takes forever, the page stops the search by ending this
+ * worker.
+ */
 import { seek, type SearchAnswer, type SearchRequest } from '@/model/search/seek';
 
 export function answer({ data }: Pick<MessageEvent<SearchRequest>, 'data'>): void {

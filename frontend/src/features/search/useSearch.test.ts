@@ -14,7 +14,7 @@ beforeEach(() => {
 const open = () => renderHook(() => useSearch()).result;
 
 describe('useSearch', () => {
-  it('does not search for nothing', () => {
+  it('does not search for an empty text', () => {
     expect(open().current).toEqual({ state: { kind: 'idle' }, isFresh: true });
   });
 
@@ -28,7 +28,7 @@ describe('useSearch', () => {
     expect(result.current.isFresh).toBe(true);
   });
 
-  it('says why an expression is wrong', async () => {
+  it('reports why an expression is invalid', async () => {
     const result = open();
     act(() => setSearch({ text: '(', isRegex: true }));
     await waitFor(() =>

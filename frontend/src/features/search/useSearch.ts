@@ -16,11 +16,11 @@ const SETTLED_MS = 150;
 
 export interface Search {
   readonly state: SearchState;
-  /** Whether the state is that of the present query, replacement and project. */
+  /** Whether the state belongs to the current query, replacement and project. */
   readonly isFresh: boolean;
 }
 
-/** The hits in the project as it is now; searched again after each edit, a moment later. */
+/** Returns the hits in the current project; the search is repeated shortly after each edit. */
 export function useSearch(): Search {
   const { files, diagrams } = useProjectStore(
     useShallow((state) => ({ files: state.files, diagrams: state.diagrams })),

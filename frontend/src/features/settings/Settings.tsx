@@ -3,7 +3,7 @@ import { useTranslation } from 'react-i18next';
 import { closeSettings, useSettingsDialog } from '@/store/dialogs/settings';
 import { SettingsForm } from './SettingsForm';
 
-/** The name of a project, and its settings for runs. */
+/** The dialogue for the name of a project, and for its settings for runs. */
 export function Settings() {
   const { t } = useTranslation('settings');
   const isOpen = useSettingsDialog((state) => state.isOpen);

@@ -51,7 +51,7 @@ describe('SettingsForm', () => {
     expect(screen.getByRole('radio', { name: 'Stop the run' })).toBeChecked();
   });
 
-  it('keeps what another person changed meanwhile', async () => {
+  it('keeps the changes of another user', async () => {
     show(<SettingsForm />);
     await user.click(screen.getByRole('radio', { name: 'Begin again' }));
     useProjectStore.getState().setSettings({ name: 'Theirs' });

@@ -47,7 +47,7 @@ export function SettingsForm() {
   const submit = (event: FormEvent) => {
     event.preventDefault();
     if (problem) return;
-    // Saves only the fields that were changed here: another user may have changed the others.
+    // Only the fields that were changed here are saved, since another user may have changed the others.
     const { tick_hz, ...others } = form;
     if (others.name !== undefined) others.name = others.name.trim();
     if (Object.keys(others).length > 0) useProjectStore.getState().setSettings(others);

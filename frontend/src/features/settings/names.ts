@@ -1,8 +1,8 @@
 const LONGEST = 100;
 
 /**
- * The key in `settings:problem` of the reason why a project cannot have this name; null if it can. The server
- * has the same rules.
+ * Returns the reason why a project cannot have this name, as a key in `settings:problem`; null if it can. The
+ * server has the same rules.
  */
 export function projectNameProblem(name: string): 'empty' | 'long' | 'path' | null {
   const clean = name.trim();

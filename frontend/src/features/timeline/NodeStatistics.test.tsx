@@ -57,13 +57,13 @@ describe('NodeStatistics', () => {
     });
   });
 
-  it('shows nothing of a block that does not run', () => {
+  it('shows nothing for a block that does not run', () => {
     runTree([treeNode(1, 0, 'root'), treeNode(2, 1, 'x', { tree_id: 'Other' })], {}, 7);
     show(<NodeStatistics tree="Main" node="n2" />);
     expect(screen.queryByTestId('node-statistics')).toBeNull();
   });
 
-  it('is up to date twice a second', () => {
+  it('is updated twice a second', () => {
     fakeClock();
     runTree([treeNode(1, 0, 'root')], {}, 7);
     show(<NodeStatistics tree="Main" node="n1" />);

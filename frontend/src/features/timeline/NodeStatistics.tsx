@@ -21,7 +21,7 @@ interface Statistics {
   failures: number;
 }
 
-/** The statistics of a block in this run, over all its instances, within the range of the timeline. */
+/** The statistics of a block in this run: over all its instances, within the range of the timeline. */
 export function NodeStatistics({ tree, node }: NodeStatisticsProps) {
   const { t } = useTranslation(['timeline', 'run']);
   const nodes = useSessionStore((state) => state.tree);

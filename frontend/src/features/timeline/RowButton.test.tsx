@@ -32,7 +32,7 @@ beforeEach(() => {
 });
 
 describe('RowButton', () => {
-  it('says its past and present in words, and keeps them up to date', () => {
+  it('has its past and present as text, and keeps them up to date', () => {
     showRow();
     expect(button()).toHaveAccessibleName('drive, Forward: running; ran once, for 2.0 s');
     trace.tick([[2, 'SUCCESS']], [], 4);
@@ -58,7 +58,7 @@ describe('RowButton', () => {
     expect(button()).toHaveAccessibleName(/for 2\.2 s/);
   });
 
-  it('is indented by its depth, within bounds, and stands in its line', () => {
+  it('is indented by its depth, within bounds, and is at its line', () => {
     const { unmount } = showRow();
     expect(button()).toHaveStyle({ paddingLeft: '34px', transform: 'translateY(66px)' });
     unmount();
@@ -66,7 +66,7 @@ describe('RowButton', () => {
     expect(button()).toHaveStyle({ paddingLeft: '106px' });
   });
 
-  it('is one stop of the Tab key, or none', () => {
+  it('is one Tab stop, or none', () => {
     const { unmount } = showRow();
     expect(button()).toHaveAttribute('tabindex', '0');
     unmount();

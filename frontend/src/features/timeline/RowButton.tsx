@@ -16,7 +16,7 @@ interface RowButtonProps {
   readonly onFocus: (index: number) => void;
 }
 
-/** A node's row: its name, and its statuses as text for users who cannot see the strip. */
+/** The row of a node: its name, and its statuses as text for users who cannot see the strip. */
 export const RowButton = memo(function RowButton(props: RowButtonProps) {
   const { row, index, top, isTabStop, onSelect, onFocus } = props;
   const { t } = useTranslation(['timeline', 'run']);
@@ -46,7 +46,7 @@ export const RowButton = memo(function RowButton(props: RowButtonProps) {
   );
 });
 
-/** The present and past statuses of a node, updated once a second. */
+/** Returns the current and past statuses of a node, updated once a second. */
 function useSummary(uid: number): { status: NodeStatus; seconds: number; times: number } {
   const [summary, setSummary] = useState(() => ({ status: trace.status(uid), ...trace.runningOf(uid) }));
   useEffect(() => {

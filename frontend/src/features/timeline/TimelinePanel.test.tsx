@@ -34,7 +34,7 @@ const names = () => [...rows().querySelectorAll('button')].map(({ textContent })
 const tool = (name: RegExp | string) => screen.getByRole('button', { name });
 const isFollowing = () => tool('Follow the run').getAttribute('aria-pressed');
 
-/** The time at a share of the width, as the tip says it. */
+/** Returns the time at a place of the canvas, as the tip shows it; `share` is the part of the width. */
 function timeAt(share: number): string | undefined {
   fireEvent.pointerMove(rows(), { clientX: 100 + 400 * share, clientY: 5 });
   const time = /(?:idle at|from) (\S+)/.exec(screen.getByRole('presentation').textContent ?? '')?.[1];
@@ -42,7 +42,7 @@ function timeAt(share: number): string | undefined {
   return time;
 }
 
-/** The span that is shown; the pointer is over a node that was idle all the time. */
+/** Returns the times at both ends of the canvas. The pointer is over a node that was always idle. */
 function span(): (string | undefined)[] {
   const at = (share: number) => {
     fireEvent.pointerMove(rows(), { clientX: 100 + 400 * share, clientY: 30 });
@@ -54,13 +54,13 @@ function span(): (string | undefined)[] {
 }
 
 describe('rows', () => {
-  it('say before a run what will be here', () => {
+  it('explain before a run what they will show', () => {
     show(<TimelinePanel />);
     expect(screen.getByText(/appears here when you run/)).toBeInTheDocument();
     expect(names()).toEqual([]);
   });
 
-  it('are the nodes of the running tree, or those that a search finds', async () => {
+  it('are the nodes of the running tree, or the matches of a search', async () => {
     run();
     expect(names()).toEqual(['root', 'drive', 'Turn']);
     expect(screen.queryByText(/appears here/)).toBeNull();
@@ -161,7 +161,7 @@ describe('tools', () => {
 });
 
 describe('the pointer', () => {
-  it('shows what the node below it did', () => {
+  it('shows the status of the node below it', () => {
     run();
     fireEvent.pointerMove(rows(), { clientX: 400, clientY: 5 });
     expect(screen.getByRole('presentation')).toHaveTextContent('root running from 1:20 for 20.00 s');
@@ -174,7 +174,7 @@ describe('the pointer', () => {
     expect(screen.queryByRole('presentation')).toBeNull();
   });
 
-  /** Presses at a place, and moves the pointer by some pixels. */
+  /** Presses at a place, and moves the pointer by a number of pixels. */
   function drag(from: number, by: number, button = 0): void {
     onTestFinished(() => void fireEvent.pointerUp(window, { pointerId: 1 }));
     fireEvent.pointerDown(rows(), { clientX: from, clientY: 30, button, pointerId: 1 });
@@ -183,13 +183,13 @@ describe('the pointer', () => {
     fireEvent(rows(), move);
   }
 
-  it('drags the span with it', () => {
+  it('drags the span', () => {
     run();
     drag(200, 40);
     expect(span()).toEqual(['1:07', '1:37']);
   });
 
-  it('drags the span back at Escape', () => {
+  it('restores the span with Escape', () => {
     run();
     drag(200, 40);
     expect(isFollowing()).toBe('false');
@@ -222,7 +222,7 @@ describe('the wheel', () => {
 
   it('zooms about the pointer with Ctrl or Command', () => {
     run();
-    // Half as long: the middle stays.
+    // The range is half as long, and its middle stays.
     expect(turn({ deltaY: Math.log(0.5) / 0.002, ctrlKey: true })).toBe(false);
     expect(span()).toEqual(['1:17.5', '1:32.5']);
     turn({ deltaY: Math.log(0.5) / 0.002, metaKey: true });
@@ -245,7 +245,7 @@ describe('the wheel', () => {
     expect(span()).toEqual(['1:07', '1:37']);
   });
 
-  it('scrolls the rows otherwise', () => {
+  it('otherwise scrolls the rows', () => {
     run();
     expect(turn({ deltaY: 40 })).toBe(true);
     expect(span()).toEqual(['1:10', '1:40']);

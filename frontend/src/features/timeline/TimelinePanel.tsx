@@ -26,7 +26,7 @@ const ZOOM_STEP = 1.4;
 const PAN_STEP = 0.2;
 const CLICK_PX = 4;
 
-/** The statuses of each node over the last ten minutes of the run, one strip a node. */
+/** The panel with the statuses of each node over the last ten minutes of the run, one strip per node. */
 export function TimelinePanel() {
   const { t } = useTranslation('timeline');
   const nodes = useSessionStore((state) => state.tree);
@@ -43,7 +43,7 @@ export function TimelinePanel() {
   const [tip, setTip] = useState<TipAt | null>(null);
   const hasPanned = useRef(false);
 
-  // The virtualizer keeps its own state; the compiler's memoisation does not apply to this component.
+  // The virtualizer has mutable state, so the compiler must not memoise this component.
   // eslint-disable-next-line react-hooks/incompatible-library
   const virtual = useVirtualizer({
     count: rows.length,
@@ -67,7 +67,7 @@ export function TimelinePanel() {
     return box && box.width > 0 ? (clientX - box.left) / box.width : -1;
   };
 
-  /** A drag pans the span; Escape shows the span of before. */
+  /** Starts panning the range by a drag; Escape restores the range from before. */
   const onPress = ({ currentTarget, pointerId, clientX, button }: PointerEvent) => {
     hasPanned.current = false;
     if (button !== 0) return;
@@ -156,7 +156,7 @@ export function TimelinePanel() {
         {rows.length === 0 ? (
           <p className={classes['empty']}>{t(nodes.length === 0 ? 'empty' : 'nothingMatches')}</p>
         ) : null}
-        {/* The arrow keys walk the rows, whose buttons have the focus. */}
+        {/* The arrow keys move between the rows, whose buttons have the focus. */}
         {/* eslint-disable-next-line jsx-a11y/no-noninteractive-element-interactions */}
         <div
           ref={scroller}
@@ -215,7 +215,9 @@ function Tool({ label, icon: Icon, isPressed, onClick }: ToolProps) {
   );
 }
 
-/** The wheel scrolls the rows; with Ctrl it zooms at the pointer, with Shift or sideways it pans. */
+/**
+ * Handles the wheel: it scrolls the rows, zooms at the pointer with Ctrl, and pans with Shift or sideways.
+ */
 function useWheel(
   scroller: { readonly current: HTMLDivElement | null },
   canvas: { readonly current: HTMLCanvasElement | null },

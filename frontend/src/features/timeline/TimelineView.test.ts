@@ -20,7 +20,7 @@ describe('the span', () => {
     expect(view.span()).toEqual({ from: 80, to: 110 });
   });
 
-  it('stays where it was moved to, until it is at the present again', () => {
+  it('stays where it was moved, until it reaches the present again', () => {
     view.pan(-0.5);
     expect(view.span()).toEqual({ from: 55, to: 85 });
     trace.advance(110);
@@ -47,7 +47,7 @@ describe('the span', () => {
     expect(following).toEqual([false]);
   });
 
-  it('is no longer than the run, and than what is kept of it', () => {
+  it('is no longer than the run, and than the stored history', () => {
     view.zoom(1000);
     expect(view.span()).toEqual({ from: 0, to: 100 });
     trace.advance(5000);
@@ -90,7 +90,7 @@ describe('the picture', () => {
   let scroller: HTMLElement;
   let detach: () => void;
 
-  /** Lets time pass on the page: frames come every 16 ms. */
+  /** Advances the page's time; frames come every 16 ms. */
   const pass = (ms: number) => {
     const before = count;
     vi.advanceTimersByTime(ms);
@@ -115,7 +115,7 @@ describe('the picture', () => {
   });
 
   it('shows the rows in the span', () => {
-    // A second has 10 px; node 1 runs throughout, in the first row below the axis.
+    // A second is 10 px wide; node 1 runs all the time, in the first row below the axis.
     expect(rects).toContainEqual([0, 25, 300, 18]);
     scroller.scrollTop = 10;
     view.redraw();
@@ -126,7 +126,7 @@ describe('the picture', () => {
     expect(rects).not.toContainEqual([0, 15, 300, 18]);
   });
 
-  it('is as sharp as the screen', () => {
+  it('has the resolution of the screen', () => {
     expect([canvas.width, canvas.height]).toEqual([300, 66]);
     vi.stubGlobal('devicePixelRatio', 2);
     view.redraw();
@@ -143,7 +143,7 @@ describe('the picture', () => {
     expect(pass(20)).toBe(1);
   });
 
-  it('is drawn with the run, ten times a second at most, and not while that is paused', () => {
+  it('is drawn with the run, at most ten times a second, and not while it is paused', () => {
     pass(200);
     trace.advance(101);
     trace.advance(102);

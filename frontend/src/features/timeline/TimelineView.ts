@@ -5,19 +5,19 @@ import { spanOf, zoomed, type Span } from './span';
 const FIRST_LENGTH_S = 30;
 const REDRAW_MS = 100;
 
-/** The visible range of the run, and its canvas; drawn at most ten times a second. */
+/** The visible range of the run, and the canvas that shows it. It is drawn at most ten times a second. */
 export class TimelineView {
   /** Called when the view starts or stops following the run. */
   onFollowing: (isFollowing: boolean) => void = () => undefined;
   private canvas: HTMLCanvasElement | null = null;
   private scroller: HTMLElement | null = null;
   private uids: readonly number[] = [];
-  /** The end of the visible range; null follows the run. */
+  /** The end of the visible range; null while the range follows the run. */
   private end: number | null = null;
   private length = FIRST_LENGTH_S;
   private frame = 0;
 
-  /** Draws the rows of a scroller on a canvas until the returned function is called. */
+  /** Draws the rows of a scroller on a canvas; returns a function that stops it. */
   attach(canvas: HTMLCanvasElement, scroller: HTMLElement): () => void {
     this.canvas = canvas;
     this.scroller = scroller;
@@ -30,7 +30,7 @@ export class TimelineView {
     }, REDRAW_MS);
     const resized = new ResizeObserver(this.redraw);
     resized.observe(canvas);
-    // The colours depend on the theme.
+    // The colours depend on the theme, so a new theme is drawn at once.
     const themed = new MutationObserver(this.redraw);
     themed.observe(document.documentElement, { attributeFilter: ['data-mantine-color-scheme'] });
     return () => {
@@ -56,7 +56,7 @@ export class TimelineView {
     if (this.frame === 0) this.frame = requestAnimationFrame(() => this.draw());
   };
 
-  /** Zooms about a point, given as a share of the width. */
+  /** Zooms about a point, which is given as a share of the width. */
   zoom(factor: number, share = 1): void {
     const longest = Math.min(HISTORY_S, trace.now - trace.begin);
     this.show(zoomed(this.span(), factor, share, longest));
@@ -69,7 +69,7 @@ export class TimelineView {
     this.show({ from: from + by, to: to + by });
   }
 
-  /** Returns a function that shows what is shown now again. */
+  /** Returns a function that restores the current range. */
   remember(): () => void {
     const { end, length } = this;
     return () => {

@@ -13,7 +13,7 @@ beforeEach(() => {
 const tip = () => screen.getByRole('presentation');
 
 describe('Tip', () => {
-  it.each([1.2, 3.4])('says what the node did at %s s, from when and for how long', (time) => {
+  it.each([1.2, 3.4])('shows the status of the node at %s s, its start and its length', (time) => {
     show(<Tip x={10} y={100} row={row} time={time} />);
     expect(tip()).toHaveTextContent('drive running from 1 s for 2.50 s');
   });
@@ -23,12 +23,12 @@ describe('Tip', () => {
     [5, '5 s'],
     [65, '1:05'],
     [-3, '0 s'],
-  ])('says that it was idle at %s s', (time, label) => {
+  ])('shows that it was idle at %s s', (time, label) => {
     show(<Tip x={10} y={100} row={row} time={time} />);
     expect(tip()).toHaveTextContent(`drive idle at ${label}`);
   });
 
-  it('stands beside the pointer, and inside the window', () => {
+  it('is beside the pointer, and inside of the window', () => {
     window.innerWidth = 1000;
     const { rerender } = show(<Tip x={10} y={100} row={row} time={1} />);
     expect(tip()).toHaveStyle({ left: '24px', top: '56px' });

@@ -8,14 +8,14 @@ export interface TipAt {
   readonly x: number;
   readonly y: number;
   readonly row: TimelineRow;
-  /** Simulated time under the pointer, s. */
+  /** The simulated time under the pointer, in s. */
   readonly time: number;
 }
 
 const OFFSET_PX = 14;
 const WIDTH_PX = 260;
 
-/** The status of the node at the time under the pointer. */
+/** The tip at the pointer: the status of the node at that time. */
 export function Tip({ x, y, row, time }: TipAt) {
   const { t } = useTranslation(['timeline', 'run']);
   const stretch = trace.stretches(row.uid, time, time).find((s) => s.start <= time && s.end >= time);

@@ -15,7 +15,7 @@ const palette = {
 
 type Rect = readonly [color: string, x: number, y: number, width: number, height: number];
 
-/** A canvas that records: each rectangle with its colour, and each text with its place. */
+/** A canvas that records each rectangle with its colour, and each text with its place. */
 class Recorder {
   fillStyle = '';
   font = '';
@@ -72,7 +72,7 @@ function drawn({
   return recorder;
 }
 
-/** A run until 8 s, in which node 1 has one status from 2 s to 4 s. */
+/** Returns a run until 8 s, in which node 1 has one status from 2 s to 4 s. */
 function traceOf(status: NodeStatus, uid = 1): Trace {
   const trace = new Trace();
   trace.start([], 0);
@@ -98,14 +98,14 @@ describe('drawTimeline', () => {
     expect(strips(drawn({ trace: traceOf('RUNNING', 2) }))).toEqual([]);
   });
 
-  it('cuts what began before, and shows what is shorter than a pixel', () => {
+  it('cuts stretches that began before, and shows those shorter than a pixel', () => {
     const trace = traceOf('RUNNING');
     expect(strips(drawn({ trace, span: { from: 3, to: 5 } }))).toEqual([['running', 0, 25, 500, 18]]);
     const long = { from: 0, to: 10_000 };
     expect(strips(drawn({ trace, span: long }))[0]?.[3]).toBe(1);
   });
 
-  it('draws only the rows in sight, moved by the scrolling', () => {
+  it('draws only the visible rows, moved by the scrolling', () => {
     const trace = new Trace();
     trace.start([], 0);
     const uids = Array.from({ length: 20 }, (_, index) => index);
@@ -137,7 +137,7 @@ describe('drawTimeline', () => {
     expect(font).toContain('11px');
   });
 
-  it('clears all, and keeps strips off the axis', () => {
+  it('clears everything, and keeps strips off the axis', () => {
     const recorder = drawn({ trace: traceOf('RUNNING') });
     expect(recorder.cleared).toEqual([0, 0, 1000, 110]);
     expect(recorder.clipped).toEqual([0, 22, 1000, 88]);
@@ -145,7 +145,7 @@ describe('drawTimeline', () => {
     expect(recorder.textBaseline).toBe('middle');
   });
 
-  it('draws the present where it is in sight', () => {
+  it('draws the present if it is visible', () => {
     const present = (span: { from: number; to: number }) =>
       drawn({ trace: traceOf('RUNNING'), span }).rects.filter(([color]) => color === 'text');
     expect(present({ from: 0, to: 10 })).toEqual([['text', 800, 17, 1, 110]]);

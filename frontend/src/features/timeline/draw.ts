@@ -35,13 +35,13 @@ interface Picture {
   width: number;
   height: number;
   span: Span;
-  /** The nodes of the rows; the scroll offset is in px. */
+  /** The nodes in the rows, from top to bottom. */
   uids: readonly number[];
   scrollTop: number;
   palette: Palette;
 }
 
-/** Draws the axis and the visible strips; hidden rows cost nothing. */
+/** Draws the axis and the visible strips; hidden rows cost no time. */
 export function drawTimeline(trace: Trace, picture: Picture): void {
   const { context, width, height, span, uids, scrollTop, palette } = picture;
   context.clearRect(0, 0, width, height);
@@ -83,8 +83,8 @@ export function drawTimeline(trace: Trace, picture: Picture): void {
 }
 
 /**
- * Draws a status so that its place tells it as well as its colour: running fills the row, success is in its
- * lower half, failure in its upper half, skipped is a line.
+ * Draws a status by colour and by place, so that either suffices: running fills the row, success its lower
+ * half, failure its upper half, and skipped is a line.
  */
 function drawStretch(
   context: CanvasRenderingContext2D,

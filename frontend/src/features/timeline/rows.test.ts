@@ -20,7 +20,7 @@ describe('rowsOf', () => {
     ]);
   });
 
-  it('lead to their blocks', () => {
+  it('link to their blocks', () => {
     expect(rowsOf(nodes, '').at(-1)).toEqual({
       uid: 4,
       name: 'after',
@@ -43,7 +43,7 @@ describe('rowsOf', () => {
     expect(rowsOf(nodes, search).map(({ uid }) => uid)).toEqual(uids);
   });
 
-  it('indents nothing that a search found', () => {
+  it('indents no matches of a search', () => {
     expect(rowsOf(nodes, 'forward').map(({ depth }) => depth)).toEqual([0]);
   });
 });
@@ -54,11 +54,11 @@ it.each([
   ['a::6b', 'a::6b'],
   ['', 'Kind'],
   ['::6', 'Kind'],
-])('calls %s of a type Kind %s', (name, plain) => {
+])('shows %s of a type Kind as %s', (name, plain) => {
   expect(plainName({ name, type: 'Kind' })).toBe(plain);
 });
 
-it('names the statuses of a stretch, the most telling first', () => {
+it('names the statuses of a stretch, the most important first', () => {
   const of = (mask: number) => statusesOf({ start: 0, end: 1, mask });
   expect(of(BIT.RUNNING)).toEqual(['RUNNING']);
   expect(of(BIT.SKIPPED | BIT.RUNNING | BIT.SUCCESS | BIT.FAILURE)).toEqual([

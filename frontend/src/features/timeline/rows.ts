@@ -10,11 +10,14 @@ export interface TimelineRow {
   tree: string;
 }
 
-/** The engine numbers unnamed nodes: `Forward::6`. */
+/**
+ * Returns the name of a node without the number that the engine adds for unnamed nodes (`Forward::6`), or its
+ * type.
+ */
 export const plainName = (node: Pick<TreeNode, 'name' | 'type'>) =>
   node.name.replace(/::\d+$/, '') || node.type;
 
-/** The nodes of the running tree in order; a search keeps those whose name or type matches. */
+/** Returns the nodes of the running tree in order; with a search, only those whose name or type matches. */
 export function rowsOf(nodes: readonly TreeNode[], search: string): TimelineRow[] {
   const depths = new Map<number, number>();
   const wanted = search.trim().toLowerCase();
@@ -38,7 +41,7 @@ export function rowsOf(nodes: readonly TreeNode[], search: string): TimelineRow[
 
 const ORDER: NodeStatus[] = ['FAILURE', 'SUCCESS', 'RUNNING', 'SKIPPED'];
 
-/** The statuses in a stretch, the most important first. */
+/** Returns the statuses in a stretch, the most important first. */
 export function statusesOf({ mask }: Stretch): NodeStatus[] {
   return ORDER.filter((status) => (mask & BIT[status]) !== 0);
 }

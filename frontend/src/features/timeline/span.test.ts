@@ -14,11 +14,11 @@ describe('spanOf', () => {
     expect(spanOf(null, 30, 5, 10)).toEqual({ from: 5, to: 35 });
   });
 
-  it('stays where it was put', () => {
+  it('stays where it was set', () => {
     expect(spanOf(50, 30, 0, 100)).toEqual({ from: 20, to: 50 });
   });
 
-  it('shows nothing before the begin or after the present of a run', () => {
+  it('shows nothing before the start or after the present of a run', () => {
     expect(spanOf(35, 30, 20, 100)).toEqual({ from: 20, to: 50 });
     expect(spanOf(500, 30, 0, 100)).toEqual({ from: 70, to: 100 });
     expect(spanOf(20, 30, 5, 10)).toEqual({ from: 5, to: 35 });
@@ -43,7 +43,7 @@ describe('spanOf', () => {
 });
 
 describe('zoomed', () => {
-  it('zooms about the begin, the end, or a place between', () => {
+  it('zooms about the start, the end, or a place between', () => {
     expect(zoomed({ from: 10, to: 40 }, 0.5, 0, 600)).toEqual({ from: 10, to: 25 });
     expect(zoomed({ from: 10, to: 40 }, 0.5, 1, 600)).toEqual({ from: 25, to: 40 });
     expect(zoomed({ from: 10, to: 40 }, 2, 0.5, 600)).toEqual({ from: -5, to: 55 });
@@ -85,7 +85,7 @@ describe('marks', () => {
     ]);
   });
 
-  it('take the next larger step where there is little room', () => {
+  it('use the next larger step if there is little room', () => {
     expect(marks({ from: 0, to: 60 }, 140)).toEqual([0, 30, 60]);
     expect(marks({ from: 0, to: 60 }, 139)).toEqual([0, 60]);
     expect(marks({ from: 0, to: 60 }, 600, 100)).toEqual([0, 10, 20, 30, 40, 50, 60]);

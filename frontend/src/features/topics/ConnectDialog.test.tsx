@@ -3,7 +3,7 @@ import { expect, it } from 'vitest';
 import { openSession, show } from '../../../harness/testing';
 import { ConnectDialog, openConnect } from './ConnectDialog';
 
-it('shows what a terminal needs, quoted where a shell would read it otherwise', async () => {
+it('shows the variables for a terminal, quoted for a shell', async () => {
   const executor = await openSession();
   openConnect();
   show(<ConnectDialog />);

@@ -10,7 +10,7 @@ const useConnecting = create<{ isOpen: boolean }>(() => ({ isOpen: false }));
 export const openConnect = () => useConnecting.setState({ isOpen: true });
 const close = () => useConnecting.setState({ isOpen: false });
 
-/** The environment variables of a terminal in which RViz and `ros2` see this session. */
+/** A dialogue with the environment variables for a terminal in which RViz and `ros2` see this session. */
 export function ConnectDialog() {
   const { t } = useTranslation('topics');
   const isOpen = useConnecting((state) => state.isOpen);

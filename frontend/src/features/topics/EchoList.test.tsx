@@ -25,7 +25,7 @@ beforeEach(() => {
 });
 
 describe('EchoList', () => {
-  it('shows each topic that is listened to', () => {
+  it('shows each echoed topic', () => {
     open(echo('/a', { x: 1 }), echo('/b', null));
     expect(screen.getByTestId('echo-/a')).toHaveAttribute('data-count', '3');
     expect(screen.getByRole('region', { name: '/a' })).toHaveTextContent('1.00 s · 64 B');
@@ -60,7 +60,7 @@ describe('EchoList', () => {
     },
   );
 
-  it('counts the items of a list, also of one that was cut', () => {
+  it('counts the items of a list, even of a shortened one', () => {
     open(echo('/a', { few: [1, 2], many: [1, 2] }, { many: 900 }));
     expect(row('few')).toHaveTextContent(/few.*2/);
     expect(row('many')).toHaveTextContent(/many.*900/);

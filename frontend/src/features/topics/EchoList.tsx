@@ -16,7 +16,7 @@ import { valueLabel } from './labels';
 import { openPublish } from './publishing';
 import classes from './topics.module.css';
 
-/** The last message of each echoed topic. */
+/** The list of echoed topics, each with its last message. */
 export function EchoList() {
   const echoes = useTopicsStore((state) => state.echoes);
   return Object.values(echoes).map((echo) => <EchoView key={echo.topic} echo={echo} />);
@@ -84,7 +84,7 @@ function EchoView({ echo: live }: { readonly echo: Echo }) {
   );
 }
 
-/** Headers, covariances and long lists are folded at first, since they are rarely needed. */
+/** Returns whether a field is folded at first: headers, covariances and long lists are rarely needed. */
 function isFoldedAtFirst(path: string): boolean {
   return /(^|\.)(header|covariance|ranges|intensities|data)$/.test(path);
 }
@@ -92,7 +92,7 @@ function isFoldedAtFirst(path: string): boolean {
 interface FieldRowProps {
   readonly topic: string;
   readonly field: Field;
-  /** The real length of a list or text that was cut. */
+  /** The real length of a list or text that was shortened. */
   readonly length: number | undefined;
   readonly isFolded: boolean;
   readonly onToggle: (path: string) => void;

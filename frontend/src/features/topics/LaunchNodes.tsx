@@ -12,7 +12,7 @@ import classes from './topics.module.css';
 
 const ICONS = { running: IconPlayerPlayFilled, ended: IconCircleCheck, failed: IconCircleX };
 
-/** The processes of the project's launch files: state, last output, and restart. */
+/** The list of processes of the project's launch files: state, last output, and restart. */
 export function LaunchNodes({ nodes }: { readonly nodes: readonly LaunchNode[] }) {
   const { t } = useTranslation('topics');
   if (nodes.length === 0) return <p className={classes['empty']}>{t('noNodes')}</p>;

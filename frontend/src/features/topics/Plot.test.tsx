@@ -29,7 +29,7 @@ describe('Plot', () => {
     expect(plotted()).toEqual(['/odom.y']);
   });
 
-  it('holds and continues', async () => {
+  it('pauses and continues', async () => {
     show(<Plot isVisible={false} />);
     await user.click(screen.getByRole('button', { name: 'Pause the plot' }));
     await user.click(screen.getByRole('button', { name: 'Resume' }));

@@ -17,7 +17,10 @@ interface PlotProps {
   readonly isVisible: boolean;
 }
 
-/** The chosen fields over simulated time; wheel and drag zoom and move, a double click shows everything. */
+/**
+ * A plot of the chosen fields over simulated time. The wheel zooms, a drag moves, a double click shows
+ * everything.
+ */
 export function Plot({ isVisible }: PlotProps) {
   const { t } = useTranslation('topics');
   const plotted = useTopicsStore((state) => state.plotted);
@@ -112,7 +115,7 @@ export function Plot({ isVisible }: PlotProps) {
         </Tooltip>
         <CloseButton size={24} aria-label={t('closePlot')} onClick={clearPlots} />
       </div>
-      {/* Keys zoom and move the plot, as wheel and drag do. */}
+      {/* The keys zoom and move the plot, like wheel and drag. */}
       {/* eslint-disable jsx-a11y/no-noninteractive-tabindex */}
       <div
         ref={host}

@@ -67,7 +67,7 @@ describe('PublishDialog', () => {
     expect(executor.sentAs('publish_topic')).toEqual([]);
   });
 
-  it('says that a text is not JSON', async () => {
+  it('reports that a text is not JSON', async () => {
     await fill();
     write('{"x": ');
     fireEvent.blur(message());
@@ -84,7 +84,7 @@ describe('PublishDialog', () => {
     expect(await screen.findByText('No field y. Did you mean x?')).toBeInTheDocument();
   });
 
-  it('sends nothing with Enter, and with Ctrl+Enter only what is there to see', async () => {
+  it('sends nothing with Enter, and with Ctrl+Enter only what is shown', async () => {
     const field = screen.getByRole('combobox', { name: /Topic/ });
     await user.type(field, '/cmd_vel{Enter}');
     await user.type(field, '{Control>}{Enter}{/Control}');
@@ -98,7 +98,7 @@ describe('PublishDialog', () => {
     expect(executor.sentAs('publish_topic')).toHaveLength(1);
   });
 
-  it('says that the world is paused, and no success', async () => {
+  it('reports that the world is paused, and no success', async () => {
     executor.emit('state-changed', { state: 'visualization_ready', reason: '' });
     expect(screen.getByTestId('paused-world')).toHaveTextContent('The world is paused.');
     executor.refuse('publish_topic', 'The world is paused.', '', 'world_paused');

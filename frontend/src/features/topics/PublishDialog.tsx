@@ -9,7 +9,7 @@ import { closePublish, usePublishing } from './publishing';
 
 const DESCRIBE_AFTER_MS = 250;
 
-/** Publishes one message on a topic; the fields start with the type's defaults. */
+/** A dialogue that publishes a message on a topic; its fields start with the defaults of the type. */
 export function PublishDialog() {
   const { t } = useTranslation('topics');
   const opened = usePublishing((state) => state.opened);
@@ -44,7 +44,7 @@ function PublishForm({ topic: firstTopic, type: firstType }: PublishFormProps) {
     setTyped(null);
   };
 
-  // Only what the user sees is sent: not before the fields of the type are there.
+  // Only a message that the user sees can be sent: not before the type's fields are shown.
   const canSend = topic.trim() !== '' && type.trim() !== '' && (typed !== null || description !== undefined);
   const submit = async () => {
     if (!canSend) return;
@@ -56,9 +56,9 @@ function PublishForm({ topic: firstTopic, type: firstType }: PublishFormProps) {
       await publish(topic.trim(), type.trim(), message as Record<string, unknown>);
       setResult({ isError: false, text: t('published', { topic: topic.trim() }) });
     } catch (error) {
-      // The field itself shows the error.
+      // The field already shows the error.
       if (error instanceof SyntaxError) return setResult(null);
-      // The notice above says that the world is paused, with what to do.
+      // The notice above already says that the world is paused, and how to resume it.
       if (error instanceof CommandError && error.code === 'world_paused') return setResult(null);
       const { message, hint = '' } = error as Error & { hint?: string };
       setResult({ isError: true, text: [message, hint].filter(Boolean).join(' ') });
@@ -66,11 +66,11 @@ function PublishForm({ topic: firstTopic, type: firstType }: PublishFormProps) {
   };
 
   return (
-    // The keys are those of its fields, wherever the caret is.
+    // The form handles the keys of its fields, wherever the caret is.
     // eslint-disable-next-line jsx-a11y/no-noninteractive-element-interactions
     <form
       data-testid="publish"
-      // Enter in a field chooses a topic or a type; it must not send.
+      // Enter in a field chooses a topic or a type, so it must not send the form.
       onSubmit={(event) => event.preventDefault()}
       onKeyDown={(event) => {
         if (event.key !== 'Enter' || !(event.ctrlKey || event.metaKey)) return;
@@ -142,7 +142,10 @@ function PublishForm({ topic: firstTopic, type: firstType }: PublishFormProps) {
   );
 }
 
-/** Requests a type's fields after the user has typed it; returns the reason if there are none. */
+/**
+ * Requests the fields of a type after the user has typed it; returns the reason if the type has no
+ * description.
+ */
 function useDescription(type: string): string | null {
   const isKnown = useTopicsStore((state) => type in state.descriptions);
   const [refusal, setRefusal] = useState<{ type: string; text: string } | null>(null);

@@ -21,7 +21,7 @@ beforeEach(() => {
 });
 
 describe('TopicList', () => {
-  it('says that it does not know the topics yet, or that there are none', () => {
+  it('shows that it does not know the topics yet, or that there are none', () => {
     const { unmount } = show(<TopicList />);
     expect(screen.getByText('Asking which topics there are…')).toBeInTheDocument();
     unmount();
@@ -30,7 +30,7 @@ describe('TopicList', () => {
     expect(screen.getByText('No topic matches.')).toBeInTheDocument();
   });
 
-  it('lists types without their middle, and all of them in the tip', () => {
+  it('lists types in short form, and in full in the tooltip', () => {
     useTopicsStore.setState({
       isKnown: true,
       topics: [topic('/one', { types: [] }), topic('/two', { types: ['a/msg/A', 'b/msg/B', 'c/msg/C'] })],
@@ -46,7 +46,7 @@ describe('TopicList', () => {
     ]);
   });
 
-  it('marks those that are listened to, and stops listening', async () => {
+  it('marks echoed topics, and stops echoing', async () => {
     useTopicsStore.setState({
       isKnown: true,
       topics: [topic('/one', { hz: 5 }), topic('/two')],
@@ -62,7 +62,7 @@ describe('TopicList', () => {
     expect(screen.getByRole('button', { name: 'Listen to /one' })).toHaveAttribute('aria-pressed', 'false');
   });
 
-  it('searches whatever the case and the blanks around', async () => {
+  it('searches regardless of case and outer blanks', async () => {
     useTopicsStore.setState({ isKnown: true, topics: [topic('/Odom'), topic('/scan')] });
     show(<TopicList />);
     await user.type(screen.getByRole('searchbox', { name: 'Search topics' }), ' oDOM ');
@@ -70,7 +70,7 @@ describe('TopicList', () => {
     expect(screen.getByTestId('topic-/Odom')).toBeInTheDocument();
   });
 
-  it('says who publishes and subscribes', async () => {
+  it('shows who publishes and subscribes', async () => {
     useTopicsStore.setState({ isKnown: true, topics: [topic('/one', { publishers: ['p1', 'p2'] })] });
     show(<TopicList />);
     await user.hover(screen.getByRole('button', { name: 'Listen to /one' }));

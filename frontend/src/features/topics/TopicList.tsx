@@ -11,7 +11,7 @@ import classes from './topics.module.css';
 
 const sizeClass = `${classes['number']} ${classes['size']}`;
 
-/** Every topic with its type, rate and size; a click echoes it. */
+/** The list of all topics with type, rate and size; a click echoes a topic. */
 export function TopicList() {
   const { t } = useTranslation('topics');
   const topics = useTopicsStore((state) => state.topics);

@@ -64,7 +64,7 @@ describe('TopicsPanel', () => {
     show(<TopicsPanel />);
   });
 
-  it('asks for the topics, and lists them with rate and size', () => {
+  it('requests the topics, and lists them with rate and size', () => {
     expect(executor.sentAs('list_topics').length).toBeGreaterThan(0);
     expect(screen.getByText('Asking which topics there are…')).toBeInTheDocument();
     list();
@@ -86,7 +86,7 @@ describe('TopicsPanel', () => {
     expect(screen.getByText('No topic matches.')).toBeInTheDocument();
   });
 
-  it('listens to a topic, shows its last message, and stops', async () => {
+  it('echoes a topic, shows its last message, and stops', async () => {
     list();
     await user.click(screen.getByRole('button', { name: 'Listen to /odom' }));
     expect(executor.sentAs('echo_topic')).toEqual([{ topic: '/odom', max_hz: 10 }]);
@@ -101,7 +101,7 @@ describe('TopicsPanel', () => {
     expect(screen.queryByRole('region', { name: '/odom' })).toBeNull();
   });
 
-  it('says why a topic cannot be listened to', async () => {
+  it('reports why a topic cannot be echoed', async () => {
     list();
     executor.refuse('echo_topic', 'Too many topics.');
     await user.click(screen.getByRole('button', { name: 'Listen to /odom' }));
@@ -122,7 +122,7 @@ describe('TopicsPanel', () => {
     expect(screen.queryByText('x')).toBeNull();
   });
 
-  it('holds a message while others arrive', async () => {
+  it('pauses at a message while others arrive', async () => {
     list();
     await user.click(screen.getByRole('button', { name: 'Listen to /odom' }));
     hear({ x: 11 }, 1);
@@ -172,7 +172,7 @@ describe('TopicsPanel', () => {
     expect(screen.queryByRole('searchbox')).toBeNull();
   });
 
-  describe('extra nodes', () => {
+  describe('launch nodes', () => {
     beforeEach(async () => {
       executor.emit('launch_nodes', {
         nodes: [
@@ -207,7 +207,7 @@ describe('TopicsPanel', () => {
       expect(screen.getByTestId('launch-driver')).not.toHaveTextContent('map ready');
     });
 
-    it('restart, or say why not', async () => {
+    it('restart, or report why not', async () => {
       await user.click(row('driver').getByRole('button', { name: 'Restart' }));
       expect(executor.sentAs('restart_node')).toEqual([{ id: 'n2' }]);
       executor.refuse('restart_node', 'It is gone.');
@@ -217,7 +217,7 @@ describe('TopicsPanel', () => {
       expect(row('mapper').getByRole('button', { name: 'Restart' })).toBeDisabled();
     });
 
-    it('lead to their log and their line', async () => {
+    it('open their output and their line', async () => {
       const { openFile } = watchNavigation();
       await user.click(row('mapper').getByRole('button', { name: 'map.launch.yaml:4' }));
       expect(openFile).toHaveBeenCalledWith('launch/map.launch.yaml', 4);

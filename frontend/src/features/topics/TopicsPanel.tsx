@@ -18,7 +18,7 @@ const Plot = lazyPart(async () => (await import('./Plot')).Plot);
 
 const REFRESH_MS = 1000;
 
-/** The session's ROS graph: the topics with their messages, and the project's launch nodes. */
+/** The panel of the session's ROS graph: topics with their messages, and the project's launch nodes. */
 export function TopicsPanel() {
   const { t } = useTranslation('topics');
   const panel = useRef<HTMLElement>(null);

@@ -46,7 +46,7 @@ describe('optionsFor', () => {
     return element;
   };
 
-  it('fills the width of its place, and has room in a hidden one', () => {
+  it('fills the width of its place, and has a width in a hidden one', () => {
     expect(optionsFor([x], host(640), 'Time')).toMatchObject({ width: 640, height: 210 });
     expect(optionsFor([x], host(0), 'Time').width).toBe(100);
   });
@@ -69,7 +69,7 @@ describe('optionsFor', () => {
     expect(optionsFor([speed, x], host(640), 'Time').axes?.[1]?.label).toBeUndefined();
   });
 
-  it('has one line a field, that of the seventh dashed', () => {
+  it('has one line for each field, and the seventh is dashed', () => {
     const many = Array.from({ length: 13 }, (_, index) => ({ topic: '/t', path: `f${index}` }));
     const [, ...lines] = optionsFor(many, host(640), 'Time').series;
     expect(lines.map(({ label }) => label).slice(0, 2)).toEqual(['/t.f0', '/t.f1']);

@@ -3,14 +3,17 @@ import { seriesOf } from '@/store/session/topics';
 import { commonUnit } from './plotView';
 
 export const HEIGHT_PX = 210;
-/** Told apart on both themes and by colour-blind people (Okabe and Ito), in turn solid and dashed. */
+/**
+ * Colours that are distinguishable in both themes and by colour-blind people (Okabe and Ito). Lines are
+ * alternately solid and dashed.
+ */
 const COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9'];
 
 export const colorOf = (index: number) => COLORS[index % COLORS.length] ?? '#0072b2';
 
 const isDashed = (index: number): boolean => Math.floor(index / COLORS.length) % 2 === 1;
 
-/** The look of a line in the legend. */
+/** Returns the style of a line's mark in the legend. */
 export const markOf = (index: number) =>
   isDashed(index)
     ? { background: `repeating-linear-gradient(90deg, ${colorOf(index)} 0 4px, transparent 4px 6px)` }
@@ -18,7 +21,7 @@ export const markOf = (index: number) =>
 
 export type Plotted = readonly { readonly topic: string; readonly path: string }[];
 
-/** All series over the union of their times; a series without a sample at a time has none there. */
+/** Returns all series over the union of their times, with a gap where a series has no sample. */
 export function dataOf(plotted: Plotted): uPlot.AlignedData {
   const tables = plotted.map(({ topic, path }): uPlot.AlignedData => {
     const { times, values } = seriesOf(topic, path);
@@ -46,7 +49,7 @@ export function optionsFor(plotted: Plotted, element: HTMLElement, timeLabel: st
     height: HEIGHT_PX,
     scales: { x: { time: false } },
     legend: { show: false },
-    // A drag moves the plot (`plotGestures`).
+    // Drags move the plot instead (`plotGestures`).
     cursor: { drag: { x: false, y: false, setScale: false } },
     axes: [
       { ...axis, label: timeLabel, values: (_, ticks) => ticks.map((tick) => `${tick} s`) },

@@ -40,7 +40,7 @@ it('shows how a terminal is connected, also without a session', () => {
   expect(screen.queryByTestId('ros-environment')).toBeNull();
 });
 
-it('has the names of its commands in the palette', () => {
+it('have labels in the palette', () => {
   const { commands } = useCommandTable.getState();
   expect(commands['run.connectRos']).toMatchObject({ group: 'run', labelKey: 'topics:command.connect' });
   expect(commands['run.publish']).toMatchObject({ group: 'run', labelKey: 'topics:command.publish' });

@@ -3,7 +3,7 @@ import { resetTopics, seriesOf } from '@/store/session/topics';
 import { csvOf, download } from './csv';
 
 describe('csvOf', () => {
-  it('has the time and a column a field, with empty gaps', () => {
+  it('has the time and one column for each field, with empty gaps', () => {
     Object.assign(seriesOf('/odom', 'linear.x'), { times: [0.5, 1], values: [1, null] });
     Object.assign(seriesOf('/a"b', 'data'), { times: [1], values: [7] });
     onTestFinished(resetTopics);

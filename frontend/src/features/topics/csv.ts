@@ -3,7 +3,9 @@ import { unitOf } from './plotView';
 
 const quoted = (text: string): string => `"${text.replaceAll('"', '""')}"`;
 
-/** The samples of all plotted fields as CSV: the time in s, and a column a field; a gap is empty. */
+/**
+ * Returns the samples of all plotted fields as CSV: the time in s, and one column per field; gaps are empty.
+ */
 export function csvOf(plotted: Plotted): string {
   const [times, ...columns] = dataOf(plotted);
   const names = plotted.map(({ topic, path }) => {
@@ -16,7 +18,7 @@ export function csvOf(plotted: Plotted): string {
   return [['time_s', ...names].join(','), ...rows, ''].join('\r\n');
 }
 
-/** Offers a text as a file of the browser's downloads. */
+/** Downloads a text as a file. */
 export function download(name: string, text: string): void {
   const url = URL.createObjectURL(new Blob([text], { type: 'text/csv;charset=utf-8' }));
   const link = document.createElement('a');

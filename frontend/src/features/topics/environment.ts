@@ -1,4 +1,4 @@
-/** Lines for a shell; values with special characters are quoted. */
+/** Returns shell commands that set the variables; values with special characters are quoted. */
 export function exportLines(environment: Readonly<Record<string, string>>): string {
   return Object.entries(environment)
     .map(([name, value]) => `export ${name}=${/^[\w./:@%+,-]*$/.test(value) ? value : quoted(value)}`)

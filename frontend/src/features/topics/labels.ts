@@ -1,6 +1,9 @@
 const UNITS = ['B/s', 'kB/s', 'MB/s', 'GB/s'];
 
-/** A dash stands for a rate that is not measured: pictures are measured only while they are echoed. */
+/**
+ * Returns a rate for display. A dash means that the rate is not measured: pictures are measured only while
+ * they are echoed.
+ */
 export function rateLabel(hz: number | null): string {
   return hz === null ? '—' : `${hz >= 10 ? hz.toFixed(0) : hz.toFixed(1)} Hz`;
 }
@@ -16,7 +19,7 @@ export function bytesLabel(bytesPerSecond: number | null): string {
   return `${value >= 100 || unit === 0 ? value.toFixed(0) : value.toFixed(1)} ${UNITS[unit]}`;
 }
 
-/** A message value on one line; numbers have as few digits as are needed. */
+/** Returns a value of a message on one line; numbers have no more digits than needed. */
 export function valueLabel(value: unknown): string {
   if (typeof value === 'number')
     return Number.isInteger(value) ? String(value) : String(Number(value.toPrecision(7)));

@@ -40,7 +40,7 @@ describe('gestures', () => {
     expect(setRange).toHaveBeenCalledOnce();
   });
 
-  it('take a drag back with Escape', () => {
+  it('cancel a drag with Escape', () => {
     pointer('pointerdown', 50);
     pointer('pointermove', 70);
     press('Escape');

@@ -2,7 +2,7 @@ import type uPlot from 'uplot';
 import { moved, zoomed, type TimeRange } from './plotView';
 
 const WHEEL_STEP = 1.2;
-/** The part of the range that an arrow moves. */
+/** The share of the range by which an arrow key moves it. */
 const ARROW_STEP = 0.2;
 
 type SetRange = (range: TimeRange | null) => void;
@@ -12,7 +12,7 @@ function rangeOf({ scales }: uPlot): TimeRange | null {
   return typeof min === 'number' && typeof max === 'number' && max > min ? { min, max } : null;
 }
 
-/** The range that a key of a plot asks for; undefined for other keys, null for everything. */
+/** Returns the range after a key; undefined for a key without an effect, null for the whole range. */
 function rangeAfter(key: string, range: TimeRange): TimeRange | null | undefined {
   const span = range.max - range.min;
   const middle = (range.min + range.max) / 2;
@@ -33,7 +33,10 @@ function rangeAfter(key: string, range: TimeRange): TimeRange | null | undefined
   }
 }
 
-/** Wheel and drag move and zoom a plot; a double click, or 0, shows everything again. */
+/**
+ * Adds the gestures of a plot: the wheel zooms, a drag moves, and a double click or 0 shows everything.
+ * Returns a function that removes them.
+ */
 export function gestures(chart: uPlot, host: HTMLElement, setRange: SetRange): () => void {
   const { over } = chart;
   let held: { x: number; range: TimeRange } | null = null;

@@ -14,7 +14,7 @@ describe('zoomed', () => {
     );
   });
 
-  it('ends where nothing can be read', () => {
+  it('stops at the smallest readable range', () => {
     const { min, max } = zoomed({ min: 1, max: 1.02 }, 1, 0.001);
     expect(max - min).toBeCloseTo(0.01, 9);
   });

@@ -1,22 +1,22 @@
-/** The part of the time that a plot shows, in s. */
+/** The range of time that a plot shows, in s. */
 export interface TimeRange {
   readonly min: number;
   readonly max: number;
 }
 
-/** Shorter than this nothing can be read. */
+/** The shortest range in s that can be read. */
 const SHORTEST_S = 0.01;
 
-/** The range zoomed by a factor around a time, which stays at its place; below 1 it is closer. */
+/** Returns a range zoomed about a time, which keeps its place; a factor below 1 zooms in. */
 export function zoomed({ min, max }: TimeRange, at: number, factor: number): TimeRange {
   const by = Math.max(factor, SHORTEST_S / (max - min));
   return { min: at - (at - min) * by, max: at + (max - at) * by };
 }
 
-/** The range moved by a time. */
+/** Returns a range moved by a time. */
 export const moved = ({ min, max }: TimeRange, by: number): TimeRange => ({ min: min + by, max: max + by });
 
-/** Units by the convention of ROS (REP 103), by the last names of a field's path. */
+/** The units of ROS (REP 103), by the last names in the path of a field. */
 const UNITS: readonly (readonly [RegExp, string])[] = [
   [/(^|\.)linear_acceleration\.[xyz]$/, 'm/s²'],
   [/(^|\.)(angular_velocity|angular)\.[xyz]$/, 'rad/s'],
@@ -30,10 +30,10 @@ const UNITS: readonly (readonly [RegExp, string])[] = [
   [/(^|\.)current$/, 'A'],
 ];
 
-/** The unit of a field; empty where it has none, or none is known. */
+/** Returns the unit of a field; empty if it has none, or an unknown one. */
 export const unitOf = (path: string): string => UNITS.find(([pattern]) => pattern.test(path))?.[1] ?? '';
 
-/** The unit that all fields share; empty if they differ. */
+/** Returns the unit that all fields share; empty if they differ. */
 export function commonUnit(paths: readonly string[]): string {
   const units = new Set(paths.map(unitOf));
   return units.size === 1 ? ([...units][0] ?? '') : '';

@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest';
 import { closePublish, openPublish, usePublishing } from './publishing';
 
-it('remembers with what the dialogue was opened, until it is closed', () => {
+it('stores the initial values of the dialogue, until it is closed', () => {
   expect(usePublishing.getState().opened).toBeNull();
   openPublish('/odom', 'nav_msgs/msg/Odometry');
   expect(usePublishing.getState().opened).toEqual({ topic: '/odom', type: 'nav_msgs/msg/Odometry' });

@@ -1,7 +1,7 @@
 import { create } from 'zustand';
 
 interface Publishing {
-  /** The initial values of the dialogue; null while it is closed. */
+  /** The initial values of the dialogue; null while the dialogue is closed. */
   opened: { topic: string; type: string } | null;
 }
 

@@ -25,7 +25,7 @@ function cards(chosen: string, isFirst?: boolean) {
 }
 
 describe('ChoiceCards', () => {
-  it('are radio buttons of one group, with their words', async () => {
+  it('are radio buttons of one group, with their labels', async () => {
     const { onChoose } = cards('room');
     expect(screen.getByRole('radiogroup', { name: 'Where' })).toBeInTheDocument();
     const radios = screen.getAllByRole<HTMLInputElement>('radio');
@@ -36,7 +36,7 @@ describe('ChoiceCards', () => {
     expect(onChoose).toHaveBeenCalledExactlyOnceWith('hall');
   });
 
-  it('show a picture, or a symbol of what it is', () => {
+  it('show a picture, or an icon', () => {
     const { container } = cards('room');
     expect(container.querySelectorAll('img')).toHaveLength(1);
     expect(screen.getByTestId('choice-room').querySelector('img')).toHaveAttribute('src', '/room.jpg');
@@ -47,12 +47,12 @@ describe('ChoiceCards', () => {
     expect(symbol('hall')).toContain('world');
   });
 
-  it('take the focus of a dialogue at the chosen one, where they come first', () => {
+  it('put the focus of a dialogue on the chosen card, if they come first', () => {
     expect(cards('room', true).container.querySelectorAll('[data-autofocus]')).toHaveLength(1);
     expect(screen.getByDisplayValue('room')).toHaveAttribute('data-autofocus');
   });
 
-  it('leave the focus to others otherwise', () => {
+  it('otherwise leave the focus to others', () => {
     expect(cards('room').container.querySelector('[data-autofocus]')).toBeNull();
   });
 });

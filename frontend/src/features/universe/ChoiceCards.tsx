@@ -16,11 +16,11 @@ interface ChoiceCardsProps {
   readonly items: readonly UniverseInfo[];
   readonly chosen: string;
   readonly onChoose: (id: string) => void;
-  /** A dialogue gives the chosen card the focus at first. */
+  /** Whether the chosen card gets the focus first in a dialogue. */
   readonly isFirst?: boolean;
 }
 
-/** Cards with pictures to choose one of; keyboard and screen readers treat them as radio buttons. */
+/** Cards with pictures, of which one is chosen; keyboard and screen readers treat them as radio buttons. */
 export function ChoiceCards({ label, items, chosen, onChoose, isFirst = false }: ChoiceCardsProps) {
   const name = useId();
   return (

@@ -53,7 +53,7 @@ describe('the chooser of universe and robot', () => {
     await waitFor(() => expect(radio('own_room')).toHaveFocus());
   });
 
-  it('says that it loads', () => {
+  it('shows that it is loading', () => {
     fakeServer({});
     openProject({});
     show(<UniverseChooser />);
@@ -79,7 +79,7 @@ describe('the chooser of universe and robot', () => {
     expect(settings()?.robot).toBeUndefined();
   });
 
-  it('keeps a choice for once out of the project', async () => {
+  it('does not store a choice for one session in the project', async () => {
     await chooser();
     expect(screen.getByRole('radio', { name: 'For this project' })).toBeChecked();
     await user.click(screen.getByRole('radio', { name: 'Only while this page is open' }));
@@ -92,7 +92,7 @@ describe('the chooser of universe and robot', () => {
     expect(settings()?.universe).toBe('own_room');
   });
 
-  it('begins with what was chosen for once, and ends it', async () => {
+  it('starts with the choice for one session, and ends it', async () => {
     await chooser({ universe: 'own_room', robot: 'mine' }, { universe: 'lab', robot: 'own_rover', seed: 7 });
     expect(screen.getByRole('radio', { name: 'Only while this page is open' })).toBeChecked();
     expect(radio('lab')).toBeChecked();
@@ -118,7 +118,7 @@ describe('the chooser of universe and robot', () => {
     expect(screen.getByTestId('choose-world')).toBeEnabled();
   });
 
-  it('explains that there is no world outside, and offers neither robot nor seed there', async () => {
+  it('explains that there is no world outside, and offers neither robot nor seed', async () => {
     await chooser();
     expect(screen.queryByTestId('outside')).toBeNull();
     await user.click(choice('none'));
@@ -141,7 +141,7 @@ describe('the chooser of universe and robot', () => {
     expect(useNewRobot.getState().base).toBeNull();
   });
 
-  it('offers a copy of a robot that we ship', async () => {
+  it('offers a copy of a built-in robot', async () => {
     await chooser();
     const { openFile } = watchNavigation();
     await user.click(choice('own_rover'));

@@ -15,12 +15,12 @@ import classes from './universe.module.css';
 import { closeUniverseChooser } from '@/store/dialogs/universeChooser';
 
 const OWN = /^universes\/([^/]+)\.yaml$/;
-/** The value that stands for the robot that the universe names. */
+/** The value for the robot that the universe names. */
 const OF_UNIVERSE = '';
 
 type Scope = 'project' | 'once';
 
-/** Chooses universe, robot and seed: for the project, or until the page closes. */
+/** The form that chooses universe, robot and seed: for the project, or until the page closes. */
 export function UniverseChooser() {
   const { t } = useTranslation('universe');
   const { t: title } = useTranslation('worlds');
@@ -36,8 +36,7 @@ export function UniverseChooser() {
   const root = useRef<HTMLDivElement>(null);
   const isReady = !universes.isPending && !robots.isPending;
   useEffect(() => {
-    // Waits until the dialogue has focused its first button, then moves the focus to the cards for the arrow
-    // keys.
+    // The dialogue first focuses its first button; then the cards get the focus, for the arrow keys.
     const timer = setTimeout(() => root.current?.querySelector<HTMLElement>('input:checked')?.focus());
     return () => clearTimeout(timer);
   }, [isReady]);
@@ -73,7 +72,7 @@ export function UniverseChooser() {
     closeUniverseChooser();
   };
 
-  /** Opens a robot of the project in its editor, or a copy of one of ours. */
+  /** Opens a robot of the project in its editor, or offers to copy a built-in robot. */
   const changeRobot = () => {
     closeUniverseChooser();
     if (ownMachines.includes(robot)) openFile(`robots/${robot}/robot.yaml`);

@@ -9,7 +9,7 @@ import { fakeServer, openProject, show, user } from '../../../harness/testing';
 import { UniverseDialog } from './UniverseDialog';
 
 describe('the dialogue for universe and robot', () => {
-  it('holds the choices while it is open, and is left by its cross', async () => {
+  it('has the choices while it is open, and closes', async () => {
     onTestFinished(closeUniverseChooser);
     fakeServer({ 'GET /catalog/universes': [], 'GET /catalog/robots': [] });
     openProject({});

@@ -7,13 +7,13 @@ const t = i18next.getFixedT('en', 'worlds');
 const es = i18next.getFixedT('es', 'worlds');
 
 describe('titled', () => {
-  it('keeps the words of what the page has no words for', () => {
+  it('keeps texts without a translation', () => {
     const info = { id: 'own', name: 'Own', description: 'Mine.', preview: '/a.jpg' };
     expect(titled(t, 'universe', info)).toEqual(info);
     expect(titled(t, 'robot', { id: 'own', name: 'Own' })).toMatchObject({ name: 'Own', description: '' });
   });
 
-  it('says in the language of the page what we ship', async () => {
+  it('translates the built-in ones', async () => {
     const info = { id: OUTSIDE, name: 'x', description: 'y' };
     const english = titled(t, 'universe', info);
     expect(english.name).not.toBe('x');

@@ -7,8 +7,8 @@ export const OUTSIDE = 'none';
 type Kind = 'universe' | 'robot';
 
 /**
- * The title of one of our universes or robots in the page's language; `t` translates in the namespace
- * `worlds`.
+ * Returns a built-in universe or robot with its title in the current language; `t` translates in the
+ * namespace `worlds`.
  */
 export function titled(t: TFunction, kind: Kind, info: UniverseInfo): UniverseInfo {
   return {

@@ -30,7 +30,7 @@ const name = () => screen.findByTestId<HTMLInputElement>('new-universe-name');
 beforeEach(() => closeNewUniverse());
 
 describe('the dialogue for a new universe', () => {
-  it('offers what we ship but no outside world, the wished one first', async () => {
+  it('offers the built-in ones except for the outside world, the requested one first', async () => {
     dialog();
     await name();
     expect(screen.getAllByRole('radio').map((radio) => (radio as HTMLInputElement).value)).toEqual([
@@ -52,7 +52,7 @@ describe('the dialogue for a new universe', () => {
     expect(useNewUniverse.getState().base).toBeNull();
   });
 
-  it('leaves the setting of the project where it is not to be used', async () => {
+  it('does not change the setting of the project if it is not to be used', async () => {
     const { openFile } = dialog();
     await name();
     await user.click(screen.getByRole('switch', { name: 'Run this project there' }));
@@ -69,7 +69,7 @@ describe('the dialogue for a new universe', () => {
     expect(openFile).not.toHaveBeenCalled();
   });
 
-  it('says why it could not be made, and stays open', async () => {
+  it('reports why it could not be made, and stays open', async () => {
     dialog({ 'GET /catalog/universes/own_room/text': undefined });
     await name();
     await user.click(screen.getByTestId('new-universe-ok'));

@@ -9,7 +9,7 @@ import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
 import { closeNewUniverse, useNewUniverse } from '@/store/dialogs/newUniverse';
 
-/** Adds a universe to the project: a copy of one of ours. */
+/** The dialogue that adds a universe to the project: a copy of a built-in one. */
 export function NewUniverse() {
   const { t } = useTranslation('universeEditor');
   const base = useNewUniverse((state) => state.base);
@@ -36,7 +36,7 @@ function Form({ first }: { readonly first: string }) {
   const files = useProjectStore((state) => state.files);
   const universes = useQuery({ queryKey: ['universes'], queryFn: api.universes, staleTime: Infinity });
   const names = Object.keys(files).map((path) => /^universes\/([^/]+)\.yaml$/.exec(path)?.[1] ?? '');
-  // This name is reserved: it stands for no world.
+  // This name is reserved: it means no simulated world.
   const taken = new Set([...names.map((name) => name.toLowerCase()), OUTSIDE]);
   const shipped = (universes.data ?? []).filter(({ id }) => id !== OUTSIDE);
   if (universes.isPending) return <Loader size="sm" aria-label={t('new.loading')} />;

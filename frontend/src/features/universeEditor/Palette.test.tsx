@@ -31,7 +31,7 @@ describe('the palette of a universe', () => {
     );
   });
 
-  it('lets one be dragged to the view', () => {
+  it('can be dragged to the view', () => {
     palette();
     const data = { setData: vi.fn(), effectAllowed: '' };
     fireEvent.dragStart(screen.getByTestId('place-wall'), { dataTransfer: data });
@@ -69,7 +69,7 @@ describe('the palette of a universe', () => {
     expect(thing('b')).toMatchObject({ shape: 'sdf', file: 'models/b.sdf' });
   });
 
-  it('says that there is no mesh yet', async () => {
+  it('shows that there is no mesh yet', async () => {
     palette();
     await user.click(screen.getByTestId('place-file'));
     expect(await screen.findByText('This project has no meshes yet')).toBeInTheDocument();
@@ -83,7 +83,7 @@ describe('the palette of a universe', () => {
     expect(server.requests.filter(({ method }) => method === 'POST')).toEqual([]);
   });
 
-  it('asks for a file on the way that the page has for it', async () => {
+  it("asks for a file with the page's own dialogue", async () => {
     palette();
     const input = screen.getByTestId<HTMLInputElement>('mesh-file');
     expect(input.accept).toBe('.stl,.obj,.dae,.ply,.glb');
@@ -93,7 +93,7 @@ describe('the palette of a universe', () => {
     expect(choose).toHaveBeenCalledOnce();
   });
 
-  it('puts a mesh into the project, and places it', async () => {
+  it('uploads a mesh, and places it', async () => {
     const { thing } = palette();
     const { requests } = fakeServer(takesFile('assets/chair.stl'));
     await user.upload(screen.getByTestId('mesh-file'), new File([stl(1)], 'chair.stl'));

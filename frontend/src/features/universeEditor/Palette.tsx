@@ -36,7 +36,8 @@ const KIND_ICONS: Readonly<Record<Kind, typeof IconCube>> = {
 };
 
 /**
- * The things that can be placed: a click places one in the middle of the view, a drag where it is dropped.
+ * The palette with the things that can be placed: a click places a thing in the middle of the view, a drag
+ * places it where it is dropped.
  */
 export function Palette({ editor }: { readonly editor: UniverseEditor }) {
   const { t } = useTranslation('universeEditor');
@@ -75,7 +76,7 @@ function RobotMenu({ editor }: { readonly editor: UniverseEditor }) {
   );
 }
 
-/** The robots of the project, and ours. */
+/** Returns the robots of the project, and the built-in ones. */
 export function useRobots(): readonly { readonly id: string; readonly name: string }[] {
   const files = useProjectStore((state) => state.files);
   const shipped = useQuery({ queryKey: ['robots'], queryFn: api.robots, staleTime: Infinity });

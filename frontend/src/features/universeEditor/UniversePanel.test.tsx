@@ -22,7 +22,7 @@ actors:
 let editor: UniverseEditor;
 let runs = 0;
 
-/** The panel with the document as it is now. */
+/** The panel, with the current document. */
 function Panel() {
   useProjectStore((state) => state.files[PATH]?.text);
   const { universe } = readingOf(editor);
@@ -47,7 +47,7 @@ const choose = (id: string) => {
 beforeEach(() => {
   fakeServer({ 'GET /catalog/robots': [], 'GET /catalog/universes': [] });
   openProject({ texts: { [PATH]: HALL } });
-  // An editor outlives its tab, and belongs to one project.
+  // An editor outlives its tab but belongs to one project, so each test needs a new project.
   useProjectStore.setState({ projectId: `p${(runs += 1)}` });
   editor = editorOf(PATH);
   show(<Panel />);
@@ -77,7 +77,7 @@ describe('the fields of a universe', () => {
     expect(universe().ground.friction).toBe(0);
   });
 
-  it('put up a ceiling, change its height and take it down', async () => {
+  it('add a ceiling, change its height and remove it', async () => {
     await user.click(screen.getByTestId('field-ceiling'));
     expect(universe().ceiling?.height).toBe(2.5);
     const height = screen.getByTestId('field-ceiling-height');
@@ -88,7 +88,7 @@ describe('the fields of a universe', () => {
     expect(universe().ceiling).toBeNull();
   });
 
-  it('turn the sun, and never to no direction', async () => {
+  it('turn the sun, but never without a direction', async () => {
     await write('x', '0');
     await write('y', '0');
     await write('z', '0');
@@ -136,7 +136,7 @@ describe('the fields of a thing', () => {
     expect(thing('crate')).toMatchObject({ size: [0.4, 0.4, 1], pose: [1, 2, 0.5, 0, 0, 0] });
   });
 
-  it('give it a mass, and with it the fields of a mass', async () => {
+  it('give it a mass, and then show the fields of a mass', async () => {
     expect(screen.queryByTestId('field-mass')).toBeNull();
     await user.click(screen.getByTestId('field-dynamic'));
     expect(thing('crate')).toMatchObject({ mass: 1 });
@@ -150,7 +150,7 @@ describe('the fields of a thing', () => {
     expect(thing('crate')).toMatchObject({ mass: 4 });
   });
 
-  it('let only a solid thing weigh', () => {
+  it('offer a mass only for a solid thing', () => {
     choose('floor');
     expect(screen.getByTestId('field-dynamic')).toBeDisabled();
   });
@@ -161,7 +161,7 @@ describe('the fields of a person', () => {
     choose('walker');
   });
 
-  it('change the way, point by point', async () => {
+  it('change the path, point by point', async () => {
     await write('x 2', '3');
     expect(thing('walker')).toMatchObject({
       path: [

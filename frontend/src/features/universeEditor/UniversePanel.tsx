@@ -42,14 +42,14 @@ function iconOf(thing: Thing): typeof IconBox {
   return thing.section === 'robots' ? IconRobot : SHAPE_ICONS[thing.shape];
 }
 
-/** The list of things, and the fields of the selected one; of the world itself if none is selected. */
+/** The list of things, with the fields of the selected thing, or of the world itself if none is selected. */
 export function UniversePanel({ editor, universe }: UniversePanelProps) {
   const { t } = useTranslation('universeEditor');
   const selection = useStore(editor.store, (state) => state.selection);
   const [key] = selection;
   const thing = key === undefined ? undefined : thingOf(universe, key);
   return (
-    // Only undo and redo are taken here, on their way from the controls within.
+    // The panel handles only undo and redo, when their keys bubble up from the controls inside.
     // eslint-disable-next-line jsx-a11y/no-static-element-interactions
     <div className={classes['panel']} onKeyDown={(event) => onPanelKey(editor, event)}>
       <ThingList

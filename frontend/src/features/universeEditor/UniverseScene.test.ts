@@ -10,7 +10,7 @@ import { UniverseScene } from './UniverseScene';
 const URDF = `<robot name="r"><link name="base"><visual><origin xyz="0 0 0.5"/>
   <geometry><box size="0.2 0.2 1"/></geometry></visual></link></robot>`;
 
-/** A scene that shows a text; robots look like a box 1 m high. */
+/** Returns a scene that shows a universe's text; robots look like a box 1 m high. */
 function shown(text: string) {
   fakeServer({ 'GET /catalog/robots/turtle2/urdf': new Response(URDF) });
   openUniverse(text, { 'models/tower.urdf': URDF });
@@ -31,7 +31,7 @@ const size = (scene: UniverseScene, key: string) =>
 const frame = (node: THREE.Object3D) => node.children.find((child) => child.userData['isMark'])!;
 
 describe('UniverseScene', () => {
-  it('draws every thing where it is, as large as it is', () => {
+  it('draws every thing at its place, in its size', () => {
     const { scene } = shown(HALL);
     expect(scene.group.children).toHaveLength(5);
     expect(scene.nodeOf('crate')?.position.toArray()).toEqual([1, 2, 0.2]);
@@ -40,20 +40,20 @@ describe('UniverseScene', () => {
     expect(size(scene, 'carpet')).toEqual([4, 4, 0]);
   });
 
-  it('stands a person at the beginning of the way, facing along it', () => {
+  it('puts a person at the start of the path, facing along it', () => {
     const { scene } = shown(HALL.replace('[[0, 0], [2, 0], [2, 2]]', '[[1, 1], [1, 3]]'));
     const node = scene.nodeOf('walker')!;
     const person = node.children[0]!;
     expect(node.position.toArray()).toEqual([0, 0, 0]);
     expect(person.position.toArray()).toEqual([1, 1, 0]);
     expect(person.rotation.z).toBeCloseTo(Math.PI / 2);
-    // The frame stands round the person, not round the whole way.
+    // The frame surrounds the person, not the whole path.
     const bounds = new THREE.Box3().setFromObject(frame(node));
     expect(bounds.max.y).toBeLessThan(1.5);
     expect(bounds.min.y).toBeGreaterThan(0.5);
   });
 
-  it('shows a robot as soon as its URDF is there, and a box until then', async () => {
+  it('shows a robot as soon as its URDF has arrived, and a box before', async () => {
     const { scene, onArrival } = shown(HALL);
     expect(size(scene, 'robot')[2]).toBe(0.35);
     await vi.waitFor(() => expect(onArrival).toHaveBeenCalled());
@@ -74,7 +74,7 @@ describe('UniverseScene', () => {
     expect(size(scene, 'tower')).toEqual([0.2, 0.2, 1]);
   });
 
-  it('marks a mesh that cannot be had', async () => {
+  it('marks a mesh that cannot be loaded', async () => {
     const models = `models:
   - {id: chair, shape: mesh, file: assets/chair.stl, size: [1, 1, 1], pose: [0, 0, 0, 0, 0, 0]}
 `;

@@ -17,7 +17,7 @@ export class UniverseScene extends ThingScene<Thing> {
     private readonly textures: EditorTextures,
   ) {
     super(isSimple, onArrival, textures);
-    // A textured thing is built again once the size of its picture is known.
+    // A textured thing is drawn again when the size of its picture is known.
     textures.onArrival = () => this.again();
   }
 

@@ -28,7 +28,7 @@ function stage(text = HALL) {
 }
 
 describe('the stage of a universe', () => {
-  it('draws its things, its sun and its ground', () => {
+  it('draws its things, its lights and its ground', () => {
     const { scene } = stage();
     const [sun] = objectsOf(scene, THREE.DirectionalLight);
     expect(sun!.intensity).toBe(2);
@@ -73,7 +73,7 @@ describe('the stage of a universe', () => {
     expect(thing('wall_2')).toBeUndefined();
   });
 
-  it('draws the document again once it has changed', () => {
+  it('draws the document again after a change', () => {
     const { editor, scene, thing, update } = stage();
     act(() => select(editor, ['crate']));
     const node = () => {

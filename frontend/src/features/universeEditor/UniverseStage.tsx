@@ -17,7 +17,7 @@ interface UniverseStageProps {
   readonly isDark: boolean;
 }
 
-/** The 3D view of a universe, with the tools that move its things. */
+/** The content of a universe's 3D view, with the tools that move its things. */
 export function UniverseStage({ editor, universe, isDark }: UniverseStageProps) {
   const isSimple = isSoftwareWebGl();
   const redraw = useThrottledInvalidate();

@@ -20,7 +20,7 @@ const setText = (text: string) => {
 };
 
 describe('the tab of a universe', () => {
-  it('shows view, panel and tools, and no problem of a good document', () => {
+  it('shows view, panel and tools, and no problem for a valid document', () => {
     tab();
     expect(screen.getByTestId('universe-editor')).toHaveAttribute('data-path', UNIVERSE);
     expect(screen.getByTestId('universe-view')).toBeInTheDocument();
@@ -29,7 +29,7 @@ describe('the tab of a universe', () => {
     expect(screen.queryByText(/the simulator would refuse/)).toBeNull();
   });
 
-  it('notes what was typed beside as a step of undo', () => {
+  it('records edits of the text as an undo step', () => {
     const editor = tab();
     setText(HALL.replace('name: Hall', 'name: Lab'));
     expect(editor.store.getState().undoStack.past.map(({ label }) => label)).toEqual(['text']);
@@ -42,7 +42,7 @@ describe('the tab of a universe', () => {
     expect(screen.getByTestId('universe-view')).toBeInTheDocument();
   });
 
-  it('says that a broken text cannot be shown, until it can', () => {
+  it('reports that a broken text cannot be shown, until it can', () => {
     tab('models: [');
     expect(screen.getByRole('alert')).toHaveTextContent('The text cannot be read as a universe');
     expect(screen.queryByTestId('universe-view')).toBeNull();
@@ -50,7 +50,7 @@ describe('the tab of a universe', () => {
     expect(screen.getByTestId('universe-view')).toBeInTheDocument();
   });
 
-  it('shows the text alone where there is no such file', () => {
+  it('shows only the text if there is no such file', () => {
     tab(HALL, 'universes/gone.yaml');
     expect(screen.getByTestId('universe-editor-text')).toBeInTheDocument();
     expect(screen.queryByTestId('universe-editor')).toBeNull();

@@ -9,7 +9,7 @@ import { UniversePanel } from './UniversePanel';
 import { UniverseToolbar } from './UniverseToolbar';
 import { UniverseView } from './UniverseView';
 
-/** The editor of a universe in the project: 3D view and text. */
+/** The tab of a universe in the project: 3D view and text. */
 export function UniverseTab({ path }: { readonly path: string }) {
   const { t } = useTranslation('universeEditor');
   const editor = useMemo(() => editorOf(path), [path]);

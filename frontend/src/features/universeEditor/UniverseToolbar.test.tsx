@@ -17,7 +17,7 @@ function toolbar() {
 }
 
 describe('the toolbar of a universe', () => {
-  it('begins and ends the drawing of walls', async () => {
+  it('starts and ends the wall tool', async () => {
     const { editor } = toolbar();
     const walls = screen.getByRole('button', { name: 'Draw walls (W)' });
     expect(walls).toHaveAttribute('aria-pressed', 'false');
@@ -28,14 +28,14 @@ describe('the toolbar of a universe', () => {
     expect(editor.store.getState().tool).toBe('select');
   });
 
-  it('runs in this universe once, whatever the project names', async () => {
+  it("runs in this universe once, whatever the project's universe is", async () => {
     const { run } = toolbar();
     await user.click(screen.getByTestId('run-here'));
     expect(useUniverseChoice.getState().universe).toBe('hall');
     expect(run).toHaveBeenCalledOnce();
   });
 
-  it("chooses nothing where it is the project's own", async () => {
+  it("chooses nothing if it is the project's own", async () => {
     const { run } = toolbar();
     act(() => {
       useUniverseChoice.setState({ universe: 'other' });

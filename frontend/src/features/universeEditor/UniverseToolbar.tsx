@@ -7,7 +7,7 @@ import { useProjectStore } from '@/store/project';
 import { useUniverseChoice } from '@/store/run/universeChoice';
 import { GRIDS, type UniverseEditor } from './editor';
 
-/** The tools of all editors, and the wall tool. */
+/** The toolbar: the tools of all editors, and the wall tool. */
 export function UniverseToolbar({ editor }: { readonly editor: UniverseEditor }) {
   const { t } = useTranslation('universeEditor');
   const tool = useStore(editor.store, (state) => state.tool);

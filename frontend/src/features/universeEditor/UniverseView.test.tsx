@@ -15,7 +15,7 @@ function view(text = HALL, prepare: () => void = () => undefined) {
 const EMPTY = 'format: bt-studio/universe\nversion: 1\nname: Empty\nrobots: []\n';
 
 describe('the view of a universe', () => {
-  it('is one control, which says what it shows where there is no WebGL', () => {
+  it('is one control, with a description if there is no WebGL', () => {
     view();
     const control = screen.getByRole('application', { name: /^The universe in 3D\./ });
     expect(control).toHaveAttribute('data-things', '5');
@@ -26,7 +26,7 @@ describe('the view of a universe', () => {
     expect(screen.queryByText(/Click from corner to corner/)).toBeNull();
   });
 
-  it('takes the keys of the editor', () => {
+  it('handles the keys of the editor', () => {
     const { editor, thing } = view();
     select(editor, ['crate']);
     const control = screen.getByTestId('universe-view');
@@ -38,14 +38,14 @@ describe('the view of a universe', () => {
     expect(thing('crate')).toBeDefined();
   });
 
-  it('says how an empty floor is filled', () => {
+  it('explains how an empty floor is filled', () => {
     view(EMPTY);
     expect(
       screen.getByText('An empty floor. Place something from the left, or draw walls with W.'),
     ).toBeInTheDocument();
   });
 
-  it('announces what is selected, and where', () => {
+  it('announces the selection and its position', () => {
     const { editor } = view();
     const status = screen.getByRole('status');
     expect(status).toBeEmptyDOMElement();
@@ -59,7 +59,7 @@ describe('the view of a universe', () => {
     expect(status).toBeEmptyDOMElement();
   });
 
-  it('has no palette in a project that may only be seen', () => {
+  it('has no palette in a read-only project', () => {
     view(HALL, lookOnly);
     expect(screen.queryByRole('toolbar', { name: 'Things to place' })).toBeNull();
   });

@@ -19,7 +19,7 @@ interface UniverseViewProps {
   readonly universe: Universe;
 }
 
-/** The floor plan in 3D. */
+/** The 3D view of the universe, as a floor plan. */
 export function UniverseView({ editor, universe }: UniverseViewProps) {
   const { t } = useTranslation('universeEditor');
   const tool = useStore(editor.store, (state) => state.tool);
@@ -42,7 +42,7 @@ export function UniverseView({ editor, universe }: UniverseViewProps) {
   );
 }
 
-/** Announces the selected things and their positions to screen readers. */
+/** The announcement of the selected things and their positions for screen readers. */
 function Announcement({ editor, universe }: UniverseViewProps) {
   const { t } = useTranslation('universeEditor');
   const selection = useStore(editor.store, (state) => state.selection);

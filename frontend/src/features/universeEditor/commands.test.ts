@@ -28,7 +28,7 @@ const view = (center: readonly [number, number], forward: readonly [number, numb
 });
 
 describe('placeThing', () => {
-  it('leaves the tool that draws walls', () => {
+  it('ends the wall tool', () => {
     const editor = openUniverse();
     editor.store.setState({ tool: 'wall' });
     placeThing(editor, { kind: 'crate' }, [1, 1]);
@@ -59,7 +59,7 @@ describe('placeThing', () => {
     expect([...Object.keys(looks), 'person']).toEqual([...KINDS]);
   });
 
-  it('gives a person a way to walk, and a robot its model', () => {
+  it('gives a person a path, and a robot its model', () => {
     const editor = openUniverse();
     placeThing(editor, { kind: 'person' }, [1, 1]);
     expect(last(editor, 'actors')).toMatchObject({
@@ -80,7 +80,7 @@ describe('placeThing', () => {
     });
   });
 
-  it('names a mesh after its file, as far as letters allow', () => {
+  it('names a mesh after its file, in valid letters', () => {
     const editor = openUniverse();
     placeThing(editor, { kind: 'file', shape: 'mesh', file: 'assets/my chair.v2.stl' }, [0, 0]);
     expect(last(editor, 'models')).toMatchObject({
@@ -92,7 +92,7 @@ describe('placeThing', () => {
     expect(last(editor, 'models')).toMatchObject({ id: '_3d', shape: 'urdf' });
   });
 
-  it('stands in the middle of the view, and beside what is there', () => {
+  it('puts it in the middle of the view, or beside existing things', () => {
     const editor = openUniverse();
     editor.view = view([2, 1]);
     placeThing(editor, { kind: 'box' });
@@ -103,7 +103,7 @@ describe('placeThing', () => {
     expect(last(editor, 'models')).toMatchObject({ pose: [3.6, 1, 0.3, 0, 0, 0] });
   });
 
-  it('stands at the origin without a view', () => {
+  it('puts it at the origin without a view', () => {
     const editor = openUniverse(HALL.replace(/models:[^]*actors/, 'models: []\nactors'));
     placeThing(editor, { kind: 'box' });
     expect(last(editor, 'models')).toMatchObject({ pose: [0, 0, 0.3, 0, 0, 0] });
@@ -129,15 +129,15 @@ describe('placeWall', () => {
     expect(last(editor, 'models')).toMatchObject({ to_ceiling: true });
   });
 
-  it('builds nothing between two clicks at one place', () => {
+  it('builds nothing between two clicks at the same place', () => {
     const editor = openUniverse();
     placeWall(editor, [1, 1], [1.005, 1]);
     expect(things(editor)).toHaveLength(5);
   });
 });
 
-describe('what is selected', () => {
-  it('is duplicated beside itself, by half a metre or by a wider grid', () => {
+describe('the selected things', () => {
+  it('are duplicated beside themselves, by half a metre or by a wider grid', () => {
     const editor = openUniverse();
     select(editor, ['crate']);
     duplicateSelected(editor);
@@ -147,7 +147,7 @@ describe('what is selected', () => {
     expect(thing(editor, 'crate_3')).toMatchObject({ pose: [2.5, 3.5, 0.2, 0, 0, 0] });
   });
 
-  it('is deleted; of a person whose point is chosen, only that point', () => {
+  it('are deleted; of a person with a selected waypoint, only the waypoint', () => {
     const editor = openUniverse();
     select(editor, ['walker'], 1);
     deleteSelected(editor);
@@ -162,7 +162,7 @@ describe('what is selected', () => {
     expect(thing(editor, 'walker')).toBeUndefined();
   });
 
-  it('moves by steps of the grid along the axes of the view', () => {
+  it('move by steps of the grid along the axes of the view', () => {
     const editor = openUniverse();
     select(editor, ['crate']);
     nudge(editor, 1, 0, 0);
@@ -176,7 +176,7 @@ describe('what is selected', () => {
     expect(thing(editor, 'crate')).toMatchObject({ pose: [1, 2.6, 0.4, 0, 0, 0] });
   });
 
-  it('moves by a centimetre without a grid; one undo takes all steps back', () => {
+  it('move by a centimetre without a grid; one undo reverts all steps', () => {
     const editor = openUniverse();
     editor.store.setState({ grid: 0 });
     select(editor, ['crate']);
@@ -187,7 +187,7 @@ describe('what is selected', () => {
     expect(thing(editor, 'crate')).toMatchObject({ pose: [1, 2, 0.2, 0, 0, 0] });
   });
 
-  it('is a point of a way, which moves alone', () => {
+  it('can be one waypoint, which moves alone', () => {
     const editor = openUniverse();
     select(editor, ['walker'], 1);
     nudge(editor, 1, 1, 0);
@@ -209,7 +209,7 @@ describe('what is selected', () => {
     });
   });
 
-  it('turns about its own middle', () => {
+  it('turn about their own middle', () => {
     const editor = openUniverse();
     select(editor, ['crate']);
     turnSelected(editor, Math.PI / 2);
@@ -252,7 +252,7 @@ describe('resize', () => {
     expect(editor.store.getState().undoStack.past).toHaveLength(0);
   });
 
-  it('joins the steps of one gesture', () => {
+  it('merges the steps of one gesture', () => {
     const editor = openUniverse();
     resize(editor, 'crate', [0.4, 0.4, 0.6], 'drag');
     resize(editor, 'crate', [0.4, 0.4, 0.8], 'drag');
@@ -263,7 +263,7 @@ describe('resize', () => {
 });
 
 describe('extendWay', () => {
-  it('adds a point half way to the next one, and chooses it', () => {
+  it('adds a point half way to the next one, and selects it', () => {
     const editor = openUniverse();
     extendWay(editor, 'walker', 0);
     expect(thing(editor, 'walker')).toMatchObject({
@@ -277,7 +277,7 @@ describe('extendWay', () => {
     expect(editor.store.getState()).toMatchObject({ selection: ['walker'], waypoint: 1 });
   });
 
-  it('closes a way that goes round, and lengthens one that does not', () => {
+  it('closes a loop, and lengthens an open path', () => {
     const editor = openUniverse();
     extendWay(editor, 'walker', 2);
     expect(thing(editor, 'walker')).toMatchObject({ path: [expect.anything(), [2, 0], [2, 2], [1, 1]] });
@@ -294,7 +294,7 @@ describe('extendWay', () => {
     });
   });
 
-  it('changes nothing that has no way', () => {
+  it('changes nothing without a path', () => {
     const editor = openUniverse();
     extendWay(editor, 'crate', 0);
     expect(editor.store.getState().undoStack.past).toHaveLength(0);

@@ -16,7 +16,7 @@ import { thingOf, type Section, type Shape, type Universe } from '@/model/univer
 import { select } from '@/features/editor3d/editing';
 import { edit, readingOf, type UniverseEditor } from './editor';
 
-/** The things of the palette with all their properties except id and place. */
+/** The kinds of things in the palette. */
 export const KINDS = ['wall', 'box', 'cylinder', 'sphere', 'crate', 'ball', 'floor', 'person'] as const;
 export type Kind = (typeof KINDS)[number];
 
@@ -32,7 +32,7 @@ const MODELS: Readonly<
   floor: { shape: 'plane', size: [2, 2], color: '#b8c4cf', solid: false },
 };
 
-/** Further things that can be placed: a mesh or a model of the project, or a robot. */
+/** A thing that can be placed: one of the palette, a mesh or a model of the project, or a robot. */
 export type Placeable =
   | { readonly kind: Kind }
   | { readonly kind: 'file'; readonly shape: 'mesh' | 'urdf' | 'sdf'; readonly file: string }
@@ -73,11 +73,11 @@ function itemOf(universe: Universe, what: Placeable, [x, y]: Point): { section: 
   };
 }
 
-/** Places a thing on the floor: at the place of the drop, or in the middle of the view. */
+/** Places a thing on the floor, at a point or in the middle of the view. */
 export function placeThing(editor: UniverseEditor, what: Placeable, at?: Point): void {
   const { grid } = editor.store.getState();
   const [x, y] = at ?? free(editor);
-  // The next click selects: placing a thing leaves the tool that draws walls.
+  // Placing a thing ends the wall tool, so that the next click selects.
   editor.store.setState({ tool: 'select' });
   edit(editor, 'add', (universe) => {
     const { section, item } = itemOf(universe, what, [snapped(x, grid), snapped(y, grid)]);
@@ -85,7 +85,7 @@ export function placeThing(editor: UniverseEditor, what: Placeable, at?: Point):
   });
 }
 
-/** The middle of the view, or a place beside it if the middle is occupied. */
+/** Returns the middle of the view, or a place beside it if the middle is occupied. */
 function free(editor: UniverseEditor): Point {
   const [x, y] = editor.view?.center() ?? [0, 0];
   const things = readingOf(editor).universe?.things ?? [];
@@ -109,7 +109,7 @@ export function placeWall(editor: UniverseEditor, from: Point, to: Point): void 
       {
         id: freeId(universe, 'wall'),
         shape: 'box',
-        // Half a thickness longer at each end, so that corners close.
+        // The wall is longer by half its thickness at each end, so that corners close.
         size: [rounded(length + WALL.thickness), WALL.thickness, WALL.height],
         pose: [...middle, WALL.height / 2, 0, 0, yaw],
         color: '#e9e4da',
@@ -127,7 +127,7 @@ export function duplicateSelected(editor: UniverseEditor): void {
   edit(editor, 'duplicate', (universe) => duplicate(universe, selected(editor), [step, step]));
 }
 
-/** Deletes the chosen waypoint, else the selected things. */
+/** Deletes the selected waypoint, or the selected things if there is none. */
 export function deleteSelected(editor: UniverseEditor): void {
   const { waypoint, selection } = editor.store.getState();
   const [key] = selection;
@@ -137,7 +137,7 @@ export function deleteSelected(editor: UniverseEditor): void {
   } else edit(editor, 'delete', (universe) => remove(universe, selection));
 }
 
-/** Moves the selection by grid steps; presses of the same key join to one step of undo. */
+/** Moves the selection by grid steps; repeated presses of a key are merged into one undo step. */
 export function nudge(editor: UniverseEditor, along: number, aside: number, up: number, factor = 1): void {
   const { grid, selection, waypoint } = editor.store.getState();
   const step = (grid || 0.01) * factor;
@@ -199,7 +199,7 @@ export function resize(
   );
 }
 
-/** Adds a waypoint half way to the next one. */
+/** Adds a waypoint half way between a waypoint and the next one. */
 export function extendWay(editor: UniverseEditor, key: string, after: number): void {
   edit(editor, 'way', (universe) => {
     const actor = thingOf(universe, key);

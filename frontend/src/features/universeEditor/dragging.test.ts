@@ -20,7 +20,7 @@ function begin() {
 const on = (key: string, waypoint: number | null = null) => ({ key, height: 0, waypoint });
 
 describe('dragging things', () => {
-  it('takes what is under the pointer', () => {
+  it('takes the thing under the pointer', () => {
     const { scene, drag } = begin();
     expect(drag.take(on('crate'))).toEqual({
       keys: ['crate'],
@@ -41,7 +41,7 @@ describe('dragging things', () => {
     expect(drag.take(on('robot'))?.keys).toEqual(['robot']);
   });
 
-  it('leaves floors until they are selected, handles of a way to the gizmo, and what is not there', () => {
+  it('ignores floors until they are selected, waypoints, and missing things', () => {
     const { editor, drag } = begin();
     expect(drag.take(on('carpet'))).toBeNull();
     select(editor, ['carpet']);
@@ -50,14 +50,14 @@ describe('dragging things', () => {
     expect(drag.take(on('nothing'))).toBeNull();
   });
 
-  it('drops things over the floor, and selects what was dragged', () => {
+  it('moves things over the floor, and selects what was dragged', () => {
     const { editor, drag, thing } = begin();
     drag.drop(['crate'], [0.5, -1]);
     expect(thing('crate')).toMatchObject({ pose: [1.5, 1, 0.2, 0, 0, 0] });
     expect(editor.store.getState().selection).toEqual(['crate']);
   });
 
-  it('keeps the selection, and its chosen point, where all of it was dragged', () => {
+  it('keeps the selection and its waypoint if all of it was dragged', () => {
     const { editor, drag } = begin();
     select(editor, ['walker', 'crate'], 1);
     drag.drop(['crate'], [1, 0]);
@@ -102,7 +102,7 @@ describe('drawing walls', () => {
     expect(thing('wall_2')).toMatchObject({ pose: [2, 1.5, 0.5, 0, 0, 1.5708] });
   });
 
-  it('ends the way of walls, and says whether there was one', () => {
+  it('ends the row of walls, and returns whether there was one', () => {
     const { editor, thing } = begin();
     const line = new WallLine();
     const drawing = wallDrawing(editor, line);

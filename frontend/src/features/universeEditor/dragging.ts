@@ -10,10 +10,13 @@ import { edit, readingOf, type UniverseEditor } from './editor';
 import type { UniverseScene } from './UniverseScene';
 import type { WallLine } from './WallLine';
 
-/** Wider things are floors and rooms: they can be dragged only if they are selected. */
+/**
+ * The width in m above which a thing is taken as a floor or a room, which can be dragged only if it is
+ * selected.
+ */
 const LARGEST_M = 3;
 
-/** The results of the pointer's gestures on the things of a universe. */
+/** Returns the handlers of the pointer's drags of the things of a universe. */
 export function dragHandlerOf(editor: UniverseEditor, scene: UniverseScene): DragHandler {
   const isLarge = (key: string) => {
     const size = scene.boundsOf([key]).getSize(new THREE.Vector3());
@@ -43,7 +46,7 @@ export function dragHandlerOf(editor: UniverseEditor, scene: UniverseScene): Dra
   };
 }
 
-/** Draws walls from corner to corner. */
+/** Returns the tool that draws walls from corner to corner. */
 export function wallDrawing(editor: UniverseEditor, wall: WallLine): Drawing {
   let from: Point | null = null;
   return {

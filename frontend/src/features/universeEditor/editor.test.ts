@@ -15,7 +15,7 @@ describe('the editor of a universe', () => {
     expect(GRIDS).toContain(editor.store.getState().grid);
   });
 
-  it('changes the text by what an edit says, and selects what it says', () => {
+  it('applies the edit to the text, and selects what it returns', () => {
     const editor = openUniverse();
     edit(editor, 'move', (universe) => ({ ...move(universe, ['crate'], [1, 0, 0]), select: ['ball'] }));
     expect(text()).toContain('{id: crate, shape: box, size: [0.4, 0.4, 0.4], pose: [2, 2, 0.2, 0, 0, 0]');
@@ -50,7 +50,7 @@ describe('the editor of a universe', () => {
     expect(editor.store.getState().selection).toEqual(['ball']);
   });
 
-  it('leaves a text alone that is none, and one that may only be seen', () => {
+  it('leaves an unreadable text, and that of a read-only project, unchanged', () => {
     const broken = openUniverse('models: [');
     edit(broken, 'move', () => ({ ops: [{ kind: 'unset', path: ['models'] }] }));
     expect(text()).toBe('models: [');

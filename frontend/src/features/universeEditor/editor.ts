@@ -7,7 +7,6 @@ import { useProjectStore } from '@/store/project';
 
 export const GRIDS = [0, 0.05, 0.1, 0.5] as const;
 
-/** The editor of a universe. */
 export type UniverseEditor = Editor;
 
 const KIND = {
@@ -16,10 +15,13 @@ const KIND = {
   grid: 0.1,
 };
 
-/** The editor of a universe of the open project; it stays when the universe's tab is closed. */
+/**
+ * Returns the editor of a universe of the open project. The editor stays when the tab of the universe is
+ * closed.
+ */
 export const editorOf = (path: string): UniverseEditor => editorFor(path, KIND);
 
-/** The present universe, as far as its text can be read. */
+/** Returns the current universe, as far as its text can be read. */
 export const readingOf = ({ path }: UniverseEditor): Reading =>
   readUniverse(useProjectStore.getState().currentText(path) ?? '');
 
@@ -27,7 +29,9 @@ interface EditOptions {
   readonly mergeKey?: string;
 }
 
-/** Changes the universe; one step of undo, joined with the last one of the same `mergeKey`. */
+/**
+ * Changes the universe as one undo step, which is merged with the last one if that has the same `mergeKey`.
+ */
 export function edit(
   editor: UniverseEditor,
   label: string,

@@ -16,7 +16,7 @@ function begin(text = HALL) {
   const handles = handlesOf(editor, scene);
   handles.show();
   const thing = (id: string) => readingOf(editor).universe!.things.find((each) => each.id === id);
-  /** A gesture of the gizmo: from where it stands to where `change` puts it. */
+  /** Performs a gesture of the gizmo: from its place to the one that `change` sets. */
   const gesture = (mode: Mode, change: (pivot: THREE.Object3D) => void) => {
     const pivot = new THREE.Object3D();
     setThingPose(pivot, handles.stand()!.pose);
@@ -28,8 +28,8 @@ function begin(text = HALL) {
   return { editor, scene, handles, thing, gesture };
 }
 
-describe('where the gizmo stands', () => {
-  it('is nowhere without a selection, and while walls are drawn', () => {
+describe('the place of the gizmo', () => {
+  it('is null without a selection, and while walls are drawn', () => {
     const { editor, handles } = begin();
     expect(handles.stand()).toBeNull();
     select(editor, ['crate']);
@@ -38,7 +38,7 @@ describe('where the gizmo stands', () => {
     expect(handles.stand()).toBeNull();
   });
 
-  it('is at the thing, with all that it allows', () => {
+  it('is at the thing, with its allowed operations', () => {
     const { editor, handles } = begin();
     select(editor, ['crate']);
     editor.store.setState({ mode: 'size', grid: 0.5 });
@@ -60,7 +60,7 @@ describe('where the gizmo stands', () => {
     expect(handles.stand()?.mode).toBe('move');
   });
 
-  it('only moves robots and people over the floor where stretching is chosen', () => {
+  it('only moves robots and people, even in the mode that stretches', () => {
     const { editor, handles } = begin();
     editor.store.setState({ mode: 'size' });
     select(editor, ['robot']);
@@ -74,7 +74,7 @@ describe('where the gizmo stands', () => {
     expect(handles.stand()).toMatchObject({ mode: 'move', isFlat: true, pose: [0, 0, 0, 0, 0, 0] });
   });
 
-  it('is at the chosen point of a way, which can only be moved', () => {
+  it('is at the selected waypoint, which can only be moved', () => {
     const { editor, handles } = begin();
     select(editor, ['walker'], 2);
     editor.store.setState({ mode: 'turn' });
@@ -83,7 +83,7 @@ describe('where the gizmo stands', () => {
     expect(handles.stand()).toMatchObject({ mode: 'turn', pose: [0, 0, 0, 0, 0, 0] });
   });
 
-  it('is in the middle of several things, which turn about the upright axis', () => {
+  it('is in the middle of several things, which turn about the vertical axis', () => {
     const { editor, handles } = begin();
     select(editor, ['crate', 'robot']);
     expect(handles.stand()).toMatchObject({ pose: [2, 2.5, 0, 0, 0, 0], turnsFreely: false, isFlat: false });
@@ -92,8 +92,8 @@ describe('where the gizmo stands', () => {
   });
 });
 
-describe('what follows the gizmo', () => {
-  it('is what is selected, or the handle of the chosen point', () => {
+describe('the objects that follow the gizmo', () => {
+  it('are the selection, or the handle of the selected waypoint', () => {
     const { editor, scene, handles } = begin();
     select(editor, ['crate', 'ball']);
     expect(handles.held()).toEqual([scene.nodeOf('crate'), scene.nodeOf('ball')]);
@@ -106,7 +106,7 @@ describe('what follows the gizmo', () => {
 });
 
 describe('a gesture', () => {
-  it('puts one thing where the gizmo is', () => {
+  it('places one thing at the gizmo', () => {
     const { editor, gesture, thing } = begin();
     select(editor, ['crate']);
     gesture('move', (pivot) => pivot.position.set(4, 5, 1));
@@ -123,14 +123,14 @@ describe('a gesture', () => {
     expect(thing('crate')).toMatchObject({ size: [0.4, 0.4, 1], pose: [1, 2, 0.5, 0, 0, 0] });
   });
 
-  it('moves a robot also where stretching was chosen', () => {
+  it('moves a robot even in the mode that stretches', () => {
     const { editor, gesture, thing } = begin();
     select(editor, ['robot']);
     gesture('size', (pivot) => pivot.position.set(1, 0, 0));
     expect(thing('robot')).toMatchObject({ pose: [1, 0, 0, 0, 0, 0] });
   });
 
-  it('moves the chosen point of a way alone', () => {
+  it('moves only the selected waypoint', () => {
     const { editor, gesture, thing } = begin();
     select(editor, ['walker'], 1);
     gesture('move', (pivot) => pivot.position.set(5, 1, 0));
@@ -143,7 +143,7 @@ describe('a gesture', () => {
     });
   });
 
-  it('moves a whole way, and turns it about its beginning', () => {
+  it('moves a whole path, and turns it about its start', () => {
     const { editor, gesture, thing } = begin();
     select(editor, ['walker']);
     gesture('move', (pivot) => pivot.position.set(1, 2, 0));

@@ -8,7 +8,7 @@ import { resize } from './commands';
 import { edit, readingOf, type UniverseEditor } from './editor';
 import type { UniverseScene } from './UniverseScene';
 
-/** The results of the gizmo's gestures on the things of a universe. */
+/** Returns the handlers of the gizmo's gestures on the things of a universe. */
 export function handlesOf(editor: UniverseEditor, scene: UniverseScene): Handles {
   const show = () => {
     const { universe } = readingOf(editor);

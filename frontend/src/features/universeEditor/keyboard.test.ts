@@ -23,14 +23,14 @@ describe('the keys of a universe', () => {
     expect(thing(editor, 'crate_2')).toBeUndefined();
   });
 
-  it('know everything that can be selected, in the order of the document', () => {
+  it('select everything that can be selected, in the order of the document', () => {
     const editor = openUniverse();
     expect(keysOf(editor).all()).toEqual(['crate', 'ball', 'carpet', 'walker', 'robot']);
     expect(keysOf(editor).modes).toEqual(['move', 'turn', 'size']);
     expect(keysOf(openUniverse('[')).all()).toEqual([]);
   });
 
-  it('begin and end the drawing of walls', () => {
+  it('start and end the wall tool', () => {
     const editor = openUniverse();
     const wall = keysOf(editor).others?.['w'];
     wall?.(editor, {} as never);

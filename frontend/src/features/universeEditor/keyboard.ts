@@ -3,7 +3,7 @@ import { TURN_STEP } from '@/features/editor3d/editing';
 import { deleteSelected, duplicateSelected, nudge, turnSelected } from './commands';
 import { readingOf, type UniverseEditor } from './editor';
 
-/** Keys of the view, as listed in `docs/how-to/make-a-universe.md`. */
+/** Returns the keys of the view, as listed in `docs/how-to/make-a-universe.md`. */
 export const keysOf = (editor: UniverseEditor): KeyActs => ({
   modes: ['move', 'turn', 'size'],
   nudge: (along, aside, up, factor) => nudge(editor, along, aside, up, factor),

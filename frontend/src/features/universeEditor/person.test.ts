@@ -5,7 +5,7 @@ const color = [0.5, 0.25, 1, 1];
 
 describe('personShapes', () => {
   const shapes = personShapes(color);
-  /** Lowest and highest point along z of a shape, as far as it stands upright. */
+  /** Returns the lowest and the highest point of an upright shape along z. */
   const reach = ({ shape, size, pose }: (typeof shapes)[number]): [number, number] => {
     const [a = 0, b = 0, c = 0] = size;
     const isLevel = pose[3] !== 0;
@@ -37,7 +37,7 @@ describe('personShapes', () => {
     expect(shapes).toHaveLength(20);
   });
 
-  it('wear the colour, and trousers that are darker', () => {
+  it('have the colour, and darker trousers', () => {
     const colors = shapes.map((shape) => shape.color.map((part) => Math.round(part * 100) / 100));
     expect(colors.filter((each) => each.join() === '0.5,0.25,1,1')).toHaveLength(7);
     expect(colors.filter((each) => each.join() === '0.4,0.2,0.8,1')).toHaveLength(5);

@@ -13,7 +13,10 @@ const shape = (
   rotation = [0, 0, 0, 1],
 ): Shape => ({ shape: kind, size, pose: [...at, ...rotation], color });
 
-/** A standing person, 1.75 m tall, facing along x; the same as in `executor/world/geometry/person.py`. */
+/**
+ * Returns the shapes of a standing person, 1.75 m tall and facing along x, as in
+ * `executor/world/geometry/person.py`.
+ */
 export function personShapes(color: number[]): Shape[] {
   const trousers = [...color.slice(0, 3).map((channel) => channel * 0.8), 1];
   const sides = [1, -1].flatMap((side) => [

@@ -17,7 +17,7 @@ beforeEach(() => {
 });
 
 describe('pictureName', () => {
-  it('says the size of a repetition only where one is said', () => {
+  it('has the size of a repetition only if it is set', () => {
     expect(pictureName('wood', [0.5, 2])).toBe('wood@0.5x2');
     expect(pictureName('wood', null)).toBe('wood');
     expect(pictureName('', [1, 1])).toBe('');
@@ -51,13 +51,13 @@ describe('EditorTextures', () => {
     expect(texture.colorSpace).toBe(THREE.SRGBColorSpace);
   });
 
-  it('takes those that we ship from the page itself', () => {
+  it('loads the built-in ones from the page itself', () => {
     const loading = watchPictures();
     made().textures.has('brick');
     expect(loading[0]!.address).toMatch(/generated\/textures\/brick\.jpg/);
   });
 
-  it('repeats as the universe says, else as the picture is made', () => {
+  it('repeat as the universe says, otherwise by their own size', () => {
     const loading = watchPictures();
     const { textures } = made();
     expect(textures.tileOf('wood@0.5x2e-1')).toEqual([0.5, 0.2]);
@@ -68,7 +68,7 @@ describe('EditorTextures', () => {
     expect(textures.tileOf('assets/a.png')).toEqual([1, 0.5]);
   });
 
-  it('tells of a picture that cannot be had, and hands out none', () => {
+  it('reports a picture that cannot be loaded, and returns none', () => {
     const loading = watchPictures();
     const { textures, redraw } = made();
     const take = vi.fn();
@@ -80,7 +80,7 @@ describe('EditorTextures', () => {
     expect(textures.has('')).toBe(false);
   });
 
-  it('frees pictures, also one that comes after its end', () => {
+  it('frees pictures, also one that arrives after its end', () => {
     const loading = watchPictures();
     const { textures, redraw } = made();
     const freed = vi.fn();

@@ -11,7 +11,7 @@ const shipped = import.meta.glob<string>('../../generated/textures/*.jpg', {
 
 type Tile = readonly [number, number];
 
-/** Names a picture with the size of one repetition in m, where that is said. */
+/** Returns the name of a picture, with the size of one repetition in m if it is set. */
 export const pictureName = (texture: string, tile: Tile | null): string =>
   texture && tile ? `${texture}@${tile[0]}x${tile[1]}` : texture;
 
@@ -25,11 +25,11 @@ interface Picture {
 }
 
 /**
- * The textures of a universe that is edited: ours, and files of the project. A texture that cannot be loaded
- * is left out.
+ * The textures of the edited universe: built-in ones, and files of the project. A texture that cannot be
+ * loaded is left out.
  */
 export class EditorTextures implements Pictures {
-  /** Called when a texture has arrived. */
+  /** Called when a texture arrives. */
   onArrival: () => void = () => undefined;
   private readonly known = new Map<string, Picture>();
   private isGone = false;
@@ -57,7 +57,7 @@ export class EditorTextures implements Pictures {
     return [1, image ? image.height / image.width : 1];
   }
 
-  /** Whether a texture has arrived: until then its repetition size may not be known. */
+  /** Returns whether a texture has arrived; before that, the size of its repetition may be unknown. */
   has(name: string): boolean {
     const file = fileOf(name);
     return file !== '' && this.pictureOf(file).texture !== null;

@@ -13,8 +13,8 @@ beforeEach(() => {
   useMoves.setState({ last: null });
 });
 
-describe('what is measured', () => {
-  it('is asked for point by point, and then said', async () => {
+describe('the measurement', () => {
+  it('asks for point after point, and is then shown', async () => {
     show(<Notes />);
     expect(screen.queryByRole('status')).toBeNull();
     act(() => setMeasuring(true));
@@ -30,10 +30,10 @@ describe('what is measured', () => {
   });
 });
 
-describe('what was moved', () => {
+describe('a moved body', () => {
   const moved = () => act(() => useMoves.setState({ last: { body: 'crate', from: FROM } }));
 
-  it('is put back', async () => {
+  it('can be put back', async () => {
     const executor = await openSession({ state: 'paused' });
     show(<Notes />);
     expect(screen.queryByTestId('moved')).toBeNull();
@@ -44,7 +44,7 @@ describe('what was moved', () => {
     await waitFor(() => expect(screen.queryByTestId('moved')).toBeNull());
   });
 
-  it('stays where the session refuses that', async () => {
+  it('stays if the session refuses that', async () => {
     const executor = await openSession({ state: 'paused' });
     executor.refuse('move_body', 'No.');
     show(<Notes />);
@@ -53,7 +53,7 @@ describe('what was moved', () => {
     expect(screen.getByTestId('moved')).toBeInTheDocument();
   });
 
-  it('goes with the whole world', async () => {
+  it('is forgotten with the world', async () => {
     const run = vi.fn();
     onTestFinished(registerCommands([{ id: 'run.resetWorld', group: 'run', labelKey: '', run }]));
     await openSession({ state: 'visualization_ready' });
@@ -64,7 +64,7 @@ describe('what was moved', () => {
     expect(screen.queryByTestId('moved')).toBeNull();
   });
 
-  it('is over once time continues', async () => {
+  it('is forgotten once time continues', async () => {
     const executor = await openSession({ state: 'paused' });
     show(<Notes />);
     moved();

@@ -7,7 +7,7 @@ import { distances, setMeasuring, useMeasuring } from './measuring';
 import { moveBack, useMoves } from './lastMove';
 import classes from './viewer.module.css';
 
-/** The messages of a tool of the 3D view, above the picture. */
+/** The messages of the 3D view's tools, above the picture. */
 export function Notes() {
   return (
     <div className={classes['notes']}>
@@ -44,7 +44,7 @@ function Moved() {
   const canMove = useSessionStore(({ executor }) =>
     ['universe_ready', 'visualization_ready', 'paused'].includes(executor),
   );
-  // Once time continues, the old place is no longer valid.
+  // When time continues, the body's old place is no longer valid.
   useEffect(() => {
     if (!canMove) useMoves.setState({ last: null });
   }, [canMove]);

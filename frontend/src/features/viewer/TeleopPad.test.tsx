@@ -22,7 +22,7 @@ async function pad(introduction: Partial<Introspection> = {}) {
 
 const direction = () => useTeleop.getState().direction;
 const STILL = { linear: 0, angular: 0 };
-/** Presses a key; returns whether the pad took it. */
+/** Presses a key; returns whether the pad handled it. */
 const down = (code: string, more: object = {}, target: Element | Window = window) =>
   !fireEvent.keyDown(target, { code, ...more });
 const up = (code: string) => fireEvent.keyUp(window, { code });
@@ -50,7 +50,7 @@ describe('directionOf', () => {
 });
 
 describe('the pad', () => {
-  it('is there while one drives a world', async () => {
+  it('is shown while a world is driven', async () => {
     await pad();
     expect(screen.getByRole('group', { name: 'Drive by hand' })).toBeInTheDocument();
     await user.click(screen.getByRole('button', { name: 'Stop driving by hand' }));
@@ -66,7 +66,7 @@ describe('the pad', () => {
     },
   );
 
-  it('says how it works, and that a pause stops it', async () => {
+  it('explains its keys, and that a pause stops it', async () => {
     const executor = await pad();
     expect(screen.getByText('Hold W A S D or the arrow keys')).toBeInTheDocument();
     executor.introduce({ state: 'paused' });
@@ -82,7 +82,7 @@ describe('the pad', () => {
     ['Turn left', 'A', { linear: 0, angular: 1 }],
     ['Back', 'S', { linear: -1, angular: 0 }],
     ['Turn right', 'D', { linear: 0, angular: -1 }],
-  ])('drives by its button %s as long as it is pressed', async (name, key, wanted) => {
+  ])('drives by its button %s while it is pressed', async (name, key, wanted) => {
     const executor = await pad();
     const button = screen.getByRole('button', { name });
     expect(button).toHaveAttribute('title', `${name} (${key})`);
@@ -114,7 +114,7 @@ describe('the pad', () => {
     expect(direction()).toEqual(STILL);
   });
 
-  it('leaves keys that mean something else', async () => {
+  it('ignores keys with another meaning', async () => {
     await pad();
     for (const key of ['ctrlKey', 'metaKey', 'altKey']) expect(down('KeyW', { [key]: true })).toBe(false);
     for (const id of ['field', 'choice', 'slider'])
@@ -137,7 +137,7 @@ describe('the pad', () => {
     expect(direction()).toEqual(STILL);
   });
 
-  it('stops, and leaves the keys, when it is closed', async () => {
+  it('stops, and ignores keys, when it is closed', async () => {
     await pad();
     down('KeyW');
     act(() => useTeleop.setState({ isOn: false }));
@@ -145,7 +145,7 @@ describe('the pad', () => {
     expect(down('KeyW')).toBe(false);
   });
 
-  it('drives as fast as is chosen', async () => {
+  it('drives at the chosen speed', async () => {
     await pad();
     expect(screen.getByText('Speed 0.30 m/s')).toBeInTheDocument();
     expect(screen.getByText('Turning 1.0 rad/s')).toBeInTheDocument();

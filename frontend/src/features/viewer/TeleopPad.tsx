@@ -34,7 +34,7 @@ const BUTTONS = [
   { code: 'KeyD', icon: IconArrowForwardUp, key: 'right' },
 ] as const;
 
-/** Adds the directions of all held keys: forward and left drive a curve. */
+/** Adds the directions of all held keys, so that forward and left together drive a curve. */
 export function directionOf(held: Iterable<string>): Direction {
   let linear = 0;
   let angular = 0;
@@ -45,7 +45,7 @@ export function directionOf(held: Iterable<string>): Direction {
   return { linear: Math.sign(linear), angular: Math.sign(angular) };
 }
 
-/** Drives the robot with keys or buttons; it stops as soon as none is held. */
+/** The pad that drives the robot with keys or buttons; the robot stops when none is held. */
 export function TeleopPad() {
   const isOn = useTeleop((state) => state.isOn);
   const canBe = useSessionStore(
@@ -165,7 +165,7 @@ const isTyping = (target: EventTarget | null) =>
     ['INPUT', 'TEXTAREA', 'SELECT'].includes(target.tagName) ||
     target.getAttribute('role') === 'slider');
 
-/** While the pad is open its keys drive, wherever the focus is, except in text fields. */
+/** Drives with the keys while the pad is open, wherever the focus is except in text fields. */
 function useHeldKeys(): void {
   useEffect(() => {
     const held = new Set<string>();

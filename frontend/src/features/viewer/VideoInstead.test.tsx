@@ -3,7 +3,7 @@ import { expect, it, vi } from 'vitest';
 import { show, user } from '../../../harness/testing';
 import { VideoInstead } from './VideoInstead';
 
-it('says why there is Video, and leads back', async () => {
+it('explains why it shows video, and returns to 3D', async () => {
   const onBack = vi.fn();
   show(<VideoInstead hz={2.4} onBack={onBack} />);
   expect(screen.getByRole('status')).toHaveTextContent('3D drew only 2 pictures a second here');

@@ -4,12 +4,12 @@ import { Video } from './pictures/VideoPanel';
 import classes from './viewer.module.css';
 
 interface VideoInsteadProps {
-  /** The rate at which 3D drew, 1/s. */
+  /** The rate at which 3D was drawn, in Hz. */
   readonly hz: number;
   readonly onBack: () => void;
 }
 
-/** The world as video where 3D is too slow, with the reason and the way back. */
+/** The world as video, shown where 3D is too slow, with the reason and a button back to 3D. */
 export function VideoInstead({ hz, onBack }: VideoInsteadProps) {
   const { t } = useTranslation('viewer');
   return (

@@ -50,7 +50,7 @@ const begin = () => {
 };
 
 describe('the 3D view without a world', () => {
-  it('says how one begins, and begins it', async () => {
+  it('explains how to start one, and starts it', async () => {
     const run = vi.fn();
     onTestFinished(registerCommands([{ id: 'run.run', group: 'run', labelKey: '', run }]));
     viewer();
@@ -60,7 +60,7 @@ describe('the 3D view without a world', () => {
     expect(run).toHaveBeenCalledOnce();
   });
 
-  it('says that it waits for the world', () => {
+  it('shows that it waits for the world', () => {
     viewer();
     act(() => useSessionStore.setState({ isLaunching: true }));
     expect(screen.getByText('Waiting for the world…')).toBeInTheDocument();
@@ -71,7 +71,7 @@ describe('the 3D view without a world', () => {
     expect(screen.getByText('Press Run to start the world.')).toBeInTheDocument();
   });
 
-  it('says why nothing can run', () => {
+  it('reports why nothing can run', () => {
     viewer();
     act(() => useRunStore.setState({ runBlocker: 'viewer' as never }));
     expect(screen.queryByText('Press Run to start the world.')).toBeNull();
@@ -80,7 +80,7 @@ describe('the 3D view without a world', () => {
 });
 
 describe('the 3D view of a world', () => {
-  it('shows it with its tools, until it is taken down', () => {
+  it('is shown with its tools, until it is stopped', () => {
     viewer();
     begin();
     expect(screen.getByTestId('viewer-3d')).toHaveAttribute('data-objects', '1');
@@ -91,14 +91,14 @@ describe('the 3D view of a world', () => {
     expect(screen.queryByRole('toolbar')).toBeNull();
   });
 
-  it('begins with the world that is there already', () => {
+  it('starts with the existing world', () => {
     frames.publish(SCENE);
     useSessionStore.setState({ executor: 'paused' });
     viewer();
     expect(screen.getByTestId('viewer-3d')).toHaveAttribute('data-objects', '1');
   });
 
-  it('wants poses and, while rays are shown, scans', async () => {
+  it('subscribes to poses and, while rays are shown, to scans', async () => {
     viewer();
     begin();
     expect(wanted.get('poses')).toEqual({ max_hz: 30 });
@@ -109,7 +109,7 @@ describe('the 3D view of a world', () => {
     expect(JSON.parse(localStorage.getItem('bts.viewer') ?? '{}')).toMatchObject({ rays: false, grid: true });
   });
 
-  it('shows the camera where the program uses pictures, or where one wants it', async () => {
+  it('shows the camera if the program uses pictures, or on demand', async () => {
     viewer({ 'actions/See.py': 'from sensor_msgs.msg import Image' });
     begin();
     expect(screen.getByTestId('camera-inset')).toBeInTheDocument();
@@ -118,7 +118,7 @@ describe('the 3D view of a world', () => {
     expect(screen.queryByTestId('camera-inset')).toBeNull();
   });
 
-  it('shows no camera to a program without pictures', () => {
+  it('shows no camera if the program uses no pictures', () => {
     viewer();
     begin();
     expect(screen.queryByTestId('camera-inset')).toBeNull();

@@ -25,7 +25,7 @@ import { hasWebGl, isSoftwareWebGl } from './webgl';
 const POSES_HZ = 30;
 const SCAN_HZ = 10;
 
-/** The world in 3D, drawn by the browser from the poses that the session sends. */
+/** The panel with the world in 3D, which the browser draws from the session's poses. */
 export function Viewer3d() {
   const { t } = useTranslation('viewer');
   const panel = useRef<HTMLDivElement>(null);
@@ -93,7 +93,7 @@ export function Viewer3d() {
   );
 }
 
-/** Appears once the user has moved the camera away from the robot. */
+/** The button that returns to following the robot; it appears when the user has moved the camera away. */
 function FollowButton({ onClick }: { readonly onClick: () => void }) {
   const { t } = useTranslation('viewer');
   return (

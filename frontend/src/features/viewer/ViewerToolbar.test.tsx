@@ -23,7 +23,7 @@ const button = (name: string) => screen.getByRole('button', { name });
 beforeEach(() => setMeasuring(false));
 
 describe('the toolbar of the 3D view', () => {
-  it('shows and hides what helps to read the world', async () => {
+  it('shows and hides the helpers', async () => {
     const { onChange } = toolbar({ rays: true, frames: false });
     await user.click(button('Show in the view'));
     const items = await screen.findAllByRole('menuitemcheckbox');
@@ -49,7 +49,7 @@ describe('the toolbar of the 3D view', () => {
     expect(onChange).toHaveBeenLastCalledWith({ frames: true });
   });
 
-  it('follows the robot, or no longer', async () => {
+  it('switches following the robot on and off', async () => {
     const { onChange, change } = toolbar();
     expect(button('Follow the robot')).toHaveAttribute('aria-pressed', 'false');
     await user.click(button('Follow the robot'));
@@ -60,7 +60,7 @@ describe('the toolbar of the 3D view', () => {
     expect(onChange).toHaveBeenLastCalledWith({ follow: false });
   });
 
-  it('looks from above and from the side', async () => {
+  it('moves the camera above, and to the side', async () => {
     const { onChange } = toolbar();
     await user.click(button('Top view'));
     expect(onChange).toHaveBeenLastCalledWith({ viewpoint: { kind: 'top' }, follow: false });
@@ -69,7 +69,7 @@ describe('the toolbar of the 3D view', () => {
     expect(button('Top view')).not.toHaveAttribute('aria-pressed');
   });
 
-  it('begins and ends measuring', async () => {
+  it('starts and ends measuring', async () => {
     toolbar();
     await user.click(button('Measure a distance'));
     expect(useMeasuring.getState().isOn).toBe(true);
@@ -78,7 +78,7 @@ describe('the toolbar of the 3D view', () => {
     expect(useMeasuring.getState().isOn).toBe(false);
   });
 
-  it('begins and ends driving by hand', async () => {
+  it('starts and ends driving by hand', async () => {
     await openSession();
     toolbar();
     await user.click(button('Drive by hand'));
@@ -91,7 +91,7 @@ describe('the toolbar of the 3D view', () => {
 });
 
 describe('the commands of the 3D view', () => {
-  it('do the same, as long as there is a world to look at', () => {
+  it('do the same, as long as there is a world', () => {
     const { onChange, change, unmount } = toolbar({ grid: true });
     const run = (id: string) => act(() => perform(`view3d.${id}`));
     run('follow');

@@ -1,7 +1,7 @@
 const KEY = 'bts.keep3d';
 
-/** Whether 3D stays although it draws slowly: the user, or a test, chose so. */
+/** Returns whether 3D stays although it is slow: the user or a test has chosen so. */
 export const keeps3d = (): boolean => localStorage.getItem(KEY) !== null;
 
-/** Keeps 3D in this browser from now on. */
+/** Stores the choice to keep 3D in this browser. */
 export const keep3d = (): void => localStorage.setItem(KEY, 'yes');

@@ -23,7 +23,7 @@ describe('canMove', () => {
 });
 
 describe('moveBack', () => {
-  it('puts the last body where it was, once', async () => {
+  it('puts the last body back, once', async () => {
     const executor = await openSession({ state: 'paused' });
     await moveBack();
     expect(executor.sentAs('move_body')).toEqual([]);
@@ -33,7 +33,7 @@ describe('moveBack', () => {
     expect(useMoves.getState().last).toBeNull();
   });
 
-  it('keeps the way back where it was refused', async () => {
+  it('can be repeated after a refusal', async () => {
     const executor = await openSession({ state: 'paused' });
     executor.refuse('move_body', 'Something stands there.');
     useMoves.setState({ last: { body: 'crate', from: FROM } });

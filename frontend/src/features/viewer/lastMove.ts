@@ -6,7 +6,7 @@ import type { BodyPose } from './scene/DraggedBody';
 /** The last body that was dragged, and its pose before the drag. */
 export const useMoves = create<{ last: { body: string; from: BodyPose } | null }>(() => ({ last: null }));
 
-/** Bodies are dragged only while time is paused, and only by the client that controls the session. */
+/** Returns whether bodies can be dragged: time is paused, and this page controls the session. */
 export function canMove(): boolean {
   const { executor, introspection } = useSessionStore.getState();
   return (

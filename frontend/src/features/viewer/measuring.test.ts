@@ -4,7 +4,7 @@ import { addMeasured, distances, setMeasuring, useMeasuring } from './measuring'
 beforeEach(() => setMeasuring(false));
 
 describe('measuring', () => {
-  it('holds two points at most; a third begins again', () => {
+  it('has two points at most; a third starts again', () => {
     setMeasuring(true);
     expect(useMeasuring.getState()).toEqual({ isOn: true, points: [] });
     addMeasured([0, 0, 0]);
@@ -14,7 +14,7 @@ describe('measuring', () => {
     expect(useMeasuring.getState().points).toEqual([[2, 0, 0]]);
   });
 
-  it('forgets its points when it begins or ends', () => {
+  it('clears its points when it starts or ends', () => {
     addMeasured([0, 0, 0]);
     setMeasuring(false);
     expect(useMeasuring.getState()).toEqual({ isOn: false, points: [] });

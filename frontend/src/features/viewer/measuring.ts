@@ -4,7 +4,7 @@ export type Point = readonly [x: number, y: number, z: number];
 
 interface MeasuringData {
   isOn: boolean;
-  /** None, one or two points in the world, m. */
+  /** The measured points in the world frame, in m: none, one or two. */
   points: readonly Point[];
 }
 
@@ -17,7 +17,7 @@ export function addMeasured(point: Point): void {
   useMeasuring.setState(({ points }) => ({ points: points.length === 2 ? [point] : [...points, point] }));
 }
 
-/** The distance in space and along the ground, m. */
+/** Returns the straight distance, the distance along the ground, and the difference in height, in m. */
 export function distances([a, b]: readonly [Point, Point]): { straight: number; flat: number; rise: number } {
   const flat = Math.hypot(b[0] - a[0], b[1] - a[1]);
   const rise = b[2] - a[2];

@@ -42,14 +42,14 @@ describe('pointedAt', () => {
     expect(hit.point.toArray()).toEqual([expect.closeTo(-3), expect.closeTo(2), expect.closeTo(0)]);
   });
 
-  it('goes through lines, which are no bodies', () => {
+  it('ignores lines, which are no bodies', () => {
     const { canvas, camera, world, event } = begin();
     const points = [new THREE.Vector3(-5, 2, 1), new THREE.Vector3(5, 2, 1)];
     world.group.add(new THREE.Line(new THREE.BufferGeometry().setFromPoints(points)));
     expect(pointedAt(event(-3, 2, 1), canvas, camera, world)?.objectId).toBeNull();
   });
 
-  it('is nothing in the sky', () => {
+  it('is null in the sky', () => {
     const { canvas, camera, world } = begin();
     camera.lookAt(0, 0, 20);
     camera.updateMatrixWorld(true);
@@ -59,7 +59,7 @@ describe('pointedAt', () => {
 });
 
 describe('pointedAtHeight', () => {
-  it('is where the ray is at that height, whatever is in front', () => {
+  it('is where the ray reaches that height, whatever is in front', () => {
     const { canvas, camera, event } = begin();
     const at = (height: number) => pointedAtHeight(event(2, 1), canvas, camera, height)!.toArray();
     expect(at(0)).toEqual([expect.closeTo(2), expect.closeTo(1), expect.closeTo(0)]);

@@ -6,7 +6,7 @@ const GROUND = new THREE.Plane(new THREE.Vector3(0, 0, 1), 0);
 
 interface Pointed {
   point: THREE.Vector3;
-  /** Id of the object under the pointer; null on the ground. */
+  /** The id of the object under the pointer; null on the ground. */
   objectId: number | null;
 }
 
@@ -17,7 +17,7 @@ function aim(event: PointerEvent, canvas: HTMLElement, camera: THREE.Camera): vo
   ray.setFromCamera(new THREE.Vector2(x, y), camera);
 }
 
-/** The object under the pointer: a body of the world, or the ground. */
+/** Returns the point under the pointer, with the object there: a body of the world, or the ground. */
 export function pointedAt(
   event: PointerEvent,
   canvas: HTMLElement,
@@ -31,7 +31,7 @@ export function pointedAt(
   return point ? { point, objectId: null } : null;
 }
 
-/** The pointer's position at a height above the ground. */
+/** Returns the position under the pointer at a height above the ground, in m. */
 export function pointedAtHeight(
   event: PointerEvent,
   canvas: HTMLElement,

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { Slowness } from './slowness';
 
-/** Requests a picture every 33 ms, and draws one every `drawMs`; returns the verdicts. */
+/** Requests a picture every 33 ms and draws one every `drawMs`; returns the rates that were too slow. */
 function watch(seconds: number, drawMs: number, slowness = new Slowness(), start = 0) {
   const verdicts: number[] = [];
   let drawn = start;

@@ -4,11 +4,11 @@ import { useEffect, useState, type RefObject } from 'react';
 const PAD_AREA = 36_000;
 const LARGEST_SHARE = 0.25;
 
-/** Whether the open pad would cover too much of a view. */
+/** Returns whether the open pad would cover too much of a view. */
 export const isCramped = (width: number, height: number): boolean =>
   width * height > 0 && PAD_AREA / (width * height) > LARGEST_SHARE;
 
-/** Whether the view round an element is too small for the open driving pad. */
+/** Returns whether the view around an element is too small for the open driving pad. */
 export function useCramped(element: RefObject<HTMLElement | null>): boolean {
   const [cramped, setCramped] = useState(false);
   useEffect(() => {

@@ -10,7 +10,7 @@ function Named() {
   return <p>{useScene()?.name ?? 'none'}</p>;
 }
 
-it('is the last scene, for as long as there is a world', () => {
+it('is the last scene, as long as there is a world', () => {
   onTestFinished(() => {
     frames.clear();
     useSessionStore.setState({ executor: 'idle' });

@@ -3,7 +3,7 @@ import type { Scene } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
 import { useSessionStore } from '@/store/session/store';
 
-/** The last scene that was received, until the world is stopped. */
+/** Returns the last received scene; null without a world. */
 export function useScene(): Scene | null {
   const [scene, setScene] = useState<Scene | null>(() => frames.scene());
   const hasWorld = useSessionStore(({ executor }) => executor !== 'idle' && executor !== 'connected');

@@ -12,7 +12,10 @@ beforeEach(() => {
   onTestFinished(() => clock.mockRestore());
 });
 
-/** Requests pictures all the time for four seconds, and draws two a second; returns the verdicts. */
+/**
+ * Requests pictures continuously for four seconds and draws two a second; returns the rates that were too
+ * slow.
+ */
 function watch(isVisible = true) {
   const onSlow = vi.fn();
   const { result } = renderHook(() => useSlowness(isVisible, onSlow));
@@ -24,18 +27,18 @@ function watch(isVisible = true) {
 }
 
 describe('the watch on a view', () => {
-  it('tells the rate of a view that is too slow, once', () => {
+  it('reports the rate of a view that is too slow, once', () => {
     const onSlow = watch();
     expect(onSlow).toHaveBeenCalledOnce();
     expect(onSlow.mock.lastCall?.[0]).toBeCloseTo(2, 0);
   });
 
-  it('lets 3D be as slow as it is where somebody keeps it', () => {
+  it('accepts any rate if the user keeps 3D', () => {
     keep3d();
     expect(watch()).not.toHaveBeenCalled();
   });
 
-  it('judges no view that nobody sees', () => {
+  it('does not judge a hidden view', () => {
     expect(watch(false)).not.toHaveBeenCalled();
   });
 });

@@ -3,13 +3,15 @@ import { keeps3d } from './keep3d';
 import { Slowness } from './slowness';
 
 interface Watch {
-  /** To be called whenever a picture is due. */
+  /** Must be called whenever a picture is due. */
   readonly request: () => void;
-  /** To be called for each picture. */
+  /** Must be called for each drawn picture. */
   readonly draw: () => void;
 }
 
-/** Watches the rate of pictures; calls `onSlow` with it once it is too low, unless the user keeps 3D. */
+/**
+ * Watches the rate of pictures, and calls `onSlow` with the rate if it is too low, unless the user keeps 3D.
+ */
 export function useSlowness(isVisible: boolean, onSlow: (hz: number) => void): Watch {
   const slowness = useMemo(() => new Slowness(), []);
   useEffect(() => {

@@ -21,7 +21,7 @@ beforeEach(() => {
 afterEach(() => streams.disconnect());
 
 describe('useStream', () => {
-  it('wants the stream as long as it is wanted', () => {
+  it('subscribes to the stream as long as it is wanted', () => {
     const { rerender, unmount } = show(<Wants isWanted={false} options={{ max_hz: 5 }} />);
     expect(announced).not.toHaveBeenCalled();
     rerender(<Wants isWanted options={{ max_hz: 5 }} />);
@@ -33,7 +33,7 @@ describe('useStream', () => {
     expect(last()).toEqual(['camera', null]);
   });
 
-  it('asks again for another rate or width, and keeps where one looks from', () => {
+  it('subscribes again for another rate or width, and keeps the direction of the camera', () => {
     const { rerender } = show(<Wants isWanted options={{ max_hz: 5, camera_pose: POSE }} />);
     rerender(<Wants isWanted options={{ max_hz: 5, camera_pose: { ...POSE } }} />);
     expect(announced).toHaveBeenCalledOnce();
@@ -41,7 +41,7 @@ describe('useStream', () => {
     expect(last()).toEqual(['camera', { max_hz: 9, width: 320, camera_pose: POSE }]);
   });
 
-  it('lets its options be changed by hand while it is wanted', async () => {
+  it('lets its options be changed while it is subscribed', async () => {
     const { rerender } = show(<Wants isWanted options={{ max_hz: 5 }} />);
     await user.click(screen.getByRole('button'));
     expect(last()).toEqual(['camera', { max_hz: 1 }]);

@@ -2,7 +2,10 @@ import { useEffect, useRef } from 'react';
 import type { StreamName } from '@/generated/messages';
 import { streams, type StreamHandle, type StreamOptions } from '@/store/session/streams';
 
-/** Subscribes to a stream, or to a camera by name, while `isWanted`; the returned reference changes its options. */
+/**
+ * Subscribes to a stream, or to a camera by name, while `isWanted`; returns a reference whose `update`
+ * changes the options.
+ */
 export function useStream(
   stream: StreamName,
   isWanted: boolean,

@@ -8,7 +8,7 @@ const SIGNALED = 4;
 let isDone = true;
 const deleted = vi.fn();
 
-// The page asks for the kind of WebGL once: in this file the processor draws.
+// The page asks for the kind of WebGL only once; in this file, WebGL is software.
 Object.assign(HTMLCanvasElement.prototype, {
   getContext: (kind: string) =>
     kind === 'webgl2'
@@ -45,8 +45,8 @@ beforeEach(() => {
   deleted.mockClear();
 });
 
-describe('frames where the processor draws', () => {
-  it('come one by one: those that are asked for meanwhile are one', async () => {
+describe('frames with software rendering', () => {
+  it('come one by one: several requests meanwhile make one frame', async () => {
     const { frames, draw } = begin();
     await vi.waitFor(() => expect(frames()).toBeGreaterThan(0));
     const before = frames();

@@ -2,13 +2,16 @@ import { useThree } from '@react-three/fiber';
 import { useCallback, useEffect, useRef } from 'react';
 import { isSoftwareWebGl } from './webgl';
 
-/** The shortest pause between frames of the software renderer, which may take at most a third of the time. */
+/**
+ * The shortest pause in ms between frames of the software renderer, which may use at most a third of the
+ * time.
+ */
 const SHORTEST_PAUSE_MS = 80;
 const LONGEST_PAUSE_MS = 1000;
 const PAUSE_FOR_COST = 2;
 const POLL_MS = 10;
 
-/** Resolves when all drawing so far has finished. */
+/** Resolves when all drawing so far is finished. */
 function drawn(gl: WebGL2RenderingContext): Promise<void> {
   const sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
   if (!sync) return Promise.resolve();
@@ -27,8 +30,8 @@ function drawn(gl: WebGL2RenderingContext): Promise<void> {
 }
 
 /**
- * Requests frames. With software rendering the next frame waits for the last one and then twice as long
- * again: frames that pile up would freeze the page and starve the simulation.
+ * Returns a function that requests a frame. With software rendering, the next frame waits for the last one
+ * and then twice as long again: frames that pile up would freeze the page and starve the simulation.
  */
 export function useThrottledInvalidate(): () => void {
   const invalidate = useThree((state) => state.invalidate);

@@ -68,7 +68,7 @@ beforeEach(() => {
 });
 
 describe('dragging a body while time is paused', () => {
-  it('moves it over the ground, and tells the session', async () => {
+  it('moves it over the ground, and sends it to the session', async () => {
     const { canvas, executor, down, move, up, crate } = await begin();
     const capture = vi.spyOn(canvas, 'setPointerCapture');
     down(0.2, 0.1);
@@ -107,7 +107,7 @@ describe('dragging a body while time is paused', () => {
   it.each([
     ['Escape', (canvas: HTMLElement) => fireEvent.keyDown(window, { key: 'Escape', target: canvas })],
     ['the system', (canvas: HTMLElement) => fireEvent.pointerCancel(canvas)],
-  ])('is cancelled by %s: it goes back, and nothing is sent', async (_, cancel) => {
+  ])('is cancelled by %s: it returns, and nothing is sent', async (_, cancel) => {
     const { canvas, executor, down, move, up, crate } = await begin();
     down(0, 0);
     move(2, 0);
@@ -118,14 +118,14 @@ describe('dragging a body while time is paused', () => {
     expect(executor.sentAs('move_body')).toEqual([]);
   });
 
-  it('sends nothing of a body that stayed', async () => {
+  it('sends nothing for a body that stayed', async () => {
     const { executor, down, up } = await begin();
     down(0, 0);
     up(0, 0);
     expect(executor.sentAs('move_body')).toEqual([]);
   });
 
-  it('puts it back where the session refused, and says why', async () => {
+  it('puts it back if the session refuses, and reports why', async () => {
     const { executor, down, move, up, crate } = await begin();
     currentPoses.set(1, [0.25, 0, 0.5, 0, 0, 0, 1]);
     executor.refuse('move_body', 'Something stands there.');

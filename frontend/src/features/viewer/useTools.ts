@@ -16,7 +16,10 @@ const CLICK_PX = 4;
 const RIGHT_BUTTON = 2;
 const TURN_RAD = Math.PI / 12;
 
-/** The pointer's tools except turning the view: it drags bodies while time is paused, and measures. */
+/**
+ * Adds the tools of the pointer: dragging bodies while time is paused, and measuring. The camera controls
+ * turn the view.
+ */
 export function useTools(world: World, controls: Controls): void {
   const camera = useThree((state) => state.camera);
   const canvas = useThree((state) => state.gl.domElement);
@@ -66,7 +69,7 @@ export function useTools(world: World, controls: Controls): void {
     };
     const onMove = (event: PointerEvent) => {
       if (!dragged) return showCursor(event);
-      // The right button, pressed while the left one drags, cancels the drag.
+      // Pressing the right button during a drag with the left one cancels the drag.
       if (event.buttons & RIGHT_BUTTON) return end(false);
       const at = pointedAtHeight(event, canvas, camera, from.height);
       if (at) dragged.moveBy(at.x - from.x, at.y - from.y);

@@ -4,7 +4,7 @@ import { keepViewOptions, loadViewOptions } from './viewOptions';
 beforeEach(() => localStorage.clear());
 
 describe('the options of the 3D view', () => {
-  it('begin with what helps to read the world', () => {
+  it('have the useful helpers at first', () => {
     expect(loadViewOptions()).toEqual({
       rays: true,
       trail: true,
@@ -17,13 +17,13 @@ describe('the options of the 3D view', () => {
     });
   });
 
-  it('are kept, but for where one looks from', () => {
+  it('are stored, except for the direction of the camera', () => {
     keepViewOptions({ ...loadViewOptions(), rays: false, camera: true, viewpoint: { kind: 'top' } });
     expect(localStorage.getItem('bts.viewer')).not.toMatch(/viewpoint|follow/);
     expect(loadViewOptions()).toMatchObject({ rays: false, camera: true, viewpoint: { kind: 'default' } });
   });
 
-  it('are the defaults where what was kept cannot be read, or lacks some', () => {
+  it('are the defaults if the stored ones are unreadable, or lack some', () => {
     localStorage.setItem('bts.viewer', '{');
     expect(loadViewOptions().rays).toBe(true);
     localStorage.setItem('bts.viewer', '{"grid": false}');

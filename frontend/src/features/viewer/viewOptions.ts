@@ -2,15 +2,15 @@ export interface ViewOptions {
   rays: boolean;
   trail: boolean;
   grid: boolean;
-  /** Coordinate frames of world, links and sensors. */
+  /** Whether the coordinate frames of world, links and sensors are shown. */
   frames: boolean;
-  /** The field of view of the robots' cameras, as pyramids. */
+  /** Whether the fields of view of the robots' cameras are shown, as pyramids. */
   frustum: boolean;
-  /** Whether the camera follows the robot: until the user moves it. */
+  /** Whether the camera follows the robot, until the user moves the camera. */
   follow: boolean;
-  /** Whether the robot's camera is shown in a corner; null: if the program uses pictures. */
+  /** Whether the robot's camera is shown in a corner; null: only if the program uses pictures. */
   camera: boolean | null;
-  /** A new object moves the camera, even to the place of the previous request. */
+  /** A request to move the camera; a new object moves it even to the same place. */
   viewpoint: { kind: 'default' | 'top' };
 }
 
@@ -31,7 +31,7 @@ export function loadViewOptions(): ViewOptions {
   try {
     kept = JSON.parse(localStorage.getItem(KEY) ?? '{}') as Partial<Kept>;
   } catch {
-    // The stored options are unreadable: the defaults apply.
+    // The stored options are unreadable, so the defaults apply.
   }
   return { ...DEFAULTS, ...kept, follow: true, viewpoint: { kind: 'default' } };
 }

@@ -4,7 +4,7 @@ import type * as WebGl from './webgl';
 const none = HTMLCanvasElement.prototype.getContext;
 const lose = vi.fn();
 
-/** The module asks the browser once, so each test loads it again. */
+/** Loads the module again and asks for the kind of WebGL, since the module asks the browser only once. */
 async function ask(renderer: string | null, isNamed = true) {
   vi.resetModules();
   const getContext = vi.fn((kind: string) =>
@@ -32,7 +32,7 @@ afterEach(() => {
 });
 
 describe('WebGL', () => {
-  it('is absent where the browser gives no context', async () => {
+  it('is absent if the browser gives no context', async () => {
     const { hasWebGl, isSoftwareWebGl } = await ask(null);
     expect([hasWebGl(), isSoftwareWebGl()]).toEqual([false, false]);
   });
@@ -48,12 +48,12 @@ describe('WebGL', () => {
     expect([isSoftwareWebGl(), hasWebGl()]).toEqual([isSoftware, true]);
   });
 
-  it('is asked by its public name where the other is hidden', async () => {
+  it('is asked by its public name if the other one is hidden', async () => {
     const { isSoftwareWebGl } = await ask('SwiftShader', false);
     expect(isSoftwareWebGl()).toBe(true);
   });
 
-  it('is asked for once, and its context given back', async () => {
+  it('is asked once, and its context is released', async () => {
     const { hasWebGl, isSoftwareWebGl, getContext } = await ask('NVIDIA');
     hasWebGl();
     hasWebGl();

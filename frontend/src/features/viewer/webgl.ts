@@ -18,8 +18,8 @@ export function hasWebGl(): boolean {
 }
 
 /**
- * Whether the processor draws WebGL: then with fewer frames and no shadows, so that the simulation keeps its
- * cores.
+ * Returns whether WebGL is drawn by the processor: then views draw fewer frames and no shadows, so that the
+ * simulation keeps its cores.
  */
 export function isSoftwareWebGl(): boolean {
   known ??= probe();

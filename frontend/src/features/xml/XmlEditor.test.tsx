@@ -27,7 +27,7 @@ function element(snapshot: XmlSnapshot, showsMetadata = false) {
   return <XmlEditor treeId="Main" link={link} snapshot={snapshot} showsMetadata={showsMetadata} />;
 }
 
-/** A link that holds a text, and records what is typed. */
+/** A link with a fixed text, which records the typed texts. */
 class HeldLink extends XmlLink {
   override readonly get = () => snapshotOf();
   override edited(text: string): void {
@@ -59,7 +59,7 @@ beforeEach(() => {
 });
 
 describe('XmlEditor', () => {
-  it('passes on what is typed, and nothing that came from the tree', () => {
+  it('passes on typed text, and nothing that came from the tree', () => {
     const { rerender } = show(element(snapshotOf()));
     rerender(element(snapshotOf({ text: '<Fallback/>', ranges: [] })));
     expect([text(), edited]).toEqual(['<Fallback/>', []]);
@@ -67,14 +67,14 @@ describe('XmlEditor', () => {
     expect(edited).toEqual([' <Fallback/>']);
   });
 
-  it('keeps the cursor where a tree changes elsewhere', () => {
+  it('keeps the cursor if the tree changes elsewhere', () => {
     const { rerender } = show(element(snapshotOf()));
     act(() => editor().dispatch({ selection: { anchor: 5 } }));
     rerender(element(snapshotOf({ text: TEXT.replace('Go', 'Turn') })));
     expect(editor().state.selection.main.head).toBe(5);
   });
 
-  it('selects on the canvas what the cursor is in, while it has the focus', () => {
+  it('selects the node at the cursor on the canvas, while it has the focus', () => {
     show(element(snapshotOf()));
     act(() => editor().dispatch({ selection: { anchor: 15 } }));
     expect(selection()).toEqual([]);
@@ -85,7 +85,7 @@ describe('XmlEditor', () => {
     expect(selection()).toEqual(['s']);
   });
 
-  it('marks what is selected on the canvas of its tree', () => {
+  it('marks the selection of the canvas of its tree', () => {
     show(element(snapshotOf()));
     act(() => useProjectStore.getState().select('Main', ['g']));
     expect(chosen()).toEqual(['  <Go/>']);

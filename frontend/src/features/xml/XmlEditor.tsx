@@ -25,12 +25,12 @@ interface XmlEditorProps {
 
 type ViewRef = { readonly current: EditorView | null };
 
-/** Marks changes that came from the tree, so that they are not sent back as edits. */
+/** Marks changes that come from the tree, so that they are not sent back as edits. */
 const fromTree = Annotation.define<boolean>();
 const language = new Compartment();
 const metadata = new Compartment();
 
-/** The XML of a tree; its selection and that of the canvas follow each other. */
+/** The editor of a tree's XML; its selection and that of the canvas follow each other. */
 export function XmlEditor({ treeId, link, snapshot, showsMetadata }: XmlEditorProps) {
   const { t } = useTranslation('xml');
   const host = useRef<HTMLDivElement>(null);
@@ -101,7 +101,7 @@ function useTreeText(view: ViewRef, { text, ranges }: XmlSnapshot): void {
     });
   }, [view, text]);
   useEffect(() => {
-    // Ranges belong to one text: they are set together with it.
+    // The ranges belong to one text, so they are set together with it.
     view.current?.dispatch({ effects: setRanges.of(ranges) });
   }, [view, ranges]);
 }

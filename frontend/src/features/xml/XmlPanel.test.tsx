@@ -42,14 +42,14 @@ async function open() {
 }
 
 describe('XmlPanel', () => {
-  it('asks for a tree', () => {
+  it('asks for a tree to be opened', () => {
     useProjectStore.setState({ activeTree: null });
     show(<XmlPanel />);
     expect(screen.getByText('Open a tree to see its XML.')).toBeInTheDocument();
     expect(screen.queryByTestId('xml-state')).toBeNull();
   });
 
-  it('asks for a tree also where that of before is gone', () => {
+  it('asks for a tree also if the previous one was deleted', () => {
     useProjectStore.setState({ activeTree: 'Gone' });
     show(<XmlPanel />);
     expect(screen.getByText('Open a tree to see its XML.')).toBeInTheDocument();
@@ -67,7 +67,7 @@ describe('XmlPanel', () => {
     expect(screen.queryByRole('button', { name: 'Try again' })).toBeNull();
   });
 
-  it('reads what was typed into the tree', async () => {
+  it('applies typed text to the tree', async () => {
     await open();
     const diagram = oneBlock('Main', 'Fallback');
     answers[READ] = { xml: '', ranges: RANGES, diagram, diagnostics: [] };
@@ -80,7 +80,7 @@ describe('XmlPanel', () => {
     expect(text()).toBe('<Fallback/>');
   });
 
-  it('says what is wrong with the text, and leaves the tree', async () => {
+  it('reports what is wrong with the text, and leaves the tree', async () => {
     await open();
     const finding = { code: 'X1', severity: 'error', message: 'No such node.', line: 2 };
     answers[READ] = { xml: '', ranges: [], diagram: null, diagnostics: [finding] };
@@ -102,7 +102,7 @@ describe('XmlPanel', () => {
     expect(requests.filter(({ path }) => path === '/trees/diagram')).toEqual([]);
   });
 
-  it('says that the server cannot be reached, and tries again', async () => {
+  it('reports that the server cannot be reached, and tries again', async () => {
     answers[WRITE] = refusal('It is busy.', { status: 503 });
     show(<XmlPanel />);
     await waitFor(() => expect(state()).toBe('failed'));
@@ -150,7 +150,7 @@ describe('XmlPanel', () => {
     });
   });
 
-  it('brings back text that was not applied', async () => {
+  it('restores text that was not applied', async () => {
     const { unmount } = await open();
     const finding = { code: 'X1', severity: 'error', message: 'bad', line: 1 };
     answers[READ] = { xml: '', ranges: [], diagram: null, diagnostics: [finding] };

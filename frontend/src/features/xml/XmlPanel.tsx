@@ -11,7 +11,7 @@ import classes from './xml.module.css';
 
 const SHOWS_KEY = 'bts.xml.metadata';
 
-/** The XML of the tree in front, editable and synchronized with the canvas. */
+/** The panel with the XML of the tree in front, which can be edited and is synchronized with the canvas. */
 export function XmlPanel() {
   const { t } = useTranslation('xml');
   const projectId = useProjectStore((state) => state.projectId);
@@ -69,7 +69,7 @@ function TreeXml({ projectId, treeId }: { readonly projectId: string; readonly t
   );
 }
 
-/** Text and tree were both changed: asks which one to keep; the other can be undone. */
+/** A request to choose between the text and the tree, since both were changed; the choice can be undone. */
 function Parted({ link }: { readonly link: XmlLink }) {
   const { t } = useTranslation('xml');
   return (

@@ -21,7 +21,7 @@ describe('pieceThatDiffers', () => {
     expect(pieceThatDiffers(before, after)).toEqual(piece);
   });
 
-  it('makes one text of the other, whatever they are', () => {
+  it('turns any text into any other', () => {
     const text = fc.string({ unit: fc.constantFrom('a', 'b', '\n'), maxLength: 12 });
     fc.assert(
       fc.property(text, text, (before, after) => {

@@ -1,4 +1,4 @@
-/** The one range that differs between two texts, so that cursors and folds elsewhere stay. */
+/** Returns the single range in which two texts differ, so that cursors and folds elsewhere stay. */
 export function pieceThatDiffers(
   before: string,
   after: string,

@@ -30,7 +30,7 @@ describe('problemMarks', () => {
     ]);
   });
 
-  it('leave out nodes that the text does not have, or not any more', () => {
+  it('leave out nodes that the text does not have, or does not have any more', () => {
     expect(problemMarks(100, ranges, [problem('x', 'error'), problem(null, 'error')], textOf)).toEqual([]);
     expect(problemMarks(19, ranges, [problem('b', 'error')], textOf)).toEqual([]);
     expect(problemMarks(20, ranges, [problem('b', 'error')], textOf)).toHaveLength(1);

@@ -8,7 +8,7 @@ import { marksFor } from '@/features/code/diagnostics';
 
 const SEVERITY = { error: 'error', warning: 'warning', note: 'info' } as const;
 
-/** Problems of the tree, at the start tags of their nodes. */
+/** Returns the problems of the tree, as marks at the start tags of their nodes. */
 export function problemMarks(
   length: number,
   ranges: readonly NodeRange[],
@@ -31,7 +31,7 @@ export function problemMarks(
   });
 }
 
-/** The diagnostics of the text, on their lines. */
+/** Returns the findings in the text, as marks on their lines. */
 export function findingMarks(doc: Text, findings: readonly Diagnostic[]): Mark[] {
   const placed = findings.map((finding) => ({ ...finding, file: 'text', line: finding.line ?? 1 }));
   return marksFor(doc, 'text', placed, []);

@@ -9,7 +9,7 @@ import {
 } from '@codemirror/view';
 import type { NodeRange } from '@/api/trees';
 
-/** The nodes of an editor's text. */
+/** The nodes in an editor's text. */
 interface Nodes {
   readonly ranges: readonly NodeRange[];
   readonly selected: ReadonlySet<string>;
@@ -18,7 +18,7 @@ interface Nodes {
 export const setRanges = StateEffect.define<readonly NodeRange[]>();
 export const setSelected = StateEffect.define<ReadonlySet<string>>();
 
-/** The ranges of the nodes, which move as the text is edited, and the selected nodes. */
+/** The ranges of the nodes, which move while the text is edited, and the selected nodes. */
 const nodesField = StateField.define<Nodes>({
   create: () => ({ ranges: [], selected: new Set() }),
   update: (nodes, change) => {
@@ -62,7 +62,7 @@ export const nodeRanges: Extension = [nodesField, chosenLines];
 
 export const rangesOf = (view: EditorView): readonly NodeRange[] => view.state.field(nodesField).ranges;
 
-/** The innermost node at a place of the text. */
+/** Returns the innermost node at an offset in the text. */
 export function nodeAt(ranges: readonly NodeRange[], at: number): string | null {
   let found: NodeRange | null = null;
   for (const range of ranges) {
@@ -93,6 +93,6 @@ function decorating(matcher: MatchDecorator, isAtomic: boolean): Extension {
   );
 }
 
-/** Ids and positions: hidden, or in a faint colour. */
+/** Two ways to show ids and positions: hidden, or in a faint colour. */
 export const hiddenMetadata = decorating(metadata(Decoration.replace({})), true);
 export const dimMetadata = decorating(metadata(Decoration.mark({ class: 'cm-metadata' })), false);

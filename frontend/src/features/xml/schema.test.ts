@@ -43,7 +43,7 @@ const vocabulary = makeVocabulary(
   new Map(['Main', 'Dock'].map((id) => [id, { calls: [] } as unknown as TreeFacts])),
 );
 
-/** What is offered where the text has a bar. */
+/** Returns the completions at the bar in a text. */
 async function offered(text: string) {
   const pos = text.indexOf('|');
   const state = EditorState.create({ doc: text.replace('|', ''), extensions: treeXml(vocabulary) });

@@ -31,7 +31,7 @@ function elementOf(spec: NodeSpec, trees: readonly string[]) {
   };
 }
 
-/** XML with completion of the project's nodes, ports and trees. */
+/** Returns the extensions for XML with completion of the project's nodes, ports and trees. */
 export function treeXml(vocabulary: Vocabulary): Extension {
   const trees = [...vocabulary.trees.keys()];
   const specs = [...vocabulary.specs.values()];

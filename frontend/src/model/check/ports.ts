@@ -28,15 +28,17 @@ export function checkLiteral(id: NodeId, { name, type }: PortSpec, text: string)
 /** Attribute names of XML, without the colon of a namespace. */
 const XML_NAME = /^[\p{L}_][\p{L}\p{N}\p{M}._·-]*$/u;
 
-/** Whether a port can have this name; names that begin with _ belong to other programs. */
+/** Returns whether a port can have this name; names that begin with `_` are reserved for other programs. */
 export const isPortName = (name: string): boolean =>
   XML_NAME.test(name) && !name.startsWith('_') && name !== 'name' && name !== 'ID';
 
-/** A port that is written may hold a literal where it is only read then, or names a key. */
+/**
+ * Returns whether a port may hold a literal: it only reads its value, or the literal is the name of an entry.
+ */
 const takesLiteral = ({ direction, name }: PortSpec): boolean =>
   direction === 'input' || (direction === 'inout' && (name === 'queue' || name === 'output_key'));
 
-/** A built-in node that watches an entry requires that entry's name. */
+/** Returns whether a port must name an entry: that of a built-in node that watches an entry. */
 const namesEntry = ({ name }: PortSpec, { source }: NodeSpec): boolean =>
   name === 'entry' && source === 'builtin';
 
@@ -83,7 +85,10 @@ interface Use {
 
 const UNTYPED = new Set(['any', 'script', 'status']);
 
-/** Makes a check for the nodes of a tree in order; it reports entries that ports use with two types. */
+/**
+ * Returns a check for the nodes of a tree, to be called in order. It reports entries that ports use with two
+ * types.
+ */
 export function entryCheck(): (id: NodeId, node: DiagramNode, spec: NodeSpec) => Problem[] {
   const entries = new Map<string, Use>();
   const checkEntry = (id: NodeId, node: DiagramNode, port: PortSpec): Problem[] => {
@@ -98,7 +103,7 @@ export function entryCheck(): (id: NodeId, node: DiagramNode, spec: NodeSpec) =>
       atPort('two-types', id, port.name, { key, type: port.type, otherType: first.type, other: first.label }),
     ];
   };
-  // SetBlackboard copies a value of any type, although its port is a text in the catalogue.
+  // SetBlackboard copies a value of any type, although the catalogue declares its port as text.
   return (id, node, spec) =>
     node.type === 'SetBlackboard' ? [] : spec.ports.flatMap((port) => checkEntry(id, node, port));
 }

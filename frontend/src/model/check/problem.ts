@@ -5,10 +5,10 @@ import kinds from '../kinds.json';
 export type Severity = 'error' | 'warning' | 'note';
 export type ProblemKind = keyof typeof kinds;
 
-/** The translator's codes (translator/diagnostics.json) of the problems that are also found here. */
+/** The translator's codes (translator/diagnostics.json) of the problems that the page finds too. */
 export const CODES: Readonly<Record<ProblemKind, readonly string[]>> = kinds;
 
-/** A problem as data: i18n makes its text from `problems:<kind>` and `values`. */
+/** A problem as data: i18n makes its message from `problems:<kind>` and `values`. */
 export interface Problem {
   readonly kind: ProblemKind;
   readonly severity: Severity;
@@ -19,7 +19,7 @@ export interface Problem {
   readonly script?: ScriptProblem;
 }
 
-/** An error at a port of a node. */
+/** Returns an error at a port of a node. */
 export function atPort(
   kind: ProblemKind,
   node: NodeId,

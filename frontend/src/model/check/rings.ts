@@ -28,7 +28,7 @@ function find({ trees, mainTree }: Vocabulary): Closing {
 
 const known = new WeakMap<Vocabulary, Closing>();
 
-/** For each tree the calls that close a cycle, when the trees are visited from the main tree. */
+/** Returns for each tree the calls that close a cycle, when the trees are visited from the main tree. */
 export function closingCalls(vocabulary: Vocabulary): Closing {
   const found = known.get(vocabulary) ?? find(vocabulary);
   known.set(vocabulary, found);

@@ -13,7 +13,7 @@ const SWITCHES = new Set(['0', '1', 'true', 'false', 'True', 'False', 'TRUE', 'F
 function checkValue(id: NodeId, port: PortSpec, text: string): Problem[] {
   if (pointerOf(text) !== null) return [];
   if (port.type === 'double' && /^-?[0-9]+$/.test(text)) {
-    // A number that is passed to a SubTree becomes a typed entry, where an int is not a double.
+    // A SubTree stores the number that it passes as a typed entry, and an int entry is not a double.
     return [atPort('whole-for-double', id, port.name, { text }, 'warning')];
   }
   return port.direction === 'input' ? checkLiteral(id, port, text) : [];
@@ -57,7 +57,7 @@ function checkCall(id: NodeId, node: DiagramNode, closesRing: boolean, vocabular
   return [...recursion, ...checkGiven(id, node, called.ports)];
 }
 
-/** Makes a check for the SubTree nodes of one tree; it reports names that two of them share. */
+/** Returns a check for the SubTree nodes of one tree. It reports names that two of them share. */
 export function callCheck(
   user: string,
   vocabulary: Vocabulary,

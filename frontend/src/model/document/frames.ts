@@ -21,7 +21,7 @@ function frameOf([x, y, z, roll, pitch, yaw]: Pose): Frame {
 }
 
 function poseOf({ rows: [a, b, c], origin }: Frame): Pose {
-  // With a pitch of ±90°, roll and yaw turn about the same axis: all of it counts as yaw.
+  // With a pitch of ±90°, roll and yaw turn about the same axis: the whole turn counts as yaw.
   const isPole = Math.abs(c[0]) > 1 - 1e-12;
   const pitch = Math.asin(Math.min(1, Math.max(-1, -c[0])));
   const roll = isPole ? 0 : Math.atan2(c[1], c[2]);
@@ -60,7 +60,7 @@ function inverted({ rows, origin }: Frame): Frame {
 
 export const HERE: Pose = [0, 0, 0, 0, 0, 0];
 
-/** Transforms a pose from the frame of `outer` into the frame in which `outer` is given. */
+/** Transforms `inner`, a pose in the frame of `outer`, into the frame in which `outer` is given. */
 export const within = (outer: Pose, inner: Pose): Pose => poseOf(product(frameOf(outer), frameOf(inner)));
 
 /** Transforms a pose into the frame of `outer`. */

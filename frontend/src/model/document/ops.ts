@@ -40,7 +40,7 @@ function changed(value: Json | undefined, op: Op): Json {
   return value ?? null;
 }
 
-/** Whether two values are equal; the order of keys does not matter. */
+/** Returns whether two values are equal; the order of keys does not matter. */
 export function sameValue(a: Json | undefined, b: Json | undefined): boolean {
   if (Array.isArray(a) || Array.isArray(b)) {
     if (!Array.isArray(a) || !Array.isArray(b) || a.length !== b.length) return false;

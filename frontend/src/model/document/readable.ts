@@ -1,8 +1,8 @@
 const significant = (value: number, digits: number): number => Number(value.toPrecision(digits));
 
 /**
- * A number as a person reads it: millimetres and thousandths, angles and angular rates with three digits.
- * It is for display only: what is stored keeps its precision.
+ * Rounds a number for display: to millimetres (0.1 mm below 1 m), and angles and angular rates to three
+ * digits. Stored numbers keep their precision.
  */
 export function readable(value: number, unit = ''): number {
   if (!Number.isFinite(value)) return value;

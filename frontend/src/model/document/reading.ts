@@ -1,6 +1,6 @@
 import type { Pose, Vector } from './values';
 
-/* Values if they have the expected type; otherwise the fallback. */
+/* Readers of values: each returns the value if it has the expected type, and otherwise the fallback. */
 
 export const number = (value: unknown, fallback: number): number =>
   typeof value === 'number' && Number.isFinite(value) ? value : fallback;

@@ -15,12 +15,12 @@ import { splicedAll, type Splice } from './splice';
 import { isObject, type Json, type Path } from './values';
 import { blockItem, blockPair, inline, keyText } from './write';
 
-/** Thrown for a document whose style does not allow changes piece by piece. */
+/** Thrown for a document that cannot be changed piece by piece because of its style. */
 export class UnwritableError extends Error {}
 
 /**
- * Changes a document's text. Untouched parts stay the same byte by byte if the document has a common style;
- * otherwise the document is written again, and keeps its comments and order.
+ * Changes a document's text. In a document of the usual style, unchanged parts stay the same byte by byte;
+ * any other document is written again, with its comments and order.
  */
 export function rewrite(text: string, ops: readonly Op[]): string {
   const document = parse(text);
@@ -41,7 +41,7 @@ function says(text: string, wanted: Json): boolean {
   return document.errors.length === 0 && sameValue(document.toJS() as Json, wanted);
 }
 
-/** Applies operations that do not overlap at once, since each pass must parse the text. */
+/** Applies operations together if they do not overlap, since each pass must parse the text. */
 function bySplices(text: string, ops: readonly Op[]): string | null {
   let now = text;
   let waiting: Splice[] = [];
@@ -99,7 +99,7 @@ function setSplices(text: string, document: Document, path: Path, value: Json): 
 function replaceSplices(text: string, node: Node, value: Json): Splice[] | null {
   const [start, end] = node.range ?? [0, 0];
   if (isSeq(node) && Array.isArray(value) && node.items.length === value.length && value.length > 0) {
-    // Changes number by number, so that unchanged ones keep their notation.
+    // Each number is changed alone, so that unchanged ones keep their notation.
     const parts = (value as Json[]).map((part, index) => {
       const own = node.items[index] as Node;
       return isScalar(own) && own.value === part ? [] : replaceSplices(text, own, part);
@@ -115,7 +115,7 @@ function replaceSplices(text: string, node: Node, value: Json): Splice[] | null 
 
 const isFlow = (node: unknown): boolean => (isMap(node) || isSeq(node)) && node.flow === true;
 
-/** The end of the last written part of a node. */
+/** Returns the end of a node's last written part. */
 function endOf(node: Node | null): number | null {
   if (isMap(node) && !isFlow(node)) return endOf((node.items.at(-1)?.value ?? null) as Node | null);
   if (isSeq(node) && !isFlow(node)) return endOf((node.items.at(-1) ?? null) as Node | null);
@@ -123,7 +123,7 @@ function endOf(node: Node | null): number | null {
   return end > start ? end : null;
 }
 
-/** The end of the line that contains a position, after a comment. */
+/** Returns the end of the line that contains a position, its comment included. */
 function lineEnd(text: string, at: number): number {
   const end = text.indexOf('\n', at);
   return end < 0 ? text.length : end;
@@ -168,7 +168,7 @@ function renameSplices(text: string, document: Document, path: Path, to: string)
   return end > start ? [cut(text, start, end, keyText(to))] : null;
 }
 
-/** The whole lines from one position to another, if nothing else starts on the first one. */
+/** Cuts the whole lines from one position to another; null if something else starts on the first line. */
 function wholeLines(text: string, start: number, end: number): Splice[] | null {
   const from = lineStart(text, start);
   if (!/^\s*(- +)?$/.test(text.slice(from, start))) return null;
@@ -234,7 +234,7 @@ function removeSplices(
     : null;
 }
 
-/** Writes the document with the library: comments and order stay, spaces and line breaks may change. */
+/** Writes the document with the YAML library: comments and order stay, spaces and line breaks may change. */
 function byDocument(text: string, ops: readonly Op[]): string | null {
   const document = parseDocument(text, YAML_OPTIONS);
   const made = (value: Json) => {

@@ -6,7 +6,7 @@ import type { Json, JsonObject } from './values';
 
 const universe = (more: JsonObject) =>
   checkSchema({ format: 'bt-studio/universe', version: 1, name: 'U', ...more }, validateUniverse);
-/** What is wrong in a list of one sensor. */
+/** Returns the issues of a robot with this one sensor. */
 const sensors = (sensor: Json) =>
   checkSchema({ sensors: [sensor] }, validateRobot).filter(({ path }) => path[0] === 'sensors');
 const box = { id: 'a', shape: 'box', size: [1, 1, 1] };
@@ -14,7 +14,7 @@ const inBox = (more: JsonObject) => universe({ models: [{ ...box, ...more }] });
 const at = ['models', 0];
 
 describe('checkSchema', () => {
-  it('finds nothing in a sound document', () => {
+  it('finds nothing in a valid document', () => {
     expect(universe({ models: [box] })).toEqual([]);
   });
 
@@ -49,11 +49,11 @@ describe('checkSchema', () => {
       { tile: [0, 1] },
       { path: [...at, 'tile', 0], kind: 'above', params: { above: 0 } },
     ],
-  ])('tells of %s', (_, more, issue) => {
+  ])('reports %s', (_, more, issue) => {
     expect(inBox(more)).toEqual([issue]);
   });
 
-  it('tells each value once, by its first reason', () => {
+  it('reports each value once, by its first reason', () => {
     expect(inBox({ id: '-'.repeat(200) })).toEqual([
       { path: [...at, 'id'], kind: 'tooLong', params: { most: 80 } },
     ]);
@@ -62,20 +62,20 @@ describe('checkSchema', () => {
     ]);
   });
 
-  it('tells every name that misses', () => {
+  it('reports every missing name', () => {
     expect(universe({ models: [{}] })).toEqual([
       { path: at, kind: 'missing', params: { name: 'id' } },
       { path: at, kind: 'missing', params: { name: 'shape' } },
     ]);
   });
 
-  it('reads names with a slash or a tilde', () => {
+  it('handles names with a slash or a tilde', () => {
     expect(universe({ random: { 'a/~b': [1] } })).toEqual([
       { path: ['random', 'a/~b'], kind: 'exactly', params: { count: 2 } },
     ]);
   });
 
-  it('takes a document that is no mapping for such', () => {
+  it('reports a document that is not a mapping', () => {
     for (const value of [null, 7, []] as Json[])
       expect(checkSchema(value, validateUniverse)).toEqual([{ path: [], kind: 'object', params: {} }]);
   });
@@ -97,7 +97,7 @@ describe('checkSchema', () => {
       { kind: 'camera', link: 'l', width: 320.5 },
       { path: ['sensors', 0, 'width'], kind: 'integer', params: {} },
     ],
-  ])('tells of a sensor that is %s', (_, sensor, issue) => {
+  ])('reports a sensor that is %s', (_, sensor, issue) => {
     expect(sensors(sensor)).toEqual([issue]);
   });
 });

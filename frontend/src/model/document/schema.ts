@@ -2,7 +2,7 @@ import type { ErrorObject } from 'ajv';
 import { similarNames } from '../similar';
 import { isObject, type Json, type Path } from './values';
 
-/** Something wrong with a document; `kind` names a text of `universe:problem`, `params` fill it in. */
+/** A fault of a document; `kind` names a text of `universe:problem`, and `params` fill it in. */
 export interface Issue {
   readonly path: Path;
   readonly kind: string;
@@ -11,13 +11,13 @@ export interface Issue {
 
 type Fault = ErrorObject<string, Record<string, unknown>>;
 
-/** A schema as a function, compiled by ajv when the page is built. */
+/** The check of a schema, compiled by ajv when the page is built. */
 export interface Validator {
   (value: unknown): boolean;
   errors?: readonly Fault[] | null;
 }
 
-/** Everything wrong with a value: of each value the first reason, of each object all names. */
+/** Returns all issues of a value: the first reason for each value, and every wrong key of each object. */
 export function checkSchema(value: Json, validate: Validator): Issue[] {
   if (validate(value)) return [];
   const found = (validate.errors ?? []).flatMap((fault) => {
@@ -29,7 +29,7 @@ export function checkSchema(value: Json, validate: Validator): Issue[] {
   return found
     .sort((a, b) => a.rank - b.rank)
     .filter(({ path, kind, params }) => {
-      // Of a list with a wrong length the items mean nothing.
+      // In a list with a wrong length, issues of the items say nothing.
       if (tooMany.some((list) => keyOf(path).startsWith(`${list}/`))) return false;
       const key = kind === 'missing' ? `${keyOf(path)} ${params['name'] ?? ''}` : keyOf(path);
       return !seen.has(key) && seen.add(key);
@@ -37,7 +37,7 @@ export function checkSchema(value: Json, validate: Validator): Issue[] {
     .map(({ path, kind, params }) => ({ path, kind, params }));
 }
 
-/** Keywords of a schema: a value that fails more than one is reported for the first. */
+/** Keywords of a schema, by rank: a value that fails several is reported for the first of them. */
 const RANKS = [
   ...['required', 'additionalProperties', 'const', 'enum', 'discriminator', 'type', 'minItems', 'maxItems'],
   ...['maxLength', 'minLength', 'pattern', 'exclusiveMinimum', 'exclusiveMaximum', 'minimum', 'maximum'],
@@ -46,7 +46,7 @@ const LENGTHS = ['exactly', 'atLeast', 'atMost'];
 
 const keyOf = (path: Path): string => path.map((step) => `/${step}`).join('');
 
-/** The path of a JSON pointer; steps into lists are numbers. */
+/** Returns the path of a JSON pointer; steps into lists are numbers. */
 function pathOf(pointer: string, value: Json): Path {
   let at: Json | undefined = value;
   return pointer
@@ -97,7 +97,7 @@ function issueOf(fault: Fault, value: Json): Issue | null {
         high: schema['maximum'] ?? Infinity,
       });
     default:
-      // `anyOf`: the first of its choices has told why.
+      // `anyOf`: the first of its choices has already reported the reason.
       return null;
   }
 }
@@ -113,7 +113,7 @@ function unknownName(path: Path, name: string, known: unknown): Issue {
   return { path: [...path, name], kind, params: { name, ...(near ? { near } : {}) } };
 }
 
-/** One of several kinds, told apart by a key of its own. */
+/** Reports an object whose `kind` is missing or unknown. */
 function unknownKind(path: Path, key: string, chosen: unknown, kinds: unknown): Issue {
   return chosen === undefined
     ? { path, kind: 'missing', params: { name: key } }
@@ -128,7 +128,10 @@ const TYPES: Readonly<Record<string, string>> = {
   number: 'number',
 };
 
-/** Null stands in our schemas only as the second choice of a value that may be left out. */
+/**
+ * Reports a value of the wrong type. Our schemas use null only as the second choice of an optional value, so
+ * null is never reported.
+ */
 function wrongType(path: Path, type: string, value: unknown): Issue | null {
   if (type === 'null') return null;
   const isNumber = type === 'integer' && Number.isFinite(value);

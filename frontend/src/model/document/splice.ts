@@ -1,11 +1,11 @@
-/** Replaces a range of a text; it also holds the replaced text, so that it can be undone. */
+/** The replacement of a range of a text. It also holds the replaced text, so that it can be undone. */
 export interface Splice {
   readonly at: number;
   readonly removed: string;
   readonly inserted: string;
 }
 
-/** The one splice that changes one text into another. */
+/** Returns the single splice that changes one text into another. */
 export function difference(before: string, after: string): Splice {
   const most = Math.min(before.length, after.length);
   let head = 0;
@@ -25,7 +25,7 @@ export const inverse = ({ at, removed, inserted }: Splice): Splice => ({
   inserted: removed,
 });
 
-/** Applies a splice; null if the text differs from the one that it was made for. */
+/** Applies a splice; null if the text is not the one that the splice was made for. */
 export function spliced(text: string, { at, removed, inserted }: Splice): string | null {
   if (text.slice(at, at + removed.length) !== removed) return null;
   return text.slice(0, at) + inserted + text.slice(at + removed.length);

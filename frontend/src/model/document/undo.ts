@@ -3,7 +3,7 @@ import { difference, inverse, spliced, type Splice } from './splice';
 /** One step of undo: the changes of a document's texts, and the selection before and after. */
 export interface TextStep {
   readonly label: string;
-  /** Consecutive steps with the same key are one. */
+  /** Consecutive steps with the same key are merged. */
   readonly mergeKey: string | null;
   /** One splice for each text. */
   readonly splices: readonly Splice[];
@@ -44,7 +44,7 @@ const back = (step: TextStep): Splice[] => step.splices.map(inverse);
 const differences = (before: readonly string[], after: readonly string[]): Splice[] =>
   after.map((text, index) => difference(before[index] ?? '', text));
 
-/** Records new texts as a step; equal texts make no step. */
+/** Records new texts as a step; unchanged texts make no step. */
 export function record(undoStack: TextUndo, texts: readonly string[], step: NewStep): TextUndo {
   if (texts.every((text, index) => text === undoStack.texts[index])) return undoStack;
   const last = undoStack.past.at(-1);
@@ -63,7 +63,7 @@ export function record(undoStack: TextUndo, texts: readonly string[], step: NewS
   return { texts, past: [...undoStack.past, next].slice(-LIMIT), future: [], sealed: false };
 }
 
-/** Ends a gesture: the next step is a new one. */
+/** Ends a gesture: the next step is not merged with the last one. */
 export const seal = (undoStack: TextUndo): TextUndo =>
   undoStack.sealed ? undoStack : { ...undoStack, sealed: true };
 

@@ -1,4 +1,4 @@
-/** Values of documents. SI units; poses are [x, y, z, roll, pitch, yaw]. */
+/** Types and queries of document values. SI units; poses are [x, y, z, roll, pitch, yaw]. */
 
 export type Json = string | number | boolean | null | readonly Json[] | { readonly [key: string]: Json };
 export type JsonObject = { readonly [key: string]: Json };
@@ -11,7 +11,7 @@ export type Pose = readonly [number, number, number, number, number, number];
 export const isObject = (value: unknown): value is JsonObject =>
   typeof value === 'object' && value !== null && !Array.isArray(value);
 
-/** The value at a path of a document; undefined if there is none. */
+/** Returns the value at a path of a document; undefined if the path does not exist. */
 export function valueAt(value: Json | undefined, path: Path): Json | undefined {
   let at: unknown = value;
   for (const step of path) {

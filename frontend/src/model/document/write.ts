@@ -1,10 +1,10 @@
 import { isObject, type Json, type JsonObject } from './values';
 
-/** Words that YAML 1.1 does not read as text. */
+/** Words that YAML 1.1 does not read as strings. */
 const WORDS = /^(y|n|yes|no|on|off|true|false|null|nan|inf)$/i;
 const PLAIN = /^[A-Za-z_/][\w./-]*$/;
 
-/** A value on one line, in the style of our own universes. */
+/** Returns a value on one line, in the style of the built-in universes. */
 export function inline(value: Json): string {
   if (Array.isArray(value)) return `[${(value as Json[]).map(inline).join(', ')}]`;
   if (isObject(value)) {
@@ -19,8 +19,8 @@ export function inline(value: Json): string {
 export const keyText = (key: string): string => inline(key);
 
 /**
- * A key and its value in a block mapping: mappings and lists on lines of their own, other values after the
- * key.
+ * Returns a key and its value in a block mapping: mappings and lists on lines of their own, other values
+ * after the key.
  */
 export function blockPair(key: string, value: Json, indent: string): string {
   const isListOfThings = Array.isArray(value) && value.length > 0 && (value as Json[]).every(isObject);
@@ -29,7 +29,7 @@ export function blockPair(key: string, value: Json, indent: string): string {
   return [`${indent}${keyText(key)}:`, ...items].join('\n');
 }
 
-/** An item of a block sequence, on one line or with one line for each key. */
+/** Returns an item of a block sequence, on one line or with one line for each key. */
 export function blockItem(value: Json, indent: string, isLong: boolean): string {
   if (!isLong || !isObject(value)) return `${indent}- ${inline(value)}`;
   return Object.entries(value as JsonObject)

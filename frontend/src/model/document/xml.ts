@@ -1,4 +1,6 @@
-/** XML with the offsets of its parts, so that each can be changed without touching the rest. */
+/**
+ * A parser of XML with the offsets of all parts, so that each part can be changed without touching the rest.
+ */
 
 export interface XmlAttribute {
   readonly value: string;
@@ -34,7 +36,7 @@ const NAME = /[\p{L}_:][\p{L}\p{N}_:.-]*/uy;
 const BLANK = /\s*/y;
 const ENTITIES: Readonly<Record<string, string>> = { amp: '&', lt: '<', gt: '>', quot: '"', apos: "'" };
 
-/** The deepest nesting that is accepted; hand-written files do not reach it. */
+/** The deepest nesting that is accepted; hand-written files are far below it. */
 const DEEPEST = 200;
 
 class Reader {
@@ -53,14 +55,14 @@ class Reader {
     return found;
   }
 
-  /** Moves behind the next occurrence of a word. */
+  /** Moves the position behind the next occurrence of a word. */
   pass(word: string, kind: string): void {
     const end = this.text.indexOf(word, this.at);
     if (end < 0) throw new XmlError(kind, this.at);
     this.at = end + word.length;
   }
 
-  /** Skips comments, instructions and text, up to an element, an end tag, or the end. */
+  /** Skips comments, instructions and text up to the next element or end tag, or the end of the text. */
   misc(isInside: boolean): void {
     while (this.at < this.text.length) {
       if (this.has('<!--')) this.pass('-->', 'xmlComment');

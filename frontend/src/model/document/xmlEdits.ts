@@ -7,7 +7,7 @@ const cut = (text: string, start: number, end: number, inserted = ''): Splice =>
   inserted,
 });
 
-/** Sets the value of an attribute; quotes, order and all other attributes stay. */
+/** Sets the value of an attribute; its quotes, its place and all other attributes stay. */
 export function setAttribute(text: string, element: XmlElement, name: string, value: string): Splice {
   const own = element.attributes.get(name);
   if (!own) return cut(text, element.headEnd, element.headEnd, ` ${name}="${escaped(value)}"`);
@@ -20,7 +20,7 @@ export function setAttribute(text: string, element: XmlElement, name: string, va
   );
 }
 
-/** Appends an element to another one: on its own line if the other children have their own lines. */
+/** Appends an element to another one, on a line of its own if the other children have their own lines. */
 export function append(text: string, parent: XmlElement, written: string): Splice {
   if (parent.close === null) {
     return cut(text, parent.headEnd, parent.end, `>${written}</${parent.tag}>`);
@@ -46,7 +46,7 @@ export function prepend(text: string, parent: XmlElement, written: string): Spli
   return cut(text, first.start, first.start, isOwnLine ? `${written}\n${indent}` : written);
 }
 
-/** Removes an element, with its line if nothing else is on it. */
+/** Removes an element, and its line if nothing else is on it. */
 export function removed(text: string, { start, end }: XmlElement): Splice {
   const lineStart = text.lastIndexOf('\n', start - 1) + 1;
   const next = text.indexOf('\n', end);

@@ -2,13 +2,13 @@ import { isMap, isScalar, isSeq, LineCounter, parseDocument, type Document, type
 import type { Issue } from './schema';
 import type { Json, Path } from './values';
 
-/** The simulator reads YAML 1.1. */
+/** The options of the YAML library. The simulator reads YAML 1.1. */
 export const YAML_OPTIONS = { version: '1.1', uniqueKeys: true, logLevel: 'silent' } as const;
 
-/** The number of cached texts: those before and after the last edit are read again and again. */
+/** The number of cached texts: the texts before and after the last edit are read repeatedly. */
 const KEPT = 3;
 
-/** Caches the results for the last few texts. */
+/** Caches the results of a function for the last few texts. */
 export function remembering<T>(make: (text: string) => T): (text: string) => T {
   let known: { text: string; made: T }[] = [];
   return (text) => {
@@ -20,7 +20,7 @@ export function remembering<T>(make: (text: string) => T): (text: string) => T {
   };
 }
 
-/** The parsed YAML of a text; callers must not change it. */
+/** Returns the parsed YAML of a text; callers must not change it. */
 export const parsed = remembering((text) => {
   const lines = new LineCounter();
   return { document: parseDocument(text, { ...YAML_OPTIONS, lineCounter: lines }), lines };
@@ -31,7 +31,7 @@ function placeAt(lines: LineCounter, offset: number): { line: number; column: nu
   return { line: Math.max(line, 1), column: Math.max(col, 1) };
 }
 
-/** The offset of the value at a path, or of the nearest value that contains it. */
+/** Returns the offset of the value at a path, or of the nearest value that contains it. */
 function offsetOf(document: Document, path: Path): number {
   let node = document.contents as Node | null;
   let offset = node?.range?.[0] ?? 0;
@@ -59,12 +59,12 @@ export interface DocumentProblem extends Issue {
   readonly thing: string | null;
 }
 
-/** The longest document that is read, in characters; the simulator has the same limit. */
+/** The longest text that is read, in characters; the simulator has the same limit. */
 const LONGEST = 2_000_000;
 
 const START = { text: 0, line: 1, column: 1, thing: null, path: [] } as const;
 
-/** The value of a YAML text, or the syntax error. */
+/** Returns the value of a YAML text, or the syntax error. */
 export function valueOfYaml(text: string): { raw: Json } | { problems: DocumentProblem[] } {
   if (text.length > LONGEST) return { problems: [{ ...START, kind: 'tooLong', params: { most: LONGEST } }] };
   const { document, lines } = parsed(text);

@@ -3,7 +3,7 @@ import type { Diagram, DiagramNode } from '../diagram';
 import { serializeDiagram } from '../serialize';
 import type { Recipe } from './core';
 
-/** A node as it is saved, so that the order of its fields does not matter. */
+/** Returns a node's text in the saved format, which does not depend on the order of its fields. */
 function textOf(node: DiagramNode): string {
   const diagram = { id: '', root: 'n', nodes: { n: { ...node, children: [] } }, drafts: [] };
   return serializeDiagram({ format: 'bt-studio/diagram', version: 1, layout: 'vertical', ...diagram });
@@ -12,13 +12,14 @@ function textOf(node: DiagramNode): string {
 const sameList = (a: readonly string[] = [], b: readonly string[] = []): boolean =>
   a.length === b.length && a.every((item, index) => item === b[index]);
 
-/** Whether two nodes are equal, children included. */
+/** Returns whether two nodes are equal, children included. */
 export function sameNode(a: DiagramNode, b: DiagramNode): boolean {
   return a === b || (sameList(a.children, b.children) && textOf(a) === textOf(b));
 }
 
 /**
- * Changes a tree into another but touches only the differences, so that unchanged blocks are not drawn again.
+ * Changes a tree into another one. It touches only the differences, so that unchanged blocks are not drawn
+ * again.
  */
 export const become =
   (next: Diagram): Recipe =>

@@ -4,7 +4,7 @@ import type { Placement } from '../rules';
 
 enablePatches();
 
-/** A change to a diagram, written as if it were mutable; `edit()` makes it pure and invertible. */
+/** A change to a diagram, written as if the diagram were mutable; `edit()` makes it pure and invertible. */
 export type Recipe = (draft: Draft<Diagram>) => void;
 
 export interface Edited {
@@ -21,14 +21,17 @@ export function edit(diagram: Diagram, ...recipes: readonly Recipe[]): Edited {
   return { diagram: next, patches, inverse };
 }
 
-/** A node that must exist: recipes refer to visible nodes, so a missing node is a bug. */
+/** Returns a node. It must exist: recipes refer to visible nodes, so a missing node is a bug. */
 export function nodeOf(draft: Draft<Diagram>, id: NodeId): Draft<DiagramNode> {
   const node = draft.nodes[id];
   if (!node) throw new Error(`There is no node ${id} in ${draft.id}.`);
   return node;
 }
 
-/** The present state of a draft for reading: reading a draft directly creates a draft of every node. */
+/**
+ * Returns the current state of a draft for reading: reading the draft itself would create a draft of every
+ * node.
+ */
 export function asPlain(draft: Draft<Diagram>): Diagram {
   return isDraft(draft) ? current(draft) : draft;
 }
@@ -37,7 +40,7 @@ export function findParent(draft: Draft<Diagram>, id: NodeId): NodeId | null {
   return parentOf(asPlain(draft), id);
 }
 
-/** The present place of a node. */
+/** Returns the current place of a node. */
 export function placementOf(draft: Draft<Diagram>, id: NodeId): Placement {
   if (draft.root === id) return { at: 'root' };
   const parent = findParent(draft, id);

@@ -76,7 +76,7 @@ describe('random legal edits', () => {
 });
 
 describe('moving', () => {
-  it('counts the index among the children as they are before', () => {
+  it('counts the index among the children before the move', () => {
     expect(childrenAfter('r', moveNode('a', { at: 'child', parent: 'r', index: 2 }))).toEqual([
       'b',
       'a',
@@ -88,12 +88,12 @@ describe('moving', () => {
       'b',
     ]);
   });
-  it('takes everything below along', () => {
+  it('moves the subtree', () => {
     const moved = after(moveNode('b', { at: 'draft', position: [10, 20] }));
     expect(moved.drafts).toEqual(['b']);
     expect(moved.nodes['b']).toEqual({ type: 'Fallback', children: ['d'], position: [10, 20] });
   });
-  it('keeps several blocks in their order, wherever each of them was', () => {
+  it('keeps several blocks in order, wherever each of them was', () => {
     const to = (index: number) => ({ at: 'child', parent: 'r', index }) as const;
     expect(childrenAfter('r', moveNodes(['a', 'b'], to(3)))).toEqual(['c', 'a', 'b']);
     expect(childrenAfter('r', moveNodes(['b', 'c'], to(0)))).toEqual(['b', 'c', 'a']);
@@ -122,7 +122,7 @@ describe('wrapping', () => {
     expect(wrapped.nodes['r']?.children).toEqual(['w', 'b']);
     expect(wrapped.nodes['w']?.children).toEqual(['a', 'c']);
   });
-  it('makes the root a new one', () => {
+  it('replaces the root by the new one', () => {
     expect(after(wrap(['r'], 'w', { type: 'Repeat' })).root).toBe('w');
   });
   it('is undone by unwrapping', () => {
@@ -135,7 +135,7 @@ describe('wrapping', () => {
 });
 
 describe('removing', () => {
-  it('takes what hangs below', () => {
+  it('removes the subtree', () => {
     expect(Object.keys(after(removeSubtrees(['b', 'd'])).nodes)).toEqual(['r', 'a', 'c']);
   });
   it('of the root leaves an empty tree', () => {
@@ -151,7 +151,7 @@ describe('adding', () => {
 });
 
 describe('fields', () => {
-  it('leaves out a name that repeats the type', () => {
+  it('leaves out a name that equals the type', () => {
     expect(after(setName('a', ' Turn ')).nodes['a']).not.toHaveProperty('name');
     expect(after(setName('a', 'left')).nodes['a']?.name).toBe('left');
   });
@@ -164,13 +164,13 @@ describe('fields', () => {
     expect(renamed.nodes['a']).toEqual({ type: 'Spin', ports: { speed: '{speed}' } });
     expect(renamed.nodes['c']?.type).toBe('Spin');
   });
-  it('gives a port to every block of a type, and takes it from all', () => {
+  it('adds a port to every block of a type, and removes it from all', () => {
     const given = after(setPort('c', 'goal', 'door'), addPort('Turn', 'goal'));
     expect(given.nodes['a']?.ports).toEqual({ ang_speed: '{speed}', goal: '{goal}' });
     expect(given.nodes['c']?.ports?.['goal']).toBe('door');
     expect(after(addPort('Turn', 'goal'), removePort('Turn', 'goal'))).toEqual(tree());
   });
-  it('forgets manual positions when the layout is turned', () => {
+  it('drops manual positions when the layout is turned', () => {
     const turned = after(setPosition('a', [1.4, 2.6]), setLayout('horizontal'));
     expect([turned.layout, turned.nodes['a']?.position]).toEqual(['horizontal', undefined]);
     expect(after(setColor('a', '#fff'), setColor('a', null))).toEqual(tree());
@@ -183,7 +183,7 @@ describe('subtrees', () => {
     ['SequenceWithMemory', 'SequenceWithMemory'],
     ['Parallel', 'Parallel'],
     ['IfThenElse', 'Sequence'],
-  ])('extracts children of a %s as a %s, which goes through them as before', (parent, root) => {
+  ])('extracts children of a %s as a %s, which executes them as before', (parent, root) => {
     const diagram = edit(tree(), (draft) => {
       draft.nodes['r']!.type = parent;
     }).diagram;

@@ -1,7 +1,7 @@
 import type { NodeId, Orientation, Point } from '../diagram';
 import { assign, nodeOf, type Recipe } from './core';
 
-/** Sets the instance name; a name equal to the type is removed. */
+/** Sets the instance name; a name equal to the type removes it. */
 export function setName(id: NodeId, name: string): Recipe {
   return (draft) => {
     const node = nodeOf(draft, id);

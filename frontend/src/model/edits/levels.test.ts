@@ -31,7 +31,7 @@ it.each([
   expect(folded(level)).toEqual(expected);
 });
 
-it('changes nothing where all is as it should be', () => {
+it('changes nothing if the tree is already folded like that', () => {
   const { diagram } = edit(tree, collapseToLevel(2));
   expect(edit(diagram, collapseToLevel(2)).diagram).toBe(diagram);
 });

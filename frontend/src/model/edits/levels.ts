@@ -2,7 +2,7 @@ import type { Diagram, NodeId } from '../diagram';
 import { topsOf, childrenOf } from '../diagram';
 import { asPlain, type Recipe } from './core';
 
-/** The blocks that have children, with the number of levels above each. */
+/** Returns the blocks that have children, each with the number of levels above it. */
 function parentsByDepth(diagram: Diagram): [id: NodeId, depth: number][] {
   const found: [NodeId, number][] = [];
   const open = topsOf(diagram).map((id): [NodeId, number] => [id, 0]);
@@ -15,7 +15,7 @@ function parentsByDepth(diagram: Diagram): [id: NodeId, depth: number][] {
   return found;
 }
 
-/** Folds the tree so that this many levels below its root are seen; Infinity unfolds all. */
+/** Folds the tree so that this many levels below its root are visible; Infinity unfolds all. */
 export function collapseToLevel(level: number): Recipe {
   return (draft) => {
     for (const [id, depth] of parentsByDepth(asPlain(draft))) {

@@ -3,7 +3,6 @@ import { subtreeOf, topmost, type Diagram, type DiagramNode, type NodeId } from 
 import type { Kind, Placement } from '../rules';
 import { asPlain, attach, detach, nodeOf, placementOf, type Recipe } from './core';
 
-/** Adds a new node. */
 export function addNode(id: NodeId, node: DiagramNode, place: Placement): Recipe {
   return (draft) => {
     draft.nodes[id] = { ...(node as Draft<DiagramNode>) };
@@ -16,7 +15,7 @@ export function moveNode(id: NodeId, place: Placement): Recipe {
   return moveNodes([id], place);
 }
 
-/** Moves nodes with their subtrees side by side in this order; none may be below another. */
+/** Moves nodes with their subtrees, side by side in this order; none of them may be below another. */
 export function moveNodes(ids: readonly NodeId[], place: Placement): Recipe {
   return (draft) => {
     let target = place;
@@ -31,7 +30,7 @@ export function moveNodes(ids: readonly NodeId[], place: Placement): Recipe {
   };
 }
 
-/** Moves siblings by this many places, each past unselected ones; none moves if one cannot. */
+/** Moves siblings by this many places, each past unselected siblings; if one cannot move, none moves. */
 export function reorder(ids: readonly NodeId[], by: number): Recipe {
   return (draft) => {
     const [first] = ids;
@@ -79,7 +78,9 @@ export function unwrap(id: NodeId): Recipe {
   };
 }
 
-/** Inserts a new node above the given siblings, at the place of the first; their order stays. */
+/**
+ * Inserts a new node above the given siblings, at the place of the first; the order of the siblings stays.
+ */
 export function wrap(ids: readonly NodeId[], id: NodeId, kind: Kind): Recipe {
   return (draft) => {
     const inside = topmost(asPlain(draft), ids);
@@ -99,7 +100,7 @@ export function wrap(ids: readonly NodeId[], id: NodeId, kind: Kind): Recipe {
   };
 }
 
-/** Changes the type of a node in place. Ports that a closed new type does not have are dropped. */
+/** Changes the type of a node in place, and drops the ports for which `keepPort` is false. */
 export function morph(id: NodeId, kind: Kind, keepPort: (name: string) => boolean): Recipe {
   return (draft) => {
     const node = nodeOf(draft, id);
@@ -129,7 +130,7 @@ export function fragmentOf(diagram: Diagram, ids: readonly NodeId[]): Fragment {
   return { tops, nodes };
 }
 
-/** Gives every node of a fragment a new id. */
+/** Returns a copy of a fragment in which every node has a new id. */
 export function withFreshIds(
   fragment: Fragment,
   fresh: (taken: Record<NodeId, unknown>) => NodeId,
@@ -153,7 +154,7 @@ export function withFreshIds(
   };
 }
 
-/** Adds a fragment; its ids must be new to the diagram. */
+/** Adds a fragment, whose ids must be new to the diagram. */
 export function insertFragment(fragment: Fragment, place: Placement): Recipe {
   return (draft) => {
     for (const [id, node] of Object.entries(fragment.nodes)) {

@@ -11,7 +11,7 @@ import { readPortText } from '../ports';
 import { attach, detach, nodeOf, placementOf, type Recipe } from './core';
 import { fragmentOf, withFreshIds, type Fragment } from './structure';
 
-/** Blackboard keys in a fragment, which a subtree made of it needs as ports. */
+/** Returns the blackboard keys of a fragment, which become the ports of a subtree made from it. */
 function keysIn(fragment: Fragment): string[] {
   const keys = new Set<string>();
   for (const node of Object.values(fragment.nodes)) {
@@ -25,8 +25,8 @@ function keysIn(fragment: Fragment): string[] {
 }
 
 /**
- * Moves siblings to a new tree, and puts a SubTree in their place that passes each key they use. Several
- * siblings get a root node that executes them as their parent did.
+ * Moves siblings to a new tree. A SubTree in their place passes each key that they use. Several siblings get
+ * a root node that executes them as their parent did.
  */
 export function extractSubtree(
   diagram: Diagram,
@@ -106,7 +106,7 @@ export function inlineSubtree(
   };
 }
 
-/** Whether nodes are consecutive children of one parent, so that they can be extracted together. */
+/** Returns whether nodes are consecutive children of one parent, so that they can be extracted together. */
 export function areNeighbours(diagram: Diagram, ids: readonly NodeId[]): boolean {
   const tops = topmost(diagram, ids);
   if (tops.length < 2) return tops.length === 1;

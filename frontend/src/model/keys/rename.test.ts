@@ -87,7 +87,7 @@ describe('planRename', () => {
     expect(textsOf(after, 'In')).toEqual(['code=v := 1', '_skipIf=v > kk']);
   });
 
-  it('names scripts that cannot be read', () => {
+  it('lists unreadable scripts', () => {
     const trees = forest(tree('Main', { type: 'Script', ports: { code: 'k % 2' } }));
     expect(planRename(trees, vocabulary, keyOf('Main', 'k'), 'v').unread).toEqual([
       { tree: 'Main', node: 'n1', text: 'k % 2' },
@@ -144,7 +144,7 @@ const calls = (called: string) =>
         >,
       ),
     );
-/** Trees that call those after them. */
+/** Trees, each of which calls only later ones. */
 const forests = fc
   .tuple(
     fc.array(fc.oneof(leaves, calls('Mid'), calls('Low')), { minLength: 1, maxLength: 4 }),
@@ -153,7 +153,10 @@ const forests = fc
   )
   .map(([main, mid, low]) => forest(tree('Main', ...main), tree('Mid', ...mid), tree('Low', ...low)));
 
-/** The entry of each use, numbered by first use: found by following the keys up through every chain of calls. */
+/**
+ * Returns the entry of each use, numbered by first use. An entry is found by following the key up through
+ * every chain of calls.
+ */
 function entries(trees: Forest): number[][] {
   const numbers = new Map<string, number>();
   const found: number[][] = [];
@@ -205,7 +208,7 @@ describe('carriedBy', () => {
 });
 
 describe('linesToLookAt', () => {
-  it('has the lines of Python that hold the key as a text', () => {
+  it('has the lines of Python that contain the key as a string', () => {
     const texts = { 'a.py': 'x = 1\n  get("k")\n', 'b.py': "k = 'kk'", 'c.md': '"k"' };
     expect(linesToLookAt(texts, 'k')).toEqual([{ path: 'a.py', line: 2, text: 'get("k")' }]);
   });

@@ -5,20 +5,20 @@ import type { Vocabulary } from '../vocabulary';
 import { hasAutoremap, scopeOf, SHARED, type Board, type Forest } from './scope';
 import { keysOf, usesIn, withKeys, type Use } from './uses';
 
-/** A key on a board; the same entry may be on several (`scopeOf`). */
+/** A key on a blackboard; several blackboards may share its entry (`scopeOf`). */
 export interface Key {
   readonly board: Board;
   readonly name: string;
 }
 
-/** The key that a text of a tree names, with `@` if it is shared. */
+/** Returns the key that a text in a tree names; `@` marks a shared key. */
 export const keyOf = (tree: string, written: string): Key =>
   written.startsWith('@') ? { board: SHARED, name: written.slice(1) } : { board: tree, name: written };
 
 /** One text or name that changes. */
 export interface KeyChange {
   readonly tree: string;
-  /** null: a port that the tree declares. */
+  /** null: the change is in a port that the tree declares. */
   readonly node: NodeId | null;
   readonly part: 'port' | 'condition' | 'portName' | 'declared';
   readonly name: string;
@@ -31,18 +31,21 @@ export type Refusal = 'same' | 'not-a-name' | 'taken';
 export interface RenamePlan {
   readonly scope: ReadonlySet<Board>;
   readonly changes: readonly KeyChange[];
-  /** Scripts that cannot be read, and may name the key. */
+  /** Scripts with a syntax error, which may name the key. */
   readonly unread: readonly { readonly tree: string; readonly node: NodeId; readonly text: string }[];
   readonly refusal: Refusal | null;
 }
 
 const RESERVED = new Set(['name', 'ID', 'true', 'false']);
 
-/** Names that scripts and ports of a SubTree can have; those with `_` stay private, as the others stay not. */
+/**
+ * Returns whether a key can get a name that scripts and ports of a SubTree accept. A name with `_` is
+ * private: a private key stays private, and any other does not become private.
+ */
 const isName = (to: string, from: string): boolean =>
   /^[A-Za-z_][A-Za-z0-9_]*$/.test(to) && !RESERVED.has(to) && to.startsWith('_') === from.startsWith('_');
 
-/** All keys of the trees, each entry once: on the first board where it is used. */
+/** Returns all keys of the trees, each entry once: on the first blackboard that uses it. */
 export function allKeys(forest: Forest, vocabulary: Vocabulary): Key[] {
   const found: (Key & { scope: ReadonlySet<Board> })[] = [];
   for (const [tree, diagram] of Object.entries(forest.diagrams)) {
@@ -57,7 +60,7 @@ export function allKeys(forest: Forest, vocabulary: Vocabulary): Key[] {
     .sort((a, b) => a.name.localeCompare(b.name) || a.board.localeCompare(b.board));
 }
 
-/** Whether a key is used on a board, or passed to its tree. */
+/** Returns whether a key is used on a blackboard, or passed to its tree. */
 function isUsed(forest: Forest, vocabulary: Vocabulary, board: Board, name: string): boolean {
   const scope = scopeOf(forest, board, name);
   return Object.entries(forest.diagrams).some(([tree, diagram]) => {
@@ -75,7 +78,7 @@ function isUsed(forest: Forest, vocabulary: Vocabulary, board: Board, name: stri
   });
 }
 
-/** What renaming a key changes in all trees, or why it is refused. */
+/** Returns all changes that the renaming of a key needs in all trees, or the reason of a refusal. */
 export function planRename(forest: Forest, vocabulary: Vocabulary, key: Key, to: string): RenamePlan {
   const { name: from } = key;
   const scope = scopeOf(forest, key.board, from);
@@ -98,14 +101,17 @@ export function planRename(forest: Forest, vocabulary: Vocabulary, key: Key, to:
   return { scope, changes, unread, refusal: refusalOf(forest, vocabulary, key, to, scope) };
 }
 
-/** Whether a SubTree passes a key by `{=}` to a tree where it is renamed too: then it stays. */
+/**
+ * Returns whether a SubTree passes a key by `{=}` to a tree where the key is renamed too: then the text
+ * stays.
+ */
 function isPassedOn(diagram: Diagram, { node: id, name, text }: Use, scope: ReadonlySet<Board>): boolean {
   const node = diagram.nodes[id];
   const isSame = node?.type === 'SubTree' && node.ports?.[name] === text && text.trim() === '{=}';
   return isSame && scope.has(node.tree ?? '');
 }
 
-/** Names of ports that change: those that the tree declares, and those that its SubTrees pass. */
+/** Returns the changes of names of ports: those that the tree declares, and those that its SubTrees pass. */
 function portNames(
   tree: string,
   diagram: Diagram,
@@ -139,7 +145,7 @@ function refusalOf(
 const renamedRow = (row: unknown, from: string, to: string): unknown =>
   typeof row === 'object' && row !== null && 'name' in row && row.name === from ? { ...row, name: to } : row;
 
-/** The trees where `_autoremap` carries a key on without its name. */
+/** Returns the trees where a SubTree passes the key by `_autoremap`, without naming it. */
 export const carriedBy = (forest: Forest, { scope }: RenamePlan): string[] =>
   Object.entries(forest.diagrams).flatMap(([tree, { nodes }]) =>
     scope.has(tree) && Object.values(nodes).some((node) => hasAutoremap(node) && scope.has(node.tree ?? ''))
@@ -147,7 +153,7 @@ export const carriedBy = (forest: Forest, { scope }: RenamePlan): string[] =>
       : [],
   );
 
-/** Makes the changes of a plan in one tree. */
+/** Returns the edits that make the changes of a plan in one tree. */
 export function applyChanges(tree: string, { changes }: RenamePlan): Recipe[] {
   const own = changes.filter((change) => change.tree === tree);
   const texts = own.flatMap(({ node, part, name, after }) => {
@@ -167,7 +173,7 @@ export function applyChanges(tree: string, { changes }: RenamePlan): Recipe[] {
   return [...texts, ...names];
 }
 
-/** Lines of Python that hold a key as a text: they are not changed, but may mean it. */
+/** Returns the lines of Python that contain a key as a string: they are not changed, but may mean the key. */
 export function linesToLookAt(
   texts: Readonly<Record<string, string>>,
   name: string,

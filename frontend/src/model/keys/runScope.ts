@@ -1,6 +1,9 @@
 import type { Forest } from './scope';
 
-/** The tree of a scope of a run, a path of SubTrees by name or `ID::number`; null if it is not known. */
+/**
+ * Returns the tree of a run's scope, which is a path of SubTrees by name or `ID::number`; null if it is
+ * unknown.
+ */
 export function treeOfScope({ diagrams, mainTree }: Forest, scope: string): string | null {
   let tree = mainTree;
   for (const step of scope.split('/').filter(Boolean)) {

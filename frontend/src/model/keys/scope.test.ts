@@ -39,7 +39,7 @@ describe('scopeOf', () => {
     expect(scope(passed, 'Dock')).toEqual([SHARED, 'Dock', 'Main']);
   });
 
-  it('is carried on by _autoremap, except for private keys and what is passed by hand', () => {
+  it('is passed by _autoremap, except for private keys and explicitly passed ones', () => {
     const auto = { _autoremap: 'true' };
     const deep = forest(
       tree('Main', [], call('A', auto)),
@@ -52,7 +52,7 @@ describe('scopeOf', () => {
     expect(scope(named, 'A')).toEqual(['A']);
   });
 
-  it('knows the defaults of the ports that a tree declares', () => {
+  it('uses the defaults of the ports that a tree declares', () => {
     const rows = [{ name: 'k', direction: 'input', type: 'int', default: '{=}' }];
     const both = forest(tree('Main', [], call('Dock')), tree('Dock', rows));
     expect(scope(both, 'Dock')).toEqual([SHARED, 'Dock', 'Main']);

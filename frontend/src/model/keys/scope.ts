@@ -8,24 +8,29 @@ export interface Forest {
   readonly mainTree: string;
 }
 
-/** The blackboard of a tree by its id, or the shared one, whose keys are written `@key`. */
+/**
+ * The id of the tree that a blackboard belongs to, or `@` for the shared blackboard, whose keys are written
+ * `@key`.
+ */
 export type Board = string;
 export const SHARED: Board = '@';
 
 const isOn = (text: string | undefined): boolean => /^(?:true|1)$/i.test(text ?? '');
 
-/** Whether a SubTree passes keys on that it does not name. */
+/** Returns whether a SubTree also passes keys that it does not name. */
 export const hasAutoremap = ({ ports, attributes }: DiagramNode): boolean =>
   isOn(ports?.['_autoremap'] ?? attributes?.['_autoremap']);
 
-/** What a SubTree passes for a port of its tree: its own text, or the default of the tree. */
+/** Returns the text that a SubTree passes for a port of its tree: its own, or the default of the tree. */
 export function passedFor(node: DiagramNode, port: string, called: Diagram | undefined): string | undefined {
   const own = node.ports?.[port];
   if (own !== undefined || hasAutoremap(node) || !called) return own;
   return treeFacts(called).ports.find(({ name }) => name === port)?.default ?? undefined;
 }
 
-/** The board of the caller's key that is the same entry as `key` in the called tree, under the same name. */
+/**
+ * Returns the caller's blackboard if `key` of the called tree is the same entry there, under the same name.
+ */
 function boardOutside(caller: string, node: DiagramNode, key: string, called: Diagram): Board | null {
   const text = passedFor(node, key, called);
   if (text === undefined) return hasAutoremap(node) && !key.startsWith('_') ? caller : null;
@@ -35,7 +40,7 @@ function boardOutside(caller: string, node: DiagramNode, key: string, called: Di
   return value.global ? SHARED : caller;
 }
 
-/** Pairs of boards that hold one entry under the name of a key. */
+/** Returns the pairs of blackboards that share an entry under the name of a key. */
 function linksOf({ diagrams, mainTree }: Forest, key: string): (readonly [Board, Board])[] {
   const links: (readonly [Board, Board])[] = mainTree in diagrams ? [[SHARED, mainTree]] : [];
   for (const [caller, diagram] of Object.entries(diagrams)) {
@@ -49,8 +54,8 @@ function linksOf({ diagrams, mainTree }: Forest, key: string): (readonly [Board,
 }
 
 /**
- * All boards where a key is the same entry under the same name: where SubTrees pass it by name, by `{=}` or by
- * `_autoremap`. The main tree's own board is the shared one.
+ * Returns all blackboards where a key is the same entry under the same name: SubTrees pass it by name, by
+ * `{=}` or by `_autoremap`. The blackboard of the main tree is the shared one.
  */
 export function scopeOf(forest: Forest, board: Board, key: string): ReadonlySet<Board> {
   const links = linksOf(forest, key);

@@ -14,12 +14,12 @@ describe('renameInScript', () => {
     expect(renameInScript(before, rename)).toBe(after);
   });
 
-  it('is null for what cannot be read', () => {
+  it('is null for an unreadable script', () => {
     expect(renameInScript('a % 2', rename)).toBeNull();
   });
 });
 
-it('knows the keys of a script', () => {
+it('finds the keys of a script', () => {
   expect(keysInScript("a := @b; c == true ? 'd' : 1")).toEqual(['a', '@b', 'c']);
   expect(keysInScript('%')).toEqual([]);
 });

@@ -1,6 +1,6 @@
 import { tokenize, type Token } from '../script/lexer';
 
-/** Names of a script, with their places; null: the script has an invalid character. */
+/** Returns the names in a script, with their places; null if the script has an invalid character. */
 function namesIn(text: string): readonly Token[] | null {
   const tokens = tokenize(text);
   return Array.isArray(tokens) ? (tokens as Token[]).filter(({ kind }) => kind === 'name') : null;
@@ -8,11 +8,11 @@ function namesIn(text: string): readonly Token[] | null {
 
 const CONSTANTS = new Set(['true', 'false']);
 
-/** The keys that a script reads or writes, `@` included. */
+/** Returns the keys that a script reads or writes, `@` included. */
 export const keysInScript = (text: string): string[] =>
   (namesIn(text) ?? []).map((token) => token.text).filter((name) => !CONSTANTS.has(name));
 
-/** A script with its keys renamed; null if it cannot be read. */
+/** Returns a script with its keys renamed; null if the script has an invalid character. */
 export function renameInScript(text: string, rename: (key: string) => string): string | null {
   const names = namesIn(text);
   if (!names) return null;

@@ -5,7 +5,7 @@ import { specOf, type Vocabulary } from '../vocabulary';
 import { keysInScript, renameInScript } from './script';
 import { hasAutoremap, passedFor, type Forest } from './scope';
 
-/** A text of a block that can name keys, and how it does. */
+/** A text of a block that can name keys, and the way to read them. */
 export interface Use {
   readonly node: NodeId;
   readonly part: 'port' | 'condition';
@@ -23,7 +23,7 @@ const NAMES_ENTRY = new Set([
   'WasEntryUpdated entry',
 ]);
 
-/** The texts of a block's ports, with the defaults of those that are not set. */
+/** Returns the texts of a block's ports, with the default of each port that is not set. */
 function portsOf(node: DiagramNode, { diagrams }: Forest, vocabulary: Vocabulary): [string, string][] {
   const set = Object.entries(node.ports ?? {}).filter(([name]) => name !== '_autoremap');
   const given = new Set(set.map(([name]) => name));
@@ -35,7 +35,7 @@ function portsOf(node: DiagramNode, { diagrams }: Forest, vocabulary: Vocabulary
   return [...set, ...defaults.filter(([, text]) => readPortText(text).kind !== 'literal')];
 }
 
-/** All texts of a tree that can name keys, in execution order. */
+/** Returns all texts of a tree that can name keys, in execution order. */
 export function usesIn(diagram: Diagram, forest: Forest, vocabulary: Vocabulary): Use[] {
   return preorder(diagram).flatMap((id): Use[] => {
     const node = diagram.nodes[id];
@@ -63,7 +63,7 @@ export function usesIn(diagram: Diagram, forest: Forest, vocabulary: Vocabulary)
   });
 }
 
-/** The keys that a text names, `@` included. */
+/** Returns the keys that a text names, `@` included. */
 export function keysOf({ text, name, reads }: Use): string[] {
   if (reads === 'script') return keysInScript(text);
   if (reads === 'key') return [text.trim()];
@@ -72,7 +72,7 @@ export function keysOf({ text, name, reads }: Use): string[] {
   return value.kind === 'key' ? [value.global ? `@${value.key}` : value.key] : [];
 }
 
-/** A text with its keys renamed; null if it is a script that cannot be read. */
+/** Returns a text with its keys renamed; null for a script with an invalid character. */
 export function withKeys(use: Use, rename: (key: string) => string): string | null {
   const { text, reads } = use;
   if (reads === 'script') return renameInScript(text, rename);

@@ -19,7 +19,7 @@ const search = (
   return undefined;
 };
 
-/** The first block with a name, else the first of a type; the main tree is searched first. */
+/** Returns the first block with a name, otherwise the first of a type; the main tree is searched first. */
 export function findBlock(
   diagrams: Readonly<Record<string, Diagram>>,
   mainTree: string,
@@ -29,7 +29,10 @@ export function findBlock(
   return search(trees, (name) => name === wanted) ?? search(trees, (_name, type) => type === wanted) ?? null;
 }
 
-/** The project's lesson in a language, else in English, else in any; null if it has none. */
+/**
+ * Returns the path of the project's lesson in a language, otherwise in English, otherwise in any language;
+ * null without a lesson.
+ */
 export function lessonPath(paths: readonly string[], language: string): string | null {
   const lessons = paths.filter((path) => /^lessons\/[^/]+\.md$/.test(path)).sort();
   const wanted = [`lessons/${language}.md`, 'lessons/en.md'].find((path) => lessons.includes(path));

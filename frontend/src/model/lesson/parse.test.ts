@@ -43,7 +43,7 @@ describe('parseSpans', () => {
     expect(spans.map(({ text }) => text).join('')).toBe('site <img src=x onerror=alert(1)> !p');
   });
 
-  it('takes a value with parentheses', () => {
+  it('accepts a value with parentheses', () => {
     expect(parseSpans('[Try](try:set=Near.code=(x - 1) < 2)')).toEqual([
       { kind: 'try', text: 'Try', act: { kind: 'set', block: 'Near', port: 'code', value: '(x - 1) < 2' } },
     ]);
@@ -72,7 +72,7 @@ describe('parseLesson', () => {
     expect(Array.isArray(parseLesson(text))).toBe(true);
   });
 
-  it('bounds what it reads of a text that is made to be slow', () => {
+  it('bounds the parsing of a text that is made to be slow', () => {
     const blocks = parseLesson('[a](try:set=('.repeat(100_000));
     expect(JSON.stringify(blocks).length).toBeLessThan(60_000);
   });

@@ -1,4 +1,4 @@
-/** What a *Try it* button of a lesson does. Blocks are named by instance name or type. */
+/** The effect of a *Try it* button in a lesson. Blocks are referred to by instance name or type. */
 export type Try =
   | { readonly kind: 'select'; readonly block: string }
   | { readonly kind: 'set'; readonly block: string; readonly port: string; readonly value: string }
@@ -17,18 +17,21 @@ export type Block =
   | { readonly kind: 'list'; readonly isOrdered: boolean; readonly items: readonly Spans[] }
   | { readonly kind: 'code'; readonly text: string };
 
-/** Longer texts are cut: a lesson comes from anyone, and is drawn as a whole. */
+/**
+ * The most characters that are drawn; the rest is cut, since anyone can write a lesson and all of it is drawn
+ * at once.
+ */
 const MOST_CHARACTERS = 40_000;
 
 const HEADING = /^(#{1,3}) (.+)$/;
 const ITEM = /^(?:[-*]|(\d{1,3})[.)]) (.+)$/;
 const FENCE = '```';
 
-/** `**strong**`, `*emphasis*`, `code` and links; lengths are bounded, so that no text takes long. */
+/** `**strong**`, `*emphasis*`, `code` and links. Lengths are bounded, so that no text takes long to match. */
 const INLINE =
   /\*\*([^*\n]{1,500})\*\*|\*([^*\n]{1,500})\*|`([^`\n]{1,500})`|\[([^[\]\n]{1,200})\]\(([^()\n]{0,500}(?:\([^()\n]{0,200}\)[^()\n]{0,200}){0,8})\)/g;
 
-/** The action of a link such as `try:set=Forward.lin_speed=0.15`; null if it is none. */
+/** Returns the effect of a link such as `try:set=Forward.lin_speed=0.15`; null for any other link. */
 export function parseTry(address: string): Try | null {
   if (address === 'try:run') return { kind: 'run' };
   const [, verb, rest = ''] = /^try:(select|set|open)=(.+)$/.exec(address) ?? [];
@@ -50,7 +53,7 @@ function spanOf(match: RegExpExecArray): Span {
   if (emphasis !== undefined) return { kind: 'emphasis', text: emphasis };
   if (code !== undefined) return { kind: 'code', text: code };
   const act = parseTry(address);
-  // Nothing leads out of the page: other links are their text.
+  // No link leaves the page: other links are shown as their text.
   return act ? { kind: 'try', text: label, act } : { kind: 'text', text: label };
 }
 
@@ -66,7 +69,7 @@ export function parseSpans(text: string): Spans {
   return spans;
 }
 
-/** Reads lines from the front of `lines`, as long as they belong together. */
+/** Removes lines from the front of `lines` while `belongs` is true, and returns them. */
 function takeWhile(lines: string[], belongs: (line: string) => boolean): string[] {
   const end = lines.findIndex((line) => !belongs(line));
   return lines.splice(0, end < 0 ? lines.length : end);
@@ -111,8 +114,8 @@ function takeBlock(lines: string[]): Block | null {
 }
 
 /**
- * Reads a lesson: a small part of Markdown, with *Try it* links (`docs/reference/lessons.md`). HTML, pictures
- * and links elsewhere are text.
+ * Parses a lesson: a small part of Markdown, with *Try it* links (`docs/reference/lessons.md`). HTML,
+ * pictures and other links become text.
  */
 export function parseLesson(text: string): readonly Block[] {
   const lines = text.slice(0, MOST_CHARACTERS).split(/\r?\n/);

@@ -17,7 +17,7 @@ export interface RobotEdit {
 
 export const NOTHING: RobotEdit = { ops: [] };
 
-/** The two texts of a robot after an edit. */
+/** Returns the two texts of a robot after an edit. */
 export function edited([yaml = '', urdf = '']: readonly string[], edit: RobotEdit): readonly string[] {
   return [edit.ops.length > 0 ? rewrite(yaml, edit.ops) : yaml, edit.urdf ?? urdf];
 }
@@ -42,12 +42,12 @@ export function setSensor(robot: Robot, key: string, field: string, value: Json 
   return field === 'name' && edit.ops.length > 0 ? { ...edit, select: [`sensor ${String(value)}`] } : edit;
 }
 
-/** The joint that places a part; the base and a battery have none. */
+/** Returns the joint that places a part; the base and a battery have none. */
 export function jointOf(robot: Robot, part: Part): Joint | undefined {
   return part.link === null ? undefined : robot.urdf.above.get(part.link);
 }
 
-/** The wheel on the other side that forms a pair with a wheel. */
+/** Returns the wheel on the other side that forms a pair with a wheel. */
 export function mirrorOf(robot: Robot, part: Part): Part | undefined {
   const joint = jointOf(robot, part)?.name ?? '';
   for (const [own, other] of [
@@ -67,7 +67,7 @@ function moved(robot: Robot, part: Part, pose: Pose): Splice[] {
   const joint = jointOf(robot, part);
   if (!joint) return [];
   const origin = seenFrom(poseOfLink(robot.urdf, joint.parent), pose);
-  // Keeps the old angle if it differs only by rounding.
+  // The old angle is kept if it differs only by rounding.
   const kept = origin.map((part, at) => {
     const before = joint.origin[at] ?? 0;
     return Math.abs(part - before) < 1e-9 ? before : rounded(part);
@@ -75,7 +75,7 @@ function moved(robot: Robot, part: Part, pose: Pose): Splice[] {
   return setOrigin(robot.urdfText, joint.element, kept as unknown as Pose);
 }
 
-/** Moves parts to poses in the frame of the root link. The opposite wheel follows a wheel. */
+/** Moves parts to poses in the frame of the root link. When a wheel moves, the opposite wheel follows. */
 export function place(robot: Robot, places: ReadonlyMap<string, Pose>): RobotEdit {
   const wanted = new Map<string, Pose>();
   let { track } = robot;
@@ -99,7 +99,7 @@ export function place(robot: Robot, places: ReadonlyMap<string, Pose>): RobotEdi
   return splices.length === 0 && ops.length === 0 ? NOTHING : { ops, urdf: spliced(robot, splices) };
 }
 
-/** Whether a part moves anyway, with its parent or with another part of its link. */
+/** Returns whether a part already moves with its parent, or with another part of its link. */
 function isCarried(robot: Robot, part: Part, wanted: ReadonlyMap<string, Pose>): boolean {
   const own = [...wanted.keys()].map((key) => partOf(robot, key));
   if (own.find((other) => other?.link === part.link) !== part) return true;
@@ -147,7 +147,7 @@ const wheelsOf = (robot: Robot): Link[] =>
     (name) => robot.urdf.links.get(robot.urdf.joints.get(name)?.child ?? '') ?? [],
   );
 
-/** The width of the driven wheels in m: the longest round shape along the axle. */
+/** Returns the width of the driven wheels in m: their longest cylinder along the axle. */
 export function wheelWidth(robot: Robot): number {
   const [link] = wheelsOf(robot);
   const lengths =
@@ -202,7 +202,7 @@ export function setTrack(robot: Robot, track: number): RobotEdit {
   return { ops, ...(urdf === undefined ? {} : { urdf }) };
 }
 
-/** Sets the mass of a link in kg; the distribution of the mass stays. */
+/** Sets the mass of a link in kg; the distribution of mass stays. */
 export function setMass(robot: Robot, name: string, mass: number): RobotEdit {
   const link = robot.urdf.links.get(name);
   if (!link || !(mass > 0) || link.mass === mass) return NOTHING;
@@ -222,11 +222,11 @@ interface BodyWish {
   readonly size?: readonly number[];
   readonly pose?: Pose;
   readonly color?: readonly number[];
-  /** The name of the mesh in the URDF. */
+  /** The name of the mesh file in the URDF. */
   readonly file?: string;
 }
 
-/** The size for another kind of shape that is as large as this one. */
+/** Returns a size for another kind of shape, so that the new shape is as large as the old one. */
 function sizeAs(shape: UrdfShape, { visual, collision }: Body): number[] {
   const { shape: before, size } = solidOf({ visual, collision });
   if (shape === 'mesh') return [1, 1, 1];
@@ -245,8 +245,8 @@ function sizeAs(shape: UrdfShape, { visual, collision }: Body): number[] {
 }
 
 /**
- * Changes a shape of a link; shapes that are both visual and collision change together, and the inertia
- * follows.
+ * Changes a shape of a link, in its visual and its collision element if it has both. The inertia follows if
+ * this is the only shape of the link.
  */
 export function setBody(robot: Robot, name: string, index: number, wish: BodyWish): RobotEdit {
   const link = robot.urdf.links.get(name);

@@ -26,7 +26,7 @@ const added = (before: Texts, now: Texts) =>
     .filter((line) => !before.join('\n').includes(line));
 
 describe('names', () => {
-  it('renames a link wherever both texts name it, and changes nothing else', () => {
+  it('renames a link in both texts, and changes nothing else', () => {
     const next = after(START, (robot) => rename(robot, 'link', 'caster_link', 'tail'));
     expect(next.join('\n')).toBe(START.join('\n').replaceAll('caster_link', 'tail'));
     expect(robotOf(next).parts.find(({ kind }) => kind === 'caster')?.name).toBe('tail');
@@ -36,7 +36,7 @@ describe('names', () => {
     expect(partOf(robotOf(laser), 'sensor scan')?.link).toBe('lidar_link');
   });
 
-  it('renames a joint, also for the drive, motors and what else names it', () => {
+  it('renames a joint, also in the drive, the motors and other references', () => {
     const more = urdf.replace(
       '</robot>',
       '  <gazebo reference="wheel_left_joint"/>\n  <transmission name="t"><joint name="wheel_left_joint"/></transmission>\n</robot>',
@@ -46,7 +46,7 @@ describe('names', () => {
     expect(next.join('\n')).toBe(`${yaml}\n${more}`.replaceAll('wheel_left_joint', 'left'));
   });
 
-  it('refuses names that are taken or that no program could read', () => {
+  it('refuses taken and invalid names', () => {
     const robot = robotOf(START);
     expect(nameProblem(robot, 'link', 'laser_link', 'laser_link')).toBeNull();
     expect(nameProblem(robot, 'link', 'laser_link', 'base_link')).toBe('taken');
@@ -57,7 +57,7 @@ describe('names', () => {
 });
 
 describe('joints', () => {
-  it('lets a part turn, with an axis and limits, and a motor that a topic moves', () => {
+  it('make a part turn, with an axis and limits, and a motor with a topic', () => {
     const arm = after(START, (robot) => addPart(robot, 'box'));
     const turning = after(arm, (robot) => setJoint(robot, 'part_joint', { type: 'revolute' }));
     expect(robotOf(turning).urdf.joints.get('part_joint')).toMatchObject({
@@ -83,7 +83,7 @@ describe('joints', () => {
     expect(fieldsOf('motor').map(({ name }) => name)).toEqual(['topic', 'max_rate', 'torque', 'start']);
   });
 
-  it('leaves wheels that drive as they are, and refuses what cannot be', () => {
+  it('cannot change those of driven wheels, or to invalid values', () => {
     const robot = robotOf(START);
     expect(setJoint(robot, 'wheel_left_joint', { type: 'fixed' })).toEqual({ ops: [] });
     expect(setMotor(robot, 'wheel_left_joint', true)).toEqual({ ops: [] });
@@ -93,7 +93,7 @@ describe('joints', () => {
     expect(setJoint(turning, 'laser_joint', { type: 'prismatic', limits: [1, 0] })).toEqual({ ops: [] });
   });
 
-  it('says how a link holds on to the floor', () => {
+  it('returns the friction of a link', () => {
     const robot = robotOf(START);
     expect(contactOf(robot, 'friction', 'caster_link')).toBe(0);
     expect(contactOf(robot, 'friction', 'base_link')).toBe(0.8);
@@ -107,7 +107,7 @@ describe('joints', () => {
 describe('meshes', () => {
   const cup = { file: 'meshes/cup.stl', scale: 0.001 };
 
-  it('are added to a link, or as a piece of their own', () => {
+  it('are added to a link, or as a separate part', () => {
     const base = after(START, (robot) => addBody(robot, 'base_link', cup));
     const shapes = robotOf(base).urdf.links.get('base_link');
     expect(shapes?.visuals.at(-1)).toMatchObject({
@@ -124,7 +124,7 @@ describe('meshes', () => {
     expect(robotOf(twice).urdf.links.has('part_3_d_link')).toBe(true);
   });
 
-  it('take the place of a shape, are changed for others, and go', () => {
+  it('replace a shape, are exchanged, and are removed', () => {
     const mesh = after(START, (robot) => setBody(robot, 'base_link', 0, { shape: 'mesh', file: cup.file }));
     const seen = (texts: Texts) => robotOf(texts).urdf.links.get('base_link')?.visuals[0];
     expect(seen(mesh)).toMatchObject({ shape: 'mesh', file: cup.file, size: [1, 1, 1] });

@@ -8,7 +8,6 @@ import type { Robot } from './types';
 import type { Joint } from './urdf';
 import { list } from './writing';
 
-/** The types of joints. */
 export const JOINT_TYPES = ['fixed', 'revolute', 'continuous', 'prismatic'] as const;
 export type JointType = (typeof JOINT_TYPES)[number];
 
@@ -31,7 +30,7 @@ interface JointWish {
   readonly limits?: readonly [number, number];
 }
 
-/** Whether a joint's type can be changed: not that of a driven wheel. */
+/** Returns whether the type of a joint can be changed: those of driven wheels cannot. */
 export const isFree = ({ left, right }: Robot, { name }: Joint): boolean =>
   !left.includes(name) && !right.includes(name);
 
@@ -61,7 +60,7 @@ export function setJoint(robot: Robot, name: string, wish: JointWish): RobotEdit
 
 const UP: Vector = [0, 0, 1];
 
-/** Changes an element of a joint; a missing one is added. */
+/** Changes an attribute of a joint's element, and adds the element if it is missing. */
 function written(
   splices: Splice[],
   added: string[],
@@ -81,7 +80,7 @@ function written(
     );
 }
 
-/** The motor of a joint, and its path in `robot.yaml`. */
+/** Returns the motor of a joint, and its path in `robot.yaml`. */
 export function motorOf({ raw }: Robot, joint: string): { index: number; raw: JsonObject } | null {
   const motors = Array.isArray(raw['joints']) ? (raw['joints'] as Json[]) : [];
   const index = motors.findIndex((each) => isObject(each) && each['joint'] === joint);
@@ -115,7 +114,7 @@ export function setMotorValue(robot: Robot, name: string, field: string, value: 
 
 type Contact = 'friction' | 'skid';
 
-/** The friction of a link: `friction`, and `skid`, its share sideways. */
+/** Returns a contact value of a link: `friction`, or `skid`, its share sideways. */
 export function contactOf({ raw }: Robot, field: Contact, link: string): number {
   const map = raw[field];
   const value = isObject(map) ? map[link] : undefined;

@@ -8,10 +8,10 @@ import type { Robot } from './types';
 
 export type Named = 'link' | 'joint';
 
-/** Names that all ROS programs accept. */
+/** Names that every ROS program accepts. */
 const NAME = /^[A-Za-z][A-Za-z0-9_]{0,79}$/;
 
-/** The reason why a link or a joint cannot have this name: `form`, `taken`, or nothing. */
+/** Returns the reason why a link or a joint cannot have this name: `form`, `taken`, or null. */
 export function nameProblem(robot: Robot, what: Named, now: string, name: string): 'form' | 'taken' | null {
   if (name === now) return null;
   if (!NAME.test(name)) return 'form';
@@ -36,7 +36,7 @@ export function rename(robot: Robot, what: Named, from: string, to: string): Rob
   };
 }
 
-/** Every attribute of a URDF that refers to a link or a joint. */
+/** Returns every attribute in a URDF that refers to a link or a joint. */
 function mentions({ urdf }: Robot, what: Named, name: string): [XmlElement, string][] {
   const found: [XmlElement | undefined, string][] = [];
   const add = (element: XmlElement | undefined, attributeName: string) => {
@@ -54,7 +54,7 @@ function mentions({ urdf }: Robot, what: Named, name: string): [XmlElement, stri
     for (const transmission of children(urdf.element, 'transmission'))
       for (const joint of children(transmission, 'joint')) add(joint, 'name');
   }
-  // A name in the Gazebo block may be a link or a joint; if both have it, it is the link.
+  // A name in the Gazebo block may be a link or a joint; if both have the name, it is the link.
   if (what === 'link' || !urdf.links.has(name))
     for (const extension of children(urdf.element, 'gazebo')) add(extension, 'reference');
   return found as [XmlElement, string][];

@@ -124,7 +124,7 @@ function sensorOf(kind: Addable, topic: (wish: string) => string): JsonObject | 
   }
 }
 
-/** A free name: the wished one, or with a number before its suffix. */
+/** Returns a free name: the wanted one, or one with a number before its suffix. */
 function free(wish: string, taken: ReadonlySet<string>, end = ''): string {
   for (let count = 1; ; count += 1) {
     const name = `${wish}${count === 1 ? '' : `_${count}`}${end}`;
@@ -144,7 +144,7 @@ const topicsIn = (robot: Robot): Set<string> =>
     ),
   );
 
-/** A topic that no sensor uses yet: `/camera/image_raw`, `/camera_2/image_raw`… */
+/** Returns a topic that no sensor uses yet: `/camera/image_raw`, `/camera_2/image_raw`… */
 const freeTopic =
   (taken: ReadonlySet<string>) =>
   (wish: string): string => {
@@ -152,7 +152,7 @@ const freeTopic =
     return free(first.replace(/_\d+$/, ''), taken, rest);
   };
 
-/** A link and its joint to the base, to be appended to the URDF. */
+/** Returns the text of a link and its joint to the base, to be appended to the URDF. */
 function linkText(robot: Robot, link: string, joint: string, pose: Pose, look: Look | null): string {
   const inner = look
     ? [...solidTexts(link, look)]
@@ -177,7 +177,7 @@ function* solidTexts(
   const origin = at.some((part) => part !== 0) ? `<origin xyz="${list(at)}"/>` : '';
   const geometry = `${origin}<geometry>${geometryText(shape, size, file)}</geometry>`;
   const material = `<material name="${escaped(link)}_color"><color rgba="${list(color)}"/></material>`;
-  // Only the file knows the size of a mesh: its inertia is that of the default box.
+  // The size of a mesh is known only from its file, so its inertia is that of the default box.
   const solid = shape === 'mesh' ? { ...LOOKS.box, pose } : { shape, size, pose };
   yield `  ${inertialText(mass, inertiaOf(solid, mass), at)}`;
   yield `  <visual>${geometry}${material}</visual>`;
@@ -202,7 +202,10 @@ export function addMeshPart(
   return { ops: [], urdf, select: [`link ${link}`] };
 }
 
-/** The initial pose of a new part: sensors on top of or in front of the base, casters behind it. */
+/**
+ * Returns the initial pose of a new part: on top of or in front of the base for a sensor, behind it for a
+ * caster.
+ */
 function firstPlace(robot: Robot, kind: Addable): Pose {
   const base = robot.urdf.links.get(robot.urdf.root);
   const { low, high } = base ? extentOf(base) : { low: [0, 0, 0] as Vector, high: [0, 0, 0] as Vector };
@@ -251,7 +254,7 @@ export function addPart(robot: Robot, kind: Addable, at?: readonly [number, numb
   return { ops, urdf, select: [`link ${link}`] };
 }
 
-/** Puts name, kind and link first. */
+/** Returns an entry with its name, kind and link first. */
 function ordered({ name = '', kind = '', link, ...rest }: JsonObject): JsonObject {
   return { name, kind, ...(link === undefined ? {} : { link }), ...rest };
 }

@@ -16,13 +16,13 @@ import {
 } from './types';
 import { poseOfLink, readUrdf, type Urdf, type UrdfIssue } from './urdf';
 
-/** The result of reading both texts; the robot is missing if one of them cannot be shown. */
+/** The result of reading both texts; `robot` is null if one of them cannot be shown. */
 export interface RobotReading {
   readonly robot: Robot | null;
   readonly problems: readonly DocumentProblem[];
 }
 
-/** The URDF that a `robot.yaml` names, relative to it; empty if it names none. */
+/** Returns the path of the URDF that a `robot.yaml` names, relative to that file; empty if it names none. */
 export const urdfNameOf = remembering((yaml: string): string => {
   const said = valueOfYaml(yaml);
   return 'raw' in said && isObject(said.raw) ? text(said.raw['urdf'], '') : '';
@@ -45,7 +45,7 @@ const readXml = remembering((source: string): UrdfReading => {
   }
 });
 
-/** The sensors and joints of a `robot.yaml` that have a topic, with their topics. */
+/** Returns the sensors and joints of a `robot.yaml` that have a topic, with their topics. */
 export const topicsOf = remembering((yaml: string): readonly { name: string; topic: string }[] => {
   const said = valueOfYaml(yaml);
   if (!('raw' in said) || !isObject(said.raw)) return [];

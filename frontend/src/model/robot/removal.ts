@@ -6,13 +6,13 @@ import { NOTHING, type RobotEdit } from './edits';
 import { partOf, type Part, type Robot } from './types';
 import { below } from './urdf';
 
-/** Whether a part can be removed: not the base, a driven wheel, or a part that carries others. */
+/** Returns whether a part can be removed: not the base, a driven wheel, or a part that carries others. */
 export function canRemove(robot: Robot, part: Part): boolean {
   if (part.kind === 'base' || part.kind === 'wheel') return false;
   return part.sensor !== null || (part.link !== null && below(robot.urdf, part.link).length === 1);
 }
 
-/** Removes parts with their entries in `robot.yaml`. */
+/** Removes parts, and their entries in `robot.yaml`. */
 export function removeParts(robot: Robot, keys: readonly string[]): RobotEdit {
   const parts = keys.flatMap((key) => partOf(robot, key) ?? []).filter((part) => canRemove(robot, part));
   const gone = new Set(parts.map(({ key }) => key));
@@ -31,13 +31,15 @@ export function removeParts(robot: Robot, keys: readonly string[]): RobotEdit {
   return { ops, ...(splices.length > 0 ? { urdf: splicedAll(robot.urdfText, splices) } : {}), select: [] };
 }
 
-/** Whether a link must stay when one of its parts is removed: other links or parts are attached to it. */
+/**
+ * Returns whether a link must stay when one of its parts is removed: other links or parts are attached to it.
+ */
 function isNeeded(robot: Robot, link: string, gone: ReadonlySet<string>): boolean {
   if (link === robot.urdf.root || below(robot.urdf, link).length > 1) return true;
   return robot.parts.some((part) => part.link === link && !gone.has(part.key));
 }
 
-/** Removes deleted links from the lists of `robot.yaml`. */
+/** Removes deleted links from the lists in `robot.yaml`. */
 function forgotten(robot: Robot, links: ReadonlySet<string>): Op[] {
   const listed = (field: string, nameOf: (item: Json) => Json | undefined): Op[] => {
     const items = robot.raw[field];

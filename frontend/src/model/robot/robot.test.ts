@@ -66,7 +66,7 @@ const lines = (before: string, now: string) =>
   now.split('\n').filter((line) => !before.split('\n').includes(line));
 
 describe('reading', () => {
-  it.each(robots)('finds nothing wrong with %s', (_, both) => {
+  it.each(robots)('finds no problem in %s', (_, both) => {
     expect(problemsOf(both)).toEqual([]);
     const { parts } = robotOf(both);
     expect(parts.map(({ kind }) => kind)).toEqual(
@@ -74,7 +74,7 @@ describe('reading', () => {
     );
   });
 
-  it('says what is wrong, in which text and on which line', () => {
+  it('reports problems with their text and line', () => {
     const config = yaml
       .replace('rate_hz: 15', 'rate_hz: 500')
       .replace('link: laser_link', 'link: lasser_link')
@@ -101,7 +101,7 @@ describe('reading', () => {
     expect(first(urdf.replace('size="0.3 0.22 0.1"', 'size="0.3 0.22"'))).toEqual(['numbers', 1, 17]);
   });
 
-  it('knows what can be said of a sensor from the schema', () => {
+  it('reads the fields of a sensor from the schema', () => {
     const fields = Object.fromEntries(fieldsOf('camera').map((field) => [field.name, field]));
     expect(fields['width']).toMatchObject({ kind: 'count', fallback: 640, low: 8, high: 4096 });
     expect(fields['depth_topic']).toMatchObject({ kind: 'topic', isOptional: true });
@@ -118,7 +118,7 @@ describe('edits', () => {
     expect(turned).toContain('<origin xyz="0.162 0 0.11" rpy="0 0 1.570796"/>');
   });
 
-  it('moves a wheel with the one across, and the drive learns how far apart they are', () => {
+  it('moves a wheel with the opposite one, and updates the track of the drive', () => {
     const next = after(START, (robot) => move(robot, ['link wheel_left_link'], [0.02, 0.03, 0]));
     const robot = robotOf(next);
     const left = partOf(robot, 'link wheel_left_link');
@@ -131,7 +131,7 @@ describe('edits', () => {
     ).toBe(-0.2);
   });
 
-  it('makes wheels larger and wider, and they stay on the floor', () => {
+  it('makes wheels larger and wider, and keeps them on the floor', () => {
     const robot = robotOf(after(START, (now) => setWheels(now, { radius: 0.075, width: 0.045 })));
     expect(robot.wheelRadius).toBe(0.075);
     expect(wheelWidth(robot)).toBeCloseTo(0.048, 2);
@@ -141,7 +141,7 @@ describe('edits', () => {
     expect(wheel?.collisions[0]?.size).toEqual([0.075]);
   });
 
-  it('changes what the base looks like, touches and weighs together', () => {
+  it("changes the base's visual, collision and inertia together", () => {
     const next = after(START, (robot) =>
       setBody(robot, 'base_link', 0, { size: [0.4, 0.3, 0.1], color: [1, 0, 0, 1] }),
     );
@@ -161,7 +161,7 @@ describe('edits', () => {
     ]);
   });
 
-  it('adds sensors with names and topics of their own, and takes them off again', () => {
+  it('adds sensors with free names and topics, and removes them', () => {
     const next = after(START, (robot) => addPart(robot, 'lidar'));
     const robot = robotOf(next);
     expect(problemsOf(next)).toEqual([]);
@@ -179,7 +179,7 @@ describe('edits', () => {
     });
   });
 
-  it('sets what a sensor measures, and how the robot drives', () => {
+  it('sets the values of a sensor and of the drive', () => {
     const far = after(START, (robot) => setSensor(robot, 'sensor scan', 'range_max', 12));
     expect(far[0]).toBe(yaml.replace('range_max: 8.0', 'range_max: 12'));
     expect(after(far, (robot) => setValue(robot, ['drive', 'slip_noise'], undefined))[0]).not.toContain(
@@ -187,7 +187,7 @@ describe('edits', () => {
     );
   });
 
-  it('says what it takes on /cmd_vel, and whether it tells where it truly is', () => {
+  it('sets the type of /cmd_vel, and the ground truth', () => {
     expect(robotOf(START)).toMatchObject({ commandType: 'both', groundTruth: false });
     const stamped = after(START, (robot) => setValue(robot, ['command_type'], 'twist_stamped'));
     const told = after(stamped, (robot) => setValue(robot, ['ground_truth'], true));
@@ -197,7 +197,7 @@ describe('edits', () => {
     expect(problemsOf(after(START, (robot) => setValue(robot, ['command_type'], 'twists')))).toHaveLength(1);
   });
 
-  it('leaves the base, the wheels and what carries others on the robot', () => {
+  it('does not remove the base, the wheels and parts that carry others', () => {
     const robot = robotOf(robots.find(([id]) => id === 'lookout')?.[1] ?? START);
     const kept = robot.parts.filter((part) => !canRemove(robot, part)).map(({ name }) => name);
     expect(kept).toEqual(['base_link', 'wheel_left_link', 'wheel_right_link', 'pan_link']);

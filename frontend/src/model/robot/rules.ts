@@ -6,7 +6,7 @@ import { similarNames } from '../similar';
 import type { SensorKind } from './types';
 import type { Urdf } from './urdf';
 
-/** All problems of a `robot.yaml` alone. */
+/** Returns all problems of a `robot.yaml` alone. */
 export function checkConfig(raw: Json): Issue[] {
   const found = checkSchema(raw, validate);
   const sensors = isObject(raw) && Array.isArray(raw['sensors']) ? (raw['sensors'] as Json[]) : [];
@@ -19,7 +19,7 @@ export function checkConfig(raw: Json): Issue[] {
   return found;
 }
 
-/** References to links and joints that the URDF does not contain (executor/robots/config.py). */
+/** Reports links and joints that the URDF does not contain (executor/robots/config.py). */
 export function checkNames(raw: JsonObject, urdf: Urdf): Issue[] {
   const found: Issue[] = [];
   const check = (what: 'link' | 'joint', path: Path, name: Json | undefined) => {
@@ -58,14 +58,14 @@ export function checkNames(raw: JsonObject, urdf: Urdf): Issue[] {
   return found;
 }
 
-/** A field of a sensor or the drive, from the schema. */
+/** A field of a sensor or the drive, as the schema declares it. */
 export interface Field {
   readonly name: string;
   readonly kind: 'number' | 'count' | 'topic';
   readonly fallback: number | string;
   readonly low: number;
   readonly high: number;
-  /** It may be omitted and has no default. */
+  /** Whether the field may be omitted and has no default. */
   readonly isOptional: boolean;
 }
 
@@ -93,10 +93,10 @@ interface Property {
   readonly anyOf?: readonly Property[];
 }
 
-/** The smallest value of a field whose bound is exclusive. */
+/** The smallest value for a field whose bound is exclusive. */
 const LEAST = 0.001;
 
-/** The numbers and topics of a sensor, the drive, or a joint's motor. */
+/** Returns the number and topic fields of a sensor, the drive, or a joint's motor. */
 export function fieldsOf(kind: FieldsOf): Field[] {
   const { properties } = schema.$defs[DEFINITIONS[kind]] as {
     properties: Readonly<Record<string, Property>>;

@@ -2,7 +2,7 @@ import { directed } from '../document/frames';
 import type { Pose, Vector } from '../document/values';
 import type { Link, Solid, UrdfShape } from './urdf';
 
-/** A visual shape of a link, a collision shape, or both in one. */
+/** A visual shape of a link, a collision shape, or one shape that is both. */
 export interface Body {
   readonly visual: Solid | null;
   readonly collision: Solid | null;
@@ -14,7 +14,7 @@ const near = (a: readonly number[], b: readonly number[]): boolean =>
 const isSame = (a: Solid, b: Solid): boolean =>
   a.shape === b.shape && a.file === b.file && near(a.size, b.size) && near(a.pose, b.pose);
 
-/** The shapes of a link; a visual and a collision shape in the same place count as one. */
+/** Returns the shapes of a link; a visual and a collision shape in the same place count as one. */
 export function bodiesOf(link: Link): Body[] {
   const left = [...link.collisions];
   const seen = link.visuals.map((visual): Body => {
@@ -32,7 +32,7 @@ const AXES: readonly Vector[] = [
   [0, 0, 1],
 ];
 
-/** Half the extent of a shape along its own axes, in m. */
+/** Returns half the extent of a shape along its own axes, in m. */
 function halves({ shape, size }: Pick<Solid, 'shape' | 'size'>): Vector {
   const [a = 0, b = 0, c = 0] = size;
   if (shape === 'box') return [a / 2, b / 2, c / 2];
@@ -41,7 +41,7 @@ function halves({ shape, size }: Pick<Solid, 'shape' | 'size'>): Vector {
   return shape === 'capsule' ? [a, a, a + b / 2] : [0, 0, 0];
 }
 
-/** The bounding box of a link's shapes, in its frame; meshes count as points. */
+/** Returns the bounding box of a link's shapes, in its frame; meshes count as points. */
 export function extentOf(link: Link): { low: Vector; high: Vector } {
   const low: [number, number, number] = [Infinity, Infinity, Infinity];
   const high: [number, number, number] = [-Infinity, -Infinity, -Infinity];
@@ -59,7 +59,7 @@ export function extentOf(link: Link): { low: Vector; high: Vector } {
 
 export type Inertia = readonly [xx: number, xy: number, xz: number, yy: number, yz: number, zz: number];
 
-/** The inertia of a solid shape with a mass in kg about its centre, in the axes of its link. */
+/** Returns the inertia of a solid shape of a given mass in kg about its centre, in the axes of its link. */
 export function inertiaOf(solid: Pick<Solid, 'shape' | 'size' | 'pose'>, mass: number): Inertia {
   const [x, y, z] = halves(solid);
   const isRound = solid.shape === 'cylinder' || solid.shape === 'capsule';
@@ -75,7 +75,9 @@ export function inertiaOf(solid: Pick<Solid, 'shape' | 'size' | 'pose'>, mass: n
   return [at(0, 0), at(0, 1), at(0, 2), at(1, 1), at(1, 2), at(2, 2)];
 }
 
-/** Scales a size: parts along an axis of the link by one factor, parts across it by another. */
+/**
+ * Scales a size by one factor for the parts along an axis of the link, and another for the parts across it.
+ */
 export function grown(
   solid: Solid,
   axis: Vector,

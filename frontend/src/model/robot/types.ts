@@ -1,4 +1,7 @@
-/** Robots: drive and sensors (`robot.yaml`), and the body (a URDF). SI units, frame of the root link. */
+/**
+ * The types of a robot: drive and sensors (`robot.yaml`), and the body (a URDF). SI units, frame of the root
+ * link.
+ */
 
 import type { JsonObject, Pose } from '../document/values';
 import type { Urdf } from './urdf';
@@ -34,7 +37,7 @@ export interface Part {
 }
 
 export interface Robot {
-  /** The value of `robot.yaml`. */
+  /** The parsed `robot.yaml`. */
   readonly raw: JsonObject;
   readonly name: string;
   readonly description: string;
@@ -42,7 +45,7 @@ export interface Robot {
   readonly commandType: CommandType;
   /** Whether the robot publishes its true pose. */
   readonly groundTruth: boolean;
-  /** Joints of the driven wheels. */
+  /** The names of the driven wheels' joints. */
   readonly left: readonly string[];
   readonly right: readonly string[];
   readonly wheelRadius: number;

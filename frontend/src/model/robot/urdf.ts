@@ -6,7 +6,7 @@ import { attribute, child, children, type XmlElement } from '../document/xml';
 
 export type UrdfShape = 'box' | 'cylinder' | 'capsule' | 'sphere' | 'mesh';
 
-/** The labels of a size's numbers, by shape: text keys. */
+/** The labels of the numbers of a size, by shape: keys of texts. */
 export const URDF_SIZES: Readonly<Record<UrdfShape, readonly string[]>> = {
   box: ['x', 'y', 'z'],
   cylinder: ['radius', 'length'],
@@ -40,7 +40,7 @@ export interface Joint {
   readonly type: string;
   readonly parent: string;
   readonly child: string;
-  /** In the frame of the parent. */
+  /** The pose in the frame of the parent link. */
   readonly origin: Pose;
   readonly axis: Vector;
   /** The limits of the joint, rad or m; null if it has none. */
@@ -54,7 +54,7 @@ export interface Urdf {
   readonly root: string;
   readonly links: ReadonlyMap<string, Link>;
   readonly joints: ReadonlyMap<string, Joint>;
-  /** The joint above each link except the root. */
+  /** The joint that attaches each link, except the root. */
   readonly above: ReadonlyMap<string, Joint>;
 }
 
@@ -65,7 +65,7 @@ export interface UrdfIssue extends Issue {
 
 export const GREY: readonly number[] = [0.6, 0.6, 0.6, 1];
 
-/** Collects problems while a URDF is read. */
+/** The problems that are found while a URDF is read. */
 class Findings {
   readonly issues: UrdfIssue[] = [];
 
@@ -88,7 +88,9 @@ class Findings {
   }
 }
 
-/** Reads a URDF as the simulator does (executor/robots/urdf.py); null if it is not one tree of links. */
+/**
+ * Reads a URDF as the simulator does (executor/robots/urdf.py); `urdf` is null if the links are not one tree.
+ */
 export function readUrdf(root: XmlElement): { urdf: Urdf | null; issues: readonly UrdfIssue[] } {
   const findings = new Findings();
   if (root.tag !== 'robot') {
@@ -222,7 +224,7 @@ function limitsOf(limit: XmlElement | undefined, findings: Findings): Joint['lim
   return [lower, upper];
 }
 
-/** The pose of a link in the frame of the root, with all joints at zero. */
+/** Returns the pose of a link in the frame of the root, with all joints at zero. */
 export function poseOfLink({ above }: Urdf, link: string): Pose {
   let pose = HERE;
   let name = link;
@@ -235,7 +237,7 @@ export function poseOfLink({ above }: Urdf, link: string): Pose {
   return pose;
 }
 
-/** A link and all links below it. */
+/** Returns a link and all links below it. */
 export function below(urdf: Urdf, link: string): string[] {
   const found = [link];
   for (let at = 0; at < found.length; at += 1) {

@@ -5,7 +5,7 @@ import { append, prepend, replaced, setAttribute } from '../document/xmlEdits';
 import type { Inertia } from './solids';
 import type { Link, Solid, UrdfShape } from './urdf';
 
-/** A number with at most six decimals, and never minus zero. */
+/** Returns a number with at most six decimals, never as minus zero. */
 export const written = (value: number): string => String(Math.round(value * 1e6) / 1e6 + 0);
 const fine = (value: number): string => String(Number((Math.abs(value) < 1e-12 ? 0 : value).toPrecision(4)));
 export const list = (values: readonly number[]): string => values.map(written).join(' ');
@@ -15,7 +15,7 @@ const differs = (said: string | undefined, values: readonly number[]): boolean =
   return values.some((value, index) => !(Math.abs(value - (now[index] ?? NaN)) < 5e-7));
 };
 
-/** Sets the origin of an element (a joint, a visual…); unchanged attributes keep their notation. */
+/** Sets the origin of an element (a joint, a visual …); unchanged attributes keep their notation. */
 export function setOrigin(text: string, element: XmlElement, pose: Pose): Splice[] {
   const place = pose.slice(0, 3);
   const turn = pose.slice(3);
@@ -92,14 +92,14 @@ const momentsText = (inertia: Inertia): string =>
 export const inertialText = (mass: number, inertia: Inertia, place: readonly number[] = [0, 0, 0]): string =>
   `<inertial><origin xyz="${list(place)}"/><mass value="${written(mass)}"/><inertia ${momentsText(inertia)}/></inertial>`;
 
-/** The inertia that the URDF states for a link. */
+/** Returns the inertia that the URDF states for a link. */
 export function inertiaIn(link: Link): Inertia | null {
   const element = child(child(link.element, 'inertial'), 'inertia');
   const values = MOMENTS.map((name) => Number(attribute(element, name) ?? '0'));
   return element && values.every(Number.isFinite) ? (values as unknown as Inertia) : null;
 }
 
-/** Sets the mass of a link in kg, its inertia, and with `place` its centre of mass. */
+/** Sets the mass of a link in kg and its inertia; `place` also sets its centre of mass. */
 export function setInertial(
   text: string,
   link: Link,

@@ -33,7 +33,7 @@ const BINARY = new Map([
 const [ASSIGNMENT, TERNARY, COMPARISON] = [1, 2, 5];
 const MAX_NESTING = 100;
 
-/** An operand: a name, or null for anything else. */
+/** An operand: a name, or null for any other expression. */
 type Operand = ScriptName | null;
 
 class Refused extends Error {
@@ -167,7 +167,7 @@ class Parser {
   }
 }
 
-/** The names that a script reads and writes, or its syntax error. */
+/** Returns the names that a script reads and writes, or its syntax error. */
 export function readScript(text: string): ScriptFacts | ScriptProblem {
   const tokens = tokenize(text);
   if (!Array.isArray(tokens)) return tokens as ScriptProblem;

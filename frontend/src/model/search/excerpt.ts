@@ -1,9 +1,9 @@
-/** The line of a hit, in parts: before it, itself, and after it. */
+/** The line of a hit in three parts: before the hit, the hit, and after it. */
 export interface Excerpt {
   readonly before: string;
   readonly hit: string;
   readonly after: string;
-  /** From 1. */
+  /** The line number, from 1. */
   readonly line: number;
 }
 
@@ -12,7 +12,7 @@ const AFTER = 120;
 
 const isEnd = (text: string, at: number): boolean => text[at] === '\n' || text[at] === '\r';
 
-/** Cuts the line around a hit to what is read at a glance. */
+/** Cuts the line around a hit to a length that can be read at a glance. */
 export function excerptOf(text: string, start: number, end: number): Excerpt {
   let from = start;
   while (from > 0 && !isEnd(text, from - 1)) from -= 1;
@@ -28,7 +28,7 @@ export function excerptOf(text: string, start: number, end: number): Excerpt {
   };
 }
 
-/** A text on one line, cut at its end. */
+/** Returns a text as one line, shortened at its end. */
 export function shortened(text: string): string {
   const line = text.replace(/\r\n?|\n/g, '↵');
   return line.length > AFTER ? `${line.slice(0, AFTER)}…` : line;

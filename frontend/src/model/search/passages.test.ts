@@ -53,22 +53,19 @@ describe('canReplace', () => {
     expect(canReplace(found(part))).toBe(true);
   });
 
-  it.each(['type', 'tree', 'portName', 'attribute'])(
-    'is false of a %s, which refers to something',
-    (part) => {
-      expect(canReplace(found(part))).toBe(false);
-      expect(edit(tree, setText(found(part).place!, 'x')).patches).toEqual([]);
-    },
-  );
+  it.each(['type', 'tree', 'portName', 'attribute'])('is false of a %s, which is a reference', (part) => {
+    expect(canReplace(found(part))).toBe(false);
+    expect(edit(tree, setText(found(part).place!, 'x')).patches).toEqual([]);
+  });
 
-  it('is true of files, except the settings', () => {
+  it('is true of files, except for the settings', () => {
     expect(canReplace({ path: 'actions/A.py', place: null, text: '' })).toBe(true);
     expect(canReplace({ path: 'project.json', place: null, text: '' })).toBe(false);
   });
 });
 
 describe('setText', () => {
-  it('sets just the text that textAt reads', () => {
+  it('sets exactly the text that textAt reads', () => {
     const words = fc.string({ minLength: 1 }).filter((text) => text.trim() === text);
     fc.assert(
       fc.property(fc.constantFrom(...passages.filter(canReplace)), words, ({ place }, text) => {
@@ -84,7 +81,7 @@ describe('setText', () => {
 });
 
 describe('textAt', () => {
-  it('is undefined where the block or the field is gone', () => {
+  it('is undefined if the block or the field was deleted', () => {
     const { place } = found('condition');
     expect(textAt({ ...tree, nodes: {} }, place!)).toBeUndefined();
     expect(textAt({ ...tree, nodes: { a: { type: 'Forward' } } }, place!)).toBeUndefined();

@@ -1,12 +1,12 @@
 import { preorder, type Diagram, type DiagramNode, type NodeId } from '../diagram';
 import { setComment, setCondition, setName, setPort, type Recipe } from '../edits';
 
-/** A text of a block. Types, trees and names of ports refer to something else and are not replaced. */
+/** The kind of a block's text. Types, trees and names of ports are references, and are not replaced. */
 export type Field =
   | { readonly part: 'name' | 'type' | 'tree' | 'comment' }
   | { readonly part: 'port' | 'portName' | 'condition' | 'attribute'; readonly name: string };
 
-/** The place of a text: in a block of a tree, or the text of a file. */
+/** The place of a text: in a block of a tree; null for the text of a file. */
 export type Place = { readonly node: NodeId; readonly field: Field } | null;
 
 /** A text that is searched. */
@@ -38,7 +38,7 @@ function textsOf(node: DiagramNode): (readonly [Field, string])[] {
   return [...own, ...entries];
 }
 
-/** All texts of a tree, block by block in execution order. */
+/** Returns all texts of a tree, in execution order of its blocks. */
 export function passagesOf(path: string, diagram: Diagram): Passage[] {
   return preorder(diagram).flatMap((node) => {
     const found = diagram.nodes[node];
@@ -48,18 +48,20 @@ export function passagesOf(path: string, diagram: Diagram): Passage[] {
 
 const REPLACEABLE: readonly Field['part'][] = ['name', 'comment', 'port', 'condition'];
 
-/** Whether a text is replaced: references and the project's settings have commands of their own. */
+/**
+ * Returns whether a text can be replaced. References and the project's settings have commands of their own.
+ */
 export const canReplace = ({ path, place }: Passage): boolean =>
   place ? REPLACEABLE.includes(place.field.part) : path !== 'project.json';
 
-/** The text that is at a place now; undefined if the place is gone. */
+/** Returns the current text at a place; undefined if the place does not exist any more. */
 export function textAt({ nodes }: Diagram, { node: id, field }: NonNullable<Place>): string | undefined {
   const node = nodes[id];
   if (!node) return undefined;
   return textsOf(node).find(([other]) => JSON.stringify(other) === JSON.stringify(field))?.[1];
 }
 
-/** Sets the text at a place that can be replaced. */
+/** Sets the text at a place whose text can be replaced. */
 export function setText({ node, field }: NonNullable<Place>, text: string): Recipe {
   switch (field.part) {
     case 'name':

@@ -42,7 +42,7 @@ describe('compile', () => {
     expect(found('one\ntwo', query('^t\\w+$', { isRegex: true }))).toEqual(['two']);
   });
 
-  it.each(['(', '[a', '*', 'a{2,1}', '\\'])('says why %s is none', (text) => {
+  it.each(['(', '[a', '*', 'a{2,1}', '\\'])('reports why %s is invalid', (text) => {
     const answer = compile(query(text, { isRegex: true }));
     expect(answer).toHaveProperty('wrong');
     expect((answer as { wrong: string }).wrong).toMatch(/^[A-Za-z\\]/);

@@ -1,4 +1,4 @@
-/** What the user searches for. */
+/** The user's search. */
 export interface Query {
   readonly text: string;
   readonly matchesCase: boolean;
@@ -6,14 +6,14 @@ export interface Query {
   readonly isRegex: boolean;
 }
 
-/** A query that is not a regular expression, with the reason in the words of the browser. */
+/** The answer to a query that is not a valid regular expression, with the browser's reason. */
 export interface WrongQuery {
   readonly wrong: string;
 }
 
 const escaped = (text: string): string => text.replace(/[\\^$.*+?()[\]{}|/]/g, '\\$&');
 
-/** The browser's reason without its repetition of the expression. */
+/** Returns the browser's reason, without the expression that it repeats. */
 function reasonOf(error: unknown, source: string): string {
   const message = error instanceof Error ? error.message : String(error);
   const repeated = `/${source}/`;
@@ -21,7 +21,7 @@ function reasonOf(error: unknown, source: string): string {
   return at < 0 ? message : message.slice(at + repeated.length).replace(/^\w*:\s*/, '');
 }
 
-/** The regular expression of a query; matches are found with its flag `g`. */
+/** Returns the regular expression of a query, with the flag `g`. */
 export function compile({ text, matchesCase, isWholeWord, isRegex }: Query): RegExp | WrongQuery {
   const flags = matchesCase ? 'gmu' : 'gimu';
   const source = isRegex ? text : escaped(text);

@@ -16,7 +16,7 @@ const swap = (text: string, pattern: string, replacement: string): string =>
 const letters = fc.string({ unit: fc.constantFrom('a', 'b', '.', '$', '&', '1', '\n') });
 
 describe('seek', () => {
-  it('names text and place of each hit', () => {
+  it('returns text and place of each hit', () => {
     expect(hitsOf(ask('b', ['ab', '', 'bb']))).toEqual({
       hits: [
         { text: 0, start: 1, end: 2, replacement: '' },
@@ -27,7 +27,7 @@ describe('seek', () => {
     });
   });
 
-  it('finds nothing for nothing', () => {
+  it('finds nothing for an empty text', () => {
     expect(hitsOf(ask('', ['a'])).hits).toEqual([]);
     expect(hitsOf(ask('x*', ['axa'], { isRegex: true })).hits).toHaveLength(1);
   });
@@ -38,13 +38,13 @@ describe('seek', () => {
     expect(hitsOf(ask('a', ['a'.repeat(MOST_HITS)])).isCut).toBe(false);
   });
 
-  it('answers with the reason for what is no expression', () => {
+  it('answers with the reason for an invalid expression', () => {
     expect(seek({ ...ask('(', ['a'], { isRegex: true }), replacement: null })).toHaveProperty('wrong');
   });
 });
 
 describe('replaced', () => {
-  it('is, for plain text, what splitting and joining makes', () => {
+  it('equals, for plain text, splitting and joining', () => {
     fc.assert(
       fc.property(letters, fc.string({ minLength: 1, maxLength: 2 }), letters, (text, wanted, after) => {
         const { hits } = hitsOf(ask(wanted, [text]), after);
@@ -53,25 +53,25 @@ describe('replaced', () => {
     );
   });
 
-  it('is, for expressions, what the language makes', () => {
+  it('equals, for expressions, String.replace', () => {
     const templates = fc.string({ unit: fc.constantFrom('$', '&', '1', '2', '3', '<', 'n', '>', 'x') });
     fc.assert(
       fc.property(letters, templates, (text, template) => {
         const expression = '(a)(?<n>b)?';
-        // A prefix of the text, and a suffix, are no part of our replacements; nor are two digits of one group.
+        // Our replacements support neither the text before and after a match nor groups of two digits.
         fc.pre(!/\$[`']/.test(template) && !/\$\d\d/.test(template));
         expect(swap(text, expression, template)).toBe(text.replace(/(a)(?<n>b)?/gm, template));
       }),
     );
   });
 
-  it('takes single hits, in any order', () => {
+  it('applies single hits, in any order', () => {
     const { hits } = hitsOf(ask('a', ['a-a-a']), 'b');
     expect(replaced('a-a-a', hits.slice(1).reverse())).toBe('a-b-b');
     expect(replaced('a-a-a', [])).toBe('a-a-a');
   });
 
-  it('keeps what is around a hit, also behind lookarounds', () => {
+  it('keeps the text around a hit, also with lookarounds', () => {
     expect(swap('max_speed speed', '(?<=_)speed', 'v')).toBe('max_v speed');
     expect(swap('k=1', '(\\w)=(\\d)', '$2=$1')).toBe('1=k');
   });

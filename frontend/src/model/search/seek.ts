@@ -1,19 +1,22 @@
 import { compile, type Query, type WrongQuery } from './query';
 
-/** A search in texts, which a worker carries out: an expression of the user can take without end. */
+/** A search in texts. A worker runs it, since a user's expression can take forever. */
 export interface SearchRequest {
   readonly query: Query;
-  /** The text that replaces each hit, with `$1` and the like of a regular expression; null: not wanted. */
+  /**
+   * The text that replaces each hit, with references such as `$1` for a regular expression; null: no
+   * replacement.
+   */
   readonly replacement: string | null;
   readonly texts: readonly string[];
 }
 
 export interface Hit {
-  /** The index of the text. */
+  /** The index of the text that contains the hit. */
   readonly text: number;
   readonly start: number;
   readonly end: number;
-  /** The text that would stand there after the replacement. */
+  /** The text that the replacement puts there. */
   readonly replacement: string;
 }
 
@@ -29,7 +32,7 @@ export const MOST_HITS = 1000;
 
 const REFERENCE = /\$(?:(\$)|(&)|(\d\d?)|<([^>]*)>)/g;
 
-/** The replacement of one match; what refers to no group stays as it is. */
+/** Returns the replacement for one match; references to unknown groups stay as text. */
 function expand(template: string, match: RegExpExecArray): string {
   return template.replace(REFERENCE, (whole, dollar, all, number: string | undefined, name?: string) => {
     if (dollar !== undefined) return '$';
@@ -40,7 +43,7 @@ function expand(template: string, match: RegExpExecArray): string {
   });
 }
 
-/** All hits of a query in texts, in order; a hit without any character is none. */
+/** Returns all hits of a query in texts, in order; empty matches are left out. */
 export function seek({ query, replacement, texts }: SearchRequest): SearchAnswer {
   const pattern = compile(query);
   if ('wrong' in pattern) return pattern;
@@ -62,7 +65,7 @@ export function seek({ query, replacement, texts }: SearchRequest): SearchAnswer
   return { hits, isCut: false };
 }
 
-/** A text with some of its hits replaced. */
+/** Returns a text with these hits replaced. */
 export function replaced(text: string, hits: readonly Omit<Hit, 'text'>[]): string {
   let after = '';
   let at = 0;

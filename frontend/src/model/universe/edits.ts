@@ -12,7 +12,7 @@ import {
 } from '../document/values';
 import { thingOf, type ActorThing, type Section, type Thing, type Universe } from './types';
 
-/** A change of a universe, and the selection after it. */
+/** A change of a universe, with the selection after it. */
 export interface Edit {
   readonly ops: readonly Op[];
   readonly select?: readonly string[];
@@ -20,7 +20,10 @@ export interface Edit {
 
 const placeOf = ({ section, index }: Thing): Path => [section, index];
 
-/** The default robot of a document without robots must be written before it can be changed. */
+/**
+ * Returns the operation that writes the default robot, which must exist in the document before it can be
+ * changed.
+ */
 function written(universe: Universe, things: readonly Thing[]): Op[] {
   const isImplied = things.some(({ section }) => section === 'robots') && !('robots' in universe.raw);
   return isImplied ? [{ kind: 'set', path: ['robots'], value: [IMPLIED_ROBOT] }] : [];
@@ -31,7 +34,7 @@ const IMPLIED_ROBOT: JsonObject = { id: 'robot', model: 'turtle2', pose: [0, 0, 
 const found = (universe: Universe, keys: readonly string[]): Thing[] =>
   keys.map((key) => thingOf(universe, key)).filter((thing) => thing !== undefined);
 
-/** Moves things to new poses, and people to new paths; by key. */
+/** Moves things to new poses, and people to new paths; both by key. */
 export function place(universe: Universe, places: ReadonlyMap<string, Pose | readonly Point[]>): Edit {
   const things = found(universe, [...places.keys()]);
   const ops = things.flatMap((thing): Op[] => {
@@ -79,7 +82,7 @@ export function turn(universe: Universe, keys: readonly string[], angle: number,
   return place(universe, places);
 }
 
-/** An angle between -pi and pi. */
+/** Returns an angle between -pi and pi. */
 const wrapped = (angle: number): number => {
   const turn = ((((angle + Math.PI) % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI)) - Math.PI;
   return Math.abs(turn + Math.PI) < 1e-9 ? Math.PI : turn;
@@ -101,7 +104,7 @@ export function setFieldOfAll(universe: Universe, keys: readonly string[], field
   return { ops: keys.flatMap((key) => setField(universe, key, field, value).ops) };
 }
 
-/** Sets a property of the world itself: its name, ground, lights, view. */
+/** Sets a property of the world itself, such as its name, ground, lights or view. */
 export function setWorld(universe: Universe, path: Path, value: Json): Edit {
   if (sameValue(valueAt(universe.raw, path), value)) return { ops: [] };
   const [top] = path;
@@ -115,7 +118,7 @@ export function setWorld(universe: Universe, path: Path, value: Json): Edit {
         },
       ]
     : [];
-  // A missing mapping is added together with its first value.
+  // A missing mapping is written together with its first value.
   const isNew =
     path.length === 2 &&
     typeof top === 'string' &&
@@ -128,7 +131,7 @@ export function setWorld(universe: Universe, path: Path, value: Json): Edit {
   return { ops: [...before, op] };
 }
 
-/** A free id: the wished one, or with a number. */
+/** Returns a free id: the wanted one, or one with a number. */
 export function freeId(universe: Universe, wish: string): string {
   const taken = new Set(['ground', ...universe.things.map(({ id }) => id)]);
   if (!taken.has(wish)) return wish;
@@ -138,7 +141,7 @@ export function freeId(universe: Universe, wish: string): string {
 
 const ID = /^[A-Za-z_][A-Za-z0-9_-]*$/;
 
-/** The reason why an id is invalid for a thing; null if it is valid. */
+/** Returns the reason why an id is invalid for a thing; null if it is valid. */
 export function idProblem(universe: Universe, key: string, id: string): 'name' | 'sameId' | 'tooLong' | null {
   if (!ID.test(id)) return 'name';
   if (id.length > 80) return 'tooLong';
@@ -158,7 +161,7 @@ export function add(universe: Universe, section: Section, things: readonly JsonO
   return { ops: [...implied, op], select };
 }
 
-/** The value of a section's item, as a copy. */
+/** Returns the value of a section's item, as a copy. */
 export const valueOf = (universe: Universe, thing: Thing): JsonObject => {
   const value = valueAt(universe.raw, placeOf(thing));
   return isObject(value) ? value : IMPLIED_ROBOT;
@@ -212,7 +215,7 @@ function withoutRandom(universe: Universe, isGone: (id: string) => boolean): Op[
   return gone.map((key) => ({ kind: 'unset', path: ['random', key] }));
 }
 
-/** Changes the id of a thing, also in `random`. */
+/** Changes the id of a thing, and its references in `random`. */
 export function rename(universe: Universe, key: string, id: string): Edit {
   const [thing] = found(universe, [key]);
   if (!thing || thing.id === id || idProblem(universe, key, id) !== null) return { ops: [] };
@@ -243,7 +246,7 @@ export function addWaypoint(universe: Universe, key: string, after: number, poin
   return { ops: [{ kind: 'insert', path: [...placeOf(actor), 'path'], index: after + 1, values: [value] }] };
 }
 
-/** Removes a waypoint from a person's path, except the last one. */
+/** Removes a waypoint from a person's path, but never the last one. */
 export function removeWaypoint(universe: Universe, key: string, at: number): Edit {
   const actor = actorOf(universe, key);
   if (!actor || actor.path.length < 2 || at >= actor.path.length) return { ops: [] };

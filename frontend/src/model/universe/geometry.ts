@@ -4,7 +4,7 @@ import type { ModelThing, Shape, Thing } from './types';
 /** Rounds to 0.1 mm or 0.1 mrad, and never returns minus zero. */
 export const rounded = (value: number): number => Math.round(value * 1e4) / 1e4 + 0;
 
-/** The nearest multiple of a step; 0 means no grid. */
+/** Returns the nearest multiple of a step; 0 means no grid. */
 export const snapped = (value: number, step: number): number =>
   step > 0 ? rounded(Math.round(value / step) * step) : rounded(value);
 
@@ -15,13 +15,13 @@ export function turned([x, y]: Point, angle: number, [px, py]: Point): Point {
   return [px + (x - px) * cos - (y - py) * sin, py + (x - px) * sin + (y - py) * cos];
 }
 
-/** The position of a thing on the floor; of a person the start of the path. */
+/** Returns the position of a thing on the floor; for a person, the start of the path. */
 export function positionOf(thing: Thing): Point {
   if (thing.section !== 'actors') return [thing.pose[0], thing.pose[1]];
   return thing.path[0] ?? [0, 0];
 }
 
-/** The centre of several things on the floor. */
+/** Returns the centre of several things on the floor. */
 export function middleOf(things: readonly Thing[]): Point {
   const points = things.flatMap((thing) =>
     thing.section === 'actors' ? [...thing.path] : [positionOf(thing)],
@@ -30,7 +30,7 @@ export function middleOf(things: readonly Thing[]): Point {
   return [sum[0] / Math.max(points.length, 1), sum[1] / Math.max(points.length, 1)];
 }
 
-/** The size after stretching along a thing's own axes; each part is at least one step. */
+/** Returns a size stretched along a thing's own axes; each part is at least one step of the grid. */
 export function stretched(
   shape: Shape,
   size: readonly number[],
@@ -40,7 +40,7 @@ export function stretched(
   const by = (value: number | undefined, factor: number | undefined) =>
     Math.max(snapped((value ?? 1) * Math.abs(factor ?? 1), step), step || 0.01);
   const [a, b, c] = size;
-  // A round thing is stretched along one axis at a time: the one that changed most.
+  // Round things are stretched by a single factor across: the one that changed most.
   const round = (factors: (number | undefined)[]) =>
     factors.reduce<number>((most, f = 1) => (Math.abs(f - 1) > Math.abs(most - 1) ? f : most), 1);
   switch (shape) {
@@ -58,7 +58,7 @@ export function stretched(
   }
 }
 
-/** The height of the centre of a shape that stands on the floor, in m. */
+/** Returns the height of the centre of a shape that stands on the floor, in m. */
 export function standingHeight({ shape, size }: Pick<ModelThing, 'shape' | 'size'>): number {
   const [a = 1, b = 1, c = 1] = size;
   if (shape === 'box') return rounded(c / 2);
@@ -67,7 +67,7 @@ export function standingHeight({ shape, size }: Pick<ModelThing, 'shape' | 'size
   return shape === 'plane' ? 0.003 : 0;
 }
 
-/** A wall between two points of the floor: its centre, length, and heading in rad. */
+/** Returns a wall between two points of the floor: its centre, length, and heading in rad. */
 export function wallBetween(
   [x1, y1]: Point,
   [x2, y2]: Point,

@@ -15,7 +15,7 @@ import {
   type Universe,
 } from './types';
 
-/** The result of reading a text; the universe is missing if the text is not YAML or not a mapping. */
+/** The result of reading a text; `universe` is null if the text is not YAML, or not a mapping. */
 export interface Reading {
   readonly universe: Universe | null;
   readonly problems: readonly DocumentProblem[];
@@ -83,7 +83,7 @@ function randomOf(value: unknown): Universe['random'] {
   );
 }
 
-/** All things that have a place; a document without robots has a default one. */
+/** Returns all things that have a place; a document without robots has a default one. */
 function thingsOf(raw: JsonObject): Thing[] {
   const things: Thing[] = [];
   const keys = new Set<string>();

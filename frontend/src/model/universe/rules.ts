@@ -6,7 +6,7 @@ import { validate } from '@/generated/universe.schema.json?validator';
 const AXES = ['x', 'y', 'z', 'roll', 'pitch', 'yaw'];
 const RANDOM_KEY = /^(?<id>[\w-]+)\.(?:pose\.(?<axis>\w+)|(?<field>mass|friction|speed))$/;
 
-/** The fields that `random` may vary, by section. */
+/** The fields that `random` can vary, by section. */
 const VARIABLE: Readonly<Record<string, readonly string[]>> = {
   models: ['pose', 'mass', 'friction'],
   actors: ['speed'],
@@ -14,8 +14,8 @@ const VARIABLE: Readonly<Record<string, readonly string[]>> = {
 };
 
 /**
- * All problems of a document: those of the schema, which is generated from the simulator's model, then those
- * that a schema cannot express (executor/universes/model.py).
+ * Returns all problems of a document: those of the schema, which is generated from the simulator's model,
+ * then those that a schema cannot express (executor/universes/model.py).
  */
 export function checkUniverse(raw: Json): Issue[] {
   const found = checkSchema(raw, validate);
@@ -48,7 +48,7 @@ function checkModel(model: JsonObject, path: Path): Issue[] {
   return found;
 }
 
-/** Whether a pose has a roll or a pitch. */
+/** Returns whether a pose has a roll or a pitch. */
 function leans(pose: Json | undefined): boolean {
   return Array.isArray(pose) && pose.slice(3, 5).some((angle) => angle !== 0);
 }

@@ -1,10 +1,13 @@
-/** Universe documents: worlds as YAML. SI units; poses are [x, y, z, roll, pitch, yaw], world frame. */
+/**
+ * The types of universe documents: worlds as YAML. SI units; poses are [x, y, z, roll, pitch, yaw] in the
+ * world frame.
+ */
 
 import type { JsonObject, Point, Pose, Vector } from '../document/values';
 
 export type Shape = 'box' | 'cylinder' | 'sphere' | 'plane' | 'mesh' | 'urdf' | 'sdf';
 
-/** The labels of `size`'s numbers, by shape: text keys. */
+/** The labels of the numbers of `size`, by shape: keys of texts. */
 export const SIZE_MEANING: Readonly<Record<Shape, readonly string[]>> = {
   box: ['x', 'y', 'z'],
   cylinder: ['radius', 'length'],
@@ -22,7 +25,6 @@ export const FILES: Readonly<Partial<Record<Shape, RegExp>>> = {
   sdf: /\.sdf$/i,
 };
 
-/** The built-in textures. */
 export const TEXTURES = ['asphalt', 'brick', 'carpet', 'checker', 'grass', 'tiles', 'wood'] as const;
 export const PICTURE = /\.(png|jpe?g)$/i;
 
@@ -30,7 +32,7 @@ export type Section = 'models' | 'actors' | 'robots';
 export const SECTIONS: readonly Section[] = ['models', 'actors', 'robots'];
 
 interface Placed {
-  /** Its id, or the id with a mark if two things have the same. */
+  /** The id of the thing, or the id with a mark if two things share it. */
   readonly key: string;
   readonly id: string;
   readonly section: Section;
@@ -44,15 +46,15 @@ export interface ModelThing extends Placed {
   readonly file: string;
   readonly pose: Pose;
   readonly color: string;
-  /** A built-in texture, a picture of the project, or empty. */
+  /** The name of a built-in texture, the path of a picture in the project, or empty. */
   readonly texture: string;
-  /** The size of one repetition of the texture in m, if it is given. */
+  /** The size of one repetition of the texture in m; null if the document does not set it. */
   readonly tile: Point | null;
   readonly mass: number;
   readonly friction: number;
   readonly restitution: number;
   readonly solid: boolean;
-  /** Robots' cameras see it as high as the ceiling. */
+  /** Whether robots' cameras see it as high as the ceiling. */
   readonly to_ceiling: boolean;
 }
 
@@ -69,7 +71,7 @@ export interface RobotThing extends Placed {
   readonly section: 'robots';
   readonly model: string;
   readonly pose: Pose;
-  /** Topics with another name here, by their sensor or joint. */
+  /** The topics that are renamed for this robot, by sensor or joint. */
   readonly topics: Readonly<Record<string, string>>;
 }
 
@@ -80,7 +82,7 @@ export interface Light {
   readonly intensity: number;
 }
 
-/** The part of a document that can be shown, with defaults for missing or impossible values. */
+/** The part of a document that can be shown, with defaults for missing or invalid values. */
 export interface Universe {
   /** The parsed document. */
   readonly raw: JsonObject;
@@ -92,7 +94,7 @@ export interface Universe {
     readonly tile: Point | null;
     readonly friction: number;
   };
-  /** The ceiling indoors; null without one. */
+  /** The ceiling of an indoor world; null without one. */
   readonly ceiling: {
     readonly color: string;
     readonly texture: string;

@@ -60,13 +60,13 @@ const edited = (text: string, edit: (universe: Universe) => Edit): string =>
 const problemsOf = (text: string) => readUniverse(text).problems.map(({ kind, line }) => [kind, line]);
 
 describe('reading', () => {
-  it.each(builtins)('finds nothing wrong with %s', (_, text) => {
+  it.each(builtins)('finds no problem in %s', (_, text) => {
     const { universe, problems } = readUniverse(text);
     expect(problems).toEqual([]);
     expect(universe?.things.length).toBeGreaterThan(0);
   });
 
-  it('says what is wrong and on which line', () => {
+  it('reports problems with their lines', () => {
     expect(problemsOf('a: [1')).toEqual([['syntax', 1]]);
     expect(problemsOf('- 1')).toEqual([['object', 1]]);
     const bad = ROOM.replace('shape: sphere', 'shape: blob')
@@ -114,7 +114,7 @@ describe('reading', () => {
     expect(problemsOf(text)).toContainEqual([kind, 5]);
   });
 
-  it('reads a ceiling, whose name is taken then', () => {
+  it('reads a ceiling, whose name is then taken', () => {
     const text = 'format: bt-studio/universe\nversion: 1\nname: x\nceiling: {height: 3}\nmodels:\n';
     const walls = '  - {id: ceiling, shape: box, size: [1, 1, 1], to_ceiling: true}\n';
     const [wall] = universeOf(text + walls).things;
@@ -124,13 +124,13 @@ describe('reading', () => {
     expect(universeOf(ROOM).ceiling).toBeNull();
   });
 
-  it('switches a ceiling on where there was none', () => {
+  it('adds a ceiling if there was none', () => {
     const inside = edited(ROOM, (universe) => setWorld(universe, ['ceiling', 'height'], 2.5));
     expect(universeOf(inside).ceiling?.height).toBe(2.5);
     expect(problemsOf(inside)).toEqual([]);
   });
 
-  it('knows the robot of a document that names none', () => {
+  it('has a robot for a document without robots', () => {
     expect(universeOf(ROOM).things.at(-1)).toMatchObject({ section: 'robots', model: 'turtle2' });
   });
 });
@@ -138,7 +138,7 @@ describe('reading', () => {
 describe('rewriting', () => {
   const lines = (text: string) => text.split('\n');
 
-  it('changes the numbers that changed, and no other byte', () => {
+  it('changes only the changed numbers, and no other byte', () => {
     const moved = edited(ROOM, (universe) => move(universe, ['north', 'walker'], [1, -1, 0]));
     const wanted = ROOM.replace('pose: [0, 5, 0.50', 'pose: [1, 4, 0.50').replace(
       '[[1, 0], [3, 2], [0, 3]]',
@@ -171,12 +171,12 @@ describe('rewriting', () => {
     expect(edited(none, (universe) => add(universe, 'models', [box]))).toContain(added);
   });
 
-  it('writes the robot that was only implied before it changes it', () => {
+  it('writes the implied robot before it changes it', () => {
     const moved = edited(ROOM, (universe) => move(universe, ['robot'], [1, 2, 0]));
     expect(moved).toBe(`${ROOM}robots:\n  - {id: robot, model: turtle2, pose: [1, 2, 0, 0, 0, 0]}\n`);
   });
 
-  it('rewrites what it cannot splice, with comments', () => {
+  it('rewrites documents that it cannot splice, with comments', () => {
     const odd = 'format: bt-studio/universe\nversion: 1 # one\nname: x\nmodels:\nactors: # none\n';
     const box = { id: 'box', shape: 'sphere', size: [1] };
     const written = edited(odd, (universe) => add(universe, 'models', [box]));
@@ -184,14 +184,14 @@ describe('rewriting', () => {
     expect(universeOf(written).things[0]?.id).toBe('box');
   });
 
-  it('says so where a document cannot be changed piece by piece', () => {
+  it('throws if a document cannot be changed piece by piece', () => {
     const shared = ROOM.replace('[2, 1, 0.3', '&p [2, 1, 0.3').replace('[1, 1, 0.1, 0, 0, 0]', '*p');
     expect(() => edited(shared, (universe) => move(universe, ['crate'], [1, 0, 0]))).toThrow(UnwritableError);
   });
 });
 
 describe('edits', () => {
-  it('renames a thing also where chance names it, and refuses a name that is taken', () => {
+  it('renames a thing also in `random`, and refuses a taken name', () => {
     const text = edited(ROOM, (universe) => rename(universe, 'crate', 'chest'));
     expect(text).toContain('id: chest      # in block style');
     expect(text).toContain('chest.pose.x: [1, 3]');
@@ -216,7 +216,7 @@ describe('edits', () => {
     ]);
   });
 
-  it('changes ways, point by point, and leaves the last one', () => {
+  it('changes paths, point by point, and keeps the last point', () => {
     let text = edited(ROOM, (universe) => addWaypoint(universe, 'walker', 1, [9, 9]));
     text = edited(text, (universe) => setWaypoint(universe, 'walker', 0, [5, 5]));
     text = edited(text, (universe) => removeWaypoint(universe, 'walker', 3));
@@ -225,7 +225,7 @@ describe('edits', () => {
     expect(removeWaypoint(universeOf(lonely), 'walker', 0).ops).toEqual([]);
   });
 
-  it('sets the world itself, whether it was written or not', () => {
+  it('sets properties of the world itself, whether they existed or not', () => {
     expect(edited(ROOM, (universe) => setWorld(universe, ['ground', 'color'], '#112233'))).toBe(
       ROOM.replace('#d8d4cc', '#112233'),
     );
@@ -235,7 +235,7 @@ describe('edits', () => {
     expect(universeOf(seen).view.eye).toEqual([1, 2, 3]);
   });
 
-  it('stretches along the axes that a shape has', () => {
+  it('stretches along the axes of a shape', () => {
     expect(stretched('box', [1, 1, 1], [2, 1, 1], 0.1)).toEqual([2, 1, 1]);
     expect(stretched('cylinder', [1, 1], [1, 1.5, 2], 0)).toEqual([1.5, 2]);
     expect(stretched('sphere', [1], [1, 1, 0.5], 0.1)).toEqual([0.5]);
@@ -244,7 +244,7 @@ describe('edits', () => {
   });
 });
 
-/** Edits that a user may make, in any order, on whatever there is. */
+/** Edits that a user may make, in any order, on any things. */
 const gesture = fc.tuple(
   fc.nat(8),
   fc.nat(9),
@@ -285,7 +285,7 @@ describe('any sequence of edits', () => {
     ...builtins.filter(([, text]) => text.length < 4000).map(([, text]) => text),
   );
 
-  it('says in the text what it does to the value, and undoes to the byte', () => {
+  it('changes text and value alike, and undoes to the byte', () => {
     fc.assert(
       fc.property(texts, fc.array(gesture, { maxLength: 8 }), (start, gestures) => {
         let undoStack = startUndo([start]);

@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-/** Whether the export dialogue is open; any feature may open it. */
+/** The state of the export dialogue; any feature may open it. */
 export const useExportDialog = create<{ isOpen: boolean }>(() => ({ isOpen: false }));
 
 export const openExportDialog = () => useExportDialog.setState({ isOpen: true });

@@ -4,8 +4,8 @@ import type { DocumentKind } from '@/store/project/moving';
 
 export type NewFileKind = 'action' | 'tree' | 'file';
 /**
- * The kinds of documents that the dialogue names. Universes and robots have their own dialogues for creation,
- * but are renamed here.
+ * The kinds of documents that the name dialogue handles. New universes and robots have dialogues of their
+ * own, but are renamed in this one.
  */
 export type NamedKind = (NewFileKind & DocumentKind) | 'universe' | 'robot';
 

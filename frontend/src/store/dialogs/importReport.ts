@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-/** The project whose report is still to be read, and the file that was imported last. */
+/** The project whose import report the user has not closed yet, and the file that was imported last. */
 interface ImportReport {
   readonly projectId: string | null;
   readonly file: string;
@@ -10,5 +10,5 @@ export const useImportReport = create<ImportReport>(() => ({ projectId: null, fi
 
 export const announceImport = (projectId: string, file: string) =>
   useImportReport.setState({ projectId, file });
-/** The name of the file stays: it is in the title while the report fades out. */
+/** Closes the report. The name of the file stays: the title shows it while the report fades out. */
 export const closeImportReport = () => useImportReport.setState({ projectId: null });

@@ -1,9 +1,9 @@
 import { create } from 'zustand';
 
-/** Whether the dialogue for a new robot is open, and its initial choice. */
+/** The state of the dialogue for a new robot: the initial choice while it is open, otherwise null. */
 export const useNewRobot = create<{ base: string | null }>(() => ({ base: null }));
 
-/** The choice that stands for our template instead of one of our robots. */
+/** The choice of the template instead of a built-in robot. */
 export const TEMPLATE = 'template';
 
 export const openNewRobot = (base = TEMPLATE) => useNewRobot.setState({ base });
@@ -11,6 +11,6 @@ export const closeNewRobot = () => useNewRobot.setState({ base: null });
 
 export const ROBOT_FILE = /^robots\/[^/]+\/robot\.yaml$/;
 
-/** The robots of a project, by id. */
+/** Returns the robots of a project, by id. */
 export const ownRobots = (paths: Iterable<string>): string[] =>
   [...paths].filter((path) => ROBOT_FILE.test(path)).map((path) => path.split('/')[1] ?? '');

@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-/** Whether the dialogue for a new universe is open, and its initial choice. */
+/** The state of the dialogue for a new universe: the initial choice while it is open, otherwise null. */
 export const useNewUniverse = create<{ base: string | null }>(() => ({ base: null }));
 
 export const openNewUniverse = (base = 'walled_room') => useNewUniverse.setState({ base });

@@ -1,7 +1,7 @@
 import { create } from 'zustand';
 import type { Key } from '@/model/keys/rename';
 
-/** The dialogue that renames a key; a key of null is chosen in it. */
+/** The dialogue that renames a blackboard key; null: the user chooses the key in the dialogue. */
 export const useRenameKey = create<{ isOpen: boolean; key: Key | null }>(() => ({
   isOpen: false,
   key: null,

@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-/** Whether the settings of the project are open. */
+/** The state of the dialogue with the project's settings. */
 export const useSettingsDialog = create<{ isOpen: boolean }>(() => ({ isOpen: false }));
 
 export const openSettings = () => useSettingsDialog.setState({ isOpen: true });

@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-/** Whether the list of shortcuts is open. */
+/** The state of the list of shortcuts. */
 export const useShortcutsDialog = create<{ isOpen: boolean }>(() => ({ isOpen: false }));
 
 export const openShortcuts = () => useShortcutsDialog.setState({ isOpen: true });

@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-/** Whether the chooser of universe and robot is open; any feature may open it. */
+/** The state of the chooser of universe and robot; any feature may open it. */
 export const useUniverseChooser = create<{ isOpen: boolean }>(() => ({ isOpen: false }));
 
 export const openUniverseChooser = () => useUniverseChooser.setState({ isOpen: true });

@@ -21,7 +21,7 @@ beforeEach(() => {
 });
 
 describe('ruff', () => {
-  it('is asked about any Python file a moment after its last change', async () => {
+  it('is requested for a Python file shortly after its last change', async () => {
     const { requests } = fakeServer({ [LINT]: { findings: [{}, {}] } });
     store().setFileText(PATH, 'a =');
     await pass(500);
@@ -33,7 +33,7 @@ describe('ruff', () => {
     expect(linted()).toEqual({ text: 'a = =', findings: [{}, {}] });
   });
 
-  it('is asked about a file that opens, once for each text', async () => {
+  it('is requested for a file that opens, once for each text', async () => {
     const { requests } = fakeServer({ [LINT]: { findings: [] } });
     for (let opened = 0; opened < 2; opened += 1) {
       lintSoon(PATH);
@@ -45,7 +45,7 @@ describe('ruff', () => {
     expect(requests).toHaveLength(1);
   });
 
-  it('leaves what is known where there is no answer', async () => {
+  it('keeps earlier findings if there is no answer', async () => {
     const answers: Record<string, unknown> = { [LINT]: { findings: [{}] } };
     fakeServer(answers);
     lintSoon(PATH);

@@ -23,13 +23,13 @@ async function lint(path: string): Promise<void> {
     const findings = await api.lintPython(text, path, request.signal);
     if (!request.signal.aborted) setTextFindings('linted', path, { text, findings });
   } catch {
-    // Without an answer the earlier findings stay; the next change asks again.
+    // Without an answer the earlier findings stay; the next change requests them again.
   } finally {
     if (requests.get(path) === request) requests.delete(path);
   }
 }
 
-/** Requests findings of ruff in a Python file shortly after the last call for it. */
+/** Requests ruff's findings in a Python file, shortly after the last call for that file. */
 export function lintSoon(path: string): void {
   if (!path.endsWith('.py')) return;
   cancel(path);
@@ -47,7 +47,9 @@ function forget(path: string): void {
   setTextFindings('linted', path, null);
 }
 
-/** Watches the Python files of the open project, whichever way they change; returns the end of it. */
+/**
+ * Requests findings whenever a Python file of the open project changes; returns a function that stops this.
+ */
 export function watchPython(): () => void {
   const unwatch = useProjectStore.subscribe((now, before) => {
     if (now.files === before.files) return;

@@ -57,7 +57,7 @@ const shown = (more: Partial<ProblemSources>) =>
   ]);
 
 describe('the list', () => {
-  it('is empty where nothing is wrong', () => {
+  it('is empty without findings', () => {
     expect(listed({})).toEqual([]);
   });
 
@@ -69,7 +69,7 @@ describe('the list', () => {
     expect(shown({ diagrams })).toEqual([['error', 'BT0102', 'Other', 'n1']]);
   });
 
-  it('has a finding of a save once: as the editor, the language server or ruff tells it now', () => {
+  it('has a finding of a save once: in the newer version of the editor, the language server or ruff', () => {
     const diagnostics: Diagnostic[] = [
       { code: 'BT0601', severity: 'error', message: 'syntax', file: GO, line: 2 },
       { code: 'BT0602', severity: 'error', message: 'no class', file: GO },
@@ -85,7 +85,7 @@ describe('the list', () => {
     ]);
   });
 
-  it('has what is found in any text of the project, and nothing of files that are gone', () => {
+  it('has the findings in any text of the project, and none of deleted files', () => {
     const unused = {
       code: 'F401',
       severity: 'warning' as const,
@@ -107,7 +107,7 @@ describe('the list', () => {
     ]);
   });
 
-  it('begins with the fault of the run, at its line where that is in the project', () => {
+  it('starts with the fault of the run, at its line if that is in the project', () => {
     const diagnostics: Diagnostic[] = [{ code: 'X', severity: 'error', message: '' }];
     expect(shown({ diagnostics, faults: [fault()] })[0]).toEqual(['error', 'exception', GO, 4]);
     expect(shown({ faults: [fault({ file: '/usr/lib/x.py' })] })[0]).toEqual([
@@ -119,7 +119,7 @@ describe('the list', () => {
   });
 });
 
-it('marks the files of errors and warnings: trees by theirs, a fault both', () => {
+it('marks the files with errors and warnings: trees by theirs, a fault in both', () => {
   const rows = listed({
     faults: [fault()],
     served: { 'nodes/tones.py': [served('', 'warning'), served('', 'info')] },

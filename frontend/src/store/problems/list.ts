@@ -8,7 +8,7 @@ import { problemsOf, type ShownProblem } from '@/store/project/problems';
 import { isSuperseded, lintFindings } from './syntax';
 import type { Linted, TextErrors } from './texts';
 
-/** One row of the list: what was found, and its place. */
+/** One row of the list: a finding with its place. */
 export interface ListedProblem {
   readonly problem: ShownProblem;
   readonly severity: Severity;
@@ -23,7 +23,7 @@ export interface ListedProblem {
 
 type ByPath<T> = Readonly<Record<string, T>>;
 
-/** Everything that the list is made of. */
+/** The data from which the list is made. */
 export interface ProblemSources {
   readonly files: ByPath<unknown>;
   readonly diagrams: ByPath<Diagram>;
@@ -46,7 +46,7 @@ interface Words {
   readonly hint?: string | null;
 }
 
-/** A row with the text of a checker that is not the editor itself. */
+/** Returns a row with the text of a checker other than the editor. */
 function rowOf(
   { severity, code, message, hint }: Words,
   place: Partial<ListedProblem>,
@@ -129,7 +129,10 @@ function fileRows(path: string, sources: ProblemSources): ListedProblem[] {
   ];
 }
 
-/** All findings of the project, the worst first: of the run, the trees, the last save, and the texts. */
+/**
+ * Returns all findings of the project, the worst first: those of the run, of the trees, of the last save, and
+ * of the texts.
+ */
 export function listProblems(sources: ProblemSources): readonly ListedProblem[] {
   const { faults, diagrams, files, served, linted, errors } = sources;
   const texts = new Set([served, linted, errors].flatMap((found) => Object.keys(found)));
@@ -144,7 +147,10 @@ export function listProblems(sources: ProblemSources): readonly ListedProblem[] 
 
 export type Worst = 'error' | 'warning';
 
-/** The worst error or warning of each file with one; a finding in a tree counts for its file. */
+/**
+ * Returns the worst error or warning of each file that has one; a finding in a tree counts for the tree's
+ * file.
+ */
 export function worstByFile(rows: readonly ListedProblem[]): ReadonlyMap<string, Worst> {
   const worst = new Map<string, Worst>();
   for (const { severity, file, tree } of rows) {

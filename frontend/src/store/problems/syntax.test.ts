@@ -36,7 +36,7 @@ describe('a finding of the last save', () => {
   });
 });
 
-it('leaves syntax errors of ruff out where the language server reports them', () => {
+it("leaves out ruff's syntax errors if the language server reports them", () => {
   const found = linted(ruff('error'), ruff('warning'));
   const codes = (more: FileFindings) => lintFindings({ ...found, ...more }).map(({ code }) => code);
   expect(codes({})).toEqual(['invalid-syntax', 'F401']);

@@ -3,7 +3,7 @@ import type { Diagnostic } from '@/api/types';
 import type { CodeFinding } from '@/store/language';
 import type { Linted, TextErrors } from './texts';
 
-/** What is known of the text of one file while it is edited. */
+/** The findings in the text of one file while the user edits it. */
 export interface FileFindings {
   readonly served?: readonly CodeFinding[] | undefined;
   readonly linted?: Linted | undefined;
@@ -16,8 +16,8 @@ const servesSyntax = ({ served = [] }: FileFindings): boolean =>
   served.some(({ source }) => source === SYNTAX);
 
 /**
- * Whether a newer check of the text reports the same error as the check of the last save: the language server
- * and ruff for Python, the editor for JSON.
+ * Returns whether a newer check of the text reports the same error as the check of the last save: the
+ * language server and ruff for Python, the editor for JSON.
  */
 export function isSuperseded(item: Pick<Diagnostic, 'code'>, found: FileFindings): boolean {
   if (item.code === 'BT0001') return found.errors !== undefined;
@@ -25,7 +25,7 @@ export function isSuperseded(item: Pick<Diagnostic, 'code'>, found: FileFindings
   return servesSyntax(found) || (found.linted?.findings ?? []).some(({ severity }) => severity === 'error');
 }
 
-/** Ruff's findings; its syntax errors are left out if the language server reports them. */
+/** Returns ruff's findings, without its syntax errors if the language server reports them. */
 export function lintFindings(found: FileFindings): readonly PythonFinding[] {
   const findings = found.linted?.findings ?? [];
   return servesSyntax(found) ? findings.filter(({ severity }) => severity !== 'error') : findings;

@@ -13,7 +13,7 @@ it('keeps findings by path until they are removed', () => {
   expect(useTextFindings.getState()).toEqual({ errors: {}, linted: { 'a.py': { text: '', findings: [] } } });
 });
 
-it('stays the same where nothing is removed', () => {
+it('stays the same object if nothing is removed', () => {
   const before = useTextFindings.getState();
   setTextFindings('errors', 'a.json', null);
   expect(useTextFindings.getState()).toBe(before);

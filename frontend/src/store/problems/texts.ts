@@ -7,7 +7,7 @@ export interface Linted {
   readonly findings: readonly PythonFinding[];
 }
 
-/** The place where a text breaks the format of its file type; `line` counts from 1. */
+/** The place where a text violates the format of its file type; `line` counts from 1. */
 export interface TextError {
   readonly offset: number;
   readonly line: number;
@@ -21,13 +21,13 @@ export interface TextErrors {
 }
 
 interface TextFindings {
-  /** Findings in Python files that are open or have changed. */
+  /** The findings in Python files that are open or have changed. */
   readonly linted: Readonly<Record<string, Linted>>;
-  /** Syntax errors of open JSON, YAML and XML files. */
+  /** The syntax errors of open JSON, YAML and XML files. */
   readonly errors: Readonly<Record<string, TextErrors>>;
 }
 
-/** What is found in texts while the user edits them, by path; not saved and without undo. */
+/** The findings in texts while the user edits them, by path; they are neither saved nor undone. */
 export const useTextFindings = create<TextFindings>(() => ({ linted: {}, errors: {} }));
 
 type Kind = keyof TextFindings;

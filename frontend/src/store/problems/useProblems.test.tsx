@@ -5,7 +5,7 @@ import { useProjectStore } from '@/store/project';
 import { openProject } from '../../../harness/testing';
 import { useProblems } from './useProblems';
 
-it('is one list for all who show it, and follows the text that is checked', () => {
+it('is one list for all users, and follows the checked text', () => {
   onTestFinished(() => useLanguageStore.setState(useLanguageStore.getInitialState(), true));
   openProject({ trees: { Main: { r: { type: 'AlwaysSuccess' } } }, texts: { 'nodes/tones.py': '' } });
   const { result } = renderHook(() => [useProblems(), useProblems()] as const);

@@ -7,7 +7,7 @@ import { useTextFindings } from './texts';
 
 let last: { readonly sources: ProblemSources; readonly rows: readonly ListedProblem[] } | null = null;
 
-/** The list of these sources; made once for all parts of the page that show it. */
+/** Returns the list of these sources. It is cached, since several parts of the page show it. */
 function rowsOf(sources: ProblemSources): readonly ListedProblem[] {
   const before = last?.sources;
   const isSame =
@@ -17,7 +17,10 @@ function rowsOf(sources: ProblemSources): readonly ListedProblem[] {
   return last.rows;
 }
 
-/** The one list of all findings: Problems, its count, and the marks in the Explorer show it. */
+/**
+ * Returns all findings of the project; the Problems panel, its count, and the marks in the Explorer show the
+ * same list.
+ */
 export function useProblems(): readonly ListedProblem[] {
   const project = useProjectStore(
     useShallow(({ files, diagrams, vocabulary, diagnostics }) => ({

@@ -16,18 +16,18 @@ describe('an action whose Python cannot be read', () => {
     ]);
   });
 
-  it('has none where it never could be read', () => {
+  it('has no declaration if it was never readable', () => {
     expect(withLastDeclarations([], [broken()])).toEqual([broken()]);
     expect(withLastDeclarations([broken()], [broken()])).toEqual([broken()]);
   });
 
-  it('comes up to date when it can be read again', () => {
+  it('is updated when it is readable again', () => {
     const now = [action('Go', { ports: [port('pace', 'int')] })];
     expect(withLastDeclarations(withLastDeclarations([good], [broken()]), now)).toBe(now);
   });
 });
 
-it('leaves findings of other kinds with what was read', () => {
+it('keeps findings of other kinds with the declaration', () => {
   const now = [broken('BT0610')];
   expect(withLastDeclarations([good], now)).toBe(now);
 });

@@ -1,14 +1,17 @@
 import type { ActionModel } from '@/api/types';
 
-/** The Python has a syntax error, or does not have the class: while one types, both come and go. */
+/**
+ * The codes of an action that cannot be read: its Python has a syntax error, or lacks the class. Both come
+ * and go while the user types.
+ */
 const UNREADABLE: readonly string[] = ['BT0601', 'BT0602'];
 
 const isUnreadable = ({ diagnostics = [] }: ActionModel): boolean =>
   diagnostics.some(({ code }) => UNREADABLE.includes(code));
 
 /**
- * The actions after a check. An action whose Python cannot be read keeps its last declaration, which is marked
- * as outdated.
+ * Returns the actions after a check. An action whose Python cannot be read keeps its last declaration, which
+ * is marked as outdated.
  */
 export function withLastDeclarations(
   before: readonly ActionModel[],

@@ -17,7 +17,7 @@ beforeEach(() => {
 });
 
 describe('duplicateDocument', () => {
-  it('gives a tree an id of its own', () => {
+  it('gives a tree a new id', () => {
     expect(duplicateDocument('trees/Main.json')).toBe('trees/Main_copy.json');
     expect(store().diagrams['Main_copy']).toMatchObject({
       id: 'Main_copy',
@@ -26,7 +26,7 @@ describe('duplicateDocument', () => {
     expect(duplicateDocument('trees/Main.json')).toBe('trees/Main_copy2.json');
   });
 
-  it('gives an action a class of its own, and leaves the rest', () => {
+  it('gives an action a new class, and keeps the rest', () => {
     expect(duplicateDocument('actions/Turn.py')).toBe('actions/Turn_copy.py');
     expect(store().currentText('actions/Turn_copy.py')).toContain(
       'class Turn_copy(Base):\n    name = "Turn"',
@@ -38,7 +38,7 @@ describe('duplicateDocument', () => {
     expect(store().currentText('notes/README_copy.md')).toBe('Hello');
   });
 
-  it('leaves robots, which are several files, and what is not here', () => {
+  it('does not copy robots, which are several files, and missing files', () => {
     expect(['robots/mine/robot.yaml', 'mesh.stl', 'notes/README.md'].map(canDuplicate)).toEqual([
       false,
       false,

@@ -1,7 +1,7 @@
 import { useProjectStore } from '.';
 import { documentName, kindOf } from './moving';
 
-/** The text of a copy: a tree has its id in it, an action its class. */
+/** Returns the text of a copy: a tree's text contains its id, an action's text its class. */
 function renamedIn(path: string, text: string, name: string): string {
   const kind = kindOf(path);
   if (kind === 'tree') return JSON.stringify({ ...(JSON.parse(text) as object), id: name }, null, 2);
@@ -9,7 +9,7 @@ function renamedIn(path: string, text: string, name: string): string {
   return text.replace(new RegExp(`^class ${documentName(path)}\\b`, 'm'), `class ${name}`);
 }
 
-/** The path of a copy, beside the document, with a name that is free. */
+/** Returns the path of a copy: beside the document, with a free name. */
 function copyPath(path: string, taken: ReadonlySet<string>): string {
   const [, stem = path, suffix = ''] = /^(.*?)(\.[^./]+)?$/.exec(path) ?? [];
   for (let number = 1; ; number += 1) {
@@ -18,7 +18,7 @@ function copyPath(path: string, taken: ReadonlySet<string>): string {
   }
 }
 
-/** Whether a document can be duplicated: its text is here, and it is one file. */
+/** Returns whether a document can be duplicated: it must be one file whose text the page has. */
 export function canDuplicate(path: string): boolean {
   const { currentText } = useProjectStore.getState();
   return kindOf(path) !== 'robot' && currentText(path) !== null;

@@ -25,16 +25,16 @@ interface EditorState {
   /** A new block that is being dragged from the palette. */
   readonly dragged: Kind | null;
   readonly slot: Slot | null;
-  /** The block whose problems and fixes are open. */
+  /** The block whose problems and fixes are shown. */
   readonly fixing: NodeId | null;
   /** The SubTrees of each tree that are expanded in place (`model/expand`). */
   readonly expanded: Readonly<Record<string, ReadonlySet<NodeId>>>;
   readonly find: boolean;
-  /** null: shown for trees that are too large for the view. */
+  /** null: the minimap is shown only for trees that are too large for the view. */
   readonly minimap: boolean | null;
 }
 
-/** The transient state of the editor; not saved and without undo. */
+/** The transient state of the editor; it is neither saved nor undone. */
 export const useEditorStore = create<EditorState>()(() => ({
   quickAdd: null,
   editing: null,

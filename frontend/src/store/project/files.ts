@@ -10,7 +10,7 @@ export interface OpenedFiles {
   readonly diagrams: Readonly<Record<string, Diagram>>;
 }
 
-/** A diagram; null if the text is invalid: then the user gets the text to repair it. */
+/** Returns a diagram; null if the text is invalid: then the user can repair the text. */
 export function tryParse(id: string, text: string): Diagram | null {
   try {
     return { ...parseDiagram(text), id };
@@ -19,7 +19,7 @@ export function tryParse(id: string, text: string): Diagram | null {
   }
 }
 
-/** Separates a project's files into trees and others. */
+/** Separates a project's files into trees and other files. */
 export function openFiles(list: readonly ProjectFile[]): OpenedFiles {
   const files: Record<string, FileEntry> = {};
   const diagrams: Record<string, Diagram> = {};
@@ -55,7 +55,7 @@ export function currentText(data: ProjectData, path: string): string | null {
   return diagram ? textOf(diagram) : null;
 }
 
-/** Updates the list of files after an edit, an undo or a deletion of trees. */
+/** Updates the list of files after trees were edited or deleted, or such a step was undone. */
 export function syncTrees(data: ProjectData): Pick<ProjectData, 'files' | 'removed'> {
   const isInStep =
     Object.keys(data.diagrams).every((id) => data.files[treePath(id)]?.kind === 'tree') &&
@@ -98,7 +98,7 @@ export function pendingChanges(data: ProjectData): FileChange[] {
   return changes;
 }
 
-/** Updates the base revisions after a save; text that was edited since then stays pending. */
+/** Updates the base revisions after a save; edits made since the request stay pending. */
 export function applySaved(
   data: ProjectData,
   sent: readonly FileChange[],

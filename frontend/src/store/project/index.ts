@@ -23,12 +23,12 @@ import {
   type Diagrams,
 } from './transitions';
 
-/** Renames the open tab of a renamed action. */
+/** Renames the tab of a renamed action. */
 const tellRenamed = ({ from, to }: Renaming): void => {
   tellNavigator('file', actionPath(from), actionPath(to));
 };
 
-/** All saved data of the open project, and the selection. */
+/** The saved data of the open project, and the selection. */
 export const useProjectStore = create<ProjectState>()((setState, get) => {
   const set = refusingViewers(setState);
   /** Records a change of trees as one step on the undo stack of `owner`. */
@@ -46,7 +46,7 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       try {
         moved = go(state.diagrams, undoStack);
       } catch {
-        // The step refers to a node that another tree's edit has removed: it cannot be replayed.
+        // The step refers to a node that an edit of another tree has removed, so it cannot be replayed.
         return { histories: { ...state.histories, [owner]: emptyUndo } };
       }
       if (!moved) return state;
@@ -172,7 +172,7 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       const renamed = produce(state.diagrams, renameEverywhere('tree', from, to));
       const { [from]: moved = diagram, ...others } = renamed;
       const diagrams = { ...others, [to]: { ...moved, id: to } };
-      // Before the old name is removed, since tabs of missing trees are closed.
+      // This comes before the old name is removed, since tabs of missing trees are closed.
       if (state.role !== 'viewer') tellNavigator('tree', from, to);
       const { [from]: _undoStack, ...histories } = state.histories;
       set({

@@ -8,9 +8,9 @@ import { useProjectStore } from './index';
 
 /** A behaviour that can be reused: from the built-in library, or a tree of another project. */
 export interface Reusable {
-  /** The name of its tree. */
+  /** The name of the behaviour's tree. */
   readonly id: string;
-  /** `library`, or the id of its project. */
+  /** `library`, or the id of the project that the tree belongs to. */
   readonly source: string;
   readonly version: string;
   readonly files: Sources;
@@ -34,7 +34,7 @@ function isTaken(value: unknown): value is Taken {
   return typeof source === 'string' && typeof version === 'string' && typeof places === 'object';
 }
 
-/** The project's record; an unreadable one counts as empty. */
+/** Returns the record in a project; an unreadable record counts as empty. */
 export function takenIn(text: string | null): Readonly<Record<string, Taken>> {
   if (text === null) return {};
   try {
@@ -63,7 +63,7 @@ function write(path: string, text: string): void {
   else addFile(path, text);
 }
 
-/** The ports of a tree as a subtree. */
+/** Returns the ports that a tree has as a SubTree. */
 function portsOf(text: string | undefined): readonly PortSpec[] {
   return text === undefined ? [] : treeFacts(parseDiagram(text)).ports;
 }
@@ -88,14 +88,14 @@ export function insertBehaviour(behaviour: Reusable): string {
   return plan.tree;
 }
 
-/** A file of a behaviour in the project and in the newest version. */
+/** A file of a behaviour: its text in the project, and in the newest version. */
 export interface Difference {
   readonly path: string;
   readonly mine: string;
   readonly theirs: string;
 }
 
-/** The changes of an update; empty if the project has the newest version. */
+/** Returns the changes of an update; empty if the project has the newest version. */
 export function differencesOf(behaviour: Reusable): readonly Difference[] {
   const taken = takenNow()[keyOf(behaviour)];
   if (!taken) return [];
@@ -105,13 +105,15 @@ export function differencesOf(behaviour: Reusable): readonly Difference[] {
     .filter(({ mine, theirs }) => mine !== theirs);
 }
 
-/** Updates a behaviour to the newest version as a normal save, so that the history has the old one. */
+/**
+ * Updates a behaviour to the newest version with an ordinary save, so that the history keeps the old version.
+ */
 export function updateBehaviour(behaviour: Reusable): void {
   for (const { path, theirs } of differencesOf(behaviour)) write(path, theirs);
   remember(behaviour, takenNow()[keyOf(behaviour)]?.places ?? {});
 }
 
-/** The trees of a project as reusable behaviours, its main tree included. */
+/** Returns the trees of a project as reusable behaviours, its main tree included. */
 export function reusablesOf(project: string, revision: number, files: Sources): readonly Reusable[] {
   return Object.keys(files)
     .map((path) => /^trees\/([^/]+)\.json$/.exec(path)?.[1])
@@ -120,7 +122,7 @@ export function reusablesOf(project: string, revision: number, files: Sources): 
       try {
         return [{ id, source: project, version: `r${revision}`, files: closureOf(id, files) }];
       } catch {
-        // A tree that cannot be read cannot be reused.
+        // An unreadable tree cannot be reused.
         return [];
       }
     });

@@ -21,11 +21,11 @@ beforeEach(() => {
 });
 
 describe('live status', () => {
-  it('is stored by diagram node', () => {
+  it('is stored by diagram and node', () => {
     live().setStatuses([[1, 'RUNNING']]);
     expect([status('a'), status('b')]).toEqual(['RUNNING', undefined]);
   });
-  it('of a tree that is used twice is that of the busiest instance', () => {
+  it('of a tree that is used twice is that of the most active instance', () => {
     live().setStatuses([
       [2, 'RUNNING'],
       [3, 'SUCCESS'],
@@ -34,7 +34,7 @@ describe('live status', () => {
     live().setStatuses([[2, 'IDLE']]);
     expect(status('b')).toBe('SUCCESS');
   });
-  it('animates a repeated flash at a bearable pace', () => {
+  it('repeats the animation of a flash at a limited rate', () => {
     live().flash([[1, 'FAILURE']]);
     const first = live().flashes.get(liveKey('T', 'a'));
     live().flash([[1, 'FAILURE']]);
@@ -42,7 +42,7 @@ describe('live status', () => {
     live().flash([[1, 'SUCCESS']]);
     expect(live().flashes.get(liveKey('T', 'a'))?.status).toBe('SUCCESS');
   });
-  it('of the last tick shows on blocks that are idle again, until the next tick', () => {
+  it('of the last tick is shown on blocks that are idle again, until the next tick', () => {
     live().setStatuses([[1, 'RUNNING']]);
     live().setPast([
       [1, 'FAILURE'],

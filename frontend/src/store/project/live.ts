@@ -1,26 +1,29 @@
 import { create } from 'zustand';
 import type { NodeStatus, TreeNode } from '@/generated/messages';
 
-/** `<tree>/<node>`: node ids are unique only within their diagram. */
+/** `<tree>/<node>`, since node ids are unique only within their diagram. */
 export type LiveKey = string;
 
 export const liveKey = (tree: string, node: string): LiveKey => `${tree}/${node}`;
 
 interface Flash {
   readonly status: NodeStatus;
-  /** Increases, so that repeating the same flash starts its animation again. */
+  /** Increases with each flash, so that repeating the same flash starts its animation again. */
   readonly count: number;
   readonly since: number;
 }
 
-/** The shortest time between two flash animations of a node: shorter than the glow, so that it stays lit. */
+/**
+ * The shortest time between two flash animations of a node. It is shorter than the animation, so that a node
+ * that flashes often stays lit.
+ */
 const REFLASH_MS = 350;
 
 export interface LiveState {
   /** Whether a tree is running, or its last statuses are still shown. */
   readonly active: boolean;
   readonly statuses: ReadonlyMap<LiveKey, NodeStatus>;
-  /** Blocks that are idle again, with their last status in the last tick. */
+  /** The last statuses of blocks that were active in the last tick and are idle again. */
   readonly past: ReadonlyMap<LiveKey, NodeStatus>;
   readonly flashes: ReadonlyMap<LiveKey, Flash>;
   readonly faults: ReadonlyMap<LiveKey, string>;
@@ -33,13 +36,16 @@ export interface LiveState {
   clear(): void;
 }
 
-/** A tree that is used twice has two instances of each node: the block shows the busiest one. */
+/**
+ * The rank of each status. A tree that is called twice has two instances of each node, and a block shows the
+ * one of the highest rank.
+ */
 const WEIGHT: Record<NodeStatus, number> = { RUNNING: 4, FAILURE: 3, SUCCESS: 2, SKIPPED: 1, IDLE: 0 };
 
 const busiest = (statuses: readonly NodeStatus[]): NodeStatus =>
   statuses.reduce<NodeStatus>((best, next) => (WEIGHT[next] > WEIGHT[best] ? next : best), 'IDLE');
 
-/** Statuses of the running tree; not saved and without undo. */
+/** The statuses of the running tree; they are neither saved nor undone. */
 export const useLiveStore = create<LiveState>()((set, get) => {
   let keys = new Map<number, LiveKey>();
   let instances = new Map<LiveKey, number[]>();
@@ -83,7 +89,7 @@ export const useLiveStore = create<LiveState>()((set, get) => {
         const key = keys.get(uid);
         if (key !== undefined) past.set(key, busiest([past.get(key) ?? 'IDLE', status]));
       }
-      // Most ticks end as the one before, and then nothing is drawn again.
+      // Most ticks end like the previous one, and then nothing needs to be drawn again.
       if (!isEqual(past, get().past)) set({ past });
     },
     flash: (flashed) => {
@@ -118,7 +124,7 @@ function isEqual(a: ReadonlyMap<LiveKey, NodeStatus>, b: ReadonlyMap<LiveKey, No
   return a.size === b.size && [...a].every(([key, status]) => b.get(key) === status);
 }
 
-/** The status of a block in the last tick, if it is idle again. */
+/** Returns a block's status in the last tick if the block is idle again. */
 export function pastOf({ statuses, past }: LiveState, key: LiveKey): NodeStatus | undefined {
   return (statuses.get(key) ?? 'IDLE') === 'IDLE' ? past.get(key) : undefined;
 }

@@ -1,6 +1,6 @@
 import { actionPath } from './state';
 
-/** Opens documents for features, which cannot import the frame. */
+/** The functions that open documents. Features call them here, since they cannot import the frame. */
 export interface Navigator {
   openTree(id: string): void;
   openFile(path: string, line?: number): void;
@@ -12,7 +12,7 @@ export interface Navigator {
 
 let navigator: Navigator | null = null;
 
-/** Called once by the frame. */
+/** Sets the navigator; only the frame calls this. */
 export function setNavigator(next: Navigator | null): void {
   navigator = next;
 }

@@ -16,13 +16,13 @@ describe('a finding of the server', () => {
     node: 'n1',
   };
 
-  it('is shown once, in the translated text of the editor, where that finds the same', () => {
+  it('is shown once, in the translated text of the editor if it has the same', () => {
     expect(problemsOf(diagram, vocabulary, [item])).toEqual([
       expect.objectContaining({ source: 'editor', kind: 'unknown-type', values: { type: 'Nobody' } }),
     ]);
   });
 
-  it('keeps the text and the line of the server where the editor has no such finding', () => {
+  it('keeps the text and the line of the server if the editor has no such finding', () => {
     const other = { ...item, code: 'BT0601', file: 'actions/Nobody.py', line: 3 };
     const { message, hint, file, line } = other;
     expect(problemsOf(diagram, vocabulary, [other])[1]).toMatchObject({
@@ -34,7 +34,7 @@ describe('a finding of the server', () => {
     });
   });
 
-  it('leaves with its block', () => {
+  it('is removed with its block', () => {
     expect(problemsOf(diagram, vocabulary, [{ ...item, node: 'gone' }])).toHaveLength(1);
   });
 });
@@ -44,13 +44,13 @@ describe('an empty tree', () => {
   const { vocabulary } = useProjectStore.getState();
   const diagram = emptyDiagram('Main');
 
-  it('is no error while it is edited, and other findings stay what they are', () => {
+  it('is no error while it is edited, and other findings stay unchanged', () => {
     const other = { ...empty, code: 'BT0102' };
     expect(whileEditing([empty, other]).map(({ severity }) => severity)).toEqual(['note', 'error']);
     expect(problemsOf(diagram, vocabulary, []).map(({ severity }) => severity)).toEqual(['note']);
   });
 
-  it('is the error that a run says it is', () => {
+  it('is an error if a run reports it', () => {
     const [found, ...more] = problemsOf(diagram, { ...vocabulary, reachable: new Set(['Main']) }, [empty]);
     expect(found).toMatchObject({ kind: 'empty-tree', severity: 'error' });
     expect(more).toEqual([]);

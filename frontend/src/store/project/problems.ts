@@ -22,12 +22,12 @@ export type ShownProblem =
 const placeOf = (code: string, node: NodeId | null, port: string | undefined): string =>
   `${code} ${node ?? ''} ${port ?? ''}`;
 
-/** A tree without a root. */
+/** The code of a tree without a root. */
 const EMPTY_TREE = 'BT0101';
 
 /**
- * Findings while the user works: an empty tree is where everybody begins, and no error. It is one when it is to
- * be run; then the findings are those of the run.
+ * Returns the findings as they are shown while the user edits. Every new tree is empty, so an empty tree is
+ * only a note then; it is an error when it is to run, and the run reports its own findings.
  */
 export const whileEditing = (diagnostics: readonly Diagnostic[]): Diagnostic[] =>
   diagnostics.map((each) => (each.code === EMPTY_TREE ? { ...each, severity: 'note' } : each));
@@ -44,7 +44,7 @@ function ownProblems(diagram: Diagram, vocabulary: Vocabulary): readonly Problem
   return problems;
 }
 
-/** All findings of one tree, the editor's first; a finding of both is shown once. */
+/** Returns all findings of one tree, the editor's first; a problem that both have found is listed once. */
 export function problemsOf(
   diagram: Diagram,
   vocabulary: Vocabulary,
@@ -80,11 +80,11 @@ export function problemsOf(
   return [...own, ...server];
 }
 
-/** The errors among the findings of a check. */
+/** Returns the errors among the findings of a check. */
 export const errorsOf = (diagnostics: readonly Diagnostic[]): Diagnostic[] =>
   diagnostics.filter(({ severity }) => severity === 'error');
 
-/** The worst finding of each node. */
+/** Returns the worst finding of each node. */
 export function worstByNode(problems: readonly ShownProblem[]): ReadonlyMap<NodeId, ShownProblem> {
   const worst = new Map<NodeId, ShownProblem>();
   for (const problem of problems) {

@@ -3,7 +3,7 @@ import type { ProjectState } from './state';
 type Part = Partial<ProjectState>;
 type Change = Part | ((state: ProjectState) => Part);
 
-/** The store's `set`, which refuses edits of a read-only project. */
+/** Wraps the store's `set` so that it refuses edits of a read-only project. */
 export function refusingViewers(set: (change: (state: ProjectState) => Part) => void) {
   return (change: Change): void => {
     set((state) => {

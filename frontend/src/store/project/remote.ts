@@ -7,17 +7,17 @@ import { readSettings } from './settings';
 import type { ProjectData } from './state';
 import { knowing } from './transitions';
 
-/** Files from the server, by path. */
+/** The result of merging the server's files into the page's. */
 export interface Merged {
   readonly data: Partial<ProjectData>;
   readonly taken: readonly string[];
-  /** Files that were changed both there and here: the next save asks the user. */
+  /** Files that were changed on both sides: the next save asks the user. */
   readonly kept: readonly string[];
 }
 
 /**
- * Applies what was saved elsewhere (another tab, another user). A file that is edited here keeps its text and
- * its old base, so that saving it becomes a conflict and neither version is lost.
+ * Merges a revision that was saved elsewhere (in another tab, by another user). A file with unsaved edits
+ * keeps its text and its old base, so that saving it becomes a conflict and neither version is lost.
  */
 export function mergeRemote(data: ProjectData, detail: ProjectDetail): Merged {
   const remote = openFiles(detail.files);
@@ -52,7 +52,7 @@ export function mergeRemote(data: ProjectData, detail: ProjectDetail): Merged {
     const diagram = tree === null ? undefined : remote.diagrams[tree];
     if (tree !== null && diagram) {
       diagrams[tree] = diagram;
-      // Undo would revert another user's work.
+      // Undo would otherwise revert another user's work.
       histories[tree] = emptyUndo;
     }
     taken.push(theirs.path);

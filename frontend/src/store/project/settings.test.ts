@@ -4,7 +4,7 @@ import { readSettings } from './settings';
 
 const read = (settings: Record<string, unknown>) => readSettings({ ...projectDetail(1, []), settings });
 
-it('keeps what it does not know', () => {
+it('keeps unknown settings', () => {
   const settings = {
     name: 'Mine',
     main_tree: 'Patrol',
@@ -20,6 +20,6 @@ it('leaves out a setting of a wrong type', () => {
   expect(read(wrong)).toEqual({ name: 'Test', main_tree: 'MainTree', on_error: 'failure' });
 });
 
-it('takes name and main tree of the project where the file has none', () => {
+it('uses name and main tree of the project if the file has none', () => {
   expect(read({})).toEqual({ name: 'Test', main_tree: 'MainTree' });
 });

@@ -23,7 +23,10 @@ const areSettings = (settings: Readonly<Record<string, unknown>>): settings is P
   ['name', 'main_tree'].every((key) => key in settings) &&
   Object.entries(settings).every(([key, value]) => fits(key, value));
 
-/** A project's settings as the page uses them: one of a wrong type has its default, as for the translator. */
+/**
+ * Returns a project's settings as the page uses them. A setting of the wrong type gets its default, as in the
+ * translator.
+ */
 export function readSettings({
   name,
   main_tree,

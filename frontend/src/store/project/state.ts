@@ -14,7 +14,7 @@ import type { Vocabulary } from '@/model/vocabulary';
 
 export interface FileEntry {
   readonly path: string;
-  /** A tree is stored in `diagrams`; it has a text here only while that cannot be parsed. */
+  /** A tree is stored in `diagrams`; it has a text here only while the text cannot be parsed. */
   readonly kind: 'tree' | 'text' | 'binary';
   readonly text: string | null;
   /** The base revision of the next change; 0: the server does not have the file yet. */
@@ -24,7 +24,7 @@ export interface FileEntry {
 
 export interface ProjectData {
   readonly projectId: string | null;
-  /** Edits of a viewer are refused, and counted. */
+  /** The user's role; edits of a viewer are refused and counted in `refusedEdits`. */
   readonly role: ProjectRole;
   readonly refusedEdits: number;
   readonly name: string;
@@ -33,7 +33,7 @@ export interface ProjectData {
   readonly mainTree: string;
   readonly revision: number;
   readonly files: Readonly<Record<string, FileEntry>>;
-  /** Files that are deleted here but not yet on the server: their revisions by path. */
+  /** The revisions of files, by path, that are deleted here but not yet on the server. */
   readonly removed: Readonly<Record<string, number>>;
   readonly diagrams: Readonly<Record<string, Diagram>>;
   readonly actions: readonly ActionModel[];
@@ -43,14 +43,14 @@ export interface ProjectData {
   readonly activeTree: string | null;
   /** The selected blocks of the active tree, in order of selection. */
   readonly selection: readonly NodeId[];
-  /** Asks the canvas of a tree to scroll to a node; the counter makes each request new. */
+  /** A request to the canvas of a tree to scroll to a node; the counter makes each request new. */
   readonly revealed: { readonly tree: string; readonly node: NodeId; readonly count: number } | null;
   /** Increases with each edit that must be saved. */
   readonly changeCounter: number;
 }
 
 export interface EditOptions {
-  /** Consecutive edits with the same key are one step of undo. */
+  /** Consecutive edits with the same key are one undo step. */
   readonly mergeKey?: string;
   /** The selection after the edit. */
   readonly select?: readonly NodeId[];
@@ -64,14 +64,11 @@ export interface ProjectActions {
   setActiveTree(id: string | null): void;
   select(treeId: string, ids: readonly NodeId[]): void;
   reveal(treeId: string, node: NodeId): void;
-  /**
-   * Changes a tree by recipes, as one step on its undo stack with the label `label` (an i18n key of
-   * `canvas:edit`).
-   */
+  /** Changes a tree by recipes, as one step on its undo stack; `label` is an i18n key of `canvas:edit`. */
   apply(treeId: string, label: string, recipes: readonly Recipe[], options?: EditOptions): void;
   /** Ends a gesture: the next edit is a step of its own. */
   seal(treeId?: string): void;
-  /** Takes back the last step of a tree, or of the active one. */
+  /** Undoes the last step of a tree, or of the active one. */
   undo(tree?: string): void;
   redo(): void;
   addTree(id: string): void;
@@ -84,12 +81,12 @@ export interface ProjectActions {
   deleteFile(path: string): void;
   setSettings(patch: Partial<ProjectSettings>): void;
   setChecked(checked: { diagnostics: readonly Diagnostic[]; actions: readonly ActionModel[] }): void;
-  /** The changes to send to the server, each file with its base revision. */
+  /** Returns the changes to send to the server, each file with its base revision. */
   pendingChanges(): FileChange[];
   applySaved(sent: readonly FileChange[], result: ChangesResult): void;
-  /** After a conflict: sets the base revision of the file; its text here stays. */
+  /** Sets the base revision of a file after a conflict; the user's text stays. */
   rebase(path: string, revision: number, savedText: string): void;
-  /** The text of a file as it would be saved; null if it is binary or unknown. */
+  /** Returns the text of a file as it would be saved; null if it is binary or unknown. */
   currentText(path: string): string | null;
 }
 

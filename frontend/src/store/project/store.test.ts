@@ -62,7 +62,7 @@ beforeEach(() => {
 });
 
 describe('loading', () => {
-  it('sorts files, and has nothing to save', () => {
+  it('separates trees from files, and has nothing to save', () => {
     const kinds = Object.fromEntries(Object.values(state().files).map((each) => [each.path, each.kind]));
     expect(kinds).toEqual({
       'trees/MainTree.json': 'tree',
@@ -77,7 +77,7 @@ describe('loading', () => {
 });
 
 describe('saving', () => {
-  it('sends what changed with its base, and keeps what was typed meanwhile', () => {
+  it('sends changes with their base, and keeps later edits', () => {
     state().apply('MainTree', 'rename', [setName('a', 'left')]);
     state().setFileText('actions/Turn.py', 'one');
     const sent = state().pendingChanges();
@@ -94,7 +94,7 @@ describe('saving', () => {
     });
     expect(state().pendingChanges()).toEqual([{ path: 'actions/Turn.py', base_revision: 4, content: 'two' }]);
   });
-  it('knows an action that was made while a save was under way, and no longer one that the server does not', () => {
+  it('keeps an action that was made during a save, and drops one that the server does not have', () => {
     state().apply('MainTree', 'rename', [setName('a', 'left')]);
     const sent = state().pendingChanges();
     createAction('Wave');
@@ -104,7 +104,7 @@ describe('saving', () => {
     state().applySaved(later, { revision: 5, files: [], actions: project.actions, diagnostics: [] });
     expect(state().vocabulary.specs.has('Wave')).toBe(false);
   });
-  it('keeps what it knew of the actions when the server could not check what it saved', () => {
+  it('keeps the known actions when the server could not check', () => {
     const before = state();
     const notChecked = { code: 'BT0009', severity: 'warning', message: 'Not checked', hint: '' } as const;
     for (const revision of [4, 5]) {
@@ -115,7 +115,7 @@ describe('saving', () => {
     expect(state().actions).toEqual(before.actions);
     expect(state().diagnostics.map(({ code }) => code)).toEqual(['BT0009']);
   });
-  it('creates and deletes files, and forgets what the server never saw', () => {
+  it('creates and deletes files, and drops those that the server never had', () => {
     state().addFile('actions/New.py', 'x');
     state().deleteFile('actions/New.py');
     state().deleteFile('actions/Turn.py');
@@ -125,7 +125,7 @@ describe('saving', () => {
       { path: 'actions/Turn.py', base_revision: 3, delete: true },
     ]);
   });
-  it('takes the text of a tree, and keeps one that does not parse for the user to repair', () => {
+  it('reads the text of a tree, and keeps an invalid one for the user to repair', () => {
     const renamed = edit(state().diagrams['MainTree']!, setName('r', 'top')).diagram;
     state().setFileText('trees/MainTree.json', serializeDiagram(renamed));
     expect(state().diagrams['MainTree']!.nodes['r']?.name).toBe('top');
@@ -165,7 +165,7 @@ describe('undo', () => {
     type('2');
     expect(state().histories['MainTree']?.past).toHaveLength(2);
   });
-  it('brings back blocks and selection', () => {
+  it('restores blocks and selection', () => {
     state().select('MainTree', ['f']);
     deleteSelection();
     expect([types(), state().selection]).toEqual([['Sequence', 'Turn'], ['a']]);
@@ -189,7 +189,7 @@ describe('commands', () => {
     moveOut();
     expect(children('r')).toEqual(['f', 'a']);
   });
-  it('duplicate with all that hangs below', () => {
+  it('duplicate with the subtree', () => {
     state().select('MainTree', ['f']);
     duplicateSelection();
     expect(types().sort()).toEqual(['Fallback', 'Fallback', 'Sequence', 'Turn', 'Turn', 'Turn']);
@@ -211,7 +211,7 @@ describe('commands', () => {
     expect(state().currentText('actions/Spin.py')).toBe('class Spin:\n    pass\n');
     expect(types()).toEqual(['Sequence', 'Spin', 'Fallback', 'Spin']);
   });
-  it('rename an action where other files import it, and take all of it back', () => {
+  it('rename an action that other files import, and undo all of it', () => {
     state().addFile('actions/Go.py', 'from Turn import Turn\n\n\nclass Go(Turn):  # no Turn\n    pass\n');
     state().renameAction('Turn', 'Spin');
     expect(state().currentText('actions/Go.py')).toContain('from Spin import Spin');
@@ -226,7 +226,7 @@ describe('commands', () => {
     expect(state().currentText('actions/Spin.py')).toContain('class Spin');
     expect(types()).toEqual(['Sequence', 'Spin', 'Fallback', 'Spin']);
   });
-  it('tell the frame of another name, so that what shows a document stays open', () => {
+  it('tell the frame about a new name, so that tabs stay open', () => {
     const renamed = vi.fn();
     setNavigator({ openTree: vi.fn(), openFile: vi.fn(), aimAt: vi.fn(), renamed });
     state().renameAction('Turn', 'Spin');

@@ -48,7 +48,7 @@ function sameTrees(a: Vocabulary['trees'], b: Vocabulary['trees']): boolean {
 
 const lastActions = new WeakMap<Vocabulary, ProjectData['actions']>();
 
-/** The vocabulary of the present data; the same object while its inputs are unchanged. */
+/** Returns the vocabulary of the current data: the same object as before if its inputs are unchanged. */
 function vocabularyOf(data: ProjectData): Vocabulary {
   const trees = new Map(Object.entries(data.diagrams).map(([id, diagram]) => [id, treeFacts(diagram)]));
   const last = data.vocabulary;
@@ -61,7 +61,7 @@ function vocabularyOf(data: ProjectData): Vocabulary {
 
 const NOT_CHECKED = 'BT0009';
 
-/** The findings after a check; if the check failed, the earlier findings stay. */
+/** Returns the findings after a check; if the server could not check, the earlier findings stay. */
 export function findingsAfter(before: Findings, answer: Findings & Pick<CheckResult, 'checked'>): Findings {
   const { checked, diagnostics, actions } = answer;
   if (checked !== false) return { diagnostics, actions: withLastDeclarations(before.actions, actions) };
@@ -69,12 +69,12 @@ export function findingsAfter(before: Findings, answer: Findings & Pick<CheckRes
   return { diagnostics: [...earlier, ...diagnostics], actions: before.actions };
 }
 
-/** Returns the old object if the new data are equal, so that nothing is drawn again. */
+/** Returns the old object if the new data are equal to it, so that nothing is drawn again. */
 export function confirmed<T>(before: T, now: T): T {
   return JSON.stringify(before) === JSON.stringify(now) ? before : now;
 }
 
-/** The actions that the server read from a save, and those that were created here since then. */
+/** Returns the actions that the server read at a save, and those that were created in the page since then. */
 export function actionsAfter(
   before: ProjectData['actions'],
   saved: ProjectData['actions'],
@@ -86,13 +86,13 @@ export function actionsAfter(
   return confirmed(before, [...saved, ...before.filter(isNew)]);
 }
 
-/** Updates files and vocabulary after a change of trees or actions. */
+/** Returns the data with files and vocabulary updated after a change of trees or actions. */
 export function knowing<T extends ProjectData>(data: T): T {
   const { files, removed } = syncTrees(data);
   return { ...data, files, removed, vocabulary: vocabularyOf(data) };
 }
 
-/** A change of trees, written as if they were mutable. */
+/** A change of trees, written as if the trees were mutable. */
 export type Change = (draft: Record<string, Draft<Diagram>>) => void;
 
 export interface ChangeOptions {
@@ -126,7 +126,7 @@ export function changeDiagrams(
     after,
   });
   const entry = data.files[treePath(owner)];
-  // An edit of the tree replaces a text of it that could not be parsed.
+  // An edit of a tree replaces the text that could not be parsed.
   const isText = entry?.kind === 'tree' && entry.text !== null;
   const files = isText ? { ...data.files, [treePath(owner)]: { ...entry, text: null } } : data.files;
   return {

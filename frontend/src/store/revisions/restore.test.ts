@@ -25,7 +25,7 @@ beforeEach(() => {
   store().load(detail(3, 'New', 'new'));
 });
 
-it('brings files back as a new revision, and lets a tree be undone', async () => {
+it('restores files as a new revision, and makes the change of a tree undoable', async () => {
   const ask = vi.spyOn(revisions, 'restore').mockResolvedValue(detail(4, 'Old', 'old'));
   expect(await restoreRevision(1, [])).toEqual({ previous: 3, isChanged: true });
   expect(ask).toHaveBeenCalledWith('p1', 1, []);
@@ -36,7 +36,7 @@ it('brings files back as a new revision, and lets a tree be undone', async () =>
   expect(store().pendingChanges()).toMatchObject([{ path: treePath('Main'), base_revision: 4 }]);
 });
 
-it('saves what waits before, and does nothing when that cannot be saved', async () => {
+it('saves pending edits first, and does nothing if that fails', async () => {
   vi.spyOn(api, 'saveChanges').mockRejectedValue(new Error('no room'));
   const ask = vi.spyOn(revisions, 'restore');
   store().setFileText(ACTION, 'half typed');
@@ -45,7 +45,7 @@ it('saves what waits before, and does nothing when that cannot be saved', async 
   expect(store().currentText(ACTION)).toBe('half typed');
 });
 
-it('keeps the undo of a tree also when the news of the revision come before the answer', async () => {
+it('keeps the undo of a tree even if the notice of the revision comes before the answer', async () => {
   let answer: (detail: ProjectDetail) => void = () => undefined;
   vi.spyOn(revisions, 'restore').mockReturnValue(new Promise((resolve) => (answer = resolve)));
   const fetched = vi.spyOn(api, 'getProject');

@@ -7,7 +7,7 @@ import { useProjectStore } from '@/store/project';
 import { mergeRemote } from '@/store/project/remote';
 import { asSave, saveNow } from '@/store/saving/autosave';
 
-/** The result of a restore: how to revert it, and whether anything changed. */
+/** The result of a restore: the revision before it, and whether anything changed. */
 export interface Restored {
   readonly previous: number;
   readonly isChanged: boolean;
@@ -15,7 +15,7 @@ export interface Restored {
 
 /**
  * Restores files (all, if none are named) from a revision, as a new revision. Pending edits are saved first,
- * so that the history has them.
+ * so that the history contains them.
  */
 export async function restoreRevision(number: number, paths: readonly string[]): Promise<Restored> {
   const { projectId } = useProjectStore.getState();
@@ -28,7 +28,7 @@ export async function restoreRevision(number: number, paths: readonly string[]):
   return { previous, isChanged: useProjectStore.getState().revision !== previous };
 }
 
-/** Loads the restored files; the change of a tree is a step of its undo. */
+/** Loads the restored files; for a tree, the change is a step on its undo stack. */
 function takeRestored(detail: ProjectDetail): void {
   const state = useProjectStore.getState();
   if (state.projectId !== detail.id) return;

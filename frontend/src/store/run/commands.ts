@@ -5,7 +5,7 @@ import { doesWorldRunAlone, isWorldPaused } from '@/store/session/clock';
 import { useSessionStore } from '@/store/session/store';
 import { useRunStore } from './store';
 
-/** Shows the error of a refused command in the banner. */
+/** Reports the error of a refused command in the banner. */
 async function reported(doing: Promise<unknown>): Promise<void> {
   try {
     await doing;
@@ -22,7 +22,7 @@ async function reported(doing: Promise<unknown>): Promise<void> {
 export const isRunning = () => useSessionStore.getState().executor === 'application_running';
 export const isPaused = () => useSessionStore.getState().executor === 'paused';
 export const hasApplication = () => isRunning() || isPaused();
-/** Whether the program can be started in the world as it is. */
+/** Returns whether the program can be restarted in the running world. */
 export const canRestart = () =>
   hasApplication() || useSessionStore.getState().executor === 'visualization_ready';
 const isWorldUp = () => !['idle', 'connected'].includes(useSessionStore.getState().executor);
@@ -43,7 +43,7 @@ export const canRunWorld = () => {
   const session = useSessionStore.getState();
   return session.executor === 'visualization_ready' && isWorldPaused(session);
 };
-/** Whether there is something to stop: a program, or a world that runs without one. */
+/** Returns whether something can be stopped: a program, or a world that runs without one. */
 export const canStop = () => hasApplication() || doesWorldRunAlone(useSessionStore.getState());
 export const resetWorld = () => reported(send('reset_world', {}));
 /** Takes control of the session; the page that had it becomes a viewer. */
@@ -70,13 +70,14 @@ export function setTickRate(tickHz: number): void {
   useProjectStore.getState().setSettings({ tick_hz: tickHz });
   useSessionStore.setState({ tickHz });
   if (!hasApplication()) return;
-  // The running application has the new rate too, so it does not count as changed.
+  // The running application has the new rate too, so this change does not make the program outdated.
   if (isSame) useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter });
   void reported(send('set_tick_rate', { tick_hz: tickHz }));
 }
 
 /**
- * Sets the ratio of simulated to real time; 0 is as fast as the machine can. A later world starts with it.
+ * Sets the ratio of simulated to real time; 0 means as fast as possible. The next world starts with the same
+ * ratio.
  */
 export function setSpeed(speed: number): void {
   useSessionStore.setState({ speed });

@@ -11,7 +11,7 @@ import { useSessionStore } from '@/store/session/store';
 import { useRunStore, type LaunchFailure, type LaunchStage } from './store';
 import { chosenUniverse, useUniverseChoice } from './universeChoice';
 
-/** Saves, checks, starts what is missing, and runs; resolves to whether the application runs. */
+/** Saves, checks, starts what is missing, and runs; resolves to true if the application runs. */
 export const runProject = () => launch((app) => send('run', runCommand(app)));
 
 /** Saves, checks, and restarts the application with the new program; the world continues. */
@@ -42,7 +42,8 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
     await begin(app);
     return true;
   } catch (error) {
-    // Without a connection the session continues, and reports the result after reconnecting.
+    // Without a connection no error is shown: the session continues, and reports the result after the page
+    // reconnects.
     if (!isUnconnected(error) && !wasCancelled) useRunStore.setState({ failure: failureOf(error) });
     return false;
   } finally {
@@ -51,14 +52,14 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
   }
 }
 
-/** The last save found errors: the server would refuse the program. */
+/** Thrown when the last save has errors: the server would refuse the program. */
 class UnsoundError extends Error {
   constructor(readonly diagnostics: Diagnostic[]) {
     super(diagnostics[0]?.message ?? '');
   }
 }
 
-/** The user pressed *Cancel*: no error is shown. */
+/** Whether the user pressed *Cancel*: then no error is shown. */
 let wasCancelled = false;
 
 export function cancelRun(): void {

@@ -1,7 +1,7 @@
 import { create } from 'zustand';
 import type { Diagnostic } from '@/api/types';
 
-/** The steps of Run before those of the executor. */
+/** The steps of Run that come before those of the executor. */
 export type LaunchStage = 'saving' | 'checking' | 'starting' | 'launching';
 
 export interface LaunchFailure {
@@ -14,7 +14,7 @@ export interface LaunchFailure {
 }
 
 /**
- * The reason why a user cannot run a project: guests use a read-only link, viewers watch another page's
+ * The reason why the user cannot run a project: a guest has a read-only link, a viewer watches another page's
  * session.
  */
 export type RunBlocker = 'guest' | 'viewer';
@@ -22,12 +22,12 @@ export type RunBlocker = 'guest' | 'viewer';
 interface RunData {
   stage: LaunchStage | null;
   failure: LaunchFailure | null;
-  /** The edit counter of the program that is running. */
+  /** The value of the edit counter when the running program was started. */
   ranAt: number;
   runBlocker: RunBlocker | null;
-  /** The run for which the user declined a restart, by its `ranAt`. */
+  /** The program, by its `ranAt`, for which the user declined a restart. */
   declinedRestart: number | null;
-  /** The notice about another page's control that the user has read. */
+  /** The notice about a takeover by another page that the user has read. */
   readTakeOver: string;
 }
 

@@ -3,21 +3,21 @@ import { send } from '@/store/session/connection';
 import { useSessionStore } from '@/store/session/store';
 
 export interface Direction {
-  /** Forward 1, backward -1. */
+  /** 1 is forward, -1 backward. */
   linear: number;
-  /** Left 1, right -1. */
+  /** 1 is left, -1 right. */
   angular: number;
 }
 
 interface TeleopData {
   isOn: boolean;
-  /** The speeds of a held key, m/s and rad/s. */
+  /** The speeds while a key is held, in m/s and rad/s. */
   linear: number;
   angular: number;
   direction: Direction;
 }
 
-/** The world drops a command after a while, so a held key sends it again. */
+/** The period of repeated commands: the world drops a command after a while, so a held key sends it again. */
 const REPEAT_MS = 100;
 const STILL: Direction = { linear: 0, angular: 0 };
 
@@ -31,8 +31,8 @@ export const useTeleop = create<TeleopData>(() => ({
 let repeating: ReturnType<typeof setInterval> | undefined;
 
 /**
- * Whether the robot can be driven by hand, which needs running time: a pause freezes the world until resume
- * or stop.
+ * Returns whether the user can drive the robot by hand. Time must pass: while a run is paused, the world is
+ * frozen.
  */
 export function canDrive(): boolean {
   const { executor, introspection } = useSessionStore.getState();

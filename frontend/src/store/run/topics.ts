@@ -3,7 +3,7 @@ import { addEcho, dropEcho } from '@/store/session/topics';
 
 export const refreshTopics = () => send('list_topics', {}).catch(() => undefined);
 
-/** Echoes a topic; rejects with the reason if the session cannot. */
+/** Starts echoing a topic; rejects with the reason if the session cannot. */
 export async function listen(topic: string): Promise<void> {
   addEcho(topic);
   try {

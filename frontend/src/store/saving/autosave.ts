@@ -6,7 +6,10 @@ import { clearDraft, writeDraft } from './drafts';
 import { useSavingStore, type SaveState } from './store';
 
 const SAVE_AFTER_MS = 600;
-/** Long enough to draw an edit first, and to keep fast typing only once. */
+/**
+ * The delay before edits are kept in the browser: the page draws an edit first, and fast typing is stored
+ * only once.
+ */
 const KEEP_AFTER_MS = 80;
 const RETRY_AFTER_MS = 4000;
 
@@ -17,7 +20,7 @@ let stopWatching: (() => void) | null = null;
 
 const setState = (state: SaveState) => useSavingStore.setState({ state });
 
-/** Saves the open project shortly after each edit, until it is stopped. */
+/** Saves the open project shortly after each edit, until `stopAutosave` is called. */
 export function startAutosave(): void {
   stopAutosave();
   let counter = useProjectStore.getState().changeCounter;
@@ -42,10 +45,10 @@ export function stopAutosave(): void {
   setState({ kind: 'saved' });
 }
 
-/** Saves all edits now; resolves once the server has them, rejects otherwise. */
+/** Saves all edits now; resolves when the server has them, otherwise rejects. */
 export async function saveNow(): Promise<void> {
   clearTimeout(timer);
-  // One request at a time: the next one needs the revisions of the last one.
+  // Only one request runs at a time: each needs the revisions that the previous one made.
   while (inFlight) await inFlight.catch(() => undefined);
   inFlight = save().finally(() => {
     inFlight = null;
@@ -53,7 +56,7 @@ export async function saveNow(): Promise<void> {
   return inFlight;
 }
 
-/** Runs another write of a revision while no save is in progress. */
+/** Runs another request that makes a revision while no save is in progress. */
 export async function asSave(write: () => Promise<void>): Promise<void> {
   clearTimeout(timer);
   while (inFlight) await inFlight.catch(() => undefined);
@@ -74,7 +77,7 @@ function onEdited(): void {
 
 function saveSoon(delay: number | Event = SAVE_AFTER_MS): void {
   clearTimeout(timer);
-  // While a conflict waits for the user's choice, another save would only ask the same question.
+  // While a conflict waits for the user's choice, another save would only cause the same conflict.
   if (useSavingStore.getState().state.kind === 'conflict') return;
   timer = setTimeout(
     () => void saveNow().catch(() => undefined),
@@ -88,7 +91,7 @@ function saveWhenHidden(): void {
   if (useSavingStore.getState().state.kind === 'dirty') saveSoon(0);
 }
 
-/** Keeps pending edits in the browser at once. */
+/** Stores pending edits in the browser at once. */
 function keepDraftNow(): void {
   if (keeping !== undefined) keepDraft();
 }
@@ -136,7 +139,7 @@ function onRefused(error: unknown): void {
   if (error instanceof ApiError && (error.isOffline || error.status >= 500)) saveSoon(RETRY_AFTER_MS);
 }
 
-/** The message of this save in the history. */
+/** Returns the message that this save gets in the history. */
 function messageFor(files: readonly FileChange[]): string {
   const names = files.map((file) => file.path.split('/').at(-1) ?? file.path);
   return names.length <= 3 ? `Edit ${names.join(', ')}` : `Edit ${names.length} files`;

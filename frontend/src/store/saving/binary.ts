@@ -10,13 +10,13 @@ export interface Binary {
   readonly data: ArrayBuffer;
 }
 
-/** The URL of a file of the open project. */
+/** Returns the URL of a file of the open project. */
 export const fileUrl = (path: string): string => {
   const { projectId } = useProjectStore.getState();
   return urlOf(`/projects/${projectId ?? ''}/files/${path.split('/').map(encodeURIComponent).join('/')}`);
 };
 
-/** Fetches files that the browser does not hold. */
+/** Fetches files whose content the page does not have. */
 export async function fetchBinaries(paths: readonly string[]): Promise<Binary[]> {
   return Promise.all(
     paths.map(async (path) => {

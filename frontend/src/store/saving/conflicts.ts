@@ -5,8 +5,8 @@ import { clearDraft, readDraft } from './drafts';
 import { useSavingStore } from './store';
 
 /**
- * Ends a conflict with the text that the user chose (theirs, mine, or a merge of both). The text becomes an
- * edit on top of the server's version, so that the history keeps both.
+ * Ends a conflict with the text that the user chose: the server's, the own, or a merge of both. The text
+ * becomes an edit on top of the server's version, so that the history contains both.
  */
 export async function resolveConflict(conflict: Conflict, text: string | null): Promise<void> {
   takeAsBase(conflict);
@@ -22,7 +22,7 @@ export async function resolveConflict(conflict: Conflict, text: string | null): 
   await saveNow();
 }
 
-/** Makes the server's version the base of the file's edits; either side may have deleted the file. */
+/** Makes the server's version the base of the file's edits; the file may be deleted on either side. */
 function takeAsBase({ path, theirs, mine }: Conflict): void {
   const { files, addFile, rebase } = useProjectStore.getState();
   if (!(path in files)) addFile(path, theirs?.content ?? mine.content ?? '');
@@ -30,8 +30,8 @@ function takeAsBase({ path, theirs, mine }: Conflict): void {
 }
 
 /**
- * Restores edits that a crash or a reload interrupted. Edits of a file that has changed since then become
- * conflicts.
+ * Restores edits that a crash or a reload interrupted. If a file has changed on the server since then, its
+ * edits become a conflict.
  */
 export function restoreDraft(detail: ProjectDetail): void {
   const draft = readDraft(detail.id);

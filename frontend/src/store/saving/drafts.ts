@@ -1,6 +1,6 @@
 import type { FileChange } from '@/api/types';
 
-/** Edits that the server has not confirmed, kept in the browser until it does. */
+/** Edits that the server has not confirmed yet; they are stored in the browser until it does. */
 export interface Draft {
   savedAt: number;
   files: FileChange[];
@@ -13,7 +13,7 @@ export function writeDraft(projectId: string, files: FileChange[], now = Date.no
   try {
     localStorage.setItem(key(projectId), JSON.stringify({ savedAt: now, files } satisfies Draft));
   } catch {
-    // The browser's storage is full: edits are then kept only by the server.
+    // The browser's storage is full: unsaved edits are then lost if the page crashes.
   }
 }
 

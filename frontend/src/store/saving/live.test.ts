@@ -28,7 +28,7 @@ beforeEach(() => {
 });
 
 describe('a revision that was made elsewhere', () => {
-  it('is taken over, with files that are new, changed and gone', async () => {
+  it('is applied, with files that are new, changed and deleted', async () => {
     serverHas(2, [
       projectFile('actions/Go.py', 2, 'go on'),
       projectFile('actions/New.py', 2, 'new'),
@@ -44,7 +44,7 @@ describe('a revision that was made elsewhere', () => {
     expect(onTaken.mock.calls[0]?.[0]).toHaveLength(4);
   });
 
-  it('leaves what is edited here alone, on its old base, so that saving asks', async () => {
+  it('leaves files with edits unchanged, on their old base, so that saving asks', async () => {
     store().setFileText('actions/Go.py', 'mine');
     serverHas(2, [
       projectFile('actions/Go.py', 2, 'theirs'),
@@ -57,7 +57,7 @@ describe('a revision that was made elsewhere', () => {
     expect(store().pendingChanges()).toEqual([{ path: 'actions/Go.py', base_revision: 1, content: 'mine' }]);
   });
 
-  it('is no news when this page made it', async () => {
+  it('is ignored when this page made it', async () => {
     const get = vi.spyOn(api, 'getProject');
     get.mockClear();
     await catchUp('p1', notice(1), onTaken);

@@ -5,10 +5,10 @@ import { mergeRemote } from '@/store/project/remote';
 import { saveNow } from './autosave';
 import { useSavingStore } from './store';
 
-/** Called with a remote change: the paths, and its message. */
+/** Called after a remote change was applied, with the paths and the notice. */
 type OnTaken = (paths: readonly string[], notice: Notice) => void;
 
-/** Called with a notice for all users of the server; an empty text ends it. */
+/** Called with the notice to all users of the server; an empty text ends the notice. */
 type OnServer = (text: string) => void;
 
 interface ServerNotice {
@@ -27,7 +27,7 @@ const RETRY_AFTER_MS = [1000, 3000, 10_000, 30_000] as const;
 const SIGNED_OUT = 4401;
 const NO_SUCH_PROJECT = 4404;
 
-/** Follows the project's revisions and the server's notices until the returned function is called. */
+/** Follows the project's revisions and the server's notices; returns a function that stops it. */
 export function followRevisions(projectId: string, onTaken: OnTaken, onServer: OnServer): () => void {
   let socket: WebSocket | null = null;
   let timer: ReturnType<typeof setTimeout> | undefined;
@@ -43,7 +43,7 @@ export function followRevisions(projectId: string, onTaken: OnTaken, onServer: O
         onServer(notice.text);
         return;
       }
-      // A lost answer does no harm: the next notice or connection repeats it.
+      // A lost answer does no harm, since the next notice or connection repeats it.
       void catchUp(projectId, notice, onTaken).catch(() => undefined);
     };
     socket.onclose = ({ code }) => {
@@ -60,7 +60,7 @@ export function followRevisions(projectId: string, onTaken: OnTaken, onServer: O
   };
 }
 
-/** Fetches and applies a revision that another page made. */
+/** Fetches and applies a revision that someone else made. */
 export async function catchUp(projectId: string, notice: Notice, onTaken: OnTaken): Promise<void> {
   const isKnown = () => {
     const { projectId: open, revision } = useProjectStore.getState();

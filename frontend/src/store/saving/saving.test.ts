@@ -14,7 +14,7 @@ const PATH = 'actions/Go.py';
 const detail = (revision = 1, content = 'first') =>
   projectDetail(revision, [projectFile(PATH, revision, content)]);
 
-/** A server that keeps revisions and refuses stale bases, as ours does. */
+/** Returns a server that counts revisions and refuses stale bases, like the real one. */
 function fakeServer(initial: string) {
   const file = { revision: 1, content: initial };
   const save = vi.spyOn(api, 'saveChanges').mockImplementation((_id, { files }) => {
@@ -66,7 +66,7 @@ afterEach(() => {
 });
 
 describe('autosave', () => {
-  it('saves a moment after the last edit, once', async () => {
+  it('saves shortly after the last edit, once', async () => {
     const { file, save } = fakeServer('first');
     edit('a');
     edit('ab');
@@ -78,7 +78,7 @@ describe('autosave', () => {
     expect(readDraft('p1')).toBeNull();
   });
 
-  it('saves what is typed during a save next, on the new base', async () => {
+  it('saves edits made during a save next, on the new base', async () => {
     const { file } = fakeServer('first');
     edit('a');
     const saving = saveNow();
@@ -89,7 +89,7 @@ describe('autosave', () => {
     expect(stateKind()).toBe('saved');
   });
 
-  it('keeps edits in the browser while the server is away, and saves when it is back', async () => {
+  it('stores edits in the browser while the server is unreachable, and saves later', async () => {
     vi.spyOn(api, 'saveChanges').mockRejectedValue(
       new ApiError({ title: 'gone', status: 0, code: 'offline' }),
     );
@@ -142,7 +142,7 @@ describe('conflicts', () => {
   });
 });
 
-it('brings a file back that was deleted on the server, if the user wants it', async () => {
+it('restores a file that was deleted on the server, if the user wants it', async () => {
   edit('mine');
   const save = vi.spyOn(api, 'saveChanges').mockResolvedValue({
     revision: 7,
@@ -160,7 +160,7 @@ it('brings a file back that was deleted on the server, if the user wants it', as
 });
 
 describe('drafts', () => {
-  it('come back after a crash', async () => {
+  it('are restored after a crash', async () => {
     vi.spyOn(api, 'saveChanges').mockRejectedValue(
       new ApiError({ title: 'gone', status: 0, code: 'offline' }),
     );
@@ -173,7 +173,7 @@ describe('drafts', () => {
     expect(useSavingStore.getState().restoredFiles).toBe(1);
   });
 
-  it('become a conflict when the file has moved on meanwhile', () => {
+  it('become a conflict when the file has changed meanwhile', () => {
     edit('half typed');
     stopAutosave();
     const newer = detail(4, 'somebody else');

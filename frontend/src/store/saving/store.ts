@@ -1,12 +1,12 @@
 import { create } from 'zustand';
 import type { Conflict } from '@/api/types';
 
-/** Where the user's edits are: on the server, being sent, or only here. */
+/** The state of the user's edits: on the server, being sent, or only in this page. */
 export type SaveState =
   | { kind: 'saved' }
   | { kind: 'dirty' }
   | { kind: 'saving' }
-  /** `code` and `reason` are the server's; the edits are kept here, so that nothing is lost. */
+  /** `code` and `reason` come from the server. The edits stay in the page, so nothing is lost. */
   | { kind: 'failed'; code: string; reason: string }
   | { kind: 'conflict'; conflicts: Conflict[] };
 

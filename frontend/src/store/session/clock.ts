@@ -2,12 +2,12 @@ import type { SessionData } from './types';
 
 type Clock = Pick<SessionData, 'executor' | 'sim'>;
 
-/** Whether there is a world whose time is paused. */
+/** Returns whether there is a world whose time is paused. */
 export function isWorldPaused({ executor, sim }: Clock): boolean {
   if (executor === 'paused') return true;
   return (executor === 'universe_ready' || executor === 'visualization_ready') && (sim?.paused ?? true);
 }
 
-/** Whether the world runs without a program. */
+/** Returns whether the world runs without a program. */
 export const doesWorldRunAlone = ({ executor, sim }: Clock): boolean =>
   executor === 'visualization_ready' && sim !== null && !sim.paused;

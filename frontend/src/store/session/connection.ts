@@ -14,43 +14,41 @@ import { forgetRun, rememberRun } from './trace/overReload';
 import type { SessionData } from './types';
 
 const RETRY_MS = [300, 600, 1200, 2500, 5000];
-/** The rate at which a subscribed topic is echoed. */
+/** The rate at which a subscribed topic is echoed, in Hz. */
 export const ECHO_HZ = 10;
-/**
- * The code with which the server closes the socket of a session that it ended because the executor was
- * silent.
- */
+/** The close code of a socket whose session the server ended because the executor did not answer. */
 const EXECUTOR_SILENT = 4504;
 const STORAGE_PREFIX = 'bts.session.';
 
-/** States in which the manager offers streams. */
+/** The states of the manager in which it offers streams. */
 const STREAMING: readonly State[] = ['visualization_ready', 'application_running', 'paused'];
 
 const isOffline = (error: unknown) => error instanceof ApiError && error.isOffline;
 
 /**
- * The reason for a lost connection; the browser's text of a network error is replaced by a translated one.
+ * Returns the reason for a lost connection. A translated text replaces the browser's text for a network
+ * error.
  */
 function reasonOf(error: unknown): string {
   if (isOffline(error)) return t('run:banner.unreachable');
   return error instanceof Error ? error.message : String(error);
 }
 
-/** The page's connection to the session of its project; its states are those of `connectionStates.ts`. */
+/** The connection of the page to its project's session; its states are those of `connectionStates.ts`. */
 class SessionConnection {
   private socket: ControlSocket | null = null;
   private session: SessionInfo | null = null;
-  /** The id by which the manager recognises a page that reconnects. */
+  /** The id by which the manager recognises this page when it reconnects. */
   private clientId: string | null = null;
   private attempt = 0;
-  /** Resolves when the previous session has ended: until then the server would return it again. */
+  /** Resolves when the previous session has ended; until then the server would return that session again. */
   private ending: Promise<unknown> = Promise.resolve();
   private giveUp: ((error: Error) => void) | null = null;
   private retryTimer: ReturnType<typeof setTimeout> | undefined;
   private isRetrying = false;
   private isWorldUp = false;
   private isStreaming = false;
-  /** The reason for the loss of the session, if the page has its own text for it. */
+  /** The translated reason for the loss of the session; empty if the page has none. */
   private lostBecause = '';
   private readonly silence = new SilenceWatch();
 
@@ -63,7 +61,7 @@ class SessionConnection {
     return this.socket?.send(command, data) ?? Promise.reject(new Error('There is no session.'));
   }
 
-  /** Starts the project's session, or joins the running one, and waits for its answer. */
+  /** Starts the project's session, or joins the running one, and waits for the first answer. */
   async ensureConnected(projectId: string): Promise<void> {
     if (this.socket?.isOpen && useSessionStore.getState().projectId === projectId) return;
     this.go('start', { projectId });
@@ -86,14 +84,14 @@ class SessionConnection {
     localStorage.setItem(STORAGE_PREFIX + projectId, session.id);
   }
 
-  /** Stops waiting for a session; a session that was running continues without this page. */
+  /** Stops waiting for a session; a session that was already running continues. */
   async abandonStart(): Promise<void> {
     const starting = this.session;
     this.disconnect();
     if (starting && starting.state !== 'ready') await this.endOnServer(starting.id);
   }
 
-  /** After a reload: joins the project's session if it still runs. */
+  /** Joins the project's running session after a reload of the page. */
   async reattach(projectId: string): Promise<void> {
     const id = localStorage.getItem(STORAGE_PREFIX + projectId);
     useSessionStore.setState({ projectId });
@@ -108,7 +106,7 @@ class SessionConnection {
     }
   }
 
-  /** Ends all processes of the session. */
+  /** Ends the session and all its processes. */
   async endSession(): Promise<void> {
     const left = this.session;
     const { projectId } = useSessionStore.getState();
@@ -117,13 +115,16 @@ class SessionConnection {
     if (left) await this.endOnServer(left.id);
   }
 
-  /** Leaves the session without ending it, when the project is closed. */
+  /** Leaves the session without ending it; called when the project is closed. */
   leave(): void {
     this.disconnect();
     resetSession({ projectId: null, logs: [] });
   }
 
-  /** The only place that sets the state; an event without a transition in the table is ignored. */
+  /**
+   * Sets the state; nothing else does. Returns false for an event without a transition in the table, which is
+   * ignored.
+   */
   private go(event: ConnectionEvent, change: Partial<SessionData> = {}): boolean {
     const next = nextConnection(useSessionStore.getState().connection, event);
     if (next === null) return false;
@@ -147,7 +148,7 @@ class SessionConnection {
     this.go('leave');
   }
 
-  /** Removes the session and all data that belong to it. */
+  /** Forgets the session and all data that belong to it. */
   private dropSession(): void {
     this.silence.stop();
     streams.close();
@@ -159,13 +160,16 @@ class SessionConnection {
     resetTopics();
   }
 
-  /** The URL of a session's socket for this page. */
+  /** Returns the URL of a session's socket for this page. */
   private addressFor(path: string): string {
     const query = this.clientId === null ? '' : `?client=${encodeURIComponent(this.clientId)}`;
     return socketUrl(path) + query;
   }
 
-  /** Resolves when the manager has sent its introduction; rejects if the socket closes before. */
+  /**
+   * Opens the control socket. Resolves when the manager has introduced itself; rejects if the socket closes
+   * before.
+   */
   private openSocket(info: SessionInfo): Promise<void> {
     this.socket?.close();
     return new Promise((resolve, reject) => {
@@ -175,7 +179,7 @@ class SessionConnection {
         onHeard: () => this.silence.heard(),
         onMessage: (message) => {
           receive(message);
-          // A later introduction reports a new role of this client, or what the world can do.
+          // Later introductions report a new role of this page, or new abilities of the world.
           if (message.command === 'introspection' && !isIntroduced) {
             isIntroduced = true;
             this.onIntroduced(info, opened, message.data as Introspection);
@@ -213,13 +217,13 @@ class SessionConnection {
     }
   }
 
-  /** Subscribes again to the echoed topics when a world starts or restarts. */
+  /** Subscribes to the echoed topics again when a world starts or restarts. */
   private followTopics(state: State): void {
     const wasUp = this.isWorldUp;
     this.isWorldUp = state !== 'idle' && state !== 'connected';
     if (!this.isWorldUp || wasUp) return;
     for (const topic of Object.keys(useTopicsStore.getState().echoes)) {
-      // A topic that does not exist now is requested again when it appears.
+      // A topic that does not exist yet is requested again when it appears.
       this.send('echo_topic', { topic, max_hz: ECHO_HZ }).catch(() => undefined);
     }
   }
@@ -234,7 +238,7 @@ class SessionConnection {
       const done = options
         ? this.send('subscribe', { ...which, ...options })
         : this.send('unsubscribe', which);
-      // If the world has no such stream (no camera, no LIDAR), its view shows a note.
+      // If the world lacks such a stream (no camera, no LIDAR), the view shows a note instead.
       done.catch(() => undefined);
     });
   }
@@ -270,7 +274,10 @@ class SessionConnection {
     }
   }
 
-  /** A network failure closes no socket: a request shows whether the server can still be reached. */
+  /**
+   * Checks the connection when the network is lost, since this closes no socket: a request shows whether the
+   * server can still be reached.
+   */
   private async onOffline(): Promise<void> {
     const asked = this.socket;
     if (!this.session || !asked?.isOpen) return;
@@ -283,14 +290,14 @@ class SessionConnection {
     }
   }
 
-  /** The network is available again: retries at once. */
+  /** Reconnects at once when the network is available again. */
   private onOnline(): void {
     if (useSessionStore.getState().connection !== 'reconnecting') return;
     clearTimeout(this.retryTimer);
     void this.retry();
   }
 
-  /** The session has ended with its processes; Run starts a new one. */
+  /** Handles the end of the session and its processes; Run starts a new session. */
   private onEnded(reason: string): void {
     if (this.go('ended', { connectionMessage: reason })) this.dropSession();
   }

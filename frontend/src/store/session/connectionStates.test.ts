@@ -8,7 +8,7 @@ describe('the states of the connection', () => {
       ...CONNECTION_EVENTS.map((event) => nextConnection(from, event)),
     ]);
     expect(table).toEqual([
-      // from, start, introduced, closed, ended, leave
+      // from, then the new state after: start, introduced, closed, ended, leave
       ['off', 'starting', 'open', null, null, 'off'],
       ['starting', 'starting', 'open', 'reconnecting', 'lost', 'off'],
       ['open', 'starting', 'open', 'reconnecting', 'lost', 'off'],

@@ -7,11 +7,11 @@ export const CONNECTION_EVENTS = ['start', 'introduced', 'closed', 'ended', 'lea
 export type ConnectionEvent = (typeof CONNECTION_EVENTS)[number];
 
 /**
- * All transitions. An event without an entry is ignored: the answer to a retry may arrive after the project
- * or the session was left.
+ * All transitions. An event without an entry is ignored: for example, the answer to a retry may arrive after
+ * the user has left the project or the session.
  */
 const TRANSITIONS: Readonly<Record<Connection, Partial<Record<ConnectionEvent, Connection>>>> = {
-  // After a reload the page joins a running session without starting one.
+  // After a reload, the page joins a running session without `start`.
   off: { start: 'starting', introduced: 'open', leave: 'off' },
   starting: { start: 'starting', introduced: 'open', closed: 'reconnecting', ended: 'lost', leave: 'off' },
   open: { start: 'starting', introduced: 'open', closed: 'reconnecting', ended: 'lost', leave: 'off' },

@@ -1,6 +1,6 @@
 import { PROTOCOL, type Commands, type Error as ErrorData, type ServerMessage } from '@/generated/messages';
 
-/** A command that the manager refused or that failed. */
+/** The error of a command that the manager refused, or that failed. */
 export class CommandError extends Error {
   override readonly name = 'CommandError';
   constructor(
@@ -12,7 +12,7 @@ export class CommandError extends Error {
   }
 }
 
-/** Whether the connection failed and not the command; the banner reports a lost connection itself. */
+/** Returns whether the connection failed, not the command; the banner reports a lost connection already. */
 export const isUnconnected = (error: unknown) =>
   error instanceof CommandError && ['not_connected', 'connection_lost'].includes(error.code);
 
@@ -23,14 +23,14 @@ interface Waiting {
 
 export interface ControlEvents {
   onMessage: (message: ServerMessage) => void;
-  /** Called for every message, replies included. */
+  /** Called for every message, also for replies. */
   onHeard: () => void;
   onOpen: () => void;
-  /** The socket closed without a call of `close()`. */
+  /** Called when the socket closes without a call of `close()`. */
   onLost: (code: number, reason: string) => void;
 }
 
-/** The control socket: commands with their replies, and the events in between. */
+/** The control socket: it sends commands, matches their replies, and passes events on. */
 export class ControlSocket {
   private socket: WebSocket | null = null;
   private readonly waiting = new Map<string, Waiting>();
@@ -57,12 +57,12 @@ export class ControlSocket {
     return this.socket?.readyState === WebSocket.OPEN;
   }
 
-  /** Whether the socket still buffers data to send. */
+  /** Returns whether the socket still has unsent data. */
   get isSending(): boolean {
     return (this.socket?.bufferedAmount ?? 0) > 0;
   }
 
-  /** Sends a command; resolves with its ack, rejects with a `CommandError`. */
+  /** Sends a command. Resolves with its acknowledgement, or rejects with a `CommandError`. */
   send<K extends keyof Commands>(command: K, data: Commands[K]): Promise<void> {
     const { socket } = this;
     if (!socket || socket.readyState !== WebSocket.OPEN) {

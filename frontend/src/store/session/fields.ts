@@ -4,14 +4,14 @@ export interface Field {
   name: string;
   value: unknown;
   depth: number;
-  /** It contains other values, which follow it. */
+  /** Whether the value contains other values, which follow it. */
   isParent: boolean;
 }
 
-/** The number of elements of a list that are shown; the others are left out. */
+/** The number of elements that are shown of a list. */
 const SHOWN_ELEMENTS = 64;
 
-/** The fields of a message as rows, in order; fields below a folded path are left out. */
+/** Returns the fields of a message as rows, in order, without those below a folded path. */
 export function fieldsOf(message: unknown, isFolded: (path: string) => boolean): Field[] {
   const rows: Field[] = [];
   const visit = (value: unknown, path: string, name: string, depth: number) => {
@@ -33,7 +33,7 @@ export function fieldsOf(message: unknown, isFolded: (path: string) => boolean):
   return rows;
 }
 
-/** The number at a path; a boolean is 0 or 1, anything else null. */
+/** Returns the number at a path, with a boolean as 0 or 1; null for any other value. */
 export function numberAt(message: unknown, path: string): number | null {
   let value: unknown = message;
   for (const [, name, index] of path.matchAll(/([^.[\]]+)|\[(\d+)\]/g)) {

@@ -3,12 +3,12 @@ import type { Frame, Scene } from '@/generated/messages';
 type FrameOf<K extends Frame['type']> = Extract<Frame, { type: K }>;
 type Listener = (frame: Frame) => void;
 
-/** What a newer frame replaces: one of its kind, and of its camera. */
+/** Returns the key of a frame; a newer frame of the same kind, and of the same camera, replaces it. */
 const keyOf = (frame: Frame): string => (frame.type === 'camera' ? `camera/${frame.sensor}` : frame.type);
 
 /**
- * Distributes frames outside of React: viewers listen, and draw at their own pace. The last frame of each
- * kind is kept for views that open later; a new scene drops older poses.
+ * Distributes frames outside of React, so that each viewer draws at its own rate. The last frame of each kind
+ * is stored for views that open later; a new scene drops older poses.
  */
 class FrameBus {
   private readonly listeners = new Map<string, Set<Listener>>();
@@ -20,7 +20,10 @@ class FrameBus {
     this.listeners.get(frame.type)?.forEach((listener) => listener(frame));
   }
 
-  /** Calls the listener at once with the last frame, of each camera, and then with each new one. */
+  /**
+   * Calls the listener at once with the stored frame (of each camera, for camera frames), and then with each
+   * new frame; returns a function that stops it.
+   */
   listen<K extends Frame['type']>(kind: K, listener: (frame: FrameOf<K>) => void): () => void {
     const set = this.listeners.get(kind) ?? new Set();
     this.listeners.set(kind, set);
@@ -33,7 +36,7 @@ class FrameBus {
     return (this.latest.get('scene') as Scene | undefined) ?? null;
   }
 
-  /** The latest simulated time in any stream, s. */
+  /** Returns the latest simulated time of all streams, in s. */
   newest(): number {
     return Math.max(0, ...[...this.latest.values()].map(({ t }) => t));
   }
@@ -45,7 +48,7 @@ class FrameBus {
 
 export const frames = new FrameBus();
 
-/** The floats of a binary field; copies only if the bytes are not aligned to four. */
+/** Returns a binary field as floats; copies the bytes only if they are not aligned to four. */
 export function floatsOf(bytes: Uint8Array): Float32Array {
   const aligned = bytes.byteOffset % 4 === 0 ? bytes : bytes.slice();
   return new Float32Array(aligned.buffer, aligned.byteOffset, aligned.byteLength >> 2);

@@ -21,7 +21,7 @@ beforeAll(() => {
 
 beforeEach(() => {
   setStatusRate(0);
-  // Long after whatever was shown before.
+  // This is long after any update of an earlier test.
   vi.advanceTimersByTime(10_000);
   hear('tree', { nodes: [{ ...NODE, tree_id: 'Main', node_id: 'n1' }] });
 });
@@ -37,7 +37,7 @@ it('shows every status where no rate is set', () => {
   }
 });
 
-it('shows statuses twice a second where the user wants no more, and then the latest', () => {
+it('shows statuses twice a second if the user wants that, and then the latest', () => {
   setStatusRate(2);
   tick('RUNNING');
   expect(shown()).toBe('RUNNING');
@@ -50,7 +50,7 @@ it('shows statuses twice a second where the user wants no more, and then the lat
   expect(shown()).toBe('FAILURE');
 });
 
-it('shows at once how a stopped tree ends, whatever the rate', () => {
+it('shows at once how a stopped tree ended, whatever the rate', () => {
   setStatusRate(2);
   tick('RUNNING');
   tick('SUCCESS');

@@ -8,7 +8,7 @@ let past: Tick['past'] | null = null;
 let shownAt = 0;
 let timer: ReturnType<typeof setTimeout> | undefined;
 
-/** Passes events of blocks on to the canvas: statuses at the user's rate, others at once. */
+/** Passes events about blocks to the canvas: statuses at the rate that the user chose, others at once. */
 export function feedLive({ command, data }: ServerMessage): void {
   const live = useLiveStore.getState();
   switch (command) {
@@ -30,7 +30,7 @@ export function feedLive({ command, data }: ServerMessage): void {
       for (const [uid, status] of flashed) flashes.set(uid, status);
       return;
     }
-    // A stopped tree shows its last statuses, not the delayed ones.
+    // A stopped tree shows its last statuses at once, without the delay of the rate.
     case 'state-changed':
       return showStatuses();
     case 'fault':
@@ -38,7 +38,7 @@ export function feedLive({ command, data }: ServerMessage): void {
   }
 }
 
-/** Shows the collected statuses, now or when the rate allows; called once after each batch of messages. */
+/** Shows the collected statuses, at once or when the rate allows it; called after each batch of messages. */
 export function showDueStatuses(): void {
   if (pending.size === 0 && flashes.size === 0 && past === null) return;
   const { hz } = useStatusRate.getState();

@@ -6,7 +6,7 @@ import { currentPoses } from './poses';
 
 const bytes = (array: Uint16Array) => new Uint8Array(array.buffer);
 
-/** A pose at x m, turned by 2 asin(0.6) about z, packed as `executor/stream/pose_codec.py` says. */
+/** Returns a pose at x m, turned by 2 asin(0.6) about z, packed like `executor/stream/pose_codec.py` does. */
 function packed(x: number): Uint8Array {
   const record = new DataView(new ArrayBuffer(16));
   const units = Math.round(x * 10_000);
@@ -39,19 +39,19 @@ const poses = (t: number, x: number): Poses => ({
 });
 
 describe('speedOf', () => {
-  it('is the way over the time', () => {
+  it('is the path length over the time', () => {
     const samples = [0, 0.5, 1].map((t) => ({ t, x: 0.3 * t, y: 0 }));
     expect(speedOf(samples)).toBeCloseTo(0.3);
   });
 
-  it('is nothing while time does not pass', () => {
+  it('is zero while time does not pass', () => {
     expect(speedOf([{ t: 1, x: 0, y: 0 }])).toBe(0);
     expect(speedOf([])).toBe(0);
   });
 });
 
 describe('poses', () => {
-  it('keep what earlier frames said of objects that later ones leave out', () => {
+  it('keep the poses of objects that later frames leave out', () => {
     frames.publish(scene);
     frames.publish(poses(0.1, 1));
     expect(currentPoses.get(1)?.[0]).toBe(5);
@@ -64,7 +64,7 @@ describe('poses', () => {
     expect(useMotion.getState().speed).toBeCloseTo(0.5, 1);
   });
 
-  it('say by their absence that the robot stands', () => {
+  it('mean by their absence that the robot does not move', () => {
     vi.useFakeTimers();
     frames.publish(scene);
     for (let step = 0; step <= 20; step += 1) frames.publish(poses(step * 0.1, step * 0.05));
@@ -84,7 +84,7 @@ describe('poses', () => {
     }
   });
 
-  it('are read also where the bytes do not begin at a multiple of four', () => {
+  it('are read even if the bytes do not start at a multiple of four', () => {
     frames.publish(scene);
     const frame = poses(0.1, 2);
     const shifted = new Uint8Array(frame.poses.length + 1);

@@ -2,7 +2,7 @@ import { create } from 'zustand';
 import { frames } from './frames';
 import { currentPoses } from './poses';
 
-/** The first robot's speed, measured from received poses. */
+/** The speed of the first robot, measured from received poses. */
 export interface Motion {
   speed: number;
   t: number;
@@ -16,12 +16,14 @@ interface Sample {
 
 const WINDOW_S = 1;
 const UPDATE_EVERY_S = 0.2;
-/** Poses arrive while something moves: after this long without any, the robot counts as stopped. */
+/**
+ * The time without poses after which the robot counts as stopped: poses arrive only while something moves.
+ */
 const STILL_AFTER_MS = 800;
 
 export const useMotion = create<Motion>(() => ({ speed: 0, t: 0 }));
 
-/** The length of the path in the window per simulated second. */
+/** Returns the path length of the samples per simulated second. */
 export function speedOf(samples: readonly Sample[]): number {
   const first = samples[0];
   const last = samples.at(-1);

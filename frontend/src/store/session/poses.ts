@@ -1,12 +1,12 @@
 import type { Poses, Scene } from '@/generated/messages';
 import { frames, uint16Of } from './frames';
 
-/** x, y, z, qx, qy, qz, qw */
+/** The position in m and the orientation as a quaternion: x, y, z, qx, qy, qz, qw. */
 export type Pose = ArrayLike<number>;
 
 /**
  * The current pose of every object. A frame contains only changed poses, so a viewer that opens later needs
- * all of them together.
+ * this collection.
  */
 export const currentPoses = new Map<number, Pose>();
 
@@ -23,7 +23,7 @@ const POSE_BYTES = 16;
 const METRES_PER_UNIT = 1e-4;
 const TURN_PER_UNIT = 1 / (32767 * Math.SQRT2);
 
-/** Calls back with each pose of a frame; `executor/stream/pose_codec.py` defines their packing. */
+/** Calls `visit` with each pose of a frame; `executor/stream/pose_codec.py` defines the packing. */
 export function forEachPose(frame: Poses, visit: (id: number, pose: Float32Array) => void): void {
   const { buffer, byteOffset, byteLength } = frame.poses;
   const bytes = new DataView(buffer, byteOffset, byteLength);

@@ -74,7 +74,7 @@ describe('reduce', () => {
     expect(state).toMatchObject({ executor: 'paused', executorReason: 'asked' });
   });
 
-  it('shows topics whose ends do not match in the console, to those who come later too', () => {
+  it('shows topic mismatches in the console, also to pages that join later', () => {
     const mismatch = {
       topic: '/scan',
       publisher: '/world',
@@ -92,7 +92,7 @@ describe('reduce', () => {
     }
   });
 
-  it('remembers that another page took over, until this one drives again', () => {
+  it('remembers that another page took over, until this one controls again', () => {
     const told = (state: SessionData, role: Introspection['role']) =>
       reduce(state, message('introspection', { ...INTRODUCED, role }));
     const lookingOn = told(initialSession, 'viewer');
@@ -116,7 +116,7 @@ describe('reduce', () => {
     expect(reduce(chosen, message('snapshot', snapshot({ state: 'paused', speed: 1 }))).speed).toBe(1);
   });
 
-  it('lets deltas after a snapshot give what a fresh snapshot gives', () => {
+  it('gives with deltas after a snapshot what a new snapshot gives', () => {
     const first = snapshot({ blackboard: [entry('a', 1), entry('b', 2)], logs: [log('one')] });
     const deltas = [
       message('blackboard', { entries: [entry('a', 5), entry('b', 2, { removed: true }), entry('c', 3)] }),
@@ -184,7 +184,7 @@ describe('reduce', () => {
     ]);
   });
 
-  it('tells two scopes of one key apart', () => {
+  it('separates two scopes of one key', () => {
     const state = reduce(
       initialSession,
       message('blackboard', { entries: [entry('k', 1), entry('k', 2, { scope: 'sub' })] }),
@@ -193,7 +193,7 @@ describe('reduce', () => {
     expect(blackboardId({ scope: 'a', key: 'b' })).not.toBe(blackboardId({ scope: '', key: 'ab' }));
   });
 
-  it('changes nothing for a message that it does not know', () => {
+  it('changes nothing for an unknown message', () => {
     const unknown = { id: 'x', command: 'later', data: {}, seq: 99, t: 0 };
     expect(reduce(initialSession, unknown)).toBe(initialSession);
   });
@@ -202,14 +202,14 @@ describe('reduce', () => {
 describe('a run', () => {
   const loading = message('progress', { rung: 'run_application', fraction: 0, message: '' });
 
-  it('is divided in the console from the one before', () => {
+  it('is separated in the console from the previous one', () => {
     const first = reduceAll(initialSession, [loading, message('log', log('a'))]);
     expect(first.logs.map(({ run }) => run)).toEqual([undefined]);
     const second = reduce(first, loading);
     expect(second.logs.map(({ run }) => run)).toEqual([undefined, 2]);
   });
 
-  it('hangs from the report until it ticks again', () => {
+  it('hangs from the report until the next tick', () => {
     const running = { ...initialSession, executor: 'application_running' } as const;
     const fault = {
       kind: 'timeout',
@@ -246,7 +246,7 @@ describe('a run', () => {
 });
 
 describe('appendLogs', () => {
-  it('makes a row of each line of text and numbers them', () => {
+  it('makes a numbered row of each line of text', () => {
     const { logs, nextLogId } = appendLogs({ logs: [], nextLogId: 1 }, [log('a\nb\n'), log('c')]);
     expect(logs.map(({ id, text }) => [id, text])).toEqual([
       [1, 'a'],
@@ -256,7 +256,7 @@ describe('appendLogs', () => {
     expect(nextLogId).toBe(4);
   });
 
-  it('drops the oldest lines rather than grow without end', () => {
+  it('drops the oldest lines above the limit', () => {
     const many = Array.from({ length: MAX_LOG_LINES + 10 }, (_, index) => log(String(index)));
     const { logs } = appendLogs({ logs: [], nextLogId: 1 }, many);
     expect(logs).toHaveLength(MAX_LOG_LINES);

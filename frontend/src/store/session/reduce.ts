@@ -9,7 +9,7 @@ import type {
 } from '@/generated/messages';
 import type { BlackboardRow, LogLine, SessionData } from './types';
 
-/** Older lines are dropped; this is about an hour of output. */
+/** The number of log lines that are kept, about an hour of output; older lines are dropped. */
 export const MAX_LOG_LINES = 5000;
 
 export const initialSession: SessionData = {
@@ -60,15 +60,16 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     isHanging: false,
     ...(data.state === 'application_running' || data.state === 'paused' ? {} : { progress: state.progress }),
     ...(data.state === 'idle' || data.state === 'connected' ? { sim: null } : {}),
-    // Every rung below a running application pauses the world; the next report of the world is up to 1 s away.
+    // The world is paused in every state below a running application. Its next report may come up to 1 s
+    // later, so the state is set here.
     ...(data.state === 'visualization_ready' && state.sim ? { sim: { ...state.sim, paused: true } } : {}),
   }),
   progress: (state, data) => ({
     progress: data,
     ...(data.rung === 'run_application' && data.fraction === 0 ? beginRun(state) : {}),
   }),
-  // A new tree is a new run: faults of the last one are removed. Its launch nodes were started before it, and
-  // one may have ended already.
+  // A new tree means a new run, so the faults of the last run are removed. Launch nodes were started before
+  // the tree, and one may already have ended, so their faults stay.
   tree: ({ faults, launchNodes }, data) => ({
     tree: data.nodes,
     blackboard: {},
@@ -111,7 +112,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     blackboard: mergeBlackboard({}, data.blackboard, seq),
     faults: data.faults,
     launchNodes: data.launch_nodes,
-    // Before there is a world, the rates that were chosen here stay: the first run starts with them.
+    // Without a world, the rates that the user chose stay: the first run starts with them.
     ...(data.state === 'idle' || data.state === 'connected'
       ? {}
       : { tickHz: data.tick_hz, speed: data.speed }),
@@ -154,16 +155,16 @@ function mergeBlackboard(
   return next;
 }
 
-/** Whether a fault is that of one of these launch nodes, by its place in the launch file. */
+/** Returns whether a fault belongs to one of these launch nodes, by its place in the launch file. */
 export const isOfLaunchNode = (fault: Fault, nodes: readonly LaunchNode[]): boolean =>
   fault.kind === 'process' &&
   nodes.some(({ file, line }) => file !== '' && file === fault.file && line === fault.line);
 
-/** The faults that do not concern the program: those of launch nodes. */
+/** Returns the faults of launch nodes, which do not concern the program. */
 export const launchNodeFaults = ({ faults, launchNodes }: Pick<SessionData, 'faults' | 'launchNodes'>) =>
   faults.filter((fault) => isOfLaunchNode(fault, launchNodes));
 
-/** Separates the output of a run from that before it. */
+/** Separates the output of a run from the output before it. */
 function beginRun(state: SessionData): Partial<SessionData> {
   const run = state.runs + 1;
   const { logs, nextLogId } = state;
@@ -176,7 +177,7 @@ function beginRun(state: SessionData): Partial<SessionData> {
   };
 }
 
-/** A fault as console lines: its traceback, whose lines can be clicked. */
+/** Returns a fault as console text: its traceback, with lines that can be clicked. */
 function logOf(fault: Fault, time: number): Log {
   const source = fault.node_id || fault.kind === 'exception' ? 'action' : 'manager';
   const text = fault.traceback || fault.message;
@@ -184,7 +185,7 @@ function logOf(fault: Fault, time: number): Log {
   return { source, level: 'error', text, node_id, node_path, time, launch_node: '' };
 }
 
-/** A console line about a topic whose publishers and subscribers do not match. */
+/** Returns a console line about a topic whose publishers and subscribers do not match. */
 function mismatchLog({ topic, message, hint }: TopicMismatch, time: number): Log {
   const text = `${topic}: ${message} ${hint}`;
   return { source: 'world', level: 'warning', text, node_id: '', node_path: '', time, launch_node: '' };

@@ -29,7 +29,7 @@ export class SilenceWatch {
     const asked = this.heartbeat;
     if (!asked) return;
     const now = performance.now();
-    // While this page is still sending (a large program), no answer can be expected.
+    // While the page is still sending (such as a large program), it cannot expect an answer.
     if (!this.isPinging || socket.isSending) asked.heard(now);
     showSilence(asked.beat(now));
     if (this.isPinging) return;
@@ -37,7 +37,7 @@ export class SilenceWatch {
     const answered = () => {
       if (asked === this.heartbeat) this.isPinging = false;
     };
-    // A refusal also shows that the session answers.
+    // A refused ping also shows that the session answers.
     socket.send('ping', {}).then(answered, answered);
   }
 }

@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-/** The update rates of statuses on the canvas, Hz; 0 is the screen's rate. */
+/** The update rates of statuses on the canvas, in Hz; 0 means the screen's rate. */
 export const STATUS_RATES = [0, 20, 10, 5, 2] as const;
 
 const KEY = 'bts.statusRate';

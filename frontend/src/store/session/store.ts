@@ -14,12 +14,12 @@ const HIDDEN_FLUSH_MS = 200;
 let queue: ServerMessage[] = [];
 let isScheduled = false;
 
-/** Queues a message; all messages of one animation frame update the page once. */
+/** Queues a message; the page is updated once for all messages of an animation frame. */
 export function receive(message: ServerMessage): void {
   queue.push(message);
   if (isScheduled) return;
   isScheduled = true;
-  // A hidden page gets no animation frames, and its queue must not grow.
+  // A hidden page gets no animation frames, but its queue must not grow.
   if (document.hidden) setTimeout(flush, HIDDEN_FLUSH_MS);
   else requestAnimationFrame(flush);
 }
@@ -38,7 +38,7 @@ export function flush(): void {
   showDueStatuses();
 }
 
-/** Writes a line of the page itself to the console. */
+/** Writes a line from the page itself to the console. */
 export function note(text: string): void {
   useSessionStore.setState((state) =>
     appendLogs(state, [
@@ -58,7 +58,7 @@ export function note(text: string): void {
 export function resetSession(change: Partial<SessionData> = {}): void {
   queue = [];
   const { tickHz, speed, projectId, logs, nextLogId } = useSessionStore.getState();
-  // The console can still be read after the session has ended.
+  // The console stays readable after the session has ended.
   useSessionStore.setState({ ...initialSession, tickHz, speed, projectId, logs, nextLogId, ...change }, true);
   forgetPending();
   useLiveStore.getState().clear();

@@ -1,4 +1,4 @@
-/** Owns the stream socket: MessagePack is decoded here and not on the page's main thread. */
+/** Owns the stream socket. MessagePack is decoded in this worker, not on the page's main thread. */
 import { decode } from '@msgpack/msgpack';
 import type { Frame } from '@/generated/messages';
 
@@ -10,7 +10,7 @@ let socket: WebSocket | null = null;
 const post = (message: FromWorker, transfer: Transferable[] = []) =>
   (self as unknown as Worker).postMessage(message, transfer);
 
-/** Makes each byte field own its buffer, so that it is moved to the page and not copied. */
+/** Gives each byte field a buffer of its own, so that the buffer is moved to the page and not copied. */
 function ownBuffers(frame: Frame): Transferable[] {
   const buffers: Transferable[] = [];
   const fields = frame as unknown as Record<string, unknown>;

@@ -10,7 +10,7 @@ beforeEach(() => {
 });
 
 describe('the subscriptions of the page', () => {
-  it('are one for all views of a camera, as wide and as often as any wants it', () => {
+  it('are one for all views of a camera, with the highest rate and width', () => {
     const inset = streams.want('camera', { max_hz: 10, width: 320 });
     expect(announced).toHaveBeenLastCalledWith('camera', { max_hz: 10, width: 320 });
     const panel = streams.want('camera', { max_hz: 15 });
@@ -37,7 +37,7 @@ describe('the subscriptions of the page', () => {
     expect(announced).toHaveBeenLastCalledWith('camera', null);
   });
 
-  it('are all announced to a session that begins', () => {
+  it('are all sent to a new session', () => {
     const wants = [streams.want('camera', { max_hz: 15 }), streams.want('camera', { max_hz: 5 }, 'rear')];
     announced.mockClear();
     streams.connect(announced);

@@ -6,7 +6,7 @@ export type StreamOptions = Omit<Subscribe, 'stream' | 'sensor'>;
 
 interface Want {
   stream: StreamName;
-  /** The camera, if it is not the first. */
+  /** The camera; undefined for the first one. */
   sensor: string | undefined;
   options: StreamOptions;
 }
@@ -18,7 +18,7 @@ export interface StreamHandle {
 
 type SendSubscription = (stream: StreamName, options: StreamOptions | null, sensor?: string) => void;
 
-/** One subscription for all views of a stream: as often and as wide as any of them wants it. */
+/** Returns one subscription for all views of a stream: the highest rate and width that any view wants. */
 function together(wants: readonly Want[]): StreamOptions | null {
   const last = wants.at(-1)?.options;
   if (!last) return null;
@@ -35,8 +35,8 @@ function together(wants: readonly Want[]): StreamOptions | null {
 const REOPEN_AFTER_MS = 1000;
 
 /**
- * The stream socket and the subscriptions of the page. Several views can want a stream; each camera is a
- * stream of its own.
+ * The stream socket, and the page's subscriptions. Several views can share a stream; each camera is a
+ * separate stream.
  */
 class Streams {
   private worker: Worker | null = null;
@@ -57,7 +57,7 @@ class Streams {
     frames.clear();
   }
 
-  /** Sends all present subscriptions, and from now on each change. */
+  /** Sends all current subscriptions, and later each change. */
   connect(send: SendSubscription): void {
     this.send = send;
     const first = this.wants.filter((want) => this.wantsOf(want)[0] === want);
@@ -113,5 +113,5 @@ class Streams {
 
 export const streams = new Streams();
 
-// The status bar shows the robot's measured speed whichever view is open.
+// The status bar needs the robot's measured speed, whichever view is open.
 streams.want('poses', { max_hz: 10 });

@@ -42,7 +42,7 @@ describe('fields', () => {
 });
 
 describe('topics', () => {
-  it('keeps what is listened to, and samples what is plotted', () => {
+  it('stores the echoed topics, and samples the plotted fields', () => {
     feedTopics(said(1, 1));
     expect(useTopicsStore.getState().echoes).toEqual({});
     addEcho('/odom');

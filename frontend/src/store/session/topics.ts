@@ -5,7 +5,7 @@ import { numberAt } from './fields';
 /** An echoed topic with its last message. */
 export interface Echo {
   topic: string;
-  /** null until the first message. */
+  /** null until the first message arrives. */
   last: (TopicMessage & { t: number }) | null;
   count: number;
 }
@@ -20,10 +20,10 @@ export interface Series {
 
 interface TopicsData {
   topics: readonly TopicInfo[];
-  /** Whether a list has arrived, to distinguish an empty list from none. */
+  /** Whether a list has arrived: this distinguishes an empty list from none. */
   isKnown: boolean;
   echoes: Readonly<Record<string, Echo>>;
-  /** Plotted fields, in order of selection. */
+  /** The plotted fields, in order of selection. */
   plotted: readonly { topic: string; path: string }[];
   descriptions: Readonly<Record<string, TypeDescription>>;
   /** Increases with each message that a plot must draw. */
@@ -41,7 +41,7 @@ const EMPTY: TopicsData = {
 
 export const useTopicsStore = create<TopicsData>(() => EMPTY);
 
-/** The number of samples of a plotted field; at 20 Hz a little more than three minutes. */
+/** The number of stored samples of a plotted field: a little more than three minutes at 20 Hz. */
 export const MAX_SAMPLES = 4000;
 
 const series = new Map<string, Series>();
@@ -88,7 +88,7 @@ function heard(message: TopicMessage, t: number): void {
 
 function sample({ times, values }: Series, t: number, value: number | null): void {
   const last = times.at(-1);
-  // The world was reset.
+  // Time went back, because the world was reset.
   if (last !== undefined && t < last) {
     times.length = 0;
     values.length = 0;
@@ -140,7 +140,9 @@ export function clearPlots(): void {
   useTopicsStore.setState({ plotted: [] });
 }
 
-/** After the end of a session: keeps the chosen topics for the next one, and drops their messages. */
+/**
+ * Keeps the chosen topics for the next session, and drops their messages; called after the end of a session.
+ */
 export function resetTopics(): void {
   series.clear();
   useTopicsStore.setState(({ echoes }) => ({

@@ -13,36 +13,36 @@ import type {
 import type { Connection } from './connectionStates';
 
 export interface LogLine extends Log {
-  /** Increases within this page; the key of console rows. */
+  /** Increases within this page; it is the key of a console row. */
   id: number;
-  /** The line begins this run and is drawn as a divider. */
+  /** The run that begins with this line, which is drawn as a divider. */
   run?: number;
 }
 
 export interface BlackboardRow extends BlackboardEntry {
-  /** The number of the last message that changed it; a new number makes the row flash. */
+  /** The number of the last message that changed the entry; a new number makes its row flash. */
   changedAt: number;
 }
 
-/** The state of the session, as this page has received it. */
+/** The state of the session as this page knows it. */
 export interface SessionData {
   connection: Connection;
   connectionMessage: string;
-  /** The seconds without an answer of the executor; 0 while they are too few to show. */
+  /** For how many seconds the executor has not answered; 0 while they are too few to show. */
   silentS: number;
   projectId: string | null;
   sessionId: string | null;
   introspection: Introspection | null;
-  /** This page controlled the session until another one took control. */
+  /** Whether this page controlled the session until another page took control. */
   wasTakenOver: boolean;
   executor: State;
   executorReason: string;
   progress: Progress | null;
-  /** A tick does not return: reported as a fault, until there is another tick or another state. */
+  /** Whether a tick does not return, which is reported as a fault, until there is another tick or state. */
   isHanging: boolean;
-  /** The number of runs that this page has seen. */
+  /** The number of runs that began while this page was connected. */
   runs: number;
-  /** Run was pressed and has neither succeeded nor failed yet. */
+  /** Whether Run was pressed and has neither succeeded nor failed yet. */
   isLaunching: boolean;
   tree: TreeNode[];
   blackboard: Record<string, BlackboardRow>;

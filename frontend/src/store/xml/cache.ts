@@ -1,4 +1,4 @@
-/** A text of the user, and the state of the tree with which it was last synchronized. */
+/** A text of the user, with the state of the tree at the last synchronization. */
 export interface CachedXml {
   readonly text: string;
   readonly agreed: { readonly text: string; readonly ids: readonly string[]; readonly diagram: string };
@@ -6,7 +6,10 @@ export interface CachedXml {
 
 const key = (projectId: string, treeId: string) => `bts.xml.${projectId}.${treeId}`;
 
-/** Keeps a text in the browser: unparsable text, and comments, which a tree cannot hold. */
+/**
+ * Stores a text in the browser: unparsable text and comments would be lost otherwise, since a tree cannot
+ * hold them.
+ */
 export function keepXml(projectId: string, treeId: string, kept: CachedXml): void {
   try {
     localStorage.setItem(key(projectId, treeId), JSON.stringify(kept));

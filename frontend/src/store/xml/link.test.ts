@@ -11,7 +11,7 @@ const TREE = 'MainTree';
 
 const project = () => projectDetail(1, [projectFile(`trees/${TREE}.json`, 1, oneBlock(TREE, 'A'))]);
 
-/** A translator for trees of one block: `<type/>`, with a comment that stays in the text. */
+/** Returns a fake translator for trees of one block: `<type/>`, with a comment that the text keeps. */
 function translate() {
   const typeIn = (xml: string) => /^(?:<!--.*-->)?<(\w+)\/>$/.exec(xml)?.[1];
   const rangesOf = (xml: string) => [{ node: 'n1', start: 0, open_end: xml.length, end: xml.length }];
@@ -62,7 +62,7 @@ afterEach(() => {
 });
 
 describe('the text of a tree', () => {
-  it('follows the canvas, and keeps what its author wrote beside the tree', async () => {
+  it('follows the canvas, and keeps comments', async () => {
     const link = await open();
     expect(link.get()).toMatchObject({ text: '<A/>', state: { kind: 'inStep' } });
     link.edited('<!--why--><A/>');
@@ -88,7 +88,7 @@ describe('the text of a tree', () => {
     expect(link.get()).toMatchObject({ text: '<A/>', state: { kind: 'inStep' } });
   });
 
-  it('leaves the tree alone while it cannot be read, and comes back after a reload', async () => {
+  it('leaves the tree unchanged while it is invalid, and is restored after a reload', async () => {
     const link = await open();
     link.edited('<B');
     await settle();
@@ -129,7 +129,7 @@ describe('the text of a tree', () => {
     expect(cachedXml('p1', TREE)?.text).toBe('<C/>');
   });
 
-  it('asks also when the canvas was changed while nobody looked', async () => {
+  it('also asks when the canvas was changed while the panel was closed', async () => {
     const link = await open();
     link.edited('<B');
     stop?.();
@@ -137,7 +137,7 @@ describe('the text of a tree', () => {
     expect((await open()).get()).toMatchObject({ text: '<B', isRestored: true, state: { kind: 'parted' } });
   });
 
-  it('is kept, and read later, when the server cannot be reached', async () => {
+  it('is stored, and read later, when the server cannot be reached', async () => {
     const link = await open();
     const offline = new ApiError({ title: 'gone', status: 0, code: 'offline' });
     vi.spyOn(trees, 'read').mockRejectedValueOnce(offline);

@@ -7,15 +7,15 @@ import { parseDiagram, serializeDiagram } from '@/model/serialize';
 import { useProjectStore } from '@/store/project';
 import { forgetXml, keepXml, cachedXml } from './cache';
 
-/** The relation of the text to the tree. */
+/** The relation between the text and the tree. */
 export type XmlState =
   | { readonly kind: 'loading' }
   | { readonly kind: 'inStep'; readonly findings: readonly Diagnostic[] }
-  /** The text was edited; the tree is updated shortly after. */
+  /** The text was edited; the tree follows shortly. */
   | { readonly kind: 'reading' }
   /** The text cannot be read; the tree stays unchanged. */
   | { readonly kind: 'broken'; readonly findings: readonly Diagnostic[] }
-  /** Text and tree were both changed: the user chooses. */
+  /** Text and tree were both changed: the user must choose. */
   | { readonly kind: 'parted' }
   | { readonly kind: 'failed'; readonly reason: string };
 
@@ -24,7 +24,7 @@ export interface XmlSnapshot {
   /** The ranges of the nodes in the last synchronized text. */
   readonly ranges: readonly NodeRange[];
   readonly state: XmlState;
-  /** Invalid text of an earlier visit was restored. */
+  /** Whether invalid text of an earlier visit was restored. */
   readonly isRestored: boolean;
 }
 
@@ -38,12 +38,12 @@ const READ_AFTER_MS = 350;
 const WRITE_AFTER_MS = 120;
 const RETRY_AFTER_MS = 4000;
 
-/** Synchronizes the XML of one tree with the tree, whichever is edited. */
+/** Keeps the XML of one tree and the tree synchronized, whichever the user edits. */
 export class XmlLink {
   private snapshot: XmlSnapshot = { text: '', ranges: [], state: { kind: 'loading' }, isRestored: false };
   private readonly listeners = new Set<() => void>();
   private agreed: Agreed | null = null;
-  /** The user has edited this text, so that it is kept in the browser. */
+  /** Whether the user has edited this text, so that it is stored in the browser. */
   private isOwn = false;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private request = 0;
@@ -61,7 +61,10 @@ export class XmlLink {
   };
   readonly get = (): XmlSnapshot => this.snapshot;
 
-  /** Starts to follow the tree, with the text of the last visit if there is one. */
+  /**
+   * Starts to follow the tree, with the stored text of the last visit if there is one; returns a function
+   * that stops it.
+   */
   start(): () => void {
     let seen = this.diagram();
     this.unfollow = useProjectStore.subscribe(() => {
@@ -78,7 +81,7 @@ export class XmlLink {
     };
   }
 
-  /** Must be called after each edit of the text by the user. */
+  /** Handles an edit of the text; must be called after each edit by the user. */
   edited(text: string): void {
     this.isOwn = true;
     this.set({ text });
@@ -94,7 +97,7 @@ export class XmlLink {
     this.soon(READ_AFTER_MS, () => void this.read());
   }
 
-  /** Resolves a conflict: the tree is read from the text. */
+  /** Resolves a conflict in favour of the text: the tree is read from it. */
   keepText(): void {
     const diagram = this.diagram();
     if (!diagram || !this.agreed) return;
@@ -103,7 +106,7 @@ export class XmlLink {
     void this.read();
   }
 
-  /** Resolves a conflict: the text is written from the tree. */
+  /** Resolves a conflict in favour of the tree: the text is written from it. */
   keepTree(): void {
     if (this.agreed) this.set({ text: this.agreed.text, state: { kind: 'inStep', findings: [] } });
     void this.write();
@@ -161,7 +164,7 @@ export class XmlLink {
     else this.soon(WRITE_AFTER_MS, () => void this.write());
   }
 
-  /** Both sides have changed: nothing is synchronized until the user has chosen. */
+  /** Stops synchronizing until the user has chosen, since both sides have changed. */
   private part(): void {
     clearTimeout(this.timer);
     this.request += 1;
@@ -179,7 +182,7 @@ export class XmlLink {
       const text = serializeDiagram(diagram);
       const found = await trees
         .write(text, base?.text, base?.ids)
-        // An unreadable base is dropped: the text is written without it.
+        // If the server refuses the earlier text, the XML is written without it.
         .catch((error: unknown) => (base && isRefusal(error) ? trees.write(text) : Promise.reject(error)));
       if (mine !== this.request) return;
       if (this.diagram() !== diagram) return void this.write();

@@ -63,7 +63,7 @@ const marks = (block: HTMLElement) =>
   [...block.querySelectorAll<HTMLElement>('span[data-status]')].map(({ dataset }) => dataset['status']);
 
 describe('Block', () => {
-  it('says what it is, and nothing that it is not', () => {
+  it('shows the state of the block, and nothing else', () => {
     const block = open();
     expect({ ...block.dataset }).toEqual({
       testid: 'node-a',
@@ -77,7 +77,7 @@ describe('Block', () => {
     expect(screen.queryByRole('button')).toBeNull();
   });
 
-  it('says that it is selected, disabled, a draft, and of an unknown type', () => {
+  it('shows that it is selected, disabled, a draft, or of an unknown type', () => {
     const node = { type: 'Nowhere', disabled: true, color: '#123456' };
     const block = open({ node, spec: undefined, isDraft: true }, { selected: true });
     expect(block.dataset).toMatchObject({
@@ -89,7 +89,7 @@ describe('Block', () => {
     expect(block.style.getPropertyValue('--family')).toBe('#123456');
   });
 
-  it('is lit as the target of what is dragged onto it', () => {
+  it('is highlighted as the target of a dragged block', () => {
     const block = open();
     const mark = { x: 0, y: 0, width: 1, height: 1 };
     act(() => setEditor({ slot: { parent: 'a', index: 0, kind: 'onto', mark } }));
@@ -100,7 +100,7 @@ describe('Block', () => {
     expect(block.dataset['target']).toBeUndefined();
   });
 
-  it('shows its status of the run, and not that of a namesake in another tree', () => {
+  it('shows its status in the run, and not that of a block with the same id in another tree', () => {
     const block = open();
     live({ 'Main/a': 'RUNNING', 'Dock/a': 'FAILURE' });
     expect(block.dataset['status']).toBe('RUNNING');
@@ -110,7 +110,7 @@ describe('Block', () => {
     expect(marks(block)).toEqual([]);
   });
 
-  it('shows the status of its own place inside of a subtree', () => {
+  it('shows the status of its own instance inside of a subtree', () => {
     const block = open({ inside: { tree: 'Dock', node: 'd' } });
     live({ 'Dock/d': 'SUCCESS', 'Main/a': 'RUNNING' });
     expect(block.dataset).toMatchObject({ status: 'SUCCESS', inside: '' });
@@ -142,7 +142,7 @@ describe('Block', () => {
     expect(screen.getByRole('img', { name: /It broke/ })).toBeInTheDocument();
   });
 
-  it('looks into its tree, and away again', async () => {
+  it('expands its tree, and collapses it', async () => {
     open({ look: 'closed' });
     const look = screen.getByTestId('look-a');
     expect(look).toHaveAttribute('aria-expanded', 'false');
@@ -152,13 +152,13 @@ describe('Block', () => {
     expect(now.editor().expanded['Main']).toEqual(new Set(['a']));
   });
 
-  it('says that its tree is open', () => {
+  it('shows that its tree is expanded', () => {
     open({ look: 'open' });
     expect(screen.getByTestId('look-a')).toHaveAttribute('aria-expanded', 'true');
     expect(screen.getByTestId('look-a')).toHaveAttribute('title', 'Close the view inside (Space)');
   });
 
-  it('counts what it hides, and unfolds at a press', async () => {
+  it('counts the blocks that it hides, and unfolds at a press', async () => {
     open({ folded: 1 });
     const fold = screen.getByRole('button', { name: '1 block' });
     expect(fold).toBeEnabled();
@@ -182,14 +182,14 @@ describe('the ends of connections', () => {
     expect(handle(block, 'source')).toHaveAttribute('data-handlepos', Position.Bottom);
   });
 
-  it('are left and right in a tree that grows to the right', () => {
+  it('are left and right in a left-right tree', () => {
     const block = open({ isHorizontal: true });
     expect(block.className).toMatch(/horizontal/);
     expect(handle(block, 'target')).toHaveAttribute('data-handlepos', Position.Left);
     expect(handle(block, 'source')).toHaveAttribute('data-handlepos', Position.Right);
   });
 
-  it('add a child where there is room for one', () => {
+  it('add a child if there is room for one', () => {
     const block = open({ canGrow: true });
     const source = handle(block, 'source');
     expect(source).toHaveAttribute('title', 'Click to add a child, drag to connect');
@@ -205,7 +205,7 @@ describe('the ends of connections', () => {
     });
   });
 
-  it.each([{ canGrow: false }, { canGrow: true, folded: 1 }])('add none of a block with %o', (data) => {
+  it.each([{ canGrow: false }, { canGrow: true, folded: 1 }])('add none to a block with %o', (data) => {
     const source = handle(open(data), 'source');
     expect(source).not.toBeVisible();
     expect(source).not.toHaveAttribute('title');

@@ -28,7 +28,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
   const isTarget = useEditorStore((state) => state.slot?.kind === 'onto' && state.slot.parent === id);
   const family = spec?.family ?? null;
   const color: CSSProperties = node.color ? { ['--family' as string]: node.color } : {};
-  // A folded block has a sign of its own there, and a new child would be out of sight.
+  // A folded block has its own sign at this place, and a new child would be hidden.
   const grows = data.canGrow && data.folded === 0;
   const openProblems = () => {
     useProjectStore.getState().select(tree, [id]);
@@ -119,7 +119,10 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
   );
 }
 
-/** The wrapper sets the position: a block renders only for its content, selection and status. */
+/**
+ * A block of the canvas. Its wrapper sets the position, so a block renders only when its content, selection
+ * or status changes.
+ */
 export const Block = memo(
   BlockView,
   (a, b) => a.data === b.data && a.selected === b.selected && a.width === b.width && a.height === b.height,

@@ -3,19 +3,19 @@ import { expect, it } from 'vitest';
 import { show } from '../../../../harness/testing';
 import { BlockBadges } from './BlockBadges';
 
-it('is nothing for a block without conditions and comment', () => {
+it('is absent for a block without conditions and comment', () => {
   show(<BlockBadges node={{ type: 'Sleep', conditions: {}, comment: '' }} />);
   expect(screen.queryByTitle(/./)).toBeNull();
   expect(document.querySelector('svg')).toBeNull();
 });
 
-it('tells the comment', () => {
+it('shows the comment', () => {
   show(<BlockBadges node={{ type: 'Sleep', comment: 'Wait a bit.' }} />);
   expect(screen.getByTitle('Wait a bit.')).toBeInTheDocument();
   expect(document.querySelectorAll('svg')).toHaveLength(1);
 });
 
-it('tells the scripts, a line each', () => {
+it('shows the scripts, one on each line', () => {
   show(<BlockBadges node={{ type: 'Sleep', conditions: { _skipIf: 'x > 1', _post: 'y := 2' } }} />);
   expect(document.querySelector('[title]')).toHaveAttribute('title', '_skipIf: x > 1\n_post: y := 2');
   expect(document.querySelectorAll('svg')).toHaveLength(1);

@@ -17,16 +17,16 @@ function open(spec: NodeSpec | undefined, ports: Record<string, string> = {}) {
   return screen.queryAllByRole('listitem').map(({ textContent }) => textContent);
 }
 
-/** How the value of the only port is drawn. */
+/** Returns the class of the value of the only port. */
 const look = () => screen.getByRole('listitem').lastElementChild!.className;
 
 describe('BlockPorts', () => {
-  it('is nothing for a block without ports', () => {
+  it('is absent for a block without ports', () => {
     expect(open(specOf())).toEqual([]);
     expect(screen.queryByRole('list')).toBeNull();
   });
 
-  it('shows values, defaults, and what is missing', () => {
+  it('shows values, defaults, and missing values', () => {
     const rows = open(
       specOf(
         port('a', 'int'),
@@ -39,7 +39,7 @@ describe('BlockPorts', () => {
     expect(rows).toEqual([' a1', ' b3', ' crequired', ' d—']);
   });
 
-  it('shows which way a value goes', () => {
+  it('shows the direction of a value', () => {
     const rows = open(
       specOf(
         port('in', 'int'),
@@ -61,7 +61,7 @@ describe('BlockPorts', () => {
     expect(screen.queryByText(/ g/)).toBeNull();
   });
 
-  it('says nothing of others where six are all', () => {
+  it('counts no others if there are six', () => {
     const names = ['a', 'b', 'c', 'd', 'e', 'f'];
     expect(open(specOf(...names.map((name) => port(name, 'int'))))).toHaveLength(6);
     expect(screen.queryByText(/more/)).toBeNull();
@@ -75,7 +75,7 @@ describe('BlockPorts', () => {
     ['a missing value', undefined, { required: true }, /portMissing/],
     ['a default of a required port', undefined, { required: true, default: '1' }, /portDefault/],
     ['nothing', undefined, {}, /portDefault/],
-  ])('draws %s as such', (_, value, more, expected) => {
+  ])('draws %s in its style', (_, value, more, expected) => {
     open(specOf(port('x', 'int', more)), value === undefined ? {} : { x: value });
     expect(look()).toMatch(expected);
   });

@@ -23,7 +23,7 @@ interface BlockPortsProps {
   readonly t: TFunction<'canvas'>;
 }
 
-/** The block's ports with their values, as many as fit. */
+/** The ports of a block with their values, as many as fit. */
 export function BlockPorts({ node, spec, t }: BlockPortsProps) {
   const lines = portLines(node, spec);
   if (lines.length === 0) return null;

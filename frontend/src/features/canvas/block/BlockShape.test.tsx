@@ -40,7 +40,7 @@ describe('BlockShape', () => {
     expect(open().svg.querySelector('[transform]')).toBeNull();
   });
 
-  it('flashes in the colour of what it went through', () => {
+  it('flashes in the colour of the passing status', () => {
     const { svg } = open({ flash: { status: 'FAILURE', count: 1 } });
     expect(svg.querySelector('[data-status]')).toHaveAttribute('data-status', 'FAILURE');
     expect(open().svg.querySelector('[data-status]')).toBeNull();

@@ -13,7 +13,7 @@ interface BlockShapeProps {
 
 const TILE = 44;
 
-/** Draws the block: the outline of its family, the coloured side, ring and halo. */
+/** The shape of a block: the outline of its family, the coloured side, the ring and the halo. */
 export function BlockShape({ family, width, height, flash }: BlockShapeProps) {
   const clip = useId();
   const path = outline(family, width, height);

@@ -38,7 +38,7 @@ describe('BlockTitle', () => {
     ['r', 'WorkSequence'],
     ['s', 'DockSubTree'],
     ['c', 'Sleep'],
-  ])('names %s as %s: the type below, where it is not the name', (id, text) => {
+  ])('shows %s as %s, with the type below if it differs from the name', (id, text) => {
     const { container } = show(<Title id={id} />);
     expect(container.querySelector('[class*=titles]')).toHaveTextContent(text);
     expect(container.querySelector('[class*=titles]')!.textContent).toBe(text);
@@ -51,7 +51,7 @@ describe('BlockTitle', () => {
     expect(screen.getByTitle('_while: x')).toBeInTheDocument();
   });
 
-  it('has no second line where there is nothing to tell', () => {
+  it('has no second line if it would be empty', () => {
     const { container } = show(<Title id="a" />);
     expect(container.querySelector('[class*=subtitle]')).toBeNull();
   });
@@ -77,7 +77,7 @@ describe('BlockTitle', () => {
     expect(screen.getByRole('textbox')).toHaveValue('a nap');
   });
 
-  it('changes nothing with Escape', async () => {
+  it('changes nothing after Escape', async () => {
     show(<Title id="r" />);
     edit('r', 'name');
     await user.keyboard('Rest{Escape}');
@@ -85,7 +85,7 @@ describe('BlockTitle', () => {
     expect(now.editor().editing).toBeNull();
   });
 
-  it('edits one block alone', () => {
+  it('edits only one block', () => {
     show(<Title id="a" />);
     edit('r', 'name');
     expect(screen.queryByRole('textbox')).toBeNull();

@@ -13,7 +13,7 @@ interface BlockTitleProps {
   readonly t: TFunction<'canvas'>;
 }
 
-/** Name and type; F2 and `/` edit name and comment here. */
+/** The name and type of a block; F2 and `/` edit the name and the comment here. */
 export function BlockTitle({ id, node, t }: BlockTitleProps) {
   const field = useEditorStore((state) => (state.editing?.node === id ? state.editing.field : null));
   const name = displayName(node);

@@ -18,7 +18,7 @@ const problem: ShownProblem = {
 beforeEach(() => forgetEditor());
 
 describe('ProblemMark', () => {
-  it.each(['error', 'warning', 'note'] as const)('tells an %s and what to do', (severity) => {
+  it.each(['error', 'warning', 'note'] as const)('shows an %s and how to fix it', (severity) => {
     show(<ProblemMark problem={{ ...problem, severity }} onOpen={() => undefined} />);
     const mark = screen.getByRole('button', { name: 'It is odd. Look again.' });
     expect(mark).toHaveAttribute('data-severity', severity);
@@ -33,7 +33,7 @@ describe('ProblemMark', () => {
     expect(onOpen).toHaveBeenCalledOnce();
   });
 
-  it('is a picture where there is nothing to open', () => {
+  it('is no button if there is nothing to open', () => {
     show(<ProblemMark problem={problem} />);
     expect(screen.queryByRole('button')).toBeNull();
     expect(screen.getByRole('img', { name: 'It is odd. Look again.' })).toHaveAttribute(
@@ -42,7 +42,7 @@ describe('ProblemMark', () => {
     );
   });
 
-  it('tells its text below the pointer, unless the fixes are open', async () => {
+  it('shows its text in a tooltip, unless the fixes are open', async () => {
     show(<ProblemMark problem={problem} onOpen={() => undefined} />);
     await user.hover(screen.getByTestId('problem-mark'));
     expect(await screen.findByText('It is odd.')).toBeInTheDocument();
@@ -51,7 +51,7 @@ describe('ProblemMark', () => {
     expect(screen.queryByText('It is odd.')).toBeNull();
   });
 
-  it('leaves out a hint that is empty', async () => {
+  it('leaves out an empty hint', async () => {
     show(<ProblemMark problem={{ ...problem, hint: '' }} onOpen={() => undefined} />);
     await user.hover(screen.getByTestId('problem-mark'));
     const tip = (await screen.findByText('It is odd.')).parentElement!;

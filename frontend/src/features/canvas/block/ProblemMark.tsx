@@ -9,11 +9,11 @@ const ICONS = { error: IconExclamationMark, warning: IconAlertTriangleFilled, no
 
 interface ProblemMarkProps {
   readonly problem: ShownProblem;
-  /** Shows the problem with its fixes; absent in an expanded subtree. */
+  /** Opens the problem with its fixes; absent in an expanded SubTree. */
   readonly onOpen?: () => void;
 }
 
-/** The problem of a block and its hint, on the block; a press shows the fixes. */
+/** The mark of a block's problem, with its hint; a press shows the fixes. */
 export function ProblemMark({ problem, onOpen }: ProblemMarkProps) {
   const text = useProblemText()(problem);
   const isOpen = useEditorStore((state) => state.fixing !== null);

@@ -20,7 +20,7 @@ describe('StatusMark', () => {
     expect(mark('IDLE', { status: 'IDLE', count: 1 })).toBeNull();
   });
 
-  it('shows what an idle node went through in the last tick', () => {
+  it('shows the statuses that an idle node had in the last tick', () => {
     const shown = mark('IDLE', { status: 'FAILURE', count: 2 });
     expect(shown).toHaveAttribute('data-status', 'FAILURE');
     expect(shown?.className).toMatch(/passing/);
@@ -34,7 +34,7 @@ describe('StatusMark', () => {
     expect(mark('RUNNING', undefined, 'FAILURE')).toHaveAttribute('data-status', 'RUNNING');
   });
 
-  it('shows the status of a node that is not idle, whatever flashed', () => {
+  it('shows the status of a node that is not idle, whatever flashes', () => {
     const shown = mark('RUNNING', { status: 'FAILURE', count: 2 });
     expect(shown).toHaveAttribute('data-status', 'RUNNING');
     expect(shown?.className).not.toMatch(/passing/);

@@ -11,15 +11,15 @@ const MARKS = {
 
 interface StatusMarkProps {
   readonly status: NodeStatus;
-  /** The status of the last tick, which stays until the next one. */
+  /** The status in the last tick, which stays until the next one. */
   readonly past: NodeStatus | undefined;
-  /** The status that the node had during the last tick, if it is idle again. */
+  /** The status that the node had only within the last tick, if it is idle again. */
   readonly flash: { readonly status: NodeStatus; readonly count: number } | undefined;
 }
 
 /**
- * A status as an icon in addition to its colour. That of the last tick only is hollow; an earlier one, of which
- * the next tick left nothing, fades.
+ * A status as an icon in addition to the colour. The icon is hollow for a status of the last tick only; it
+ * fades for an earlier status that the next tick did not repeat.
  */
 export function StatusMark({ status, past, flash }: StatusMarkProps) {
   const isPast = status === 'IDLE' && past !== undefined;

@@ -16,7 +16,7 @@ function open() {
 }
 
 describe('TextField', () => {
-  it('begins with its text, selected', () => {
+  it('starts with its text selected', () => {
     const { field } = open();
     expect(field).toHaveFocus();
     expect(field).toHaveValue('Grasp');
@@ -24,7 +24,7 @@ describe('TextField', () => {
     expect([field.selectionStart, field.selectionEnd]).toEqual([0, 5]);
   });
 
-  it('takes the text with Enter, and gives the keys back to the canvas', async () => {
+  it('applies the text with Enter, and returns the focus to the canvas', async () => {
     const { onFinish } = open();
     await user.keyboard('Take');
     expect(onFinish).not.toHaveBeenCalled();
@@ -33,21 +33,21 @@ describe('TextField', () => {
     expect(screen.getByTestId('canvas')).toHaveFocus();
   });
 
-  it('takes the text when it is left', async () => {
+  it('applies the text when the focus leaves it', async () => {
     const { onFinish, field } = open();
     await user.keyboard('Take');
     fireEvent.blur(field);
     expect(onFinish).toHaveBeenCalledExactlyOnceWith('Take');
   });
 
-  it('leaves the text as it was with Escape', async () => {
+  it('discards the text with Escape', async () => {
     const { onFinish } = open();
     await user.keyboard('Take{Escape}');
     expect(onFinish).toHaveBeenCalledExactlyOnceWith('Grasp');
     expect(screen.getByTestId('canvas')).toHaveFocus();
   });
 
-  it('keeps its keys from the canvas', async () => {
+  it('keeps its keys from reaching the canvas', async () => {
     const { onKey } = open();
     await user.keyboard('a{Delete}{ArrowLeft}{Escape}');
     expect(onKey).not.toHaveBeenCalled();

@@ -7,7 +7,7 @@ interface TextFieldProps {
   readonly onFinish: (text: string) => void;
 }
 
-/** A text field on a block: Enter or leaving it saves the text, Escape discards it. */
+/** A text field on a block: Enter or leaving the field saves the text, Escape discards it. */
 export function TextField({ label, initial, onFinish }: TextFieldProps) {
   const field = useRef<HTMLInputElement>(null);
   useLayoutEffect(() => {
@@ -29,7 +29,7 @@ export function TextField({ label, initial, onFinish }: TextFieldProps) {
         if (event.key !== 'Enter' && event.key !== 'Escape') return;
         const input = event.currentTarget;
         if (event.key === 'Escape') input.value = initial;
-        // The edit is finished: the canvas gets the keyboard focus again.
+        // The edit is finished, so the canvas gets the keyboard focus again.
         input.closest<HTMLElement>('[data-testid="canvas"]')?.focus({ preventScroll: true });
       }}
     />

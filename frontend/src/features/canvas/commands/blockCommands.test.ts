@@ -13,7 +13,7 @@ let clipboard = '';
 
 beforeEach(() => {
   isVisible = true;
-  // jsdom lays nothing out, and has no clipboard.
+  // jsdom has neither a layout nor a clipboard.
   Element.prototype.checkVisibility = () => isVisible;
   clipboard = '';
   vi.stubGlobal('navigator', {
@@ -57,7 +57,7 @@ const enabled = (): string[] =>
 const children = () => childrenOf(now.diagram(), 'r');
 const typesOf = (ids: readonly string[]) => ids.map((id) => nodeOf('Main', id)?.type);
 
-/** The commands that any selected block has. */
+/** The commands that are available for every selected block. */
 const COMMON = [
   'edit.copy',
   'edit.cut',
@@ -84,7 +84,7 @@ describe('the commands of a block', () => {
     ['g', ['canvas.open']],
     ['w', ['canvas.fix']],
     ['v', ['canvas.open', 'canvas.fix', 'canvas.inline']],
-  ])('of %s are the common ones and %o', (id, more) => {
+  ])('for %s are the common ones and %o', (id, more) => {
     select(id);
     expect(enabled().sort()).toEqual([...COMMON, ...more].sort());
   });
@@ -93,27 +93,27 @@ describe('the commands of a block', () => {
     expect(enabled()).toEqual(['edit.paste', 'canvas.add']);
   });
 
-  it('leave the clipboard and duplicates to the field that has the focus', () => {
+  it('leave the clipboard and duplicating to the field that has the focus', () => {
     select('a');
     document.querySelector('input')!.focus();
     const texts = ['edit.copy', 'edit.cut', 'edit.paste', 'edit.duplicate'];
     expect(enabled()).toEqual(COMMON.filter((id) => !texts.includes(id)));
   });
 
-  it('are those of the clipboard, where the tree is not visible', () => {
+  it('are those of the clipboard if the tree is not visible', () => {
     select('i');
     isVisible = false;
     expect(enabled()).toEqual(['edit.copy', 'edit.cut', 'edit.paste', 'edit.duplicate']);
   });
 
-  it('extract several blocks that follow each other', () => {
+  it('extract several consecutive blocks', () => {
     select('a', 'i');
     expect(enabled()).toContain('canvas.extract');
     select('a', 'g');
     expect(enabled()).not.toContain('canvas.extract');
   });
 
-  it('wrap several at once', () => {
+  it('wrap several blocks at once', () => {
     select('a', 'i');
     run('canvas.wrapFallback');
     expect(typesOf(children())).toEqual(['Fallback', 'SubTree', 'Grasp', 'Nowhere', 'SubTree']);
@@ -121,7 +121,7 @@ describe('the commands of a block', () => {
   });
 });
 
-describe('the words in the menu', () => {
+describe('the labels in the menu', () => {
   const words = (id: string, isOnBlock = true) => command(id).inMenu(isOnBlock);
 
   it.each([
@@ -162,12 +162,12 @@ describe('the words in the menu', () => {
     expect(words('canvas.look')).toBe('lookAway');
   });
 
-  it('on free canvas add a block', () => {
+  it('on the empty canvas add a block', () => {
     select('a');
     expect(words('canvas.add', false)).toBe('addBlock');
   });
 
-  it('are of a fault of the last run, too', () => {
+  it('include those for a fault of the last run', () => {
     select('a');
     useLiveStore.setState({ faults: new Map([['Main/a', 'boom']]) });
     expect(words('canvas.fix')).toBe('fix');
@@ -217,7 +217,7 @@ describe('running', () => {
     expect(now.editor().editing).toEqual({ node: 'a', field });
   });
 
-  it('open leads to the code or the tree', () => {
+  it('open opens the code or the tree', () => {
     const { openFile, openTree } = watchNavigation();
     select('g');
     run('canvas.open');
@@ -239,7 +239,7 @@ describe('running', () => {
     expect(children().slice(0, 3)).toEqual(['a', 'x', 's']);
   });
 
-  it('extract and inline make a tree and undo it', () => {
+  it('extract and inline move blocks to a tree and back', () => {
     select('i');
     run('canvas.extract');
     const id = children()[1]!;
@@ -249,21 +249,21 @@ describe('running', () => {
     expect(typesOf(children()).slice(0, 3)).toEqual(['Sleep', 'Inverter', 'SubTree']);
   });
 
-  it('fix shows the fixes once the menu is gone', async () => {
+  it('fix shows the fixes after the menu is closed', async () => {
     select('w');
     run('canvas.fix');
     expect(now.editor().fixing).toBeNull();
     await waitFor(() => expect(now.editor().fixing).toBe('w'));
   });
 
-  it('look shows the inside of a subtree', () => {
+  it('look expands a subtree', () => {
     select('s');
     act(() => run('canvas.look'));
     expect(now.editor().expanded['Main']).toEqual(new Set(['s']));
   });
 });
 
-it('has a key, a symbol and words for each', () => {
+it('has a key, an icon and a label for each', () => {
   const ids = blockCommands.map(({ id }) => id);
   expect(new Set(ids).size).toBe(ids.length);
   const keys = Object.fromEntries(blockCommands.map(({ id, shortcut, keys }) => [id, shortcut ?? keys]));

@@ -39,11 +39,12 @@ import { pasteHere } from '../gestures/clipboard';
 import { isOnCanvas, isTreeInFront } from '../inFront';
 import { openQuickAddHere } from '../quickAdd/open';
 
-/** A command on blocks: a row of the table of commands that is also in the block's menu. */
+/** A command on blocks: an entry of the command table that also appears in the block's menu. */
 export interface BlockCommand extends UserCommand {
   icon: Icon;
   /**
-   * The key in `canvas:menu` of its label for a block or for the free canvas; null if it is not in the menu.
+   * Returns the key in `canvas:menu` of the command's label, for a block or for the empty canvas; null if the
+   * menu leaves it out.
    */
   inMenu: (isOnBlock: boolean) => string | null;
 }
@@ -70,12 +71,15 @@ const selectedOnCanvas = () => isOnCanvas() && hasSelection();
 const selectedInFront = () => hasSelection() && isTreeInFront();
 
 const always = (words: string) => () => words;
-/** Not for several blocks, of which it would change only the first. */
+/**
+ * Wraps a menu label so that a command is left out when several blocks are selected, of which it would change
+ * only the first.
+ */
 const forOne = (words: (isOnBlock: boolean) => string | null) => (isOnBlock: boolean) =>
   areSeveral() && isOnBlock ? null : words(isOnBlock);
 const forSeveral = (words: string) => () => (areSeveral() ? words : null);
 
-/** Wraps the selected blocks at once, without asking in what. */
+/** Wraps the selected blocks at once, without the quick-add box. */
 function wrapIn(type: 'Sequence' | 'Fallback'): void {
   achieve({ does: 'wrap', nodes: state().selection }, { type });
 }
@@ -96,7 +100,7 @@ function canUnwrapSelected(): boolean {
   return diagram !== null && id !== undefined && canUnwrap(diagram, id, state().vocabulary);
 }
 
-/** The commands on the selected blocks, in the order of the command palette. */
+/** The commands for selected blocks, in the order of the command palette. */
 export const blockCommands: readonly BlockCommand[] = [
   {
     id: 'edit.copy',
@@ -281,7 +285,7 @@ export const blockCommands: readonly BlockCommand[] = [
     shortcut: '$mod+Period',
     enabled: () => hasProblem(firstSelected()),
     run: () => {
-      // Waits until the menu has returned the focus.
+      // The box opens after the menu has returned the focus.
       setTimeout(() => {
         setEditor({ fixing: firstSelected() ?? null });
       });

@@ -27,7 +27,7 @@ beforeEach(() => {
   });
 });
 
-it('has words for each command, and takes all of them away at its end', () => {
+it('has a label for each command, and unregisters all of them at the end', () => {
   const ids = Object.keys(useCommandTable.getState().commands);
   expect(ids).toEqual(expect.arrayContaining(['edit.undo', 'edit.copy', 'canvas.fit', 'canvas.minimap']));
   for (const id of ids) expect(translates(command(id).labelKey)).toBe(true);
@@ -36,7 +36,7 @@ it('has words for each command, and takes all of them away at its end', () => {
 });
 
 describe('undo and redo', () => {
-  it('travel through the steps of the tree', () => {
+  it('go through the steps of the tree', () => {
     expect(isEnabled('edit.undo')).toBe(false);
     expect(isEnabled('edit.redo')).toBe(false);
     store().apply('Main', 'rename', [setName('a', 'Nap')]);
@@ -52,7 +52,7 @@ describe('undo and redo', () => {
     }
   });
 
-  it('are those of another document while that is in front', () => {
+  it('go through those of another document while that is in front', () => {
     const travel = vi.fn();
     store().apply('Main', 'rename', [setName('a', 'Nap')]);
     useUndoTarget.setState({ target: { canUndo: false, canRedo: true, travel } });
@@ -80,7 +80,7 @@ it('opens the search', () => {
 });
 
 describe('the layout', () => {
-  it('turns to the direction that it has not', () => {
+  it('changes to the other direction', () => {
     expect([isEnabled('canvas.vertical'), isEnabled('canvas.horizontal')]).toEqual([false, true]);
     perform('canvas.horizontal');
     expect(now.diagram().layout).toBe('horizontal');
@@ -96,7 +96,7 @@ describe('the layout', () => {
   });
 
   it.each(['canvas.tidy', 'canvas.vertical', 'canvas.horizontal', 'canvas.minimap'])(
-    'is nothing for %s while no tree is open',
+    'does nothing with %s while no tree is open',
     (id) => {
       store().setActiveTree(null);
       expect(isEnabled(id)).toBe(false);
@@ -114,7 +114,7 @@ it('shows and hides the overview', () => {
 describe('the view', () => {
   const VIEWS = ['canvas.fit', 'canvas.zoomIn', 'canvas.zoomOut', 'canvas.zoomReset'];
 
-  it('is commanded while the tree is drawn', () => {
+  it('has commands while the tree is drawn', () => {
     expect(VIEWS.filter(isEnabled)).toEqual([]);
     const view = { zoomIn: vi.fn(), zoomOut: vi.fn(), zoomTo: vi.fn(), fitView: vi.fn() };
     onTestFinished(showsTree('Main', view as unknown as Parameters<typeof showsTree>[1]));
@@ -129,7 +129,7 @@ describe('the view', () => {
     expect(view.fitView.mock.lastCall?.[0]).toMatchObject({ nodes: [{ id: 'a' }] });
   });
 
-  it('fits at the keys that other editors have for it', () => {
+  it('is fitted with the keys of other editors', () => {
     expect(command('canvas.fit').shortcut).toBe(FIT_KEYS.all);
     expect(command('canvas.fitSelection').shortcut).toBe('Shift+Digit2');
     expect(FIT_KEYS.all).toBe('Shift+Digit1');

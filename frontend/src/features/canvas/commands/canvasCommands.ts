@@ -28,7 +28,7 @@ import { fit, fitSelection, isTreeShown, zoomIn, zoomOut, zoomReset } from '../v
 const state = () => useProjectStore.getState();
 const undoStack = () => state().histories[state().activeTree ?? ''];
 const canRedo = () => undoTarget()?.canRedo ?? (undoStack()?.future.length ?? 0) > 0;
-/** A universe or a robot in front has its own steps of undo. */
+/** Undoes a step of the universe or robot in front if there is one, otherwise of the tree. */
 const undoInFront = () => (undoTarget() ? undoTarget()?.travel('undo') : state().undo());
 const redoInFront = () => (undoTarget() ? undoTarget()?.travel('redo') : state().redo());
 const hasTree = () => activeDiagram() !== null;
@@ -106,7 +106,7 @@ const rows: readonly UserCommand[] = [
   })),
 ];
 
-/** The same keys as in Figma. */
+/** The keys that fit the view, as in Figma. */
 export const FIT_KEYS = { all: 'Shift+Digit1', selection: 'Shift+Digit2' } as const;
 
 const views: readonly UserCommand[] = [
@@ -172,7 +172,7 @@ const views: readonly UserCommand[] = [
   },
 ];
 
-/** Registers the editor's commands and the clipboard's; the returned function removes them. */
+/** Registers the commands of the canvas and listens to the clipboard; returns a function that undoes both. */
 export function registerCanvasCommands(): () => void {
   const ends = [registerCommands([...rows, ...blockCommands, ...levelCommands, ...views]), followClipboard()];
   return () => ends.forEach((end) => end());

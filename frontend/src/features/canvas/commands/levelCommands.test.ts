@@ -33,7 +33,7 @@ describe('the commands of levels', () => {
     expect(nodeOf('Main', 'i')?.collapsed).toBeUndefined();
   });
 
-  it('are in the menu of the free canvas, where they do something', () => {
+  it('are in the menu of the empty canvas if they have an effect', () => {
     expect(command('collapse2').inMenu(false)).toBe('collapse2');
     expect(command('collapse2').inMenu(true)).toBeNull();
     expect(command('collapseAll').inMenu(false)).toBeNull();

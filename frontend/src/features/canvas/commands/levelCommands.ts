@@ -13,7 +13,7 @@ const beside = (words: string, isOffered: () => boolean) => (isOnBlock: boolean)
 
 const LEVELS = [1, 2, 3, 4] as const;
 
-/** Fold the whole tree at a depth, as editors fold code. */
+/** The commands that fold the whole tree at a depth, as editors fold code. */
 export const levelCommands: readonly BlockCommand[] = [
   ...LEVELS.map((level): BlockCommand => ({
     id: `canvas.collapse${level}`,

@@ -32,7 +32,7 @@ describe('openBlock', () => {
     expect(now.editor().editing).toBeNull();
   });
 
-  it.each(['a', 'n', 'r'])('edits the name of %s, which stands for nothing else', (id) => {
+  it.each(['a', 'n', 'r'])('edits the name of %s, which has no document', (id) => {
     const { openTree, openFile } = watchNavigation();
     openBlock(now.diagram(), id);
     expect(now.editor().editing).toEqual({ node: id, field: 'name' });
@@ -40,7 +40,7 @@ describe('openBlock', () => {
     expect(openFile).not.toHaveBeenCalled();
   });
 
-  it('opens nothing for a block that is gone', () => {
+  it('opens nothing for a deleted block', () => {
     openBlock(now.diagram(), 'gone');
     expect(now.editor().editing).toBeNull();
   });
@@ -57,7 +57,7 @@ it('acts on the block that was selected first', () => {
 });
 
 describe('toggleFolded', () => {
-  it('folds and unfolds, each one step of undo', () => {
+  it('folds and unfolds, each in one undo step', () => {
     select('r');
     toggleFolded();
     expect(nodeOf('Main', 'r')?.collapsed).toBe(true);
@@ -67,14 +67,14 @@ describe('toggleFolded', () => {
     expect(labels).toEqual(['fold', 'unfold']);
   });
 
-  it.each([['a'], []])('changes nothing of a block without children: %s', (...ids) => {
+  it.each([['a'], []])('changes nothing for a block without children: %s', (...ids) => {
     select(...ids);
     toggleFolded();
     expect(useProjectStore.getState().histories['Main']).toBeUndefined();
   });
 });
 
-it('looks into the selected subtree, and away', () => {
+it('expands and collapses the selected subtree', () => {
   toggleInside();
   expect(now.editor().expanded).toEqual({});
   select('s');

@@ -5,7 +5,7 @@ import { setEditor, toggleExpanded } from '@/store/project/editor';
 import { openAction, openTree } from '@/store/project/navigation';
 import { useProjectStore } from '@/store/project';
 
-/** The block that keys and menus act on. */
+/** Returns the block that keys and menus act on. */
 export const firstSelected = (): NodeId | undefined => useProjectStore.getState().selection[0];
 
 /** Opens the block's document: the code of an action or the tree of a subtree; otherwise edits its name. */
@@ -18,7 +18,7 @@ export function openBlock(diagram: Diagram, id: NodeId): void {
   else setEditor({ editing: { node: id, field: 'name' } });
 }
 
-/** Edits the selected block's name or comment in the block. */
+/** Starts editing the selected block's name or comment in the block. */
 export function editSelected(field: 'name' | 'comment'): void {
   const node = firstSelected();
   if (node !== undefined) setEditor({ editing: { node, field } });

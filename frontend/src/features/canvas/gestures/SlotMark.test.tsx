@@ -5,7 +5,7 @@ import { setEditor } from '@/store/project/editor';
 import { forgetEditor, showDrawn } from '../../../../harness/canvas';
 import { SlotMark } from './SlotMark';
 
-it('is drawn between blocks, where the slot is', () => {
+it('is drawn between blocks, at the slot', () => {
   forgetEditor();
   showDrawn(
     <ReactFlow>

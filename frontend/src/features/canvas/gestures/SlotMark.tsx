@@ -3,7 +3,7 @@ import { ViewportPortal } from '@xyflow/react';
 import { useEditorStore } from '@/store/project/editor';
 import classes from '../Canvas.module.css';
 
-/** The insertion mark: shows where a dragged block will be placed. */
+/** The insertion mark at the place where a dragged block would be inserted. */
 export const SlotMark = memo(function SlotMark() {
   const slot = useEditorStore((state) => state.slot);
   if (slot?.kind !== 'between') return null;

@@ -17,7 +17,7 @@ const words = (): Element => document.querySelector('p')!;
 let unfollow: () => void;
 
 beforeEach(() => {
-  // jsdom lays nothing out: whatever is in the page counts as seen.
+  // jsdom has no layout, so every element in the page counts as visible.
   Element.prototype.checkVisibility = () => true;
   document.body.innerHTML =
     '<div data-testid="canvas" data-tree="Main" tabindex="0"><input /></div><p>words</p>';
@@ -33,7 +33,10 @@ afterEach(() => {
   document.body.innerHTML = '';
 });
 
-/** What the browser says at Ctrl+C, X or V; answers whether somebody took it, and the text it holds then. */
+/**
+ * Fires the event that a browser sends for Ctrl+C, X or V; returns whether it was handled, and the text that
+ * the clipboard then has.
+ */
 function clipboard(type: 'copy' | 'cut' | 'paste', text = '', target: Element = document.body) {
   let held = text;
   const clipboardData = { getData: () => held, setData: (_: string, value: string) => void (held = value) };
@@ -42,7 +45,7 @@ function clipboard(type: 'copy' | 'cut' | 'paste', text = '', target: Element = 
   return { isTaken: event.defaultPrevented, text: held };
 }
 
-it('is for the blocks while the canvas has the focus, wherever the caret was left', () => {
+it('is for the blocks while the canvas has the focus, wherever the caret was', () => {
   document.querySelector<HTMLElement>('[data-testid="canvas"]')?.focus();
   const { text } = clipboard('copy', '', words());
   expect(text).toContain('<Sequence');
@@ -53,7 +56,7 @@ it('is for the blocks while the canvas has the focus, wherever the caret was lef
   expect(types()).not.toContain('Sequence');
 });
 
-it('is for the tree in front where nothing has the focus and no words are marked', () => {
+it('is for the tree in front if nothing has the focus and no text is selected', () => {
   expect(clipboard('paste', '<Sleep msec="5"/>').isTaken).toBe(true);
   expect(types()).toContain('Sleep');
   expect(clipboard('copy', '', words()).isTaken).toBe(false);
@@ -65,7 +68,7 @@ it('is for the text of a field of the canvas', () => {
   expect(clipboard('paste', '<Sleep msec="5"/>', field).isTaken).toBe(false);
 });
 
-it('leaves everything alone while another document is in front', () => {
+it('does nothing while another document is in front', () => {
   document.querySelector('[data-testid="canvas"]')?.remove();
   expect(clipboard('paste', '<Sleep msec="5"/>').isTaken).toBe(false);
   expect(types()).toEqual(['Sequence']);

@@ -4,12 +4,12 @@ import { clipboardText, copiedText, pasteText } from '@/store/project/edits/clip
 import { deleteSelection } from '@/store/project/edits/blocks';
 import { isOnCanvas, isTreeInFront } from '../inFront';
 
-/** Pastes blocks that were copied here or elsewhere; notifies the user if the text contains no blocks. */
+/** Pastes copied blocks; notifies the user if the text contains none. */
 function pasteOrTell(text: string): void {
   if (!pasteText(text)) notifications.show({ color: 'yellow', message: t('canvas:pastesNothing') });
 }
 
-/** Pastes from a menu, where no event carries the text. */
+/** Pastes from a menu, where no event contains the text. */
 export async function pasteHere(): Promise<void> {
   pasteOrTell(await clipboardText());
 }
@@ -20,7 +20,7 @@ function copyTo(clipboard: DataTransfer): boolean {
   return text !== null;
 }
 
-/** The handler of each event; it returns false if there was nothing to copy or paste. */
+/** The handlers of the events; each returns false if there was nothing to copy or paste. */
 const HANDLERS = {
   copy: copyTo,
   cut: (clipboard: DataTransfer): boolean => {
@@ -38,9 +38,9 @@ const isTextField = (element: Element | null): boolean =>
   element?.matches('input, textarea, [contenteditable=true]') === true;
 
 /**
- * Whether the clipboard event is for blocks: the canvas has the focus, or nothing has it and no text is
- * selected. Browsers send such events to the last place of the caret, which may be a tab that was pressed
- * before.
+ * Returns whether a clipboard event is for blocks: the canvas has the focus, or nothing has it and no text is
+ * selected. Browsers send such events to the last place of the caret, which may be in a tab that the user has
+ * left.
  */
 function areBlocksMeant(event: Event): boolean {
   const { activeElement, body } = document;
@@ -49,7 +49,8 @@ function areBlocksMeant(event: Event): boolean {
 }
 
 /**
- * Handles copy, cut and paste by the browser's events: these need no permission, unlike the clipboard API.
+ * Handles copy, cut and paste through the browser's events, which need no permission, unlike the clipboard
+ * API; returns a function that stops it.
  */
 export function followClipboard(): () => void {
   const listening = new AbortController();

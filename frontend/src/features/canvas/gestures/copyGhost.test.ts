@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest';
 import { CopyGhost } from './copyGhost';
 
-it('is a picture of the blocks that nothing finds for the blocks', () => {
+it('is a picture of the blocks that no query finds instead of them', () => {
   const canvas = document.createElement('div');
   canvas.innerHTML =
     '<div class="react-flow__viewport"><i class="react-flow__node" data-id="a" style="left: 3px">' +

@@ -1,7 +1,10 @@
 import type { NodeId } from '@/model/diagram';
 import classes from '../Canvas.module.css';
 
-/** Attributes by which elements are found; a picture of an element must not be found for it. */
+/**
+ * The attributes by which elements are found; they are removed from a picture, so that nothing finds it
+ * instead of the element.
+ */
 const NAMES = [
   'id',
   'data-id',
@@ -18,15 +21,15 @@ function pictureOf(element: HTMLElement): HTMLElement {
   for (const each of [picture, ...picture.querySelectorAll('*')]) {
     for (const name of NAMES) each.removeAttribute(name);
   }
-  // Else it would move with the block itself.
+  // With these classes the picture would move together with the block.
   picture.classList.remove('react-flow__node', 'dragging', 'selected');
   picture.classList.add(classes['ghostBlock'] ?? '');
   return picture;
 }
 
 /**
- * A pale picture of blocks with a plus, which moves with the pointer while they are copied. It is made of the
- * drawn elements, and React does not know it.
+ * A pale picture of blocks with a plus, which moves with the pointer while the blocks are copied. It is a
+ * copy of the drawn elements outside of React.
  */
 export class CopyGhost {
   private readonly element: HTMLElement;

@@ -19,7 +19,7 @@ beforeEach(() => {
     .join('');
 });
 
-it('moves the blocks with what hangs below them, and the edges between them', () => {
+it('moves the blocks with their subtrees, and the edges between them', () => {
   const hand = new BlockDrag(canvas, 'top', new Set(['top']), new Set(['top', 'below']));
   expect(hand.holds).toBe('top');
   hand.moveBy(3, -4, false);
@@ -27,7 +27,7 @@ it('moves the blocks with what hangs below them, and the edges between them', ()
     'node top': '3px -4px',
     'node below': '3px -4px',
     'node other': '',
-    // The edge to the top is drawn again, since its upper end stays.
+    // The edge to the top block is drawn again, since its upper end stays in place.
     'edge top': '',
     'edge below': '3px -4px',
     'edge other': '',
@@ -38,7 +38,7 @@ it('moves the blocks with what hangs below them, and the edges between them', ()
   expect(useDraggedBlocks.getState()).toEqual({ tops: new Set(), dx: 0, dy: 0 });
 });
 
-it('finds blocks that come into view on the way', () => {
+it('finds blocks that come into view during the drag', () => {
   canvas.querySelectorAll('[data-id=below]').forEach((each) => each.remove());
   const hand = new BlockDrag(canvas, 'top', new Set(['top']), new Set(['top', 'below']));
   hand.moveBy(1, 1, false);
@@ -47,7 +47,7 @@ it('finds blocks that come into view on the way', () => {
   expect(translates()['node below']).toBe('2px 2px');
 });
 
-it('leaves blocks that are copied where they are, and moves a picture of them', () => {
+it('leaves copied blocks in place, and moves a picture of them', () => {
   const hand = new BlockDrag(canvas, 'top', new Set(['top']), new Set(['top', 'below']));
   hand.moveBy(3, 4, false);
   hand.moveBy(5, 6, true);

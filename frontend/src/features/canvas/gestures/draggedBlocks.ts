@@ -2,7 +2,7 @@ import { create } from 'zustand';
 import type { NodeId } from '@/model/diagram';
 import { CopyGhost } from './copyGhost';
 
-/** The offset of dragged blocks from their places in the layout; edges to `tops` are drawn again. */
+/** The offset of dragged blocks from their places in the layout; the edges to `tops` are drawn again. */
 interface DraggedBlocks {
   readonly tops: ReadonlySet<NodeId>;
   readonly dx: number;
@@ -15,9 +15,8 @@ export const useDraggedBlocks = create<DraggedBlocks>(() => NOTHING);
 
 /**
  * Moves dragged blocks with the pointer. It sets the CSS property `translate`, which React does not set, on
- * the drawn elements: no block renders, however many move and however large the tree is. Each step queries
- * the page again and so includes blocks that come into view. Blocks that are copied stay where they are, and
- * a ghost of them moves.
+ * the drawn elements, so that no block renders, however many blocks move. Each step queries the page again,
+ * to include blocks that have come into view. In a copy the blocks stay in place, and a ghost of them moves.
  */
 export class BlockDrag {
   private by = { dx: 0, dy: 0 };
@@ -35,7 +34,7 @@ export class BlockDrag {
     this.copy(isCopy);
   }
 
-  /** Changes between moving and copying at the same place. */
+  /** Switches between moving and copying without moving the pointer. */
   copy(isCopy: boolean): void {
     const { dx, dy } = this.by;
     if (isCopy) {

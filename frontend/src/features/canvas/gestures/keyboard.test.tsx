@@ -75,7 +75,7 @@ function Page() {
   );
 }
 
-/** Presses a key; returns whether the canvas took it. */
+/** Presses a key; returns whether the canvas handled it. */
 function press(key: string, more: object = {}, at = 'block'): boolean {
   const event = createEvent.keyDown(screen.getByTestId(at), { key, ...more });
   fireEvent(screen.getByTestId(at), event);
@@ -112,7 +112,7 @@ describe('arrow keys', () => {
     expect(now.selection()).toEqual(['r']);
   });
 
-  it('walk as the eye sees a tree from left to right', () => {
+  it('follow the directions on the screen in a left-right tree', () => {
     useProjectStore.getState().apply('Main', 'orientation', [setLayout('horizontal')]);
     select('r');
     for (const [key, id] of [
@@ -126,7 +126,7 @@ describe('arrow keys', () => {
     }
   });
 
-  it('extend the selection with Shift, the block that was walked to first', () => {
+  it('extend the selection with Shift, the newest block first', () => {
     select('a');
     press('ArrowRight', { shiftKey: true });
     expect(now.selection()).toEqual(['f', 'a']);
@@ -148,17 +148,17 @@ describe('arrow keys', () => {
 });
 
 describe('keys on the selection', () => {
-  it('Home goes to the top, Escape selects nothing', () => {
+  it('Home selects the root, Escape selects nothing', () => {
     select('y');
     expect(press('Home')).toBe(true);
     expect(now.selection()).toEqual(['r']);
     expect(press('Escape')).toBe(true);
     expect(now.selection()).toEqual([]);
-    // With nothing to leave, the key is for the frame.
+    // There is nothing to leave, so the frame handles the key.
     expect(press('Escape')).toBe(false);
   });
 
-  it('Tab asks for a child, Ctrl+Enter for a sibling', () => {
+  it('Tab opens the quick-add box for a child, Ctrl+Enter for a sibling', () => {
     select('f');
     expect(press('Tab')).toBe(true);
     const place = { at: 'child', parent: 'f', index: 2 };
@@ -170,7 +170,7 @@ describe('keys on the selection', () => {
     }
   });
 
-  it('Enter opens what the block stands for', () => {
+  it("Enter opens the block's document", () => {
     const { openFile, openTree } = watchNavigation();
     select('a');
     expect(press('Enter')).toBe(true);
@@ -188,7 +188,7 @@ describe('keys on the selection', () => {
     expect(now.editor().editing).toEqual({ node: 'x', field: 'comment' });
   });
 
-  it.each(['Delete', 'Backspace'])('%s removes the block, with Shift it keeps the children', (key) => {
+  it.each(['Delete', 'Backspace'])('%s removes the block; Shift keeps the children', (key) => {
     select('f');
     expect(press(key, { shiftKey: true })).toBe(true);
     expect(childrenOf(now.diagram(), 'r')).toEqual(['a', 'x', 'y', 'g']);
@@ -198,7 +198,7 @@ describe('keys on the selection', () => {
     expect(nodeOf('Main', 'z')).toBeUndefined();
   });
 
-  it('Space folds a block, and looks into a subtree', () => {
+  it('Space folds a block, or expands a subtree', () => {
     select('f');
     expect(press(' ')).toBe(true);
     expect(nodeOf('Main', 'f')?.collapsed).toBe(true);
@@ -211,7 +211,7 @@ describe('keys on the selection', () => {
 });
 
 describe('letters', () => {
-  it.each(['a', 'Z', '7', '_'])('%s begins the name of a new block', (key) => {
+  it.each(['a', 'Z', '7', '_'])('%s starts the name of a new block', (key) => {
     expect(press(key)).toBe(true);
     expect(now.editor().quickAdd).toMatchObject({ text: key, goal: { does: 'add' } });
   });
@@ -232,7 +232,7 @@ describe('letters', () => {
 });
 
 describe('an empty tree', () => {
-  it('has the first block at Tab', () => {
+  it('gets its first block with Tab', () => {
     select('r', 'd');
     press('Delete');
     expect(now.diagram().root).toBeNull();
@@ -273,7 +273,7 @@ it('stays at a folded block on the way down', () => {
   expect(now.selection()).toEqual(['f']);
 });
 
-it('enters the tree of a block that is seen inside of a subtree', () => {
+it('opens the tree of a block inside of an expanded subtree', () => {
   const { openTree } = watchNavigation();
   enterInside({ tree: 'Dock', node: 'n1' });
   expect(openTree).toHaveBeenCalledWith('Dock');

@@ -20,13 +20,16 @@ const PRESSES: ReadonlySet<string> = new Set(['Enter', ' ', 'Tab']);
 
 type Direction = 'up' | 'down' | 'before' | 'after';
 
-/** Arrow keys by their direction on the screen: in a left-right layout a parent is to the left. */
+/** The directions of the arrow keys on the screen: in a left-right layout, the parent is to the left. */
 const DIRECTIONS: Record<Diagram['layout'], Readonly<Record<string, Direction>>> = {
   vertical: { ArrowUp: 'up', ArrowDown: 'down', ArrowLeft: 'before', ArrowRight: 'after' },
   horizontal: { ArrowLeft: 'up', ArrowRight: 'down', ArrowUp: 'before', ArrowDown: 'after' },
 };
 
-/** The next block in a direction: a sibling, or beyond the last sibling the nearest cousin. */
+/**
+ * Returns the next block in a direction: beside a block its sibling, or the nearest cousin after the last
+ * sibling.
+ */
 export function neighbour(diagram: Diagram, id: NodeId, direction: Direction): NodeId | null {
   if (direction === 'up') return parentOf(diagram, id);
   if (direction === 'down') return visibleChildren(diagram, id)[0] ?? null;
@@ -93,14 +96,14 @@ function onBlockKey(event: KeyboardEvent, diagram: Diagram, id: NodeId): boolean
   }
 }
 
-/** The context menu key, and Shift+F10 for keyboards without one. */
+/** Returns whether a key opens the context menu: the menu key, or Shift+F10 for keyboards without one. */
 export const isMenuKey = ({ key, shiftKey }: KeyboardEvent): boolean =>
   key === 'ContextMenu' || (key === 'F10' && shiftKey);
 
-/** Handles keys of the canvas; keys with Ctrl that apply to the whole page are in the table of commands. */
+/** Handles the keys of the canvas. Keys with Ctrl that apply to the whole page are in the command table. */
 export function onCanvasKey(event: KeyboardEvent): void {
   const target = event.target as HTMLElement;
-  // React also delivers the key events of a menu, which is elsewhere in the DOM.
+  // React also delivers the key events of a menu, although the menu is elsewhere in the DOM.
   if (!event.currentTarget.contains(target)) return;
   if (target.matches('input, textarea, select, [contenteditable=true]')) return;
   if (target.matches('button') && PRESSES.has(event.key)) return;

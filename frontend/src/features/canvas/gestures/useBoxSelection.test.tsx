@@ -34,7 +34,7 @@ function begin(isCaptured = true) {
   return { store, heard };
 }
 
-it('a frame that Escape cancels leaves what was selected before', () => {
+it('a rectangle that Escape cancels restores the selection', () => {
   const { store, heard } = begin();
   act(() => void fireEvent.keyDown(document.body, { key: 'Escape' }));
   expect(now.selection()).toEqual(['a']);
@@ -42,14 +42,14 @@ it('a frame that Escape cancels leaves what was selected before', () => {
   expect(heard.mock.calls.flat()).toEqual(['pointercancel', 'click']);
 });
 
-it('a pointer that is lost is not released again', () => {
+it('a lost pointer is not released again', () => {
   const { heard } = begin(false);
   act(() => void fireEvent.blur(window));
   expect(now.selection()).toEqual(['a']);
   expect(heard.mock.calls.flat()).toEqual(['click']);
 });
 
-it('a frame that is drawn to its end selects', () => {
+it('a finished rectangle selects', () => {
   begin();
   fireEvent.pointerUp(document.body, { pointerId: 5 });
   fireEvent.keyDown(document.body, { key: 'Escape' });

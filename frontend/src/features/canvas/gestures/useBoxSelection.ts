@@ -3,16 +3,19 @@ import { useCallback, useRef, type MouseEvent } from 'react';
 import { useProjectStore } from '@/store/project';
 import { cancellable } from '@/ui/cancellable';
 
-/** The pointer of an event of React Flow, which types it as the mouse's. */
+/** Returns the pointer of an event, which React Flow types as a mouse event. */
 const pointerIdOf = ({ nativeEvent }: MouseEvent): number | null =>
   'pointerId' in nativeEvent ? (nativeEvent.pointerId as number) : null;
 
-/** A frame that is drawn around blocks selects them; Escape restores what was selected before. */
+/**
+ * Returns the handlers of the selection rectangle, which selects the blocks inside; Escape restores the
+ * selection from before.
+ */
 export function useBoxSelection(treeId: string) {
   const store = useStoreApi();
   const before = useRef<readonly string[]>([]);
 
-  /** React Flow forgets the selection before it calls `onSelectionStart`. */
+  /** Records the selection, since React Flow clears it before it calls `onSelectionStart`. */
   const onPress = useCallback(() => {
     const { activeTree, selection } = useProjectStore.getState();
     before.current = activeTree === treeId ? selection : [];
@@ -24,7 +27,8 @@ export function useBoxSelection(treeId: string) {
       const pointerId = pointerIdOf(event);
       cancellable(pane, pointerId, {
         onCancel: () => {
-          // React Flow ends its own work at these: the view that follows the pointer, and the next click.
+          // At this event React Flow ends its own work: the view stops following the pointer, and the next
+          // click is ignored.
           if (pointerId !== null && pane.hasPointerCapture(pointerId))
             pane.dispatchEvent(new PointerEvent('pointercancel', { pointerId, bubbles: true }));
           pane.dispatchEvent(new window.MouseEvent('click', { bubbles: true }));

@@ -60,7 +60,7 @@ function end(used: ReturnType<typeof begin>, { from = 'r', type = 'source', onto
 }
 
 describe('a connection', () => {
-  it('leads to a block that may hang there, and does not yet', () => {
+  it('can end at a block that may be a child, and is not one yet', () => {
     const used = begin();
     const isValid = (source: string, target: string) => used().isValidConnection(connection(source, target));
     expect(isValid('r', 'd')).toBe(true);
@@ -70,7 +70,7 @@ describe('a connection', () => {
     expect(isValid('f', 'r')).toBe(false);
   });
 
-  it('hangs the block below the other', () => {
+  it('makes the block a child of the other', () => {
     const used = begin();
     act(() => used().onConnect(connection('f', 'd')));
     expect(childrenOf(now.diagram(), 'f')).toEqual(['a', 'd']);
@@ -80,28 +80,28 @@ describe('a connection', () => {
 });
 
 describe('a connection that ends', () => {
-  it('on the body of a block hangs that below', () => {
+  it('on a block makes that a child', () => {
     end(begin(), { from: 'f', onto: 'd' });
     expect(childrenOf(now.diagram(), 'f')).toEqual(['a', 'd']);
     expect(now.editor().quickAdd).toBeNull();
   });
 
-  it('on the body of a block above it hangs nothing', () => {
+  it('on an ancestor changes nothing', () => {
     end(begin(), { from: 'f', onto: 'r' });
     expect(childrenOf(now.diagram(), 'f')).toEqual(['a']);
   });
 
-  it('begun at the top of a block hangs that below the other', () => {
+  it('begun at the top of a block makes that a child of the other', () => {
     end(begin(), { from: 'd', type: 'target', onto: 'g' });
     expect(childrenOf(now.diagram(), 'g')).toEqual(['d']);
   });
 
-  it('on its own block asks what to put there', () => {
+  it('on its own block opens the quick-add box', () => {
     end(begin(), { from: 'f', onto: 'f' });
     expect(now.editor().quickAdd).not.toBeNull();
   });
 
-  it('on free canvas asks for a child', () => {
+  it('on the empty canvas asks for a child', () => {
     end(begin(), { from: 'f' });
     expect(now.editor().quickAdd).toEqual({
       tree: 'Main',
@@ -112,7 +112,7 @@ describe('a connection that ends', () => {
     });
   });
 
-  it('on free canvas above a block asks for a parent', () => {
+  it('on the empty canvas above a block asks for a parent', () => {
     end(begin(), { from: 'a', type: 'target' });
     expect(now.editor().quickAdd).toMatchObject({ goal: { does: 'wrap', nodes: ['a'] }, x: 100, y: 100 });
   });
@@ -121,12 +121,12 @@ describe('a connection that ends', () => {
     [{ x: 100, y: 89 }, false],
     [{ x: 88, y: 100 }, true],
     [{ x: 92, y: 92 }, false],
-  ])('at %o was drawn, and not pressed: %s', (start, isDrawn) => {
+  ])('at %o was a drag, and not a press: %s', (start, isDrawn) => {
     end(begin(), { from: 'f', start });
     expect(now.editor().quickAdd !== null).toBe(isDrawn);
   });
 
-  it('where it is made, at no block or under a finger asks nothing', () => {
+  it('that is made, that is not at a block, or that is a touch opens no box', () => {
     const used = begin();
     end(used, { isValid: true });
     end(used, { from: null });
@@ -140,7 +140,7 @@ describe('a connection that ends', () => {
   });
 });
 
-it('is not made once Escape was pressed, and the next one is', () => {
+it('is not made after Escape, and the next one is', () => {
   const used = begin();
   const start = () => {
     const event = { target: document.body } as unknown as MouseEvent;

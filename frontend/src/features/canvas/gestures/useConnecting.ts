@@ -8,8 +8,8 @@ import { openQuickAdd, openQuickAddBelow } from '../quickAdd/open';
 import type { TreeOnCanvas } from '../useTree';
 
 /**
- * Connects blocks by hand; a connection that ends on the empty canvas opens the quick-add box, and one that
- * Escape ends does nothing.
+ * Returns the handlers for connections that the user draws. One that ends on the empty canvas opens the
+ * quick-add box; Escape cancels it.
  */
 export function useConnecting({ diagram, vocabulary }: TreeOnCanvas) {
   const flow = useReactFlow();
@@ -48,7 +48,7 @@ export function useConnecting({ diagram, vocabulary }: TreeOnCanvas) {
         ?.closest('.react-flow__node')
         ?.getAttribute('data-id');
       if (target && target !== from) {
-        // Dropped on the body of a block: the target need not be the small handle.
+        // A connection may end anywhere on a block, not only on its small handle.
         if (state.fromHandle?.type === 'source' && !isWithin(diagram, from, target)) connect(from, target);
         else if (state.fromHandle?.type === 'target') connect(target, from);
         return;

@@ -45,7 +45,7 @@ function begin() {
     const { x, y, width, height } = boxOf(id);
     return { x: x + width / 2, y: y + height / 2 };
   };
-  /** The block as React Flow carries it, off its place by so much, and the pointer. */
+  /** Returns a block as React Flow reports it during a drag: its offset from its place, and the pointer. */
   const held = (id: string, dx: number, dy: number, pointer: { x: number; y: number }, altKey: boolean) =>
     [
       { clientX: pointer.x, clientY: pointer.y, altKey } as MouseEvent,
@@ -64,8 +64,8 @@ function begin() {
   return { used, drag, drop, boxOf, centreOf, translated, unmount, canvas };
 }
 
-describe('while a block is carried', () => {
-  it('it moves with all below it, and is held', () => {
+describe('while a block is dragged', () => {
+  it('it moves with its subtree, and is kept drawn', () => {
     const { used, drag, drop, translated } = begin();
     expect(used().held).toBeNull();
     drag('i', 30, 40);
@@ -77,14 +77,14 @@ describe('while a block is carried', () => {
     expect(translated()).toEqual([]);
   });
 
-  it('an expanded subtree is carried, too', () => {
+  it('an expanded subtree moves, too', () => {
     act(() => toggleExpanded('Main', 's'));
     const { drag, translated } = begin();
     drag('s', 30, 40);
     expect(translated()).toEqual(['s', 's n1']);
   });
 
-  it('the slot below the pointer is marked, once the hand has moved', () => {
+  it('the slot below the pointer is marked after a first movement', () => {
     const { drag, centreOf } = begin();
     drag('a', 6, 0, centreOf('b'));
     expect(now.editor().slot).toBeNull();
@@ -97,7 +97,7 @@ describe('while a block is carried', () => {
     expect(now.editor().slot).toBeNull();
   });
 
-  it('its own place is no slot, but one for a copy', () => {
+  it('its own place is no slot, except for a copy', () => {
     const { drag, boxOf } = begin();
     const [a, b] = [boxOf('a'), boxOf('b')];
     const between = { x: (a.x + a.width + b.x) / 2, y: a.y + 10 };
@@ -125,7 +125,7 @@ describe('while a block is carried', () => {
     expect(used().held).toBeNull();
   });
 
-  it('nothing stays moved when the canvas goes', () => {
+  it('nothing stays moved when the canvas is removed', () => {
     const { drag, translated, unmount } = begin();
     drag('a', 20, 0);
     expect(translated()).toEqual(['a']);
@@ -133,7 +133,7 @@ describe('while a block is carried', () => {
     expect(translated()).toEqual([]);
   });
 
-  it('another block is taken by the next hand', () => {
+  it('the next drag can move another block', () => {
     const { used, drag, translated } = begin();
     drag('a', 20, 0);
     drag('b', 20, 0);
@@ -145,7 +145,7 @@ describe('while a block is carried', () => {
 describe('Escape', () => {
   const undoSteps = () => useProjectStore.getState().histories['Main']?.past.length ?? 0;
 
-  it('leaves the tree as it was, and the end of the drag does nothing', () => {
+  it('leaves the tree unchanged, and the end of the drag does nothing', () => {
     const { used, drag, drop, centreOf, translated } = begin();
     const before = now.diagram();
     const released = vi.fn();
@@ -157,7 +157,7 @@ describe('Escape', () => {
     expect(used().held).toBeNull();
     expect(translated()).toEqual([]);
     expect(now.editor().slot).toBeNull();
-    // A touch continues until the finger is lifted.
+    // React Flow's drag of a touch continues until the finger is lifted.
     drag('a', 60, 0, centreOf('b'));
     expect(translated()).toEqual([]);
     drop('a', 60, 0, centreOf('b'));
@@ -165,7 +165,7 @@ describe('Escape', () => {
     expect(undoSteps()).toBe(0);
   });
 
-  it('does not count for the next drag', () => {
+  it('does not affect the next drag', () => {
     const { used, drag, translated } = begin();
     drag('a', 50, 0);
     act(() => void fireEvent.keyDown(document.body, { key: 'Escape' }));
@@ -178,7 +178,7 @@ describe('Escape', () => {
 describe('Alt', () => {
   const ghosts = (canvas: HTMLElement) => canvas.querySelectorAll('[data-testid=copy-ghost]').length;
 
-  it('shows a copy at once where the pointer rests, and moves the block again when it is released', () => {
+  it('shows a copy at once while the pointer rests, and moves the block again when it is released', () => {
     const { drag, drop, translated, canvas, boxOf } = begin();
     const [a, b] = [boxOf('a'), boxOf('b')];
     drag('a', 20, 0, { x: (a.x + a.width + b.x) / 2, y: a.y + 10 });
@@ -193,7 +193,7 @@ describe('Alt', () => {
     expect(ghosts(canvas)).toBe(0);
   });
 
-  it('and Escape copy nothing', () => {
+  it('and Escape together copy nothing', () => {
     const { drag, canvas } = begin();
     const before = now.diagram();
     drag('i', 50, 60, undefined, true);
@@ -205,7 +205,7 @@ describe('Alt', () => {
 });
 
 describe('a block that is dropped', () => {
-  it('hangs below the marked block, in one step of undo', () => {
+  it('becomes a child of the marked block, in one undo step', () => {
     const { drag, drop, centreOf } = begin();
     drag('a', 50, 0, centreOf('b'));
     drop('a', 50, 0, centreOf('b'));
@@ -217,7 +217,7 @@ describe('a block that is dropped', () => {
     expect(childrenOf(now.diagram(), 'r')).toEqual(['a', 'b', 'i', 's']);
   });
 
-  it('stays where the hand put it on free canvas', () => {
+  it('stays where it is dropped on the empty canvas', () => {
     const { drag, drop, boxOf } = begin();
     const { x, y } = boxOf('a');
     drag('a', 50, 60);
@@ -226,7 +226,7 @@ describe('a block that is dropped', () => {
     expect(now.selection()).toEqual(['a']);
   });
 
-  it('stays in its place after a tremble of six pixels', () => {
+  it('stays in its place after a movement of six pixels', () => {
     const { drag, drop } = begin();
     drag('a', 6, 0);
     drop('a', 6, 0);
@@ -236,7 +236,7 @@ describe('a block that is dropped', () => {
     expect(nodeOf('Main', 'a')?.position).toBeDefined();
   });
 
-  it('takes the other selected blocks along, each by as much', () => {
+  it('moves with the other selected blocks, by the same distance', () => {
     act(() => useProjectStore.getState().select('Main', ['i', 'c', 'a']));
     const { drag, drop, boxOf } = begin();
     const [a, i] = [boxOf('a'), boxOf('i')];
@@ -248,7 +248,7 @@ describe('a block that is dropped', () => {
     expect(now.selection()).toEqual(['a', 'i']);
   });
 
-  it('goes alone where it is not one of the selected', () => {
+  it('moves alone if it is not one of the selected blocks', () => {
     act(() => useProjectStore.getState().select('Main', ['i', 'b']));
     const { drag, drop } = begin();
     drag('a', 10, 20);
@@ -268,7 +268,7 @@ describe('a block that is dropped', () => {
     expect(now.selection()).toEqual([copy]);
   });
 
-  it('is copied to a place of its own with Alt, all below it included', () => {
+  it('is copied with its subtree to a free place with Alt', () => {
     const { drag, drop, boxOf } = begin();
     const { x, y } = boxOf('i');
     drag('i', 50, 60, undefined, true);
@@ -279,7 +279,7 @@ describe('a block that is dropped', () => {
     expect(nodeOf('Main', 'i')?.position).toBeUndefined();
   });
 
-  it('is not moved to its own place when Alt is released before the button', () => {
+  it('does not move to its own place when Alt is released before the button', () => {
     const { drag, drop, boxOf } = begin();
     const [a, b] = [boxOf('a'), boxOf('b')];
     const between = { x: (a.x + a.width + b.x) / 2, y: a.y + 10 };

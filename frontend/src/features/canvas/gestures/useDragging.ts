@@ -12,23 +12,23 @@ import { BlockDrag } from './draggedBlocks';
 import type { BlockNode } from '../flow';
 import type { TreeOnCanvas } from '../useTree';
 
-/** A smaller movement counts as a click, since hands tremble. */
+/** The distance in px below which a movement counts as a click, since hands tremble. */
 const DEAD_ZONE = 6;
 
-/** Values that are computed once at the start of a drag. */
+/** The values that are computed once at the start of a drag. */
 interface Grip {
   readonly hand: BlockDrag;
   /** The dragged blocks that are below no other dragged block, in execution order. */
   readonly tops: readonly NodeId[];
   readonly layout: unknown;
   readonly findSlot: SlotFinder;
-  /** The last step of the pointer, for a key that is pressed where it rests. */
+  /** The last position of the pointer, for a key that is pressed while the pointer rests. */
   last: Step | null;
-  /** Stops to listen for Escape and the Alt key. */
+  /** Stops listening for Escape and the Alt key. */
   readonly end: () => void;
 }
 
-/** How far the block is from its place, and where the pointer is in the window. */
+/** The offset of the block from its place, and the position of the pointer in the window. */
 interface Step {
   readonly dx: number;
   readonly dy: number;
@@ -41,14 +41,14 @@ type DragEvent = MouseEvent | TouchEvent | React.MouseEvent;
 const pointerOf = (event: DragEvent): { readonly clientX: number; readonly clientY: number } | undefined =>
   'touches' in event ? event.touches[0] : event;
 
-/** Calls back when the Alt key is pressed or released, until the returned function is called. */
+/** Calls `onAlt` when the Alt key is pressed or released; returns a function that stops it. */
 function watchAlt(canvas: HTMLElement, onAlt: (isDown: boolean) => void): () => void {
   const listening = new AbortController();
   const view = canvas.ownerDocument.defaultView ?? window;
   for (const type of ['keydown', 'keyup'] as const) {
     const onKey = (event: KeyboardEvent): void => {
       if (event.key !== 'Alt') return;
-      // Else the browser's menu takes the focus.
+      // Otherwise the browser's menu would take the focus.
       event.preventDefault();
       onAlt(type === 'keydown');
     };
@@ -57,7 +57,10 @@ function watchAlt(canvas: HTMLElement, onAlt: (isDown: boolean) => void): () => 
   return () => listening.abort();
 }
 
-/** Drags blocks into a slot of the tree or to a free position. Alt copies them, Escape leaves all as it was. */
+/**
+ * Returns the handlers that drag blocks into a slot of the tree or to a free position. Alt copies the blocks;
+ * Escape cancels the drag.
+ */
 export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | null>) {
   const flow = useReactFlow();
   const grip = useRef<Grip | null>(null);
@@ -79,7 +82,10 @@ export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | 
     setEditor({ slot: null });
   }, [letGo]);
 
-  /** A copy is added to the children that are there; a moved block leaves its place first. */
+  /**
+   * Returns whether blocks may be dropped into a slot. A copy needs room beside the present children, whereas
+   * a moved block leaves its old place first.
+   */
   const allows = useCallback(
     (slot: Slot, tops: readonly NodeId[], isCopy: boolean): boolean =>
       isCopy ? hasRoom(diagram, slot.parent, vocabulary, tops.length) : !isSamePlace(diagram, tops, slot),
@@ -169,7 +175,7 @@ export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | 
       if (!origin || !tops) return;
       const [dx, dy] = [node.position.x - origin.x, node.position.y - origin.y];
       if (Math.hypot(dx, dy) <= DEAD_ZONE) return;
-      // The key may have been released, or pressed, since the last move of the pointer.
+      // The key may have changed since the last move of the pointer.
       const slot = found && allows(found, tops, event.altKey) ? found : null;
       const place = slot && ({ at: 'child', parent: slot.parent, index: slot.index } as const);
       if (event.altKey) {

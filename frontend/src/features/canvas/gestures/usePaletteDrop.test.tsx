@@ -50,7 +50,7 @@ function begin() {
 const fromPalette = () => setEditor({ dragged: { type: 'Sleep' } });
 
 describe('a block from the palette', () => {
-  it('marks the slot below it, and sets it once', () => {
+  it('marks the slot below it, setting it once', () => {
     fromPalette();
     const { over, centreOf } = begin();
     const { preventDefault, dataTransfer } = over(centreOf('a'));
@@ -67,7 +67,7 @@ describe('a block from the palette', () => {
     end();
   });
 
-  it('hangs below the block on which it is dropped', () => {
+  it('becomes a child of the block where it is dropped', () => {
     fromPalette();
     const { over, drop, centreOf } = begin();
     over(centreOf('a'));
@@ -78,7 +78,7 @@ describe('a block from the palette', () => {
     expect(now.editor()).toMatchObject({ dragged: null, slot: null });
   });
 
-  it('is a draft around the pointer on free canvas', () => {
+  it('becomes a draft around the pointer on the empty canvas', () => {
     fromPalette();
     const { drop } = begin();
     drop(away);
@@ -86,7 +86,7 @@ describe('a block from the palette', () => {
     expect(nodeOf('Main', made!)).toEqual({ type: 'Sleep', position: [835, 779] });
   });
 
-  it('is the root of an empty tree', () => {
+  it('becomes the root of an empty tree', () => {
     fromPalette();
     useProjectStore.getState().apply('Main', 'delete', [removeSubtrees(['r'])]);
     const { drop } = begin();
@@ -95,7 +95,7 @@ describe('a block from the palette', () => {
     expect(now.diagram().drafts).toEqual([]);
   });
 
-  it('finds the slots of the tree as it is now', () => {
+  it('finds the slots of the current tree', () => {
     fromPalette();
     const { over, drop, centreOf } = begin();
     over(centreOf('a'));
@@ -117,7 +117,7 @@ describe('anything else that is dragged', () => {
   });
 });
 
-it('unmarks the slot when the canvas is left, and not on the way over a block in it', () => {
+it('removes the mark when it leaves the canvas, but not over a block inside', () => {
   fromPalette();
   const { used, over, centreOf } = begin();
   over(centreOf('a'));

@@ -5,7 +5,10 @@ import { addAt } from '@/store/project/edits/blocks';
 import { setEditor, useEditorStore } from '@/store/project/editor';
 import type { TreeOnCanvas } from '../useTree';
 
-/** Drops of new blocks from the palette: with the same slots and marks as for blocks of the tree. */
+/**
+ * Returns the handlers for new blocks dropped from the palette, with the same slots and marks as for blocks
+ * of the tree.
+ */
 export function usePaletteDrop({ diagram, layout, vocabulary }: TreeOnCanvas) {
   const flow = useReactFlow();
   const finder = useRef<{ readonly of: unknown; readonly find: SlotFinder } | null>(null);

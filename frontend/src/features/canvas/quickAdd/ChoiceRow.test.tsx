@@ -7,7 +7,7 @@ import { ChoiceRow } from './ChoiceRow';
 const spec = vocabulary.specs.get('Sequence')!;
 const choice = { kind: { type: 'Sequence' }, spec, label: 'Sequence' };
 
-it('names the choice and what it does, and says whether it is active', () => {
+it('shows the choice, its description, and whether it is active', () => {
   show(<ChoiceRow id="one" choice={choice} isActive onChoose={() => undefined} />);
   show(<ChoiceRow id="two" choice={choice} isActive={false} onChoose={() => undefined} />);
   const [one, two] = screen.getAllByRole('option');

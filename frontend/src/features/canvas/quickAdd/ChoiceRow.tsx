@@ -17,7 +17,7 @@ export function ChoiceRow({ id, choice, isActive, onChoose }: ChoiceRowProps) {
         tabIndex={-1}
         className={classes['choice']}
         onPointerDown={(event) => {
-          // Keeps the focus in the search box, whose blur would close the list.
+          // The focus must stay in the search box, since losing it would close the list.
           event.preventDefault();
           onChoose();
         }}

@@ -17,7 +17,7 @@ beforeEach(() => {
   );
 });
 
-/** Opens the box as the canvas does: it is gone once the request is. */
+/** Opens the box as the canvas does: when the request is removed, the box is closed. */
 function open(more: Partial<Request> = {}) {
   const onClose = vi.fn();
   const place = { at: 'child', parent: 'r', index: 2 } as const;
@@ -39,7 +39,7 @@ const active = () => screen.getAllByRole('option', { selected: true }).map(({ id
 const typeOf = (id: string | undefined) => nodeOf('Main', id ?? '')?.type;
 
 describe('the list', () => {
-  it('has what may be added, the user’s own first', () => {
+  it('has the blocks that may be added, the user’s own first', () => {
     open();
     expect(labels().slice(0, 2)).toEqual(['Grasp', 'Release']);
     expect(labels()).toContain('Sequence');
@@ -48,7 +48,7 @@ describe('the list', () => {
     expect(field()).toHaveAttribute('placeholder', 'Add a block…');
   });
 
-  it('has decorators and controls to wrap one block in, and of several controls alone', () => {
+  it('has decorators and controls to wrap one block in', () => {
     open({ goal: { does: 'wrap', nodes: ['a'] } });
     expect(labels()).toEqual(expect.arrayContaining(['Inverter', 'Sequence']));
     expect(labels()).not.toContain('Grasp');
@@ -61,7 +61,7 @@ describe('the list', () => {
     expect(labels()).not.toContain('Inverter');
   });
 
-  it('has the types that hold the children that there are', () => {
+  it('has the types that can have the present children', () => {
     open({ goal: { does: 'morph', node: 'r' } });
     expect(labels()).toContain('Fallback');
     expect(labels()).not.toContain('Inverter');
@@ -69,7 +69,7 @@ describe('the list', () => {
     expect(field()).toHaveAccessibleName('Change type to…');
   });
 
-  it('begins with the text that was typed, and follows it', async () => {
+  it('starts with the text that was typed, and follows it', async () => {
     open({ text: 'gra' });
     expect(field()).toHaveValue('gra');
     expect(labels()[0]).toBe('Grasp');
@@ -78,7 +78,7 @@ describe('the list', () => {
     expect(labels()).toEqual(['Grasp']);
   });
 
-  it('says that nothing fits', async () => {
+  it('says that no block matches', async () => {
     open({ text: 'Grasp' });
     expect(screen.queryByText('Nothing that fits here has this name.')).toBeNull();
     await user.type(field(), ' no');
@@ -89,14 +89,14 @@ describe('the list', () => {
     expect(childrenOf(now.diagram(), 'r')).toEqual(['a', 'b']);
   });
 
-  it('is empty of a tree that is gone', () => {
+  it('is empty for a deleted tree', () => {
     open({ tree: 'Gone' });
     expect(screen.queryAllByRole('option')).toEqual([]);
   });
 });
 
 describe('keys', () => {
-  it('walk round the list, and a search begins at its top again', async () => {
+  it('go round in the list, and a search starts at its top again', async () => {
     open({ text: 'Reactive' });
     const last = labels().length - 1;
     expect(active()).toEqual(['quick-add-0']);
@@ -136,13 +136,13 @@ describe('keys', () => {
     open({ text: 'Gra' });
     fireEvent.keyDown(field(), { key: 'Delete' });
     document.removeEventListener('keydown', onKey);
-    // React listens at the root, which is below the document.
+    // React's listener is at the root, below the document.
     expect(onKey).not.toHaveBeenCalled();
   });
 });
 
 describe('a choice', () => {
-  it('is made by a press', () => {
+  it('is made with a press', () => {
     open();
     fireEvent.pointerDown(screen.getAllByRole('button')[1]!);
     expect(typeOf(childrenOf(now.diagram(), 'r')[2])).toBe('Release');
@@ -163,8 +163,8 @@ describe('a choice', () => {
   });
 });
 
-describe('a name that no block has', () => {
-  it('is a new action, written from a template', async () => {
+describe('a name without a matching block', () => {
+  it('becomes a new action, written from a template', async () => {
     open({ text: 'PickUp' });
     expect(screen.getByTestId('quick-add-new-Action')).toHaveTextContent('New action “PickUp”');
     expect(screen.getByTestId('quick-add-new-Condition')).toHaveTextContent('New condition “PickUp”');
@@ -175,7 +175,7 @@ describe('a name that no block has', () => {
     expect(text).not.toContain('NODE_KIND');
   });
 
-  it('that is a question is a condition first', () => {
+  it('that is a question becomes a condition first', () => {
     open({ text: 'IsHome' });
     const made = screen.getAllByTestId(/^quick-add-new-/).map(({ dataset }) => dataset['testid']);
     expect(made).toEqual(
@@ -183,14 +183,14 @@ describe('a name that no block has', () => {
     );
   });
 
-  it('can be the other kind by a press', () => {
+  it('can become the other kind with a press', () => {
     open({ text: 'PickUp' });
     fireEvent.pointerDown(screen.getByTestId('quick-add-new-Condition'));
     expect(useProjectStore.getState().currentText('actions/PickUp.py')).toContain('NODE_KIND = "Condition"');
     expect(box()).toBeNull();
   });
 
-  it('is likely even where a description has the word, and not where a block begins so', async () => {
+  it('is offered even if a description contains the word, but not if a block’s name starts with it', async () => {
     open({ text: 'Hand' });
     expect(labels()[0]).toBe('Grasp');
     expect(screen.getByRole('option', { selected: true })).toHaveTextContent('New action “Hand”');
@@ -200,12 +200,12 @@ describe('a name that no block has', () => {
     expect(screen.getByTestId('quick-add-new-Action')).toBeInTheDocument();
   });
 
-  it.each(['Grasp', '3D', 'a b', 'class'])('does not follow from “%s”', (name) => {
+  it.each(['Grasp', '3D', 'a b', 'class'])('is not offered for “%s”', (name) => {
     open({ text: name });
     expect(screen.queryByTestId('quick-add-new-Action')).toBeNull();
   });
 
-  it('is none where a block is wrapped', () => {
+  it('is not offered for wrapping', () => {
     open({ goal: { does: 'wrap', nodes: ['a'] }, text: 'PickUp' });
     expect(screen.queryByTestId('quick-add-new-Action')).toBeNull();
   });
@@ -225,12 +225,12 @@ describe('the box', () => {
       { x: 5000, y: 5000 },
       { left: `${1024 - 348}px`, top: `${768 - 388}px` },
     ],
-  ])('opened at %o is within the window', (point, place) => {
+  ])('opened at %o stays within the window', (point, place) => {
     open({ ...point, text: 'no such' });
     expect(box()).toHaveStyle({ ...place, width: '340px', maxHeight: '380px' });
   });
 
-  it('closes when the focus leaves it, and not within it', () => {
+  it('closes when the focus leaves it, but not when the focus moves inside', () => {
     open({ text: 'Gra' });
     fireEvent.blur(field(), { relatedTarget: screen.getAllByRole('button')[0]! });
     expect(box()).not.toBeNull();

@@ -24,20 +24,20 @@ function purposeOf({ goal }: QuickAddState): Purpose {
 
 interface QuickAddProps {
   readonly request: QuickAddState;
-  /** Called on closing; must return the focus to the canvas. */
+  /** Called when the box closes; must return the focus to the canvas. */
   readonly onClose: () => void;
 }
 
 const WIDTH = 340;
 const HEIGHT = 380;
 
-/** A search box at the place of the new block; it lists the blocks that are allowed there. */
+/** A search box at the place of a new block, with the blocks that are allowed there. */
 export function QuickAdd({ request, onClose }: QuickAddProps) {
   const { t } = useTranslation('canvas');
   const diagram = useProjectStore((state) => state.diagrams[request.tree]);
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const [search, setSearch] = useState(request.text);
-  /** The chosen row; null until the user moves: then the most likely one. */
+  /** The chosen row. It is null until the user moves the choice; then the most likely row counts. */
   const [index, setIndex] = useState<number | null>(null);
   const list = useRef<HTMLDivElement>(null);
   const field = useRef<HTMLInputElement>(null);
@@ -57,7 +57,7 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
   const canCreate = request.goal.does === 'add' && isPythonName(search) && !vocabulary.specs.has(search);
   const made = canCreate ? kindsFor(search) : [];
   const count = found.length + made.length;
-  // A name that no block has is a new action, even if a description contains the word.
+  // If no block has this name, it means a new action, even if a description contains the word.
   const least = /^[A-Z]/.test(search) ? 3 : 1;
   const isNamed = found.some(({ label }) => matchScore(label, search) >= least);
   const likely = made.length > 0 && !isNamed ? found.length : 0;
@@ -86,7 +86,7 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
   const left = Math.max(8, Math.min(request.x, window.innerWidth - WIDTH - 8));
   const top = Math.max(8, Math.min(request.y, window.innerHeight - HEIGHT - 8));
   return (
-    // Watching where the focus goes is no interaction.
+    // The handler only observes the focus, which is no interaction.
     // eslint-disable-next-line jsx-a11y/no-noninteractive-element-interactions
     <div
       className={classes['box']}

@@ -5,6 +5,6 @@ it.each(['IsHome', 'isHome', 'hasBox', 'Can_see', 'check', 'Is', 'CheckDoor'])('
   expect(kindsFor(name)).toEqual(['Condition', 'Action', 'Control', 'Decorator']);
 });
 
-it.each(['Island', 'Canoe', 'Hasten', 'checkers', 'PickUp', 'ThisIs', ''])('%s is no question', (name) => {
+it.each(['Island', 'Canoe', 'Hasten', 'checkers', 'PickUp', 'ThisIs', ''])('%s is not a question', (name) => {
   expect(kindsFor(name)).toEqual(['Action', 'Condition', 'Control', 'Decorator']);
 });

@@ -19,7 +19,7 @@ afterEach(() => {
   document.body.innerHTML = '';
 });
 
-/** Draws an element at a place of the window. */
+/** Adds an element with a box in the window. */
 function draw(testId: string, box: DOMRect) {
   const element = document.body.appendChild(document.createElement('div'));
   element.dataset['testid'] = testId;
@@ -36,17 +36,17 @@ describe('pointOf', () => {
     expect(pointOf('a')).toEqual({ x: 30, y: 92 });
   });
 
-  it('is in the upper middle of the canvas for a block that is not drawn, or none', () => {
+  it('is in the upper middle of the canvas for no block, or for one that is not drawn', () => {
     draw('canvas', new DOMRect(100, 50, 800, 600));
     for (const id of ['gone', undefined]) expect(pointOf(id)).toEqual({ x: 340, y: 130 });
   });
 
-  it('is somewhere where there is no canvas', () => {
+  it('is at a fixed place without a canvas', () => {
     expect(pointOf('a')).toEqual({ x: 200, y: 200 });
   });
 });
 
-it('opens at a point with what was typed', () => {
+it('opens at a point with the typed text', () => {
   openQuickAdd('Main', { does: 'wrap', nodes: ['a'] }, 3, 4, 'Re');
   expect(now.editor().quickAdd).toEqual({
     tree: 'Main',
@@ -57,14 +57,14 @@ it('opens at a point with what was typed', () => {
   });
 });
 
-it('opens for a child behind the others', () => {
+it('opens for a child after the others', () => {
   openQuickAddBelow('Main', 'r', 3, 4);
   expect(goal()).toEqual({ does: 'add', place: { at: 'child', parent: 'r', index: 2 } });
   expect(now.editor().quickAdd).toMatchObject({ x: 3, y: 4, text: '' });
 });
 
 describe('for the selected block it opens', () => {
-  it('for a child, or where there is no room for one, beside it', () => {
+  it('for a child, or beside the block if it has no room for a child', () => {
     select('r');
     openQuickAddHere('child', 'x');
     expect(goal()).toEqual({ does: 'add', place: { at: 'child', parent: 'r', index: 2 } });
@@ -81,7 +81,7 @@ describe('for the selected block it opens', () => {
     expect(goal()).toEqual({ does: 'add', place: { at: 'child', parent: 'r', index: 1 } });
   });
 
-  it('around all selected ones', () => {
+  it('around all selected blocks', () => {
     select('i', 'a');
     openQuickAddHere('wrap');
     expect(goal()).toEqual({ does: 'wrap', nodes: ['i', 'a'] });
@@ -93,7 +93,7 @@ describe('for the selected block it opens', () => {
     expect(goal()).toEqual({ does: 'morph', node: 'a' });
   });
 
-  it('where the block is drawn', () => {
+  it('at the block', () => {
     draw('node-a', new DOMRect(30, 40, 140, 44));
     select('a');
     openQuickAddHere('after');
@@ -102,7 +102,7 @@ describe('for the selected block it opens', () => {
 });
 
 describe('without a selection it opens', () => {
-  it('not, to wrap or change a block', () => {
+  it('for nothing, if it would wrap or change a block', () => {
     openQuickAddHere('wrap');
     openQuickAddHere('morph');
     expect(goal()).toBeUndefined();
@@ -114,7 +114,7 @@ describe('without a selection it opens', () => {
   });
 });
 
-it('opens for no tree', () => {
+it('does not open without a tree', () => {
   useProjectStore.getState().setActiveTree(null);
   openQuickAddHere('child');
   openQuickAddBelow('Main', 'r', 1, 1);

@@ -16,7 +16,7 @@ export function openQuickAddBelow(tree: string, parent: NodeId, x: number, y: nu
   openQuickAdd(tree, { does: 'add', place: { at: 'child', parent, index } }, x, y);
 }
 
-/** The position of a block in the window; the middle of the canvas if it is not drawn. */
+/** Returns the position of a block in the window; the middle of the canvas if it is not drawn. */
 export function pointOf(id: NodeId | undefined): { x: number; y: number } {
   const block = id === undefined ? null : document.querySelector(`[data-testid="node-${CSS.escape(id)}"]`);
   const box = (block ?? document.querySelector('[data-testid="canvas"]'))?.getBoundingClientRect();
@@ -24,7 +24,7 @@ export function pointOf(id: NodeId | undefined): { x: number; y: number } {
   return block ? { x: box.left, y: box.bottom + 8 } : { x: box.left + box.width / 2 - 160, y: box.top + 80 };
 }
 
-/** Opens the box at the selected block, for the keyboard. */
+/** Opens the quick-add box at the selected block, for the keyboard. */
 export function openQuickAddHere(what: 'child' | 'after' | 'wrap' | 'morph', text = ''): void {
   const diagram = activeDiagram();
   if (!diagram) return;

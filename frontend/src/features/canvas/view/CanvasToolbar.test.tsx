@@ -21,21 +21,21 @@ beforeEach(() => {
 });
 
 describe('the zoom', () => {
-  it('is shown in percent, and goes back to 100', async () => {
+  it('is shown in percent, and can be reset to 100', async () => {
     act(() => flow.store.setState({ transform: [0, 0, 0.456] }));
     expect(button('46% · Zoom to 100 %')).toHaveTextContent('46%');
     await press(/Zoom to 100/);
     expect(flow.view.scaleTo).toHaveBeenCalledExactlyOnceWith(1, { duration: 150 });
   });
 
-  it('grows and shrinks', async () => {
+  it('can be increased and decreased', async () => {
     await press('Zoom in');
     expect(flow.view.scaleBy).toHaveBeenLastCalledWith(1.2, { duration: 120 });
     await press('Zoom out');
     expect(flow.view.scaleBy).toHaveBeenLastCalledWith(1 / 1.2, { duration: 120 });
   });
 
-  it('fits the tree, or what is selected of it', async () => {
+  it('fits the tree, or the selection', async () => {
     expect(screen.queryByRole('button', { name: /selection/ })).toBeNull();
     await press('Show the whole tree (Shift+1)');
     expect(flow.store.getState().fitViewOptions).toEqual({ ...FIT, duration: 200 });
@@ -48,7 +48,7 @@ describe('the zoom', () => {
 });
 
 describe('the layout', () => {
-  it('is tidied, and then seen as a whole', async () => {
+  it('is tidied, and then shown as a whole', async () => {
     await press('Tidy layout');
     expect(nodeOf('Main', 'a')?.position).toBeUndefined();
     await waitFor(() => {
@@ -56,7 +56,7 @@ describe('the layout', () => {
     });
   });
 
-  it('turns to the right, and back down', async () => {
+  it('changes to left-right, and back', async () => {
     await press('Left-right layout');
     expect(now.diagram().layout).toBe('horizontal');
     expect(screen.queryByRole('button', { name: 'Left-right layout' })).toBeNull();
@@ -87,13 +87,13 @@ it('opens the search', async () => {
   expect(now.editor().find).toBe(true);
 });
 
-it('gives the commands of the view something to move', () => {
+it('registers its view for the view commands', () => {
   expect(isTreeShown()).toBe(true);
   flow.unmount();
   expect(isTreeShown()).toBe(false);
 });
 
-it('is one button on a small canvas, which opens the tools', async () => {
+it('is a single button on a small canvas, which opens the tools', async () => {
   act(() => flow.store.setState({ width: 390, height: 600 }));
   expect(screen.getAllByRole('button')).toHaveLength(1);
   expect(button('Show the tools of the view')).toHaveAttribute('aria-expanded', 'false');

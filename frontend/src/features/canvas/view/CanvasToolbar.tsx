@@ -30,7 +30,7 @@ import { FIT } from './useViewport';
 import { fitSelection, showsTree } from './views';
 import classes from '../Canvas.module.css';
 
-/** On a smaller canvas the tools would lie on the tree: they become one button. */
+/** The canvas size below which the tools are combined into one button, since they would cover the tree. */
 const ROOM = { width: 560, height: 320 } as const;
 
 interface ToolProps {
@@ -59,7 +59,7 @@ function Tool({ label, icon: Symbol, onClick, testId, isOn, isExpanded }: ToolPr
   );
 }
 
-/** Zoom, layout and search, below the tree. */
+/** The toolbar below the tree: zoom, layout and search. */
 export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly treeId: string }) {
   const { t } = useTranslation('canvas');
   const flow = useReactFlow<BlockNode, TreeEdge>();
@@ -131,7 +131,7 @@ export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly 
         testId="tidy"
         onClick={() => {
           change('tidy', [tidy()]);
-          // Waits until React has drawn the new layout.
+          // The view is fitted after React has drawn the new layout.
           requestAnimationFrame(() => void flow.fitView({ ...FIT, duration: 200 }));
         }}
       />

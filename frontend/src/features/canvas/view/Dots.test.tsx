@@ -29,7 +29,7 @@ describe('Dots', () => {
     [0.49, 23.52],
     [0.25, 12],
     [0.1, 19.2],
-  ])('never are nearer than twelve pixels: at a zoom of %s they are %s', (zoom, gap) => {
+  ])('are never closer than twelve pixels: at a zoom of %s they are %s', (zoom, gap) => {
     moveTo(0, 0, zoom);
     expect(parseFloat(style().backgroundSize)).toBeCloseTo(gap);
     expect(style().getPropertyValue('--dot')).toBe('0.5px');

@@ -3,10 +3,13 @@ import { useLayoutEffect, useRef } from 'react';
 import classes from '../Canvas.module.css';
 
 const GAP = 24;
-/** Denser dots would blur to grey: when zoomed out, only every second, fourth … dot is drawn. */
+/**
+ * The smallest distance of dots in px. Denser dots would blur to grey, so when zoomed out, only every second,
+ * fourth … dot is drawn.
+ */
 const CLOSEST = 12;
 
-/** The dots behind the tree. They follow the view without React, which would render them at each frame. */
+/** The dots behind the tree. They follow the view outside of React, which would render them at each frame. */
 export function Dots() {
   const dots = useRef<HTMLDivElement>(null);
   const store = useStoreApi();

@@ -34,7 +34,7 @@ function project(severity: ShownProblem['severity'] = 'error') {
   });
 }
 
-/** What is drawn: the colour and the box of each block, and the lines. */
+/** Records what is drawn: the colour and box of each block, and the lines. */
 function recordPictures() {
   const boxes: [color: string, x: number, y: number, width: number, height: number][] = [];
   const lines: number[][] = [];
@@ -80,7 +80,7 @@ describe('the picture', () => {
     expect(boxes).toHaveLength(3);
   });
 
-  it('has a line from the middle of each parent to its child, and none to nowhere', () => {
+  it('has a line from the middle of each parent to its child, and none to a missing one', () => {
     const { lines } = recordPictures();
     const lost = { ...edges[0]!, id: 'lost', target: 'lost' };
     showInFlow(<Overview nodes={nodes} edges={[...edges, lost]} />);
@@ -94,7 +94,7 @@ describe('the picture', () => {
     ]);
   });
 
-  it('is as fine as the screen', () => {
+  it('has the resolution of the screen', () => {
     const { context } = recordPictures();
     vi.stubGlobal('devicePixelRatio', 2);
     showInFlow(<Overview nodes={nodes} edges={edges} />);
@@ -111,7 +111,7 @@ describe('the picture', () => {
     expect(boxes[3]!.slice(3)).toEqual([1, 2]);
   });
 
-  it('waits for a moment in which the page has nothing else to do', () => {
+  it('is drawn when the page is idle', () => {
     const { boxes } = recordPictures();
     const [request, cancel] = [vi.fn((_paint: () => void) => 7), vi.fn()];
     vi.stubGlobal('requestIdleCallback', request);
@@ -127,7 +127,7 @@ describe('the picture', () => {
   });
 });
 
-describe('the part in view', () => {
+describe('the visible part', () => {
   let flow: ReturnType<typeof showInFlow>;
   const map = () => screen.getByTestId('minimap');
 
@@ -150,7 +150,7 @@ describe('the part in view', () => {
     }
   });
 
-  it('goes to where the picture is pressed, and follows a drag', () => {
+  it('moves to where the picture is pressed, and follows a drag', () => {
     map().getBoundingClientRect = () => new DOMRect(500, 400, 168, 112);
     act(() => flow.store.setState({ transform: [0, 0, 0.5] }));
     const { x, y } = boxOf('b');
@@ -167,14 +167,14 @@ describe('the part in view', () => {
     expect(flow.view.setViewport).toHaveBeenCalledTimes(2);
   });
 
-  it('is again what it was when Escape cancels the drag', () => {
+  it('is restored when Escape cancels the drag', () => {
     act(() => flow.store.setState({ transform: [-10, -20, 0.5] }));
     fireEvent.pointerDown(map(), { clientX: 20, clientY: 20, pointerId: 3 });
     fireEvent.keyDown(map(), { key: 'Escape' });
     expect(flow.view.setViewport.mock.lastCall![0]).toEqual({ x: -10, y: -20, zoom: 0.5 });
   });
 
-  it('stays where the pointer only passes, or another button presses', () => {
+  it('stays if the pointer only passes, or another button is pressed', () => {
     fireEvent.pointerMove(map(), { clientX: 10, clientY: 10, pointerId: 3 });
     fireEvent.pointerDown(map(), { clientX: 10, clientY: 10, pointerId: 3, button: 2 });
     expect(flow.view.setViewport).not.toHaveBeenCalled();

@@ -18,7 +18,7 @@ interface OverviewProps {
 
 const boxOf = ({ position, width = 0, height = 0 }: BlockNode): Box => ({ ...position, width, height });
 
-/** Draws the tree as one picture, again only when the tree changes, not when the view moves. */
+/** Draws the tree as one picture. It is drawn again when the tree changes, but not when the view moves. */
 function draw(picture: HTMLCanvasElement, { nodes, edges }: OverviewProps, { sx, sy, left, top }: Shrinking) {
   const ratio = window.devicePixelRatio || 1;
   picture.width = PICTURE.width * ratio;
@@ -56,8 +56,10 @@ function draw(picture: HTMLCanvasElement, { nodes, edges }: OverviewProps, { sx,
   for (const node of nodes) if (node.data.problem?.severity === 'error') paint(node, token('failure-bright'));
 }
 
-/** A small picture of the whole tree with the visible part marked; a press or a drag moves the view, and
- * Escape moves it back. */
+/**
+ * A small picture of the whole tree with the visible part marked. A press or a drag moves the view; Escape
+ * moves it back.
+ */
 export function Overview({ nodes, edges }: OverviewProps) {
   const { t } = useTranslation('canvas');
   const picture = useRef<HTMLCanvasElement>(null);

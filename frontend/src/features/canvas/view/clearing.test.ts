@@ -5,7 +5,7 @@ const view = { x: 0, y: 0, width: 800, height: 600 };
 const map = { x: 620, y: 480, width: 170, height: 110 };
 const box = (x: number, y: number, width = 140, height = 44) => ({ x, y, width, height });
 
-describe('the least pan that shows a block', () => {
+describe('the smallest pan that shows a block', () => {
   it.each([
     ['is none in the free part', box(100, 100), { dx: 0, dy: 0 }],
     ['brings it in from the left', box(-30, 100), { dx: 30, dy: 0 }],
@@ -19,13 +19,13 @@ describe('the least pan that shows a block', () => {
     expect(panToShow(block, view, [map])).toEqual(pan);
   });
 
-  it('keeps clear of several obstacles', () => {
+  it('avoids several obstacles', () => {
     const bar = { x: 0, y: 540, width: 560, height: 50 };
     const { dx, dy } = panToShow(box(500, 520), view, [map, bar]);
     expect({ dx, dy }).toEqual({ dx: 0, dy: -96 });
   });
 
-  it('only brings it in where nothing is free', () => {
+  it('only brings it into view if nothing is free', () => {
     expect(panToShow(box(100, 100, 700, 500), view, [map])).toEqual({ dx: 0, dy: 0 });
   });
 });

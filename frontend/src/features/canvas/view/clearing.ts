@@ -5,7 +5,7 @@ export interface Pan {
   readonly dy: number;
 }
 
-/** The room that a block keeps from what lies on the canvas. */
+/** The distance in px between a block and the elements that lie on the canvas. */
 const GAP = 12;
 
 const lies = (box: Box, on: Box): boolean =>
@@ -16,7 +16,7 @@ const lies = (box: Box, on: Box): boolean =>
 
 const moved = (box: Box, { dx, dy }: Pan): Box => ({ ...box, x: box.x + dx, y: box.y + dy });
 
-/** The least pan that shows a box in a view; its start, where the view is too small for it. */
+/** Returns the smallest pan that shows a box in a view; if the view is too small, the start of the box. */
 function panInto(box: Box, view: Box): Pan {
   const along = (start: number, size: number, from: number, room: number): number =>
     Math.max(0, from - start) || -Math.max(0, Math.min(start + size - (from + room), start - from));
@@ -26,7 +26,7 @@ function panInto(box: Box, view: Box): Pan {
   };
 }
 
-/** The pans that move a box just off an obstacle, to each side. */
+/** Returns the pans that move a box beside an obstacle, one for each side. */
 function pansOff(box: Box, on: Box): Pan[] {
   return [
     { dx: on.x - GAP - (box.x + box.width), dy: 0 },
@@ -36,7 +36,10 @@ function pansOff(box: Box, on: Box): Pan[] {
   ];
 }
 
-/** The least pan that shows a box in a view, not below any obstacle on it; all in px of the window. */
+/**
+ * Returns the smallest pan that shows a box in a view with no obstacle covering it; all values in px of the
+ * window.
+ */
 export function panToShow(box: Box, view: Box, obstacles: readonly Box[]): Pan {
   const into = panInto(box, view);
   const shown = moved(box, into);

@@ -1,7 +1,7 @@
 import { expect, it, vi } from 'vitest';
 import { toggleCompact, useCompact } from './compact';
 
-it('is kept from one visit to the next', async () => {
+it('is kept between visits', async () => {
   localStorage.clear();
   expect(useCompact.getState().isCompact).toBe(false);
   toggleCompact();

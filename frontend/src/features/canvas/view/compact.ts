@@ -2,7 +2,7 @@ import { create } from 'zustand';
 
 const STORED_AS = 'bts.compactTrees';
 
-/** Whether leaves are drawn below each other; kept in this browser. */
+/** Whether leaves are drawn below each other; stored in this browser. */
 export const useCompact = create<{ readonly isCompact: boolean }>(() => ({
   isCompact: localStorage.getItem(STORED_AS) === 'true',
 }));

@@ -12,14 +12,14 @@ describe('shrink', () => {
     expect(top + 300 * sy).toBeCloseTo(56);
   });
 
-  it('stretches a tree that is far wider than high until its blocks can be seen', () => {
+  it('stretches a tree that is far wider than high until its blocks are visible', () => {
     const { sx, sy } = shrink(box(0, 0, 60_000, 700), picture);
     expect(60_000 * sx).toBeCloseTo(156);
     expect(44 * sy).toBeGreaterThan(3);
     expect(700 * sy).toBeLessThanOrEqual(100);
   });
 
-  it('holds an empty tree', () => {
+  it('accepts an empty tree', () => {
     expect(boundsOf([])).toEqual(box(0, 0, 0, 0));
     expect(Object.values(shrink(boundsOf([]), picture)).every(Number.isFinite)).toBe(true);
   });
@@ -28,7 +28,7 @@ describe('shrink', () => {
 describe('frameOf', () => {
   const shrinking = shrink(box(0, 0, 60_000, 700), picture);
 
-  it('is never too small to be seen', () => {
+  it('is never too small to be visible', () => {
     const { width, height } = frameOf(box(30_000, 0, 1000, 700), shrinking, picture);
     expect(width).toBe(6);
     expect(height).toBeGreaterThan(50);

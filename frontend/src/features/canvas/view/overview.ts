@@ -14,12 +14,12 @@ export interface Shrinking {
 }
 
 const MARGIN = 6;
-/** Blocks smaller than this are hairlines: then the tree is stretched to the available room. */
+/** The scales below which blocks would be hairlines: then the tree is stretched to fill the room. */
 const LEGIBLE = { sx: 0.03, sy: 0.09 } as const;
 
 /**
- * Fits a tree into a small picture. A tree that is far wider than high is stretched on its short side, so
- * that its blocks stay visible.
+ * Fits a tree into a small picture. A tree that is much wider than high, or the reverse, is stretched on its
+ * short side, so that its blocks stay visible.
  */
 export function shrink(bounds: Box, picture: Size): Shrinking {
   const width = picture.width - 2 * MARGIN;
@@ -36,7 +36,7 @@ export function shrink(bounds: Box, picture: Size): Shrinking {
   };
 }
 
-/** The box around all of them. */
+/** Returns the bounding box of several boxes. */
 export function boundsOf(boxes: Iterable<Box>): Box {
   let [left, top, right, bottom] = [Infinity, Infinity, -Infinity, -Infinity];
   for (const { x, y, width, height } of boxes) {
@@ -50,10 +50,10 @@ export function boundsOf(boxes: Iterable<Box>): Box {
     : { x: left, y: top, width: right - left, height: bottom - top };
 }
 
-/** The smallest size of the view's frame that can still be dragged. */
+/** The smallest size in px of the view's frame, so that it can still be dragged. */
 const LEAST = 6;
 
-/** The part of a view that lies in the picture, in the picture's coordinates. */
+/** Returns the part of a view that lies in the picture, in the picture's coordinates. */
 export function frameOf(view: Box, { sx, sy, left, top }: Shrinking, picture: Size): Box {
   const span = (from: number, to: number, end: number): [number, number] => {
     const middle = Math.max(LEAST / 2, Math.min(end - LEAST / 2, (from + to) / 2));

@@ -2,7 +2,7 @@ import { expect, it } from 'vitest';
 import { inFlow } from '../../../../harness/canvas';
 import { useKnownSizes } from './useKnownSizes';
 
-it('makes React Flow measure no block', () => {
+it('prevents React Flow from measuring blocks', () => {
   const measuring = inFlow(() => undefined).store.getState().updateNodeInternals;
   const { store, rerender } = inFlow(useKnownSizes);
   const { updateNodeInternals } = store.getState();

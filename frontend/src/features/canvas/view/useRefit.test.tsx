@@ -30,7 +30,7 @@ function begin() {
 }
 
 describe('the view is fitted again', () => {
-  it('when the tree turns', async () => {
+  it('when the orientation changes', async () => {
     const { wish } = begin();
     expect(wish()).toBeUndefined();
     act(() => useProjectStore.getState().apply('Main', 'orientation', [setLayout('horizontal')]));
@@ -44,21 +44,21 @@ describe('the view is fitted again', () => {
     act(toggleCompact);
   });
 
-  it('when a subtree is looked into: to all, if it can be read then', async () => {
+  it('when a subtree is expanded: to all if it is readable then', async () => {
     const { wish } = begin();
     act(() => toggleExpanded('Main', 's'));
     await waitFor(() => expect(wish()).toMatchObject({ duration: 200 }));
     expect(wish()).not.toHaveProperty('nodes');
   });
 
-  it('when a subtree of a large tree is looked into: to that', async () => {
+  it('when a subtree of a large tree is expanded: to that subtree', async () => {
     const { store, wish } = begin();
     act(() => store.setState({ width: 200, height: 150 }));
     act(() => toggleExpanded('Main', 's'));
     await waitFor(() => expect(wish()?.nodes).toEqual([{ id: 's' }, { id: 's n1' }]));
   });
 
-  it('when a smaller canvas shows no longer all of it', async () => {
+  it('when a smaller canvas does not show all of it any more', async () => {
     const { store, wish } = begin();
     act(() => store.setState({ transform: [250, 20, 1] }));
     act(() => store.setState({ width: 780 }));
@@ -68,7 +68,7 @@ describe('the view is fitted again', () => {
   });
 });
 
-it('stays where the user looked at a part', () => {
+it('but not if the user looked at a part', () => {
   const { store, wish } = begin();
   act(() => store.setState({ transform: [-500, 20, 1] }));
   act(() => store.setState({ width: 200 }));

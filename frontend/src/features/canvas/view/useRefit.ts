@@ -7,7 +7,7 @@ import { FIT, READABLE } from './useViewport';
 
 const ANIMATED = { ...FIT, duration: 200 };
 
-/** The SubTree that was expanded or closed last, with what is shown inside of it now. */
+/** Returns the blocks of the SubTree that was expanded or closed last; null if none was. */
 function changedGroup(
   { shown }: TreeOnCanvas,
   before: ReadonlyMap<NodeId, unknown>,
@@ -19,9 +19,9 @@ function changedGroup(
 }
 
 /**
- * Fits the view again after what changes the whole picture: the orientation, the compact layout, a subtree that
- * is expanded or closed, and a canvas of another size, if the
- * tree was seen as a whole and is not any more.
+ * Fits the view again after a change of the whole picture: the orientation, the compact layout, a SubTree
+ * that is expanded or closed, or a new size of the canvas, if all blocks were visible before and are not any
+ * more.
  */
 export function useRefit(tree: TreeOnCanvas): void {
   const flow = useReactFlow<BlockNode, TreeEdge>();
@@ -42,7 +42,7 @@ export function useRefit(tree: TreeOnCanvas): void {
     const last = before.current;
     before.current = { orientation: diagram.layout, isCompact, groups: shown.groups, width, height, layout };
     const fitSoon = (nodes?: readonly NodeId[]): void => {
-      // Waits until React Flow knows the new places.
+      // The view is fitted after React Flow knows the new places.
       requestAnimationFrame(
         () => void flow.fitView(nodes ? { ...ANIMATED, nodes: nodes.map((id) => ({ id })) } : ANIMATED),
       );
@@ -66,7 +66,7 @@ interface Seen {
   readonly layout: TreeOnCanvas['layout'];
 }
 
-/** Whether all blocks were in the view. */
+/** Returns whether all blocks are in a view. */
 function isWhole({ width, height, layout }: Seen, [x, y, zoom]: readonly [number, number, number]): boolean {
   const boxes = Object.values(layout.positions);
   return (

@@ -28,7 +28,7 @@ beforeEach(() => {
   });
 });
 
-/** Shows a canvas of this size at a point of the window. */
+/** Opens a canvas of this size at the window's origin. */
 function open(width = 800, height = 600) {
   const canvas = document.createElement('div');
   canvas.dataset['tree'] = 'Main';
@@ -38,8 +38,8 @@ function open(width = 800, height = 600) {
   return inFlow(() => useReveal('Main', layout));
 }
 
-describe('a block that is asked for', () => {
-  it('comes into the middle, at a zoom at which it can be read', async () => {
+describe('a requested block', () => {
+  it('moves to the middle, at a readable zoom', async () => {
     const { view } = open(0, 0);
     act(() => store().reveal('Main', 'near'));
     await waitFor(() => {
@@ -50,7 +50,7 @@ describe('a block that is asked for', () => {
     expect(how).toMatchObject({ duration: 200 });
   });
 
-  it('is magnified where the view is far away', async () => {
+  it('is magnified if the view is zoomed out', async () => {
     const { view, store: flow } = open(0, 0);
     act(() => flow.setState({ transform: [0, 0, 0.2] }));
     act(() => store().reveal('Main', 'near'));
@@ -59,7 +59,7 @@ describe('a block that is asked for', () => {
     });
   });
 
-  it('leaves the view of another tree alone', () => {
+  it('does not move the view of another tree', () => {
     const { view } = open();
     act(() => store().reveal('Other', 'near'));
     act(() => store().reveal('Main', 'gone'));
@@ -67,13 +67,13 @@ describe('a block that is asked for', () => {
   });
 });
 
-describe('a block that keys select', () => {
+describe('a block that is selected by keys', () => {
   it.each([
     ['left', { x: 38, y: 0 }],
     ['above', { x: 0, y: 28 }],
     ['right', { x: -88, y: 0 }],
     ['below', { x: 0, y: -28 }],
-  ])('comes just into view from %s', async (id, by) => {
+  ])('is moved just into view from %s', async (id, by) => {
     const { view } = open();
     act(() => store().select('Main', [id]));
     await waitFor(() => {
@@ -82,7 +82,7 @@ describe('a block that keys select', () => {
     expect(view.setViewport.mock.calls[0]).toEqual([{ ...by, zoom: 1 }, { duration: 120 }]);
   });
 
-  it('moves nothing where it is in view, or the canvas has no size', () => {
+  it('moves nothing if it is visible, or if the canvas has no size', () => {
     const { view } = open();
     act(() => store().select('Main', ['near']));
     act(() => store().select('Main', []));
@@ -90,7 +90,7 @@ describe('a block that keys select', () => {
     expect(view.setViewport).not.toHaveBeenCalled();
   });
 
-  it('moves nothing of a canvas that is hidden', () => {
+  it('moves nothing on a hidden canvas', () => {
     const { view } = open(0, 0);
     act(() => store().select('Main', ['below']));
     expect(view.setViewport).not.toHaveBeenCalled();

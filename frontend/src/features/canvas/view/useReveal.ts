@@ -6,12 +6,12 @@ import { useProjectStore } from '@/store/project';
 import { panToShow } from './clearing';
 
 const MARGIN = 48;
-/** The height of the toolbar that covers the bottom of the canvas, in px. */
+/** The height in px of the canvas's bottom part that the toolbar covers. */
 const MARGIN_BELOW = 84;
 
 /**
- * Scrolls a block into view on request, and one that is new or selected by keys so far that it is seen: neither
- * outside nor below what lies on the canvas (`data-overlay`).
+ * Scrolls a block into view on request. A block that is new or selected by keys is scrolled as far as needed:
+ * neither outside the view nor below an element that lies on the canvas (`data-overlay`).
  */
 export function useReveal(treeId: string, layout: Layout): void {
   const flow = useReactFlow();

@@ -19,10 +19,10 @@ const diagram = (layout: Diagram['layout'] = 'vertical'): Diagram => ({
 });
 
 let count = 0;
-/** A tree that nobody has looked at yet. */
+/** Returns the id of a tree that was never opened. */
 const fresh = () => `Tree${(count += 1)}`;
 
-/** Opens the view of a tree, and returns how it begins. */
+/** Opens the view of a tree; returns the spies through which it sets the initial view. */
 function begin(layout: Layout, tree = diagram(), id = fresh()) {
   const { used, view } = inFlow(() => useViewport(id, layout, tree));
   const flow = { fitView: vi.fn(() => Promise.resolve(true)), setViewport: view.setViewport };
@@ -30,9 +30,9 @@ function begin(layout: Layout, tree = diagram(), id = fresh()) {
   return { fitView: flow.fitView, setViewport: flow.setViewport, used, id };
 }
 
-describe('a view begins', () => {
-  it('with the whole tree where its names can be read then', () => {
-    // The pane has 800 by 600 pixels: this is the smallest readable zoom, with its padding.
+describe('the initial view', () => {
+  it('is the whole tree if its names are readable then', () => {
+    // The pane has 800 × 600 px: this is the smallest readable zoom, padding included.
     const { fitView, setViewport } = begin(layoutOf(800 / 0.6 / 1.14 - 1, 600 / 0.6 / 1.14 - 1));
     expect(fitView).toHaveBeenCalledExactlyOnceWith(FIT);
     expect(setViewport).not.toHaveBeenCalled();
@@ -41,7 +41,7 @@ describe('a view begins', () => {
   it.each([
     ['wide', layoutOf(800 / 0.6 / 1.14 + 1, 100)],
     ['high', layoutOf(100, 600 / 0.6 / 1.14 + 1)],
-  ])('at the root of a tree that is too %s', (_, layout) => {
+  ])('is at the root of a tree that is too %s', (_, layout) => {
     const { fitView, setViewport } = begin(layout);
     expect(fitView).not.toHaveBeenCalled();
     const [to] = setViewport.mock.calls[0]!;
@@ -50,26 +50,26 @@ describe('a view begins', () => {
     expect(to.y).toBeCloseTo(48 - 40 * 0.7);
   });
 
-  it('at the left of a tree that grows to the right', () => {
+  it('is at the left of a left-right tree', () => {
     const { setViewport } = begin(layoutOf(9000, 100), diagram('horizontal'));
     const [to] = setViewport.mock.calls[0]!;
     expect(to.x).toBeCloseTo(48 - 100 * 0.7);
     expect(to.y).toBeCloseTo(300 - 62 * 0.7);
   });
 
-  it('with all drafts where there is no root', () => {
+  it('has all drafts if there is no root', () => {
     const { fitView } = begin(layoutOf(9000, 9000), { ...diagram(), root: null });
     expect(fitView).toHaveBeenCalledOnce();
   });
 
-  it('as it is while the tree is empty', () => {
+  it('stays unchanged while the tree is empty', () => {
     const { fitView, setViewport, used } = begin({ width: 0, height: 0, positions: {} });
     expect(used().initial).toEqual({ x: 80, y: 80, zoom: 1 });
     expect(fitView).not.toHaveBeenCalled();
     expect(setViewport).not.toHaveBeenCalled();
   });
 
-  it('where the user looked last', () => {
+  it('is where the user looked last', () => {
     const { used, id } = begin(layoutOf(100, 100));
     used().onMoveEnd(null, { x: 1, y: 2, zoom: 0.5 });
     const again = begin(layoutOf(100, 100), diagram(), id);
@@ -78,7 +78,7 @@ describe('a view begins', () => {
     expect(again.setViewport).not.toHaveBeenCalled();
   });
 
-  it('as new for a tree of the same name in another project', () => {
+  it('is that of a new tree for a tree of the same name in another project', () => {
     const { used, id } = begin(layoutOf(100, 100));
     used().onMoveEnd(null, { x: 1, y: 2, zoom: 0.5 });
     useProjectStore.setState({ projectId: 'another' });
@@ -86,7 +86,7 @@ describe('a view begins', () => {
   });
 });
 
-it('cuts a block off a little below where it is drawn', async () => {
+it('disconnects a block, and leaves it a little below where it is drawn', async () => {
   openDiagram({ root: 'r', nodes: { r: { type: 'Sequence', children: ['a'] }, a: { type: 'Sleep' } } });
   const { used } = inFlow(() => useViewport('Main', layoutOf(1, 1), now.diagram()));
   act(() => used().cut('a', { ...layoutOf(1, 1), positions: { a: box } }));

@@ -9,16 +9,19 @@ import type { BlockNode, TreeEdge } from '../flow';
 /** The last view of each tree of each project, with the width of its canvas, until the page closes. */
 const viewports = new Map<string, Viewport & { readonly width: number }>();
 
-/** So far out that the largest tree is seen as a whole. */
+/** The smallest zoom, which shows the largest tree as a whole. */
 export const LEAST_ZOOM = 0.004;
 
 export const FIT = { padding: 0.14, maxZoom: 1.1, minZoom: LEAST_ZOOM } as const;
 
-/** Below this zoom the names of blocks are hard to read. */
+/** The zoom below which the names of blocks are hard to read. */
 export const READABLE = 0.6;
 const EDGE = 48;
 
-/** The initial view of a tree that does not fit: its root, readable, near the edge that it grows from. */
+/**
+ * Returns the initial view of a tree that does not fit: the root at a readable zoom, near the edge from which
+ * the tree grows.
+ */
 function atRoot(
   { width, height }: { width: number; height: number },
   root: Box,
@@ -43,7 +46,7 @@ export function useViewport(treeId: string, layout: Layout, diagram: Diagram) {
   const onInit = useCallback(
     (flow: ReactFlowInstance<BlockNode, TreeEdge>) => {
       const pane = store.getState();
-      // In a frame of another width the remembered place may be out of sight.
+      // If the canvas had another width, the stored view may not show the tree.
       if (viewports.get(key)?.width === pane.width || isEmpty) return;
       const fits = Math.min(pane.width / layout.width, pane.height / layout.height) / (1 + FIT.padding);
       const root = layout.positions[diagram.root ?? ''];

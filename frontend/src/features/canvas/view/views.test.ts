@@ -14,7 +14,7 @@ beforeEach(() => {
   });
 });
 
-it('commands the view of the tree in front', () => {
+it('act on the view of the tree in front', () => {
   const [main, dock] = [recording(), recording()];
   const ends = [shows('Main', main), shows('Dock', dock)];
   zoomIn();
@@ -31,7 +31,7 @@ it('commands the view of the tree in front', () => {
   ends.forEach((end) => end());
 });
 
-it('knows whether the tree in front is drawn', () => {
+it('returns whether the tree in front is drawn', () => {
   expect(isTreeShown()).toBe(false);
   zoomIn();
   const end = shows('Main', recording());

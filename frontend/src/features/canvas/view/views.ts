@@ -9,7 +9,7 @@ const views = new Map<string, View>();
 const FAST = { duration: 120 };
 const SLOW = { duration: 200 };
 
-/** Connects the view commands to a tree's view; the returned function disconnects them. */
+/** Connects the view commands to a tree's view; returns a function that disconnects them. */
 export function showsTree(treeId: string, view: View): () => void {
   views.set(treeId, view);
   return () => {
@@ -25,7 +25,7 @@ export const zoomOut = (): void => void inFront()?.zoomOut(FAST);
 export const zoomReset = (): void => void inFront()?.zoomTo(1, FAST);
 export const fit = (): void => void inFront()?.fitView({ ...FIT, ...SLOW });
 
-/** Moves the view to the selection. */
+/** Fits the view to the selected blocks. */
 export function fitSelection(): void {
   const nodes = useProjectStore.getState().selection.map((id) => ({ id }));
   void inFront()?.fitView({ ...FIT, nodes, ...SLOW });

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { withoutOutdated } from './answers';
 
 describe('answers of the language server', () => {
-  it.each([-32_800, -32_801])('take an outrun question (%i) for one without an answer', (code) => {
+  it.each([-32_800, -32_801])('treat an obsolete request (%i) as one without an answer', (code) => {
     const answer = withoutOutdated(
       JSON.stringify({ jsonrpc: '2.0', id: 3, error: { code, message: 'late' } }),
     );

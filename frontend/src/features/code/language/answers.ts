@@ -1,4 +1,4 @@
-/** LSP's RequestCancelled and ContentModified: the text has changed since the request. */
+/** LSP's codes RequestCancelled and ContentModified: the text has changed since the request. */
 const OUTDATED: readonly unknown[] = [-32_800, -32_801];
 
 interface Answer {
@@ -6,7 +6,7 @@ interface Answer {
   readonly error?: { readonly code?: unknown };
 }
 
-/** Suppresses the error of a request that later typing has made obsolete. */
+/** Removes the error from a response to a request that later typing has made obsolete. */
 export function withoutOutdated(message: string): string {
   if (!message.includes('"error"')) return message;
   const answer = JSON.parse(message) as Answer;

@@ -3,7 +3,7 @@ import { useLanguageStore } from '@/store/language';
 import { useProjectStore } from '@/store/project';
 import { languageSupport } from './client';
 
-/** A server that reads messages, and sends none. */
+/** A socket whose server accepts messages and sends none. */
 class SilentSocket {
   static readonly OPEN = 1;
   static opened: SilentSocket[] = [];
@@ -36,7 +36,7 @@ describe('the connection to the language server', () => {
     vi.useRealTimers();
   });
 
-  it('is made again when the server gives no answer, and given up after some times', async () => {
+  it('reconnects when the server does not answer, and gives up after some attempts', async () => {
     languageSupport('actions/Go.py');
     for (let tries = 1; tries <= 4; tries += 1) {
       SilentSocket.opened.at(-1)?.onopen();

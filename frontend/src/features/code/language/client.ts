@@ -22,11 +22,11 @@ const SEVERITIES = ['error', 'error', 'warning', 'info', 'info'] as const;
 const RETRY_AFTER_MS = [500, 2000, 8000, 30_000] as const;
 const SYNC_AFTER_MS = 700;
 /**
- * The first answer waits until the server has read rclpy and all messages, which takes long on a busy
- * machine.
+ * The longest wait for an answer. The first one comes after the server has read rclpy and all messages, which
+ * takes long on a busy machine.
  */
 const ANSWER_WITHIN_MS = 60_000;
-/** A server that lived this long was healthy: when it ends, the count of retries starts again. */
+/** The lifetime after which a server counts as healthy: when it ends, the count of retries starts again. */
 const WELL_AFTER_MS = 30_000;
 
 interface Published {
@@ -79,7 +79,10 @@ function makeClient(): LSPClient {
 
 const setState = (state: LanguageState) => useLanguageStore.setState({ state });
 
-/** The page's only connection: opened with the first Python file, reopened when it breaks. */
+/**
+ * The page's only connection to the language server. It is opened with the first Python file, and again if it
+ * breaks.
+ */
 class Connection {
   readonly client = makeClient();
   private socket: { close(): void } | null = null;
@@ -102,7 +105,7 @@ class Connection {
     this.open();
   }
 
-  /** Sends unsaved texts to the server; connects again if the server has stopped because it was idle. */
+  /** Sends unsaved texts to the server; reconnects if the server has stopped because it was idle. */
   wake(): void {
     if (this.socket === null && useLanguageStore.getState().state.kind === 'off') this.open();
     else if (this.client.serverCapabilities) this.client.sync();
@@ -157,7 +160,7 @@ class Connection {
     const final = code === CLOSED.unavailable || code === CLOSED.noProject || code === CLOSED.tooMany;
     const delay = final ? undefined : RETRY_AFTER_MS[this.retries];
     this.retries += 1;
-    // The findings of a server that has ended do not follow the text.
+    // The findings are removed, since the server that has ended cannot update them.
     useLanguageStore.setState({
       state: { kind: 'failed', reason, willRetry: delay !== undefined },
       findings: {},
@@ -172,7 +175,10 @@ class Connection {
 
 let connection: Connection | null = null;
 
-/** The extensions that connect a Python editor to the language server; all editors share the connection. */
+/**
+ * Returns the extensions that connect a Python editor to the language server; all editors share one
+ * connection.
+ */
 export function languageSupport(path: string): Extension {
   const { projectId } = useProjectStore.getState();
   if (!projectId || !path.endsWith('.py')) return [];
@@ -188,7 +194,7 @@ export function retryLanguage(): void {
   connection?.retry();
 }
 
-/** Called when the page of a project closes. */
+/** Closes the connection when the page of a project closes. */
 function leaveLanguage(): void {
   connection?.end();
   connection = null;

@@ -24,24 +24,24 @@ const press = (key: string) => {
 };
 
 describe('saveKeys', () => {
-  it('are none for files that are no Python', () => {
+  it('are absent for files other than Python', () => {
     expect(saveKeys('a.md')).toEqual([]);
   });
 
-  it('format, and do not save', async () => {
+  it('format without saving', async () => {
     const view = press('Shift-Alt-f');
     await expect.poll(() => view.state.doc.toString()).toBe('x = 1\n');
     expect(save).not.toHaveBeenCalled();
   });
 
-  it('save what was formatted', async () => {
+  it('save the formatted text', async () => {
     let saved = '';
     const view = press('Mod-s');
     save.mockImplementation(() => (saved = view.state.doc.toString()));
     await expect.poll(() => saved).toBe('x = 1\n');
   });
 
-  it('save only, where formatting is switched off', async () => {
+  it('save only, if formatting is switched off', async () => {
     setFormatsOnSave(false);
     const view = press('Mod-s');
     await expect.poll(() => save.mock.calls.length).toBe(1);

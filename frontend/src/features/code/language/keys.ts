@@ -2,7 +2,7 @@ import type { KeyBinding } from '@codemirror/view';
 import { perform } from '@/commands/registry';
 import { formatPython, formatsOnSave } from './ruff';
 
-/** The keys for formatting, which also saves; other files are saved by the page's shortcut. */
+/** Returns the keys of a Python editor that format and save; other files are saved by the page's shortcut. */
 export function saveKeys(path: string): KeyBinding[] {
   if (!path.endsWith('.py')) return [];
   return [

@@ -88,32 +88,32 @@ describe('renameSymbol', () => {
     expect(text(USER)).toContain('import Drive');
   });
 
-  it('leaves the action as it is where another name was renamed', async () => {
+  it('leaves the action unchanged if another name was renamed', async () => {
     answers['textDocument/rename'] = { changes: { [uriOf(GO)]: [edit(1, 4, 8, 'x')] } };
     rename('x');
     expect(await screen.findByText('Renamed to x: 1 places in 1 files.')).toBeInTheDocument();
     expect(text(GO)).toBe('class Go:\n    x\n');
   });
 
-  it('refuses what is no name in Python', async () => {
+  it('refuses a name that is invalid in Python', async () => {
     rename('3D');
     expect(await screen.findByText('“3D” cannot be a name in Python.')).toBeInTheDocument();
     expect(server.sent('textDocument/rename')).toEqual([]);
   });
 
-  it.each(['Go', ' ', ''])('asks for nothing with the name “%s”', async (name) => {
+  it.each(['Go', ' ', ''])('requests nothing with the name “%s”', async (name) => {
     rename(name);
     await expect.poll(() => view.dom.querySelector('.cm-lsp-rename-panel')).toBeNull();
     expect(server.sent('textDocument/rename')).toEqual([]);
   });
 
-  it('says that something cannot be renamed', async () => {
+  it('reports that something cannot be renamed', async () => {
     rename('Drive');
     expect(await screen.findByText('“Go” cannot be renamed here.')).toBeInTheDocument();
     expect(text(GO)).toContain('class Go:');
   });
 
-  it('does nothing beside words', () => {
+  it('does nothing outside of words', () => {
     view.dispatch({ selection: { anchor: 10 } });
     expect(renameSymbol(view)).toBe(false);
     expect(field()).toBeNull();

@@ -79,7 +79,7 @@ async function rename(view: EditorView, at: number, before: string, after: strin
   }
 }
 
-/** An action has the name of its file: when its class is renamed, its file and its blocks are renamed too. */
+/** Renames the action's file and its blocks when its class is renamed, since all have the same name. */
 function renameActionToo(uris: readonly string[], before: string, after: string): void {
   const { files, currentText, renameAction } = useProjectStore.getState();
   const path = actionPath(before);

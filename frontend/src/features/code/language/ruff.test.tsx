@@ -51,7 +51,7 @@ describe('changesBetween', () => {
     expect(changesBetween('same', 'same')).toEqual([]);
   });
 
-  it('makes one text of the other, whatever they are', () => {
+  it('turns any text into any other', () => {
     const any = fc.string({ unit: fc.constantFrom('a', 'b', ' ', '\n'), maxLength: 30 });
     fc.assert(
       fc.property(any, any, (before, after) => {
@@ -75,7 +75,7 @@ describe('formatPython', () => {
     expect(text(view)).toBe('x=1\ny=2\n');
   });
 
-  it('leaves a text that changed meanwhile', async () => {
+  it('leaves a text that has changed meanwhile', async () => {
     fakeServer({ [FORMAT]: { source: 'x = 1\n', findings: [] } });
     const view = editor('x=1\n');
     const formatted = formatPython(view, 'a.py', 'asked');
@@ -84,7 +84,7 @@ describe('formatPython', () => {
     expect(text(view)).toBe('#x=1\n');
   });
 
-  it('says why it could not, where that was asked for', async () => {
+  it('reports why it failed, if the user asked for it', async () => {
     fakeServer({ [FORMAT]: refusal('A syntax error in line 1.') });
     show(<p />);
     const view = editor('x=(');
@@ -94,7 +94,7 @@ describe('formatPython', () => {
     expect(text(view)).toBe('x=(');
   });
 
-  it('leaves a text with a syntax error, and says so', async () => {
+  it('leaves a text with a syntax error, and reports that', async () => {
     fakeServer({ [FORMAT]: { source: 'x=(', findings: [{}] } });
     show(<p />);
     const view = editor('x=(');
@@ -131,13 +131,13 @@ describe('applyFix', () => {
     },
   };
 
-  it('makes all its edits', () => {
+  it('applies all its edits', () => {
     const view = editor('import os\nx = 1');
     applyFix(view, view.state.doc, finding);
     expect(text(view)).toBe('x = 2');
   });
 
-  it('leaves another text alone, and does nothing without edits', () => {
+  it('leaves another text unchanged, and does nothing without edits', () => {
     const view = editor('import os\nx = 1');
     applyFix(view, Text.of(['import os']), finding);
     applyFix(view, view.state.doc, { ...finding, fix: null });

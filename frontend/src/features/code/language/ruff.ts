@@ -24,12 +24,12 @@ export function offsetOf(doc: Text, { line, column }: PythonPlace): number {
 }
 
 /**
- * Limits of the comparison, since the user waits for the result: texts with little in common are not compared
- * further.
+ * The limits of the comparison, since the user waits for it: texts with little in common are not compared in
+ * detail.
  */
 const COARSE = { scanLimit: 1000, timeout: 100 };
 
-/** The changes between two texts, so that cursors and marks keep their places. */
+/** Returns the changes between two texts, so that cursors and marks keep their places. */
 export function changesBetween(before: string, after: string): ChangeSpec[] {
   return diff(before, after, COARSE).map(({ fromA, toA, fromB, toB }) => ({
     from: fromA,
@@ -43,14 +43,14 @@ function refuse(message: string): void {
 }
 
 /**
- * Formats the text with ruff, as one step of undo. A text with a syntax error, or one that changed meanwhile,
- * stays unchanged.
+ * Formats the text with ruff, as one undo step. The text stays unchanged if it has a syntax error, or has
+ * changed during the request.
  */
 export async function formatPython(view: EditorView, path: string, how: 'asked' | 'saving'): Promise<void> {
   const before = view.state.doc;
   try {
     const { source, findings } = await api.formatPython(before.toString(), path);
-    // Saving continues without formatting: the editor's marks show the errors.
+    // Saving continues without formatting; the marks in the editor show the errors.
     if (findings.length > 0 && how === 'asked') refuse(t('code:format.syntaxError'));
     if (!view.state.doc.eq(before) || source === before.toString()) return;
     view.dispatch({ changes: changesBetween(before.toString(), source), userEvent: 'format' });

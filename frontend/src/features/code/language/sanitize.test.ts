@@ -21,6 +21,6 @@ it.each([
   ['<a>t</a>', '<a>t</a>'],
   ['<p href="https://a.org">t</p>', '<p>t</p>'],
   ['<div><a href="javascript:x()"><u>deep</u></a></div>', '<a>deep</a>'],
-])('makes of %s: %s', (html, clean) => {
+])('turns %s into %s', (html, clean) => {
   expect(sanitizeHtml(html)).toBe(clean);
 });

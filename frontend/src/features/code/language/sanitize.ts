@@ -25,7 +25,10 @@ function clean(node: Element): void {
   }
 }
 
-/** Sanitizes HTML of docstrings, whose authors are unknown: text and markup pass, active content does not. */
+/**
+ * Sanitizes the HTML of docstrings, whose authors are unknown: text and markup stay, active content is
+ * removed.
+ */
 export function sanitizeHtml(html: string): string {
   const { body } = new DOMParser().parseFromString(html, 'text/html');
   clean(body);

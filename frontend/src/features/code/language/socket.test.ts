@@ -1,7 +1,7 @@
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { openSocket, type LanguageSocket } from './socket';
 
-/** A socket whose other end is the test. */
+/** A socket whose server is the test. */
 class TestSocket {
   static readonly OPEN = 1;
   static last: TestSocket;
@@ -47,7 +47,7 @@ describe('openSocket', () => {
     expect(TestSocket.last.sent).toEqual(['a']);
   });
 
-  it('passes messages on to those who listen', () => {
+  it('passes messages on to listeners', () => {
     const heard: string[] = [];
     const listen = (message: string) => heard.push(message);
     transport.subscribe(listen);

@@ -8,7 +8,9 @@ export interface LanguageSocket extends Transport {
   close(): void;
 }
 
-/** Opens the socket to the project's language server; `onClosed` is called once, with the server's reason. */
+/**
+ * Opens the socket to the project's language server; `on.closed` is called once, with the server's reason.
+ */
 export function openSocket(
   projectId: string,
   on: { open: (socket: LanguageSocket) => void; closed: (code: number, reason: string) => void },

@@ -1,4 +1,4 @@
-/** The root of the URIs of the project's files; the real folder on the server stays hidden. */
+/** The root of the URIs of the project's files, which hides the real folder on the server. */
 const PROJECT = 'file:///project/';
 const LIBRARY = 'file:///library/';
 
@@ -7,6 +7,6 @@ export const uriOf = (path: string): string => PROJECT + path.split('/').map(enc
 export const pathOf = (uri: string): string | null =>
   uri.startsWith(PROJECT) ? decodeURIComponent(uri.slice(PROJECT.length)) : null;
 
-/** The name of the library module that a URI stands for. */
+/** Returns the name of the library module that a URI refers to; null for any other URI. */
 export const libraryOf = (uri: string): string | null =>
   uri.startsWith(LIBRARY) ? decodeURIComponent(uri.slice(LIBRARY.length)) : null;

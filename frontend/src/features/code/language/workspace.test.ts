@@ -24,7 +24,7 @@ const paths = (method: string) =>
     );
 
 const changes = () => server.sent('textDocument/didChange');
-/** Everything that was sent before has arrived. */
+/** Resolves when the server has received everything that was sent before. */
 const answered = () => client.request('test/answer', {});
 
 beforeEach(async () => {
@@ -112,7 +112,7 @@ describe('an edit of the server', () => {
 });
 
 describe('a definition', () => {
-  it('in a file that is shown brings that to the front', async () => {
+  it('in an open file brings it to the front', async () => {
     const view = editor(GO);
     expect(await client.workspace.displayFile(uriOf(GO))).toBe(view);
     expect(navigator.openFile).toHaveBeenCalledWith(GO, undefined);
@@ -125,7 +125,7 @@ describe('a definition', () => {
     expect(await shown).toBe(view);
   });
 
-  it('in a file that is gone opens nothing', async () => {
+  it('in a deleted file opens nothing', async () => {
     expect(await client.workspace.displayFile(uriOf('actions/Gone.py'))).toBeNull();
     expect(navigator.openFile).not.toHaveBeenCalled();
   });

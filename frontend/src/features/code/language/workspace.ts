@@ -8,7 +8,7 @@ import { libraryOf, pathOf, uriOf } from './uris';
 type WorkspaceFile = Workspace['files'][number];
 type Update = ReturnType<Workspace['syncFiles']>[number];
 
-/** Further files are sent in their saved state only. */
+/** The number of files whose unsaved text is sent; the server reads any others as they were saved. */
 const MAX_FILES = 200;
 
 class ProjectFile implements WorkspaceFile {
@@ -41,8 +41,8 @@ const pythonFiles = (): string[] =>
     .slice(0, MAX_FILES);
 
 /**
- * All Python files of the project, whether or not an editor shows them: the server knows unsaved text in
- * each, and a rename reaches all.
+ * All Python files of the project, whether or not an editor shows them: the server knows the unsaved text of
+ * each, and a rename reaches all of them.
  */
 export class ProjectWorkspace extends Workspace {
   files: ProjectFile[] = [];
@@ -51,7 +51,7 @@ export class ProjectWorkspace extends Workspace {
 
   constructor(
     client: LSPClient,
-    /** Called with a definition outside of the project, which cannot be opened. */
+    /** Called with the place of a definition outside of the project, which cannot be opened. */
     private readonly onOutside: (where: string) => void,
   ) {
     super(client);
@@ -80,7 +80,7 @@ export class ProjectWorkspace extends Workspace {
   override connected(): void {
     this.reconcile();
     for (const file of this.files) {
-      // The editors hold text that was typed while the server was not running.
+      // An editor may have text that was typed while the server was not running.
       file.doc = file.getView()?.state.doc ?? textOf(file.path) ?? file.doc;
       const view = file.getView();
       if (view) LSPPlugin.get(view)?.clear();
@@ -122,7 +122,7 @@ export class ProjectWorkspace extends Workspace {
     return file;
   }
 
-  /** Adds and removes files that were created, renamed or deleted since the last call. */
+  /** Adds new files, and removes files that were renamed or deleted since the last call. */
   private reconcile(): void {
     const paths = new Set(pythonFiles());
     for (const path of paths) {

@@ -26,7 +26,7 @@ function canvas() {
 }
 
 describe('the view of an editor without WebGL', () => {
-  it('is still a control that says what it holds', () => {
+  it('is still a control with a description', () => {
     const { view, stage } = canvas();
     expect(view).toHaveAttribute('role', 'application');
     expect(view).toHaveAccessibleName('The hall');
@@ -37,7 +37,7 @@ describe('the view of an editor without WebGL', () => {
     expect(stage).not.toHaveBeenCalled();
   });
 
-  it('hears keys on itself, not those of what lies above it', () => {
+  it('handles keys on itself, not those of elements above it', () => {
     const { view, onKey } = canvas();
     fireEvent.keyDown(view, { key: 'q' });
     expect(onKey).toHaveBeenCalledOnce();
@@ -45,14 +45,14 @@ describe('the view of an editor without WebGL', () => {
     expect(onKey).toHaveBeenCalledOnce();
   });
 
-  it('only lets things of the palette be dragged over it', () => {
+  it('accepts only things of the palette', () => {
     const { view } = canvas();
     const over = (type: string) => !fireEvent.dragOver(view, { dataTransfer: { types: [type] } });
     expect(over(DRAGGED)).toBe(true);
     expect(over('text/plain')).toBe(false);
   });
 
-  it('has no floor on which something could be dropped', () => {
+  it('has no floor where something could be dropped', () => {
     const { view, onDropped } = canvas();
     fireEvent.drop(view, { dataTransfer: { getData: () => '{"kind":"box"}' } });
     expect(onDropped).not.toHaveBeenCalled();

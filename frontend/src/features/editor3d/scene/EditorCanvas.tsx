@@ -13,7 +13,7 @@ import { DRAGGED } from '../PlaceButton';
 
 interface EditorCanvasProps {
   readonly label: string;
-  /** The text that replaces the view in browsers without WebGL. */
+  /** The text in place of the view in browsers without WebGL. */
   readonly noWebGl: string;
   readonly testId: string;
   readonly count: number;
@@ -22,11 +22,11 @@ interface EditorCanvasProps {
   /** Called when something from the palette is dropped on the view. */
   readonly onDropped: (what: unknown, at: Point | undefined) => void;
   readonly stage: (isDark: boolean) => ReactNode;
-  /** Elements on top of the view. */
+  /** The elements on top of the view. */
   readonly children: ReactNode;
 }
 
-/** The 3D view of a document, one focusable control with its own keys. */
+/** The 3D view of a document: one focusable control with its own keys. */
 export function EditorCanvas(props: EditorCanvasProps) {
   const view = useRef<HTMLDivElement>(null);
   const camera = useRef<THREE.Camera | null>(null);
@@ -44,7 +44,7 @@ export function EditorCanvas(props: EditorCanvasProps) {
   };
 
   return (
-    // The view is one control with keys of its own, like a canvas in a drawing program.
+    // The view is a single control with its own keys, like a canvas in a drawing program.
     // eslint-disable-next-line jsx-a11y/no-noninteractive-element-interactions
     <div
       ref={view}

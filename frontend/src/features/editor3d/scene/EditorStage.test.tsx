@@ -68,7 +68,7 @@ function stage(prepare: () => void = () => undefined) {
 const grids = (scene: THREE.Scene) => objectsOf(scene, THREE.GridHelper);
 
 describe('the stage of an editor', () => {
-  it('draws the document, and again whenever it is another one', () => {
+  it('draws the document, and again when it changes', () => {
     const { handles, scene, things, update } = stage();
     expect(handles.show).toHaveBeenCalledOnce();
     expect(things.group.parent).toBe(scene);
@@ -76,7 +76,7 @@ describe('the stage of an editor', () => {
     expect(handles.show).toHaveBeenCalledTimes(2);
   });
 
-  it('frames what is selected, and puts the gizmo there', () => {
+  it('frames the selection, and puts the gizmo there', () => {
     const { editor, things, handles } = stage();
     handles.stand.mockClear();
     act(() => select(editor, ['far']));
@@ -85,7 +85,7 @@ describe('the stage of an editor', () => {
     expect(handles.stand).toHaveBeenCalled();
   });
 
-  it('shows its view to the editor, and takes it back', () => {
+  it('registers its view with the editor, and removes it', () => {
     const { editor, camera, rerender } = stage();
     expect(editor.view?.forward()).toEqual([1, 0]);
     const [x, y] = editor.view!.center();
@@ -97,14 +97,14 @@ describe('the stage of an editor', () => {
     expect(editor.view).toBeNull();
   });
 
-  it('looks from above, and at the selection', () => {
+  it('moves the camera above, and to the selection', () => {
     const { editor, camera } = stage();
     act(() => editor.store.setState({ viewpoint: { kind: 'top' } }));
     expect(Math.hypot(camera.position.x - 4, camera.position.y)).toBeLessThan(0.1);
     act(() => select(editor, ['far']));
     act(() => editor.store.setState({ viewpoint: { kind: 'selection' } }));
     expect(editor.view?.center()).toEqual([expect.closeTo(8), expect.closeTo(0)]);
-    // As far away as 1.6 times what is seen, which is at least the smallest extent.
+    // The distance is 1.6 times the visible extent, which is at least the smallest extent.
     const middle = new THREE.Vector3(8, 0, 0.5);
     expect(camera.position.distanceTo(middle)).toBeCloseTo(1.6 * 2);
     act(() => select(editor, []));
@@ -112,7 +112,7 @@ describe('the stage of an editor', () => {
     expect(editor.view?.center()[0]).toBeCloseTo(4);
   });
 
-  it('draws the lines of the grid, but none that were a haze', () => {
+  it('draws the lines of the grid, unless they are too dense', () => {
     const { editor, scene } = stage();
     expect(grids(scene)).toHaveLength(2);
     const spans = () => grids(scene).map((grid) => new THREE.Box3().setFromObject(grid).max.x);
@@ -142,7 +142,7 @@ describe('the stage of an editor', () => {
     expect(drawing.end).toHaveBeenCalledOnce();
   });
 
-  it('asks for a picture when something changed', async () => {
+  it('requests a frame after a change', async () => {
     const { editor, frames } = stage();
     await vi.waitFor(() => expect(frames()).toBeGreaterThan(0));
     const before = frames();
@@ -150,7 +150,7 @@ describe('the stage of an editor', () => {
     await vi.waitFor(() => expect(frames()).toBeGreaterThan(before));
   });
 
-  it('lets nothing be dragged in a project that may only be seen', () => {
+  it('allows no dragging in a read-only project', () => {
     const { canvas, camera, dragHandler } = stage(lookOnly);
     fireEvent.pointerDown(canvas, { button: 0, pointerId: 1, ...pixelOf(camera, 0, 0, 0.5) });
     expect(dragHandler.take).not.toHaveBeenCalled();

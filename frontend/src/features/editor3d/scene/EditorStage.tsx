@@ -12,10 +12,10 @@ import { PointerTool, type DragHandler, type Drawing } from './PointerTool';
 import { isReadOnly, showIn, type Editor } from '../editing';
 import type { ThingScene } from './ThingScene';
 
-/** The smallest distance of grid lines; denser lines would blur. */
+/** The smallest distance of grid lines in m; denser lines would blur. */
 const FINEST_LINES_M = 0.05;
 
-/** The connection between an editor and its stage: the shown things, and the results of gestures. */
+/** The parts that connect an editor with its stage: the drawn things, and the handlers of gestures. */
 export interface Staged {
   readonly scene: ThingScene<{ readonly key: string }>;
   readonly handles: Handles;
@@ -26,19 +26,19 @@ export interface Staged {
 interface EditorStageProps {
   readonly editor: Editor;
   readonly staged: Staged;
-  /** The document; a new object makes the stage draw again. */
+  /** The document; a new object is drawn again. */
   readonly content: object;
   readonly isDark: boolean;
   readonly lights: Scene['lights'];
   readonly ground: { readonly color: readonly number[]; readonly picture?: string | undefined };
   readonly textures?: Pictures | undefined;
-  /** The nearest and the farthest distance of the camera, and the largest visible size, in m. */
+  /** The smallest and the largest distance of the camera in m, and the limits of the visible size in m. */
   readonly reach: readonly [number, number];
   readonly extent: readonly [number, number];
   readonly children?: ReactNode;
 }
 
-/** Draws a document in 3D, with the tools that move its things. */
+/** The 3D content of a document, with the tools that move its things. */
 export function EditorStage(props: EditorStageProps) {
   const { editor, staged, content, isDark, lights, ground, textures, reach, extent } = props;
   const { scene, handles, dragHandler, drawing } = staged;

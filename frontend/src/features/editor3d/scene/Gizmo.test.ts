@@ -21,7 +21,7 @@ function gizmo(first: Partial<Stand> = {}) {
     const { clientX, clientY } = pixelOf(camera, x, y);
     return { x: clientX / 200 - 1, y: 1 - clientY / 150, button };
   };
-  /** Grabs the handle of an axis at a place, and drags it to another one. */
+  /** Grabs the handle of an axis at one place, and drags it to another. */
   const drag = (axis: string, from: readonly [number, number], to: readonly [number, number]) => {
     const { controls } = made;
     controls.axis = axis as typeof controls.axis;
@@ -39,7 +39,7 @@ function gizmo(first: Partial<Stand> = {}) {
 }
 
 describe('poses', () => {
-  it('come back as they were set, short of straight up and down', () => {
+  it('are read as they were set, except straight up and down', () => {
     const metres = fc.double({ min: -50, max: 50, noNaN: true });
     const angle = fc.double({ min: -3, max: 3, noNaN: true });
     const pitch = fc.double({ min: -1.5, max: 1.5, noNaN: true });
@@ -58,8 +58,8 @@ describe('poses', () => {
   });
 });
 
-describe('where the gizmo is', () => {
-  it('is at the selection, or nowhere', () => {
+describe('the place of the gizmo', () => {
+  it('is at the selection; it is hidden without one', () => {
     const { controls, setStand } = gizmo();
     expect(controls.object?.position.toArray()).toEqual([1, 2, 0]);
     setStand(null);
@@ -70,7 +70,7 @@ describe('where the gizmo is', () => {
     ['move', 'translate', 'world'],
     ['turn', 'rotate', 'local'],
     ['size', 'scale', 'local'],
-  ] as const)('to %s things it has the handles for it', (mode, handles, space) => {
+  ] as const)('in the mode %s has the handles for it', (mode, handles, space) => {
     const { controls } = gizmo({ mode });
     expect([controls.getMode(), controls.space]).toEqual([handles, space]);
   });
@@ -88,14 +88,14 @@ describe('where the gizmo is', () => {
     expect([controls.showX, controls.showY, controls.showZ]).toEqual(shown);
   });
 
-  it('falls on the grid, and turns by 15 degrees, unless there is no grid', () => {
+  it('snaps to the grid and to 15 degrees, unless there is no grid', () => {
     expect(gizmo().controls).toMatchObject({ translationSnap: 0.5, rotationSnap: Math.PI / 12 });
     expect(gizmo({ grid: 0 }).controls).toMatchObject({ translationSnap: null, rotationSnap: null });
   });
 });
 
 describe('a gesture of the gizmo', () => {
-  it('takes along what is selected, by steps of the grid, and writes it at the end', () => {
+  it('moves the selection by steps of the grid, and writes it at the end', () => {
     const { gizmo: made, handles, on, node, drag, letGo } = gizmo();
     drag('X', [1, 2], [1.8, 2.6]);
     expect(on.hold).toHaveBeenCalledExactlyOnceWith(true);
@@ -108,11 +108,11 @@ describe('a gesture of the gizmo', () => {
     expect(pivot).toBe(made.root.children[1]);
     expect(new THREE.Vector3().setFromMatrixPosition(start).toArray()).toEqual([1, 2, 0]);
     expect(handles.show).toHaveBeenCalledOnce();
-    // The handles stand again where the document says.
+    // The handles are again at the place that the document says.
     expect(pivot.position.toArray()).toEqual([1, 2, 0]);
   });
 
-  it('turns what is selected about the gizmo', () => {
+  it('turns the selection about the gizmo', () => {
     const { node, controls, handles, drag, letGo } = gizmo({ mode: 'turn', grid: 0 });
     drag('Z', [2, 2], [2, 2]);
     controls.object!.rotation.z = Math.PI / 2;
@@ -122,7 +122,7 @@ describe('a gesture of the gizmo', () => {
     expect(handles.commit.mock.lastCall?.[0]).toBe('turn');
   });
 
-  it('is cancelled: things go back, and nothing is written', () => {
+  it('is cancelled: things return, and nothing is written', () => {
     const { gizmo: made, controls, handles, drag } = gizmo();
     expect(made.cancel()).toBe(false);
     expect(handles.show).not.toHaveBeenCalled();
@@ -134,14 +134,14 @@ describe('a gesture of the gizmo', () => {
     expect(handles.show).toHaveBeenCalledOnce();
   });
 
-  it('asks for another picture whenever it changes', () => {
+  it('requests a frame after each change', () => {
     const { on, controls } = gizmo();
     on.change.mockClear();
     controls.axis = 'X' as typeof controls.axis;
     expect(on.change).toHaveBeenCalled();
   });
 
-  it('leaves the scene at its end', () => {
+  it('is removed from the scene at its end', () => {
     const { gizmo: made, controls } = gizmo();
     made.dispose();
     expect(made.root.parent).toBeNull();

@@ -6,7 +6,7 @@ import { TURN_STEP, type Mode } from '../editing';
 const MODES = { move: 'translate', turn: 'rotate', size: 'scale' } as const;
 const OF = { translate: 'move', rotate: 'turn', scale: 'size' } as const;
 
-/** x, y, z in m and roll, pitch, yaw in rad. */
+/** Returns the pose of an object: x, y, z in m and roll, pitch, yaw in rad. */
 export function poseOf(object: THREE.Object3D): Pose {
   const { x, y, z } = object.position;
   const angles = new THREE.Euler().setFromQuaternion(object.quaternion, 'ZYX');
@@ -19,24 +19,24 @@ export function setThingPose(node: THREE.Object3D, [x, y, z, roll, pitch, yaw]: 
   node.scale.set(1, 1, 1);
 }
 
-/** The pose of the gizmo, and the operations that it offers there. */
+/** The pose of the gizmo, and its mode and limits there. */
 export interface Stand {
   readonly pose: Pose;
   readonly mode: Mode;
-  /** Rotates about all axes, not only about the vertical one. */
+  /** Whether it rotates about all axes, not only about the vertical one. */
   readonly turnsFreely: boolean;
-  /** Moves along the floor only. */
+  /** Whether it moves only along the floor. */
   readonly isFlat: boolean;
   readonly grid: number;
 }
 
-/** The results of the gizmo's gestures on an editor's things. */
+/** The handlers of the gizmo's gestures on an editor's things. */
 export interface Handles {
-  /** Null: the selection contains nothing that can be moved. */
+  /** Returns the pose and limits of the gizmo; null if the selection contains nothing that can be moved. */
   stand(): Stand | null;
-  /** The objects that follow the gizmo while it is dragged. */
+  /** Returns the objects that follow the gizmo while it is dragged. */
   held(): readonly THREE.Object3D[];
-  /** Applies the gesture; `start` is the gizmo's pose before it. */
+  /** Applies a gesture; `start` is the gizmo's pose before it. */
   commit(mode: Mode, pivot: THREE.Object3D, start: THREE.Matrix4): void;
   /** Draws all things as they are in the document. */
   show(): void;
@@ -47,7 +47,7 @@ interface On {
   readonly hold: (isHeld: boolean) => void;
 }
 
-/** Arrows, rings and boxes that move, rotate and scale the selected things. */
+/** The gizmo: arrows, rings and boxes that move, rotate and scale the selected things. */
 export class Gizmo {
   readonly controls: TransformControls;
   readonly root: THREE.Object3D;
@@ -93,11 +93,11 @@ export class Gizmo {
     this.controls.setTranslationSnap(grid || null);
     this.controls.setRotationSnap(grid ? TURN_STEP : null);
     this.controls.attach(this.pivot);
-    // The handles must be grabbable at the new place even before the next frame is drawn.
+    // The user may grab the handles at their new place before the next frame is drawn.
     this.controls.getHelper().updateMatrixWorld(true);
   }
 
-  /** Cancels a drag under way; returns whether there was one. */
+  /** Cancels the current drag; returns whether there was one. */
   cancel(): boolean {
     if (!this.controls.dragging) return false;
     this.controls.reset();
@@ -137,7 +137,7 @@ export class Gizmo {
     this.held = [];
     if (held === 0) return;
     this.handles.commit(OF[this.controls.getMode()], this.pivot, this.start);
-    // Undoes the drawn change of a gesture that was refused or had no effect.
+    // This reverts the drawn change if the gesture was refused or had no effect.
     this.handles.show();
     this.update();
   }

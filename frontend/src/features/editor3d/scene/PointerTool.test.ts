@@ -9,7 +9,10 @@ const isOn = vi.fn(() => false);
 const isTaken = vi.fn(() => false);
 const end = vi.fn(() => false);
 
-/** A plate of 1 m at (2, 0), 1 m above the floor, and a neighbour that is dragged with it. */
+/**
+ * Returns the tool for a scene with a plate of 1 m at (2, 0), 1 m above the floor, and a neighbour that is
+ * dragged with it.
+ */
 function begin() {
   const canvas = testCanvas();
   canvas.tabIndex = 0;
@@ -79,7 +82,7 @@ describe('dragging', () => {
     expect(canvas.style.cursor).toBe('');
   });
 
-  it('takes the thing under the pointer, also under an arm of the gizmo', () => {
+  it('takes the thing under the pointer, even under an arm of the gizmo', () => {
     const { editor, dragHandler, down, up } = begin();
     isTaken.mockReturnValue(true);
     editor.store.setState({ selection: ['plate'] });
@@ -107,7 +110,7 @@ describe('dragging', () => {
     expect(dragHandler.click).not.toHaveBeenCalled();
   });
 
-  it('puts the thing under the pointer on the grid, wherever it stood', () => {
+  it('puts the thing under the pointer on the grid, wherever it was', () => {
     const { dragHandler, plate, down, move } = begin();
     dragHandler.take.mockReturnValue({ keys: ['plate'], anchor: [2.03, 0.04], nodes: [plate] });
     down(2, 0);
@@ -116,7 +119,7 @@ describe('dragging', () => {
     expect(plate.position.y).toBeCloseTo(-0.04);
   });
 
-  it('is a click as long as the pointer stays near, and no longer once it was away', () => {
+  it('is a click as long as the pointer stays near, but not after it was away', () => {
     const { canvas, plate, dragHandler, down, move } = begin();
     const press = { button: 0, pointerId: 1, clientX: 230, clientY: 150 };
     fireEvent.pointerDown(canvas, press);
@@ -133,7 +136,7 @@ describe('dragging', () => {
     expect(dragHandler.click).toHaveBeenCalledOnce();
   });
 
-  it('is cancelled: everything is back where it was', () => {
+  it('is cancelled: everything returns', () => {
     const { plate, other, dragHandler, hold, tool, down, move, up } = begin();
     expect(tool.cancel()).toBe(false);
     down(2, 0);
@@ -167,7 +170,7 @@ describe('dragging', () => {
     expect(dragHandler.take).not.toHaveBeenCalled();
   });
 
-  it('leaves what cannot be dragged, and the floor, to the view', () => {
+  it('leaves things that cannot be dragged, and the floor, to the view', () => {
     const { canvas, dragHandler, hold, down, move, up } = begin();
     const later = vi.fn();
     canvas.addEventListener('pointerdown', later);
@@ -182,7 +185,7 @@ describe('dragging', () => {
     expect(dragHandler.drop).not.toHaveBeenCalled();
   });
 
-  it('keeps a press that begins it from the view', () => {
+  it('keeps the press that starts it from the view', () => {
     const { canvas, down } = begin();
     const later = vi.fn();
     canvas.addEventListener('pointerdown', later);
@@ -214,7 +217,7 @@ describe('clicking', () => {
     expect(dragHandler.click).toHaveBeenCalledExactlyOnceWith(null, false);
   });
 
-  it('does nothing without a press, or with the other button', () => {
+  it('does nothing without a press, or with another button', () => {
     const { dragHandler, down, up } = begin();
     up(2, 0);
     down(2, 0);
@@ -222,7 +225,7 @@ describe('clicking', () => {
     expect(dragHandler.click).not.toHaveBeenCalled();
   });
 
-  it('points at what could be clicked', () => {
+  it('shows the pointer over things that can be clicked', () => {
     const { canvas, move } = begin();
     move(2, 0, { buttons: 0 });
     expect(canvas.style.cursor).toBe('pointer');
@@ -234,7 +237,7 @@ describe('clicking', () => {
 });
 
 describe('drawing', () => {
-  it('goes to points of the floor on the grid, instead of selecting', () => {
+  it('adds points of the floor on the grid, instead of selecting', () => {
     isOn.mockReturnValue(true);
     const { canvas, dragHandler, drawing, redraw, editor } = begin();
     const pixel = { button: 0, pointerId: 1, ...pixelOf(cameraAbove(), 1.23, -0.98) };

@@ -6,34 +6,34 @@ import { isReadOnly, type Editor } from '../editing';
 import type { ThingScene } from './ThingScene';
 
 const CLICK_PX = 4;
-/** The left and the right button of the mouse. */
+/** The bit mask of the left and the right button of the mouse. */
 const BOTH = 3;
 
-/** Things that can be dragged over the floor. */
+/** The things that a drag moves over the floor. */
 interface Load {
   readonly keys: readonly string[];
   /**
-   * The position of the thing under the pointer: it snaps to the grid, and the others move by the same
+   * The position of the thing under the pointer, which snaps to the grid; the other things move by the same
    * offset.
    */
   readonly anchor: Point;
   readonly nodes: readonly THREE.Object3D[];
 }
 
-/** The results of the pointer's gestures on an editor's things. */
+/** The handlers of the pointer's drags of an editor's things. */
 export interface DragHandler {
-  /** Null: the thing under the pointer cannot be dragged. */
+  /** Returns the things to drag; null if the thing under the pointer cannot be dragged. */
   take(hit: Aimed): Load | null;
   drop(keys: readonly string[], by: Point): void;
   click(hit: Aimed | null, isAdding: boolean): void;
 }
 
-/** A tool that draws something point by point; it replaces selecting. */
+/** A tool that draws something point by point, in place of selecting. */
 export interface Drawing {
   isOn(): boolean;
   move(point: Point): void;
   click(point: Point | null): void;
-  /** Returns whether there was a gesture to end. */
+  /** Ends the drawing; returns whether there was one. */
   end(): boolean;
 }
 
@@ -44,7 +44,7 @@ interface Parts {
   readonly drawing?: Drawing;
   readonly camera: THREE.Camera;
   readonly canvas: HTMLElement;
-  /** Whether the gizmo handles the pointer at the moment. */
+  /** Returns whether the gizmo handles the pointer now. */
   readonly isTaken: () => boolean;
   readonly hold: (isHeld: boolean) => void;
   readonly redraw: () => void;
@@ -57,7 +57,7 @@ interface Dragging extends Load {
   offset: Point;
 }
 
-/** The pointer on the floor plan: selects, drags and draws. */
+/** The pointer on the floor plan: it selects, drags and draws. */
 export class PointerTool {
   private pressed: { x: number; y: number; isFree: boolean } | null = null;
   private dragging: Dragging | null = null;
@@ -72,7 +72,7 @@ export class PointerTool {
     canvas.addEventListener('pointercancel', () => this.cancel(), { signal });
   }
 
-  /** Cancels the gesture under way; returns whether there was one. */
+  /** Cancels the current gesture; returns whether there was one. */
   cancel(): boolean {
     const wasBusy = this.dragging !== null;
     for (const { node, at } of this.dragging?.starts ?? []) node.position.copy(at);
@@ -97,7 +97,10 @@ export class PointerTool {
     if (!isAdding(event)) this.take(event);
   };
 
-  /** Whether the pointer is on a thing that is not selected and can be dragged: it wins over the gizmo. */
+  /**
+   * Returns whether the pointer is on an unselected thing that can be dragged; the thing then takes
+   * precedence over the gizmo.
+   */
   private isOnAnother(event: PointerEvent): boolean {
     const { scene, camera, canvas, dragHandler, editor } = this.parts;
     const hit = thingAt(event, canvas, camera, scene);
@@ -122,7 +125,7 @@ export class PointerTool {
   private readonly onMove = (event: PointerEvent): void => {
     const { scene, camera, canvas, drawing, redraw, editor } = this.parts;
     const { grid } = editor.store.getState();
-    // The right button, pressed while the left one drags, cancels the gesture.
+    // Pressing the right button during a drag with the left one cancels the gesture.
     if ((event.buttons & BOTH) === BOTH && editor.view?.cancel()) {
       canvas.style.cursor = '';
       return;

@@ -19,7 +19,7 @@ interface Plain {
 const BOX: Shape = { shape: 'box', size: [1, 1, 1], pose: [0, 0, 0, 0, 0, 0, 1], color: [1, 0, 0, 1] };
 const here = (...shapes: Shape[]): Fetched<Shape[]> => ({ value: shapes, failed: false });
 
-/** Things at x, drawn by their shapes. */
+/** A scene of things that are placed along x and drawn by their shapes. */
 class PlainScene extends ThingScene<Plain> {
   protected stateOf({ shapes }: Plain): unknown {
     return this.arrivals(shapes);
@@ -79,8 +79,8 @@ describe('rgba', () => {
   });
 });
 
-describe('arrival', () => {
-  it('says whether something is there', () => {
+describe('an arrival', () => {
+  it('reports whether an object has arrived', () => {
     expect(arrival({ value: [], failed: false })).toBe('here');
     expect(arrival({ value: null, failed: false })).toBe('coming');
     expect(arrival({ value: null, failed: true })).toBe('failed');
@@ -88,7 +88,7 @@ describe('arrival', () => {
 });
 
 describe('a scene of things', () => {
-  it('draws things where they are, and knows their bounds', () => {
+  it('draws things at their places, and returns their bounds', () => {
     const { scene } = begin();
     scene.show([thing('a', { x: -2 }), thing('b', { x: 3 })]);
     expect(scene.group.children).toHaveLength(2);
@@ -97,7 +97,7 @@ describe('a scene of things', () => {
     expect(scene.boundsOf(['gone']).isEmpty()).toBe(true);
   });
 
-  it('only moves what looks as before, and draws the rest again', () => {
+  it('only moves things that look the same, and draws the others again', () => {
     const { scene } = begin();
     scene.show([thing('a'), thing('b'), thing('c')]);
     const [a, b] = ['a', 'b'].map((key) => scene.nodeOf(key));
@@ -109,14 +109,14 @@ describe('a scene of things', () => {
     expect(scene.group.children).toEqual([a, scene.nodeOf('b')]);
   });
 
-  it('knows the thing of every part of it', () => {
+  it('returns the thing of each of its parts', () => {
     const { scene } = begin();
     scene.show([thing('a')]);
     expect(scene.keyOf(mark(scene, 'a'))).toBe('a');
     expect(scene.keyOf(scene.group)).toBeNull();
   });
 
-  it('frames what is selected, also after it was drawn again', () => {
+  it('frames the selection, also after it was drawn again', () => {
     const { scene } = begin();
     scene.show([thing('a'), thing('b')]);
     scene.mark(['a']);
@@ -128,7 +128,7 @@ describe('a scene of things', () => {
     expect(mark(scene, 'a').visible).toBe(false);
   });
 
-  it('shows a box for shapes on their way, in another colour where they failed', () => {
+  it('shows a box for shapes that are loading, and another colour if they failed', () => {
     const { scene } = begin();
     scene.show([
       thing('a', { shapes: { value: null, failed: false } }),
@@ -144,14 +144,14 @@ describe('a scene of things', () => {
     expect(size(scene, 'a')).toEqual([1, 1, 1]);
   });
 
-  it('receives shadows, but for its marks', () => {
+  it('receives shadows, except on its marks', () => {
     const { scene } = begin();
     scene.show([thing('a')]);
     const [mesh] = objectsOf(scene.nodeOf('a')!, THREE.Mesh);
     expect(mesh!.receiveShadow).toBe(true);
   });
 
-  it('frees what only it shows', () => {
+  it('frees the objects that only it uses', () => {
     const { scene } = begin();
     scene.show([thing('a')]);
     const freed = vi.fn();
@@ -174,7 +174,7 @@ describe('meshes of things', () => {
     openProject({});
   };
 
-  it('replace a box as soon as they are there, and have the size of the shape', async () => {
+  it('replace a box as soon as they arrive, with the size of the shape', async () => {
     serve();
     const { scene, onArrival } = begin();
     scene.show([thing('a', { shapes: here(CHAIR) })]);
@@ -183,7 +183,7 @@ describe('meshes of things', () => {
     expect(size(scene, 'a')).toEqual([2, 3, 0]);
   });
 
-  it('are painted by size where they have a picture', async () => {
+  it('get texture coordinates by size if they have a picture', async () => {
     serve();
     const textures: Pictures = {
       whenLoaded: () => undefined,

@@ -10,7 +10,7 @@ import { box } from './marks';
 const PENDING = [0.6, 0.62, 0.66, 0.5];
 const FAILED = [0.85, 0.25, 0.22, 0.6];
 
-/** The parts of `#rrggbb` or `#rrggbbaa`, each from 0 to 1. */
+/** Returns the parts of `#rrggbb` or `#rrggbbaa`, each from 0 to 1. */
 export function rgba(color: string): number[] {
   const parts = [1, 3, 5, 7].map((at) => parseInt(color.slice(at, at + 2), 16) / 255);
   return parts.map((part, index) => (Number.isNaN(part) ? (index === 3 ? 1 : 0.6) : part));
@@ -21,7 +21,7 @@ interface Drawn {
   readonly said: string;
 }
 
-/** The three.js objects of an editor's things; kept outside of React, and updated one by one. */
+/** The three.js objects of an editor's things. They are outside of React, and updated one by one. */
 export abstract class ThingScene<T extends { readonly key: string }> {
   readonly group = new THREE.Group();
   readonly bounds = new THREE.Box3();
@@ -40,14 +40,14 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     });
   }
 
-  /** Further state that a thing's drawing depends on, such as whether its files have arrived. */
+  /** Returns additional state that a thing's drawing depends on, such as whether its files have arrived. */
   protected abstract stateOf(thing: T): unknown;
-  /** Draws a thing into its node. */
+  /** Adds the objects of a thing to its node. */
   protected abstract fill(node: THREE.Group, thing: T): void;
   /** Sets the pose of a thing's node. */
   protected abstract put(node: THREE.Group, thing: T): void;
 
-  /** Draws the changed things; the objects of the others stay. */
+  /** Draws the changed things; the objects of unchanged things stay. */
   show(things: readonly T[]): void {
     this.things = things;
     const keys = new Set(things.map(({ key }) => key));
@@ -72,7 +72,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     this.mark(this.selected);
   }
 
-  /** Draws the present things again after assets have arrived. */
+  /** Draws the current things again after assets have arrived. */
   protected again(): void {
     this.show(this.things);
   }
@@ -81,7 +81,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     return this.drawn.get(key)?.node;
   }
 
-  /** The key of the thing that a drawn object belongs to. */
+  /** Returns the key of the thing that a drawn object belongs to. */
   keyOf(part: THREE.Object3D): string | null {
     for (let at: THREE.Object3D | null = part; at; at = at.parent) {
       const key: unknown = at.userData['thing'];
@@ -90,7 +90,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     return null;
   }
 
-  /** The box round some things, without their marks. */
+  /** Returns the bounding box of some things, without their marks. */
   boundsOf(keys: readonly string[]): THREE.Box3 {
     const bounds = new THREE.Box3();
     for (const key of keys) {
@@ -120,7 +120,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     this.assets.dispose();
   }
 
-  /** The values on which a thing's drawing depends; by default all. */
+  /** Returns the values on which a thing's drawing depends; by default all values of the thing. */
   protected lookOf(thing: T): unknown {
     return thing;
   }
@@ -131,7 +131,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     return mesh;
   }
 
-  /** Adds shapes, or a box of this size in m until they have arrived. */
+  /** Adds shapes; until they have arrived, adds a box of this size in m. */
   protected addShapes(node: THREE.Group, { value, failed }: Fetched<Shape[]>, size: number): void {
     if (!value) {
       node.add(box(size, failed ? FAILED : PENDING));
@@ -155,7 +155,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     node.add(mesh);
   }
 
-  /** A text that changes when shapes or their meshes arrive. */
+  /** Returns a text that changes whenever shapes or their meshes arrive. */
   protected arrivals(entry: Fetched<Shape[]>): string {
     const meshes = (entry.value ?? [])
       .filter(({ mesh }) => mesh)
@@ -174,7 +174,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
   }
 }
 
-/** A copy of a mesh with texture coordinates; its vertices are in m while they are computed. */
+/** Returns a copy of a mesh with texture coordinates, which are computed with the vertices in m. */
 function painted(
   mesh: THREE.BufferGeometry,
   { size }: Shape,

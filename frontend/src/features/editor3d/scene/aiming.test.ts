@@ -27,7 +27,7 @@ function world() {
 }
 
 describe('thingAt', () => {
-  it('is what is in front, with the height of the point', () => {
+  it('is the thing in front, with the height of the point', () => {
     const { add, hit } = world();
     add('low', 1, 2);
     add('high', 2, 1);
@@ -36,14 +36,14 @@ describe('thingAt', () => {
     expect(hit(-3, 0)).toBeNull();
   });
 
-  it('prefers the handle of a way to what hides it', () => {
+  it('prefers the handle of a waypoint to things that hide it', () => {
     const { add, hit } = world();
     add('handle', 0, 1, 3);
     add('box', 2, 1);
     expect(hit(1, 1)).toMatchObject({ key: 'handle', waypoint: 3 });
   });
 
-  it('ignores what cannot be seen, and what belongs to no thing', () => {
+  it('ignores invisible objects, and objects without a thing', () => {
     const { add, hit } = world();
     const hidden = add('hidden', 2, 1);
     hidden.visible = false;
@@ -64,7 +64,7 @@ describe('pointAt', () => {
     expect(higher[1]).toBeCloseTo(-1.5);
   });
 
-  it('is nowhere where one looks up', () => {
+  it('is null if the camera looks up', () => {
     const { canvas, camera } = world();
     camera.lookAt(0, 0, 20);
     camera.updateMatrixWorld(true);
@@ -107,7 +107,7 @@ describe('forwardOf', () => {
     expect(forwardOf(camera)).toEqual(axis);
   });
 
-  it('is up on the screen from straight above', () => {
+  it('is up on the screen if the camera looks straight down', () => {
     const camera = cameraAbove();
     expect(forwardOf(camera)).toEqual([0, 1]);
     camera.rotation.z = -Math.PI / 2;

@@ -20,7 +20,7 @@ function aim(event: At, canvas: HTMLElement, camera: THREE.Camera): void {
   ray.setFromCamera(new THREE.Vector2(x, y), camera);
 }
 
-/** The thing under the pointer. */
+/** Returns the thing under the pointer, with the waypoint if the pointer is on one. */
 export function thingAt(
   event: At,
   canvas: HTMLElement,
@@ -29,7 +29,7 @@ export function thingAt(
 ): Aimed | null {
   aim(event, canvas, camera);
   const hits = ray.intersectObject(scene.group).filter(({ object }) => object.visible);
-  // A handle is small and lies on the floor: it takes precedence over objects in front of it.
+  // A waypoint's handle is small and lies on the floor, so it takes precedence over objects in front of it.
   const hit = hits.find(({ object }) => object.userData['waypoint'] !== undefined) ?? hits[0];
   const key = hit ? scene.keyOf(hit.object) : null;
   if (!hit || key === null) return null;
@@ -37,7 +37,7 @@ export function thingAt(
   return { key, height: hit.point.z, waypoint: typeof waypoint === 'number' ? waypoint : null };
 }
 
-/** The pointer's position at a height above the floor. */
+/** Returns the position under the pointer at a height above the floor, in m. */
 export function pointAt(event: At, canvas: HTMLElement, camera: THREE.Camera, height = 0): Point | null {
   aim(event, canvas, camera);
   const plane = new THREE.Plane(new THREE.Vector3(0, 0, 1), -height);
@@ -52,10 +52,10 @@ const FORWARD: readonly Point[] = [
   [0, -1],
 ];
 
-/** The world axis that points most away from the camera. */
+/** Returns the world axis that points away from the camera. */
 export function forwardOf(camera: THREE.Camera): Point {
   const ahead = camera.getWorldDirection(new THREE.Vector3());
-  // Seen from straight above, the upper edge of the screen is ahead.
+  // When the camera looks straight down, the upper edge of the screen is ahead.
   if (Math.hypot(ahead.x, ahead.y) < 0.05) ahead.set(0, 1, 0).applyQuaternion(camera.quaternion);
   return FORWARD.reduce((best, axis) =>
     axis[0] * ahead.x + axis[1] * ahead.y > best[0] * ahead.x + best[1] * ahead.y ? axis : best,

@@ -22,7 +22,7 @@ function begin(
 const MESH = { 'GET /projects/p1/files/assets/a.stl': new Response(stl(2)) };
 
 describe('meshes', () => {
-  it('are fetched once, and there when they are', async () => {
+  it('are fetched once, and then available', async () => {
     const { assets, arrived, requests } = begin({}, MESH);
     const entry = assets.mesh('assets/a.stl');
     expect(entry).toEqual({ value: null, failed: false });
@@ -32,7 +32,7 @@ describe('meshes', () => {
     expect(requests).toHaveLength(1);
   });
 
-  it('fail where there is no such file, or none that can be read', async () => {
+  it('fail if the file is missing or unreadable', async () => {
     const { assets, arrived } = begin({}, { 'GET /projects/p1/files/a.obj': new Response('nothing') });
     const gone = assets.mesh('assets/a.stl');
     const empty = assets.mesh('a.obj');
@@ -43,7 +43,7 @@ describe('meshes', () => {
     ]);
   });
 
-  it('are freed at the end, and those that come later say nothing', async () => {
+  it('are freed at the end, and later ones are not announced', async () => {
     const { assets, arrived, onArrival } = begin({}, MESH);
     const entry = assets.mesh('assets/a.stl');
     await arrived();
@@ -59,7 +59,7 @@ describe('meshes', () => {
 });
 
 describe('robots', () => {
-  it('of the project are read from it; their meshes are files of it', async () => {
+  it('of the project are read from the project, with their meshes', async () => {
     const { assets, arrived, requests } = begin({ 'robots/mine/urdf/mine.urdf': urdf('./meshes/a.stl') });
     const entry = assets.robot('mine');
     await arrived();
@@ -67,14 +67,14 @@ describe('robots', () => {
     expect(requests).toEqual([]);
   });
 
-  it('name meshes of their package from its top', async () => {
+  it('may refer to meshes of their package from its top', async () => {
     const { assets, arrived } = begin({ 'robots/mine/urdf/mine.urdf': urdf('package://mine/meshes/a.stl') });
     const entry = assets.robot('mine');
     await arrived();
     expect(entry.value).toMatchObject([{ mesh: 'robots/mine/meshes/a.stl' }]);
   });
 
-  it('that we ship are asked for', async () => {
+  it('that are built in are requested from the server', async () => {
     const { assets, arrived, requests } = begin(
       { 'robots/other/a.urdf': '' },
       {
@@ -90,7 +90,7 @@ describe('robots', () => {
     expect(requests).toHaveLength(1);
   });
 
-  it('fail where there is none, or no URDF', async () => {
+  it('fail if the robot is missing, or has no URDF', async () => {
     const { assets, arrived } = begin({ 'robots/mine/a.urdf': 'no xml' });
     const entries = [assets.robot('mine'), assets.robot('gone')];
     await arrived(2);

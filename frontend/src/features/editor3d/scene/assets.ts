@@ -6,10 +6,10 @@ import { fileUrl } from '@/store/saving/binary';
 import { readMesh } from './meshes';
 import { urdfShapes } from './urdf';
 
-/** A fetched object to draw: null while it loads, or if it is not available. */
+/** A fetched object to draw. `value` is null while it loads, or if it is not available. */
 export type Fetched<T> = { value: T | null; failed: boolean };
 
-/** Meshes and robots of a universe, each fetched once; `onArrival` is called when one has arrived. */
+/** The meshes and robots of a universe, each fetched only once; calls `onArrival` when one arrives. */
 export class Assets {
   private readonly meshes = new Map<string, Fetched<THREE.BufferGeometry>>();
   private readonly models = new Map<string, Fetched<Shape[]>>();
@@ -17,7 +17,7 @@ export class Assets {
 
   constructor(private readonly onArrival: () => void) {}
 
-  /** The geometry of a mesh file of the project. */
+  /** Returns the geometry of a mesh file of the project. */
   mesh(path: string): Fetched<THREE.BufferGeometry> {
     return this.fetched(this.meshes, path, async () => {
       const response = await fetch(fileUrl(path), { credentials: 'same-origin' });
@@ -26,7 +26,7 @@ export class Assets {
     });
   }
 
-  /** The shapes of a robot: one of the project, or one of ours. */
+  /** Returns the shapes of a robot: of the project, or built in. */
   robot(id: string): Fetched<Shape[]> {
     return this.fetched(this.models, `robot:${id}`, async () => {
       const own = ownUrdf(id);
@@ -35,9 +35,10 @@ export class Assets {
     });
   }
 
-  /** The shapes of a URDF in the project. */
+  /** Returns the shapes of a URDF in the project. */
   model(path: string): Fetched<Shape[]> {
-    // A promise also where the text is no URDF: the view draws a mark in its place instead of failing.
+    // This returns a promise even if the text is not a URDF, so that the view draws a mark in its place
+    // instead of failing.
     return this.fetched(this.models, path, async () => {
       const text = path.endsWith('.urdf') ? (useProjectStore.getState().currentText(path) ?? '') : '';
       return resolved(urdfShapes(text), path);
@@ -68,13 +69,13 @@ export class Assets {
   }
 }
 
-/** The URDF of a robot in the project; undefined if it cannot be read in its present form. */
+/** Returns the path of a project robot's URDF; undefined if the robot has none. */
 function ownUrdf(id: string): string | undefined {
   const { files } = useProjectStore.getState();
   return Object.keys(files).find((path) => path.startsWith(`robots/${id}/`) && path.endsWith('.urdf'));
 }
 
-/** Shapes with their mesh names resolved to paths in the project. */
+/** Returns shapes with their mesh names resolved to paths in the project. */
 function resolved(shapes: Shape[] | null, urdf: string): Shape[] {
   if (!shapes) throw new Error('no URDF');
   const folder = urdf.slice(0, urdf.lastIndexOf('/') + 1);

@@ -23,7 +23,7 @@ const sizeOf = (object: THREE.Object3D) =>
     .toArray()
     .map((part) => Math.round(part * 1e4) / 1e4);
 
-/** Whether a ray along -z through a point of the floor meets it. */
+/** Returns whether a ray along -z through a point of the floor meets it. */
 const isTouched = (object: THREE.Object3D, x: number, y: number): boolean => {
   object.updateMatrixWorld(true);
   const ray = new THREE.Raycaster(new THREE.Vector3(x, y, 5), new THREE.Vector3(0, 0, -1));
@@ -43,7 +43,7 @@ describe('box', () => {
 });
 
 describe('frameOf', () => {
-  it('surrounds what a node shows, a little wider, where the node is', () => {
+  it('surrounds the shapes of a node with a margin, at the place of the node', () => {
     const node = new THREE.Group();
     node.position.set(3, 4, 0);
     const mesh = new THREE.Mesh(new THREE.BoxGeometry(1, 2, 1));
@@ -55,7 +55,7 @@ describe('frameOf', () => {
     expect(sizeOf(frameOf(node, 0.5))).toEqual([1.5, 2.5, 1.5]);
   });
 
-  it('is a mark: hidden until it is wanted, in front of everything, and no obstacle', () => {
+  it('is a mark: hidden until needed, in front of everything, and ignored by the pointer', () => {
     const node = new THREE.Group().add(new THREE.Mesh(new THREE.BoxGeometry()));
     const frame = frameOf(node);
     expect(frame.visible).toBe(false);
@@ -100,7 +100,7 @@ describe('wayOf', () => {
     [2, 2],
   ];
 
-  it('is closed where one walks round and round', () => {
+  it('is closed for a loop', () => {
     const [line] = wayOf(walker(SQUARE));
     expect(valuesOf((line as THREE.Line).geometry)).toEqual([0, 0, 0.02, 2, 0, 0.02, 2, 2, 0.02, 0, 0, 0.02]);
     expect(line!.userData['isFaint']).toBe(true);
@@ -109,12 +109,12 @@ describe('wayOf', () => {
   it.each([
     ['to and fro', SQUARE, false, 3],
     ['between two points', SQUARE.slice(0, 2), true, 2],
-  ] as const)('stays open where one walks %s', (_, path, loop, count) => {
+  ] as const)('stays open for %s', (_, path, loop, count) => {
     const [line] = wayOf(walker(path, loop));
     expect(valuesOf((line as THREE.Line).geometry)).toHaveLength(3 * count);
   });
 
-  it('has a handle at each point, which can be grabbed; the first in another colour', () => {
+  it('has a handle at each point, which can be grabbed; the first has another colour', () => {
     const handles = wayOf(walker(SQUARE)).slice(1) as THREE.Mesh<
       THREE.BufferGeometry,
       THREE.MeshBasicMaterial

@@ -4,7 +4,7 @@ import { EMPTY_STL, stl } from '../../../../harness/documents';
 import { valuesOf } from '../../../../harness/scene';
 import { readMesh } from './meshes';
 
-/** The loaders know buffers of the page only, not those of Node. */
+/** Returns a text as the page's buffer type, since the loaders do not accept Node's. */
 const bytes = (text: string): ArrayBuffer => Uint8Array.from(text, (letter) => letter.charCodeAt(0)).buffer;
 const read = (path: string, text: string) => readMesh(path, bytes(text));
 
@@ -62,7 +62,7 @@ describe('readMesh', () => {
     ['a.ply', PLY(7), 'some of its faces name corners that it does not have'],
     ['a.fbx', '', 'meshes of kind .fbx are not read'],
     ['mesh', '', 'meshes of kind . are not read'],
-  ])('says why %s cannot be used', async (path, text, reason) => {
+  ])('reports why %s cannot be used', async (path, text, reason) => {
     await expect(read(path, text)).rejects.toThrow(reason);
   });
 

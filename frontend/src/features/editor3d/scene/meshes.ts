@@ -3,9 +3,9 @@ import { t } from '@/i18n';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 
 /**
- * Reads a mesh file into one geometry in the file's own units and axes, as the simulator does.
+ * Reads a mesh file into one geometry, in the file's own units and axes, as the simulator does.
  *
- * @throws Error with a text for users if the mesh cannot be used.
+ * @throws Error with a text for users if the mesh cannot be used
  */
 export async function readMesh(path: string, data: ArrayBuffer): Promise<THREE.BufferGeometry> {
   const mesh = await parsed(path, data);
@@ -35,7 +35,7 @@ async function parsed(path: string, data: ArrayBuffer): Promise<THREE.BufferGeom
       const { ColladaLoader } = await import('three/examples/jsm/loaders/ColladaLoader.js');
       const scene = new ColladaLoader().parse(text(), '')?.scene;
       if (!scene) throw new Error(t('editor3d:mesh.empty'));
-      // Keeps the file's own axes and units: the simulator ignores the declared ones, too.
+      // The file's own axes and units stay: the simulator also ignores the declared ones.
       scene.rotation.set(0, 0, 0);
       scene.scale.set(1, 1, 1);
       return merged(scene);

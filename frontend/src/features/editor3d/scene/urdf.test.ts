@@ -18,9 +18,12 @@ const HERE = [0, 0, 0, 0, 0, 0, 1];
 const GREY = [0.6, 0.62, 0.66, 1];
 
 describe('urdfShapes', () => {
-  it.each(['', '<robot>', '<model/>', 'no xml'])('is nothing of a text that is no URDF: %s', (text) => {
-    expect(urdfShapes(text)).toBeNull();
-  });
+  it.each(['', '<robot>', '<model/>', 'no xml'])(
+    'returns nothing for a text that is not a URDF: %s',
+    (text) => {
+      expect(urdfShapes(text)).toBeNull();
+    },
+  );
 
   it.each([
     [BOX, { shape: 'box', size: [1, 2, 3] }],
@@ -35,7 +38,7 @@ describe('urdfShapes', () => {
     expect(shapes(robot(link('base', visual(geometry))))).toEqual([{ ...shape, pose: HERE, color: GREY }]);
   });
 
-  it('leaves out what has no shape that it knows', () => {
+  it('leaves out unknown shapes', () => {
     expect(shapes(robot(link('base', `${visual('<cone/>')}<visual/>${visual('')}`)))).toEqual([]);
     expect(shapes(robot(link('base', '<collision><geometry><box/></geometry></collision>')))).toEqual([]);
   });
@@ -60,7 +63,7 @@ describe('urdfShapes', () => {
     expect(shapes(text)[0]?.pose).toEqual([0, 0, 0, 0.5, 0.5, 0.5, 0.5]);
   });
 
-  it('takes colours from the shape, from the robot by name, or grey', () => {
+  it('takes colours from the shape, from the robot by name, or a grey', () => {
     const red = '<color rgba="1 0 0 1"/>';
     const text = robot(
       [
@@ -80,7 +83,7 @@ describe('urdfShapes', () => {
     expect(shapes(text).map(({ color }) => color)).toEqual([[1, 0, 0, 1], [0, 1, 0, 0.5], GREY, GREY, GREY]);
   });
 
-  it('ends although links hang on each other in a circle', () => {
+  it('ends even if links form a cycle', () => {
     const text = robot(
       [
         link('root', visual(BOX)),

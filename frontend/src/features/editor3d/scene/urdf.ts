@@ -5,8 +5,8 @@ const GREY = [0.6, 0.62, 0.66, 1];
 const MOST_LINKS = 500;
 
 /**
- * The visible shapes of a URDF with every joint at zero, in the frame of its root link. Meshes have the names
- * of the file. Returns null for a text that is not a URDF.
+ * Returns the visible shapes of a URDF with every joint at zero, in the frame of its root link; mesh names
+ * stay as in the file. Null for a text that is not a URDF.
  */
 export function urdfShapes(text: string): Shape[] | null {
   const document = new DOMParser().parseFromString(text, 'text/xml');

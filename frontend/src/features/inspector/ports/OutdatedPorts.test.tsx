@@ -3,7 +3,7 @@ import { expect, it } from 'vitest';
 import { action, openProject, show, user, watchNavigation } from '../../../../harness/testing';
 import { OutdatedPorts } from './OutdatedPorts';
 
-it('leads to the line that cannot be read', async () => {
+it('opens the line of the error', async () => {
   const diagnostics = [{ code: 'BT0601', severity: 'error', message: 'bad', line: 7 }] as const;
   openProject({ actions: [action('Go', { outdated: true, diagnostics: [...diagnostics] })] });
   const { openFile } = watchNavigation();

@@ -6,7 +6,7 @@ import { actionPath } from '@/store/project/state';
 import { useProjectStore } from '@/store/project';
 import classes from '../Inspector.module.css';
 
-/** Says that the ports are those of the last Python that could be read, and leads to the line. */
+/** A notice that the ports are those of the last valid Python, with a link to the line of the error. */
 export function OutdatedPorts({ action }: { readonly action: string }) {
   const { t } = useTranslation('inspector');
   const line = useProjectStore(

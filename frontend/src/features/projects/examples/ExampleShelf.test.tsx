@@ -18,7 +18,7 @@ beforeEach(() => {
 });
 
 describe('ExampleShelf', () => {
-  it('shows each example with its world, what it teaches and its level', async () => {
+  it('shows each example with its world, its subject and its level', async () => {
     show(<ExampleShelf onCreate={onCreate} pending={null} />);
     const first = await screen.findByTestId('new-from-laser_bump_and_go');
     expect(first).toHaveTextContent('1. Laser bump and go');

@@ -11,7 +11,7 @@ interface ExampleShelfProps {
   readonly pending: string | null;
 }
 
-/** The examples as graded cards, each with a picture of its world and what it teaches. */
+/** The shelf of examples: cards by level, each with a picture of its world and a text on what it teaches. */
 export function ExampleShelf({ onCreate, pending }: ExampleShelfProps) {
   const { t } = useTranslation('projects');
   const { all: templates } = useSortedTemplates();

@@ -5,7 +5,7 @@ import { examplesOf, isExample, pictureOf, SHELF } from './shelf';
 const template = (id: string, universe = 'here') => ({ id, name: id, description: '', universe });
 
 describe('examplesOf', () => {
-  it('has what the server has, from the easiest to the hardest', () => {
+  it('has the examples of the server, from the easiest to the hardest', () => {
     const found = examplesOf(['explore_maze', 'mine', 'laser_bump_and_go'].map((id) => template(id)));
     expect(found.map(({ id, level, number }) => [id, level, number])).toEqual([
       ['laser_bump_and_go', 1, 1],
@@ -13,13 +13,13 @@ describe('examplesOf', () => {
     ]);
   });
 
-  it('has ten, and no level comes after a harder one', () => {
+  it('has ten examples, sorted by level', () => {
     const levels = SHELF.map(([, level]) => level);
     expect(levels).toHaveLength(10);
     expect([...levels].sort()).toEqual(levels);
   });
 
-  it('has words for each', () => {
+  it('has texts for each', () => {
     for (const [id] of SHELF) {
       expect(translates(`projects:example.${id}`), id).toBe(true);
       expect(translates(`projects:template.${id}.name`), id).toBe(true);
@@ -27,11 +27,11 @@ describe('examplesOf', () => {
   });
 });
 
-it('tells examples from templates', () => {
+it('separates examples from templates', () => {
   expect([isExample('push_box'), isExample('empty')]).toEqual([true, false]);
 });
 
-it('shows the own world of an example, else the picture of the built-in universe', () => {
+it("shows the picture of an example's own world, otherwise that of the built-in universe", () => {
   const shelf = examplesOf([
     template('laser_bump_and_go', 'walled_room'),
     template('follow_line', ''),

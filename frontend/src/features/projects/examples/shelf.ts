@@ -21,14 +21,14 @@ export type ExampleId = (typeof SHELF)[number][0];
 export interface Example {
   readonly id: ExampleId;
   readonly level: Level;
-  /** Its place on the shelf, from 1. */
+  /** The place of the example on the shelf, from 1. */
   readonly number: number;
   readonly template: TemplateInfo;
 }
 
 export const isExample = (id: string): id is ExampleId => SHELF.some(([known]) => known === id);
 
-/** The examples that the server has, in the order of the shelf. */
+/** Returns the examples that the server offers, in the order of the shelf. */
 export function examplesOf(templates: readonly TemplateInfo[]): readonly Example[] {
   return SHELF.flatMap(([id, level], index) => {
     const template = templates.find((each) => each.id === id);
@@ -42,7 +42,7 @@ const pictures = import.meta.glob<string>('./pictures/*.webp', {
   import: 'default',
 });
 
-/** The address of the picture of an example's world: its own, or that of a built-in universe. */
+/** Returns the address of an example's picture: its own, or that of its built-in universe. */
 export function pictureOf({ id, template }: Example): string | null {
   const own = pictures[`./pictures/${id}.webp`];
   if (own) return own;

@@ -24,7 +24,7 @@ describe('MessageRow', () => {
     expect(screen.queryByRole('button')).toBeNull();
   });
 
-  it('is calm where nothing is wrong, and silent where it is repeated in the list', () => {
+  it('has no alert role if nothing is wrong, and no role in the list', () => {
     const { unmount } = show(<MessageRow message={message({ tone: 'quiet', kind: 'restart' })} />);
     expect(screen.getByRole('status')).toBe(screen.getByTestId('restart-offer'));
     unmount();

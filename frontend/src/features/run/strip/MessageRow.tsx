@@ -27,7 +27,7 @@ const ICONS: Record<MessageKind, typeof IconFlag> = {
   restart: IconRotateClockwise,
   world: IconWorld,
 };
-/** How tests find a kind; all others are banners. */
+/** The test ids of some kinds of messages; all others have that of a banner. */
 const TEST_IDS: Partial<Record<MessageKind, string>> = {
   viewer: 'looking-on',
   restart: 'restart-offer',
@@ -36,11 +36,11 @@ const TEST_IDS: Partial<Record<MessageKind, string>> = {
 
 interface MessageRowProps {
   readonly message: StripMessage;
-  /** In the list of all messages a text has as many lines as it needs. */
+  /** Whether the text has as many lines as it needs, as in the list of all messages. */
   readonly isWhole?: boolean;
 }
 
-/** One message: its title, text and hint, and its next step. */
+/** The row of a message: its title, text and hint, and its next step. */
 export function MessageRow({ message, isWhole = false }: MessageRowProps) {
   const { t, i18n } = useTranslation('run');
   const { kind, tone, titleKey, values, text, hint, link, command } = message;
@@ -53,7 +53,7 @@ export function MessageRow({ message, isWhole = false }: MessageRowProps) {
       data-kind={kind}
       data-whole={isWhole || undefined}
       data-testid={isWhole ? 'strip-message' : (TEST_IDS[kind] ?? 'banner')}
-      // The seconds change all the time, so screen readers get the silence from the executor's state instead.
+      // The seconds change constantly, so screen readers get the silence from the executor's state instead.
       role={isWhole || kind === 'silence' ? undefined : tone === 'quiet' ? 'status' : 'alert'}
     >
       <Icon size={17} aria-hidden="true" />

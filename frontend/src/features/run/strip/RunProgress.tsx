@@ -9,7 +9,7 @@ import classes from './strip.module.css';
 const STAGES: LaunchStage[] = ['saving', 'checking', 'starting', 'launching'];
 const RUNGS: Rung[] = ['connect', 'launch_universe', 'prepare_visualization', 'run_application'];
 
-/** The steps before the executor's own take the first fifth of the bar, its rungs the rest. */
+/** The part of the bar for the steps before the executor's own; the executor's rungs fill the rest. */
 const BEFORE = 0.2;
 
 export function fractionOf(stage: LaunchStage, rung: Rung | undefined, fraction: number): number {
@@ -18,7 +18,7 @@ export function fractionOf(stage: LaunchStage, rung: Rung | undefined, fraction:
   return BEFORE + ((1 - BEFORE) * (index + fraction)) / RUNGS.length;
 }
 
-/** A progress bar with the present step from Run to a moving robot. */
+/** A progress bar from Run to a moving robot, with the current step. */
 export function RunProgress() {
   const { t } = useTranslation('run');
   const stage = useRunStore((state) => state.stage);

@@ -38,7 +38,7 @@ beforeEach(async () => {
 });
 
 describe('RunStrip', () => {
-  it('tells the state of the executor while all is well, at the same height', () => {
+  it('shows the state of the executor if there is no message, at the same height', () => {
     expect(screen.queryByTestId('banner')).toBeNull();
     expect(screen.getByRole('region', { name: 'Messages of the run' })).not.toBeEmptyDOMElement();
   });
@@ -88,7 +88,7 @@ describe('RunStrip', () => {
     expect(useProjectStore.getState().selection).toEqual(['d']);
   });
 
-  it('says why a run could not begin, until that is dismissed', async () => {
+  it('reports why a run could not start, until it is dismissed', async () => {
     act(() => {
       useRunStore.setState({
         failure: { stage: 'starting', code: 'x', message: 'No room.', hint: 'Try later.', diagnostics: [] },
@@ -101,12 +101,12 @@ describe('RunStrip', () => {
     expect(useRunStore.getState().failure).toBeNull();
   });
 
-  it('says why the run ended', () => {
+  it('reports why the run ended', () => {
     executor.emit('state-changed', { state: 'visualization_ready', reason: 'The world was killed.' });
     expect(screen.getByRole('alert')).toHaveTextContent('The run ended: The world was killed.');
   });
 
-  it('speaks of silence without an alert for each second', () => {
+  it('reports silence without an alert for each second', () => {
     act(() => {
       useSessionStore.setState({ silentS: 4 });
     });

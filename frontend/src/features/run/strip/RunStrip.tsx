@@ -11,8 +11,8 @@ import classes from './strip.module.css';
 import { useMessages } from './useMessages';
 
 /**
- * The place of all messages of a run, of one height: nothing moves when one comes, and it covers nothing. It
- * shows the most important one; without any, the state of the executor in a sentence.
+ * The strip for the messages of a run. Its height is fixed, so that a new message neither moves nor covers
+ * anything. It shows the most important message, or the state of the executor in a sentence if there is none.
  */
 export function RunStrip() {
   const { t } = useTranslation('run');
@@ -42,7 +42,7 @@ export function RunStrip() {
   );
 }
 
-/** How many other messages there are; opens all of them in full. */
+/** The number of the other messages; a button opens all of them in full. */
 function AllMessages({ messages }: { readonly messages: readonly StripMessage[] }) {
   const { t } = useTranslation('run');
   const [isOpen, setOpen] = useState(false);

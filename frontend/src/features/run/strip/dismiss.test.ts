@@ -31,7 +31,7 @@ it('removes one fault, and leaves the others', () => {
   expect(useSessionStore.getState().faults).toEqual([fault('b')]);
 });
 
-it('declines a restart for this run alone', () => {
+it('declines a restart only for this run', () => {
   useRunStore.setState({ ranAt: 7 });
   dismiss(message({ kind: 'restart' }));
   expect(useRunStore.getState().declinedRestart).toBe(7);

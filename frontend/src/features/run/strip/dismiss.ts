@@ -21,7 +21,9 @@ export function dismiss({ kind, fault }: StripMessage): void {
   }
 }
 
-/** The role of this page in its session; a notice about another one is a new notice. */
+/**
+ * Returns the role of this page in its session as a key: with another key, the notice about the role is new.
+ */
 export function viewerKey(): string {
   const { introspection, wasTakenOver } = useSessionStore.getState();
   return `${introspection?.client_id ?? ''} ${wasTakenOver}`;

@@ -32,11 +32,11 @@ const fault = (more: Partial<Fault>): Fault => ({
 });
 
 describe('bannerFor', () => {
-  it('says nothing when all is well', () => {
+  it('has no message if nothing happened', () => {
     expect(bannerFor(calm)).toBeNull();
   });
 
-  it('names the block that failed, and leads to it', () => {
+  it('names the block that failed, and links to it', () => {
     const finished = {
       status: 'FAILURE',
       reason: 'root_finished',
@@ -58,7 +58,7 @@ describe('bannerFor', () => {
     });
   });
 
-  it('leads to the line that raised', () => {
+  it('links to the line that raised', () => {
     const banner = bannerFor({
       ...calm,
       faults: [fault({ file: 'actions/Go.py', line: 12, node_id: 'n1' })],
@@ -66,7 +66,7 @@ describe('bannerFor', () => {
     expect(banner).toMatchObject({ titleKey: 'banner.faultAt', link: { file: 'actions/Go.py', line: 12 } });
   });
 
-  it('leads to the block where there is no line', () => {
+  it('links to the block if there is no line', () => {
     const faults = [fault({ kind: 'timeout', node_id: 'n1', tree_id: 'MainTree' })];
     expect(bannerFor({ ...calm, faults })?.link).toEqual({ tree: 'MainTree', node: 'n1' });
   });
@@ -79,7 +79,7 @@ describe('bannerFor', () => {
     });
   });
 
-  it('says why the world is gone', () => {
+  it('reports why the world ended', () => {
     expect(bannerFor({ ...calm, executorReason: 'The simulated world was killed.' })?.text).toMatch(/world/);
   });
 
@@ -95,7 +95,7 @@ describe('bannerFor', () => {
     expect(bannerFor({ ...calm, silentS: 4, connection: 'lost' })?.kind).toBe('connection');
   });
 
-  it('puts the lost connection before all else', () => {
+  it('puts the lost connection first', () => {
     const banner = bannerFor({ ...calm, connection: 'reconnecting', faults: [fault({})] });
     expect(banner).toMatchObject({ kind: 'connection', tone: 'warning' });
   });
@@ -120,7 +120,7 @@ describe('bannerFor', () => {
     expect(banner).toMatchObject({ text: 'No such action.', link: { tree: 'MainTree', node: 'n4' } });
   });
 
-  it('leads to the line of a robot that the simulator refuses', () => {
+  it('links to the line of a robot that the simulator refuses', () => {
     const message = "robots/mine/robot.yaml:10:25: the URDF has no link 'mst'";
     const failure = { stage: 'launching' as const, code: 'BTR003', message, hint: '', diagnostics: [] };
     expect(bannerFor({ ...calm, failure })?.link).toEqual({ file: 'robots/mine/robot.yaml', line: 10 });

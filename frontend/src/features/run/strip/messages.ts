@@ -8,7 +8,7 @@ import { findingText } from '@/ui/findingText';
 export type MessageKind =
   'connection' | 'silence' | 'failure' | 'fault' | 'finished' | 'node' | 'viewer' | 'world' | 'restart';
 
-/** The order of importance, the first first. */
+/** The kinds of messages, the most important first. */
 export const PRIORITY: readonly MessageKind[] = [
   'connection',
   'silence',
@@ -28,17 +28,17 @@ export interface StripMessage {
   id: string;
   kind: MessageKind;
   tone: 'error' | 'warning' | 'success' | 'quiet';
-  /** The i18n key in `run`, and its values. */
+  /** The i18n key in `run`; `values` fill it in. */
   titleKey: string;
   values: Record<string, string>;
   text: string;
   hint: string;
   link: MessageLink | null;
-  /** The command that is the next step, and its label if that is not the command's own. */
+  /** The command that is the next step. Its label is `commandKey`, or the command's own. */
   command?: string;
   commandKey?: string;
   canDismiss: boolean;
-  /** The fault that it is about. */
+  /** The fault that the message reports. */
   fault?: Fault;
 }
 
@@ -47,24 +47,24 @@ export interface Situation {
   connectionMessage: string;
   /** The number of seconds since the executor's last answer. */
   silentS: number;
-  /** The reason of the present rung, if no command led to it. */
+  /** The reason for the current rung, if no command led to it. */
   executorReason: string;
   faults: readonly Fault[];
   launchNodes: readonly LaunchNode[];
   failure: LaunchFailure | null;
-  /** How the last run ended. */
+  /** The end of the last run. */
   finished: Finished | null;
-  /** This page only views the session. */
+  /** Set if this page only views the session. */
   viewer: { wasTakenOver: boolean } | null;
   canRestart: boolean;
-  /** The world runs without a program. */
+  /** Whether the world runs without a program. */
   worldRuns: boolean;
 }
 
-/** The most faults that are listed. */
+/** The largest number of listed faults. */
 const MAX_FAULTS = 5;
 
-/** All messages of a run, the most important first. */
+/** Returns all messages of a run, the most important first. */
 export function messagesFor(situation: Situation): StripMessage[] {
   const { connection, connectionMessage, silentS, failure, viewer, canRestart, worldRuns } = situation;
   const isLost = connection === 'reconnecting' || connection === 'lost';
@@ -81,7 +81,7 @@ export function messagesFor(situation: Situation): StripMessage[] {
   return messages.sort((a, b) => PRIORITY.indexOf(a.kind) - PRIORITY.indexOf(b.kind));
 }
 
-/** The last faults, each once, the newest first. */
+/** Returns a message for each of the last faults, the newest first; equal faults are listed once. */
 function faultBanners({ faults, launchNodes }: Situation): StripMessage[] {
   const byText = new Map([...faults].reverse().map((fault) => [fault.message, fault]));
   return [...byText.values()]
@@ -89,7 +89,7 @@ function faultBanners({ faults, launchNodes }: Situation): StripMessage[] {
     .map((fault) => faultBanner(fault, isOfLaunchNode(fault, launchNodes)));
 }
 
-/** How the run ended, unless a fault or a failure says it already. */
+/** Returns a message about the end of the run, unless a fault or a failure already reports it. */
 function endBanner({
   executorReason,
   faults,
@@ -144,7 +144,7 @@ function restartOffer(): StripMessage {
 
 const PLAIN = { values: {}, text: '', hint: '', link: null, canDismiss: false } as const;
 
-/** The first sentence of the executor, which the title says in the user's language. */
+/** The first sentence of the executor's message, which the title already says in the user's language. */
 const ENDED = /^The tree ended with \w+\.\s*/;
 
 function finishedBanner({ status, message, node_id, tree_id, node_path }: Finished): StripMessage {
@@ -161,7 +161,7 @@ function finishedBanner({ status, message, node_id, tree_id, node_path }: Finish
   };
 }
 
-/** The last name of a path, without the number that the engine gives to unnamed nodes. */
+/** Returns the last name in a path, without the number that the engine adds for unnamed nodes. */
 const nameIn = (path: string) => (path.split('/').at(-1) ?? '').replace(/::\d+$/, '');
 
 function reasonBanner(reason: string): StripMessage {
@@ -241,7 +241,10 @@ function failureBanner(failure: LaunchFailure): StripMessage {
   };
 }
 
-/** The place at the beginning of a message of the simulator: `robots/mine/robot.yaml:10:25: …`. */
+/**
+ * Returns the place at the beginning of a simulator's message, such as `robots/mine/robot.yaml:10:25: …`;
+ * null if there is none.
+ */
 function linkToText(message: string): MessageLink | null {
   const [, file = '', line = ''] = /^([\w./-]+\.\w+):(\d+):(?:\d+:)? /.exec(message) ?? [];
   return file === '' ? null : { file, line: Number(line) };

@@ -30,7 +30,7 @@ beforeEach(async () => {
 });
 
 describe('the offer to restart', () => {
-  it('appears with an edit while the program runs or is paused, and no longer', () => {
+  it('appears after an edit while the program runs or is paused, and not otherwise', () => {
     expect(offer()).toBeNull();
     edit();
     expect(offer()).toHaveTextContent('The program changed since it was started.');
@@ -50,7 +50,7 @@ describe('the offer to restart', () => {
     expect(run).toHaveBeenCalledOnce();
   });
 
-  it('stays away once declined, until the next run', async () => {
+  it('is not repeated after it was declined, until the next run', async () => {
     edit();
     await user.click(screen.getByRole('button', { name: 'Dismiss' }));
     expect(offer()).toBeNull();
@@ -105,7 +105,7 @@ describe('the notice of a viewer', () => {
     expect(notice()).toBeNull();
   });
 
-  it('stays away once read', async () => {
+  it('is not repeated after it was read', async () => {
     executor.introduce({ role: 'viewer' });
     await user.click(screen.getByRole('button', { name: 'Dismiss' }));
     expect(notice()).toBeNull();
@@ -113,7 +113,7 @@ describe('the notice of a viewer', () => {
 });
 
 describe('useMessages', () => {
-  it('lists what the stores hold, the most important first', () => {
+  it('lists the messages of the stores, the most important first', () => {
     const { result } = renderHook(useMessages);
     expect(result.current).toEqual([]);
     edit();

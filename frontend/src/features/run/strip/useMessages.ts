@@ -7,7 +7,7 @@ import { useHasChanged } from '../useHasChanged';
 import { viewerKey } from './dismiss';
 import { messagesFor, type StripMessage } from './messages';
 
-/** All messages of the run, the most important first. */
+/** Returns all messages of the run, the most important first. */
 export function useMessages(): StripMessage[] {
   const session = useSessionStore(
     useShallow((state) => ({
@@ -37,7 +37,7 @@ function useIsUnreadViewer(): boolean {
   return key !== null && key !== read;
 }
 
-/** Whether a restart is offered: the program has been edited while it runs. */
+/** Returns whether to offer a restart: the program has been edited while it runs. */
 function useCanRestart(): boolean {
   const hasApplication = useSessionStore(
     ({ executor, introspection }) =>

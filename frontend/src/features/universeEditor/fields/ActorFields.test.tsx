@@ -16,7 +16,7 @@ function fields(text = HALL) {
 const box = (name: string) => screen.getByRole('textbox', { name });
 
 describe('the fields of a person', () => {
-  it('change how fast and from where one walks, within their ranges', async () => {
+  it('change the speed and the start, within their ranges', async () => {
     const { thing } = fields();
     await write(box('Speed (m/s)'), '1.2');
     await write(box('Starts after (m)'), '0.5');
@@ -28,13 +28,13 @@ describe('the fields of a person', () => {
     expect(thing('walker')).toMatchObject({ speed: 0 });
   });
 
-  it('let one walk to and fro instead of round', async () => {
+  it('make the person walk to and fro instead of in a loop', async () => {
     const { thing } = fields();
     await user.click(screen.getByRole('switch', { name: 'Round and round' }));
     expect(thing('walker')).toMatchObject({ loop: false });
   });
 
-  it('put points of the way elsewhere', async () => {
+  it('move points of the path', async () => {
     const { thing } = fields();
     await write(box('x 1'), '-1');
     await write(box('y 3'), '4');
@@ -47,7 +47,7 @@ describe('the fields of a person', () => {
     });
   });
 
-  it('choose a point, after which the next one is added', async () => {
+  it('select a point, after which the next one is added', async () => {
     const { editor, thing } = fields();
     const second = screen.getByRole('button', { name: 'Point 2 of the way' });
     expect(second).toHaveAttribute('aria-pressed', 'false');
@@ -60,7 +60,7 @@ describe('the fields of a person', () => {
     expect(editor.store.getState().waypoint).toBe(2);
   });
 
-  it('take a point out, but never the last one', async () => {
+  it('remove a point, but never the last one', async () => {
     const { editor, thing } = fields();
     const remove = () => screen.getAllByRole('button', { name: 'Remove this point' });
     await user.click(remove()[1]!);
@@ -76,7 +76,7 @@ describe('the fields of a person', () => {
     expect(remove()[0]).toBeDisabled();
   });
 
-  it('dress the person, one step a colour', async () => {
+  it('set the colour, one undo step each', async () => {
     const { editor, thing } = fields();
     const color = box('Clothes');
     for (const wish of ['#aabbcc', '#ddeeff']) {
@@ -91,7 +91,7 @@ describe('the fields of a person', () => {
     expect(editor.store.getState()).toMatchObject({ selection: ['walker'], undoStack: { sealed: true } });
   });
 
-  it('are only seen in a project that may only be seen', () => {
+  it('cannot be edited in a read-only project', () => {
     const editor = openUniverse();
     lookOnly();
     showUniverse(editor, ({ things }) =>

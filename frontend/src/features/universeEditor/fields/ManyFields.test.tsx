@@ -6,14 +6,14 @@ import { user } from '../../../../harness/testing';
 import { ManyFields } from './ManyFields';
 
 describe('the fields of several things', () => {
-  it('say how many they are', () => {
+  it('show how many there are', () => {
     const editor = openUniverse();
     showUniverse(editor, () => <ManyFields editor={editor} count={3} />);
     expect(screen.getByText('3 things are selected.')).toBeInTheDocument();
     expect(screen.getByText(/They move and turn together/)).toBeInTheDocument();
   });
 
-  it('paint all but robots, one step a colour', async () => {
+  it('set the colour of all except robots, one undo step each', async () => {
     const editor = openUniverse();
     select(editor, ['crate', 'walker', 'robot']);
     const { thing, universe } = showUniverse(editor, () => <ManyFields editor={editor} count={3} />);

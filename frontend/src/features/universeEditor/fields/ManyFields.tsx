@@ -7,7 +7,7 @@ import { edit, readingOf, type UniverseEditor } from '../editor';
 import { ColorField } from '@/features/editor3d/fields';
 import classes from '@/features/editor3d/editor3d.module.css';
 
-/** Fields for several selected things: a common colour, and commands for all of them. */
+/** The fields for several selected things: a common colour, and commands for all of them. */
 export function ManyFields({ editor, count }: { readonly editor: UniverseEditor; readonly count: number }) {
   const { t } = useTranslation('universeEditor');
   const [color, setColor] = useState('#b8c4cf');

@@ -43,7 +43,7 @@ describe('the fields of a model', () => {
     expect(screen.getByText('Size (m)')).toBeInTheDocument();
   });
 
-  it('give it another texture; without one it has no tile either', async () => {
+  it('set another texture; without one, the size of its repetition is removed', async () => {
     const { thing } = fieldsOf('crate');
     await choose(screen.getByRole('combobox', { name: 'Texture' }), 'Brick');
     expect(thing('crate')).toMatchObject({ texture: 'brick', tile: [1, 2] });
@@ -51,7 +51,7 @@ describe('the fields of a model', () => {
     expect(thing('crate')).toMatchObject({ texture: '', tile: null });
   });
 
-  it('paint it, one step a colour', async () => {
+  it('set the colour, one undo step each', async () => {
     const { editor, thing } = fieldsOf('ball');
     const color = box('Colour');
     await user.clear(color);
@@ -66,7 +66,7 @@ describe('the fields of a model', () => {
     expect(editor.store.getState().undoStack.sealed).toBe(true);
   });
 
-  it('let it weigh, and then ask for its mass and bounce', async () => {
+  it('give it a mass, and then show mass and bounce', async () => {
     const { thing } = fieldsOf('crate');
     expect(screen.queryByRole('textbox', { name: 'Mass (kg)' })).toBeNull();
     expect(screen.queryByRole('textbox', { name: 'Bounce' })).toBeNull();
@@ -81,7 +81,7 @@ describe('the fields of a model', () => {
     expect(thing('crate')).toMatchObject({ mass: 0 });
   });
 
-  it('let one walk through it, and then it has no friction and no mass', async () => {
+  it('make it permeable, and then hide friction and mass', async () => {
     const { thing } = fieldsOf('crate');
     await user.click(toggle('Solid'));
     expect(thing('crate')).toMatchObject({ solid: false });
@@ -99,12 +99,12 @@ describe('the fields of a model', () => {
     ['ball', false],
     ['post', true],
     ['chair', false],
-  ])('let only upright boxes reach the ceiling: %s', (id, can) => {
+  ])('offer to reach the ceiling only for upright boxes: %s', (id, can) => {
     fieldsOf(id);
     expect(screen.queryByRole('switch', { name: 'Up to the ceiling' }) !== null).toBe(can);
   });
 
-  it('draw a box up to the ceiling, which then cannot move', async () => {
+  it('make a box reach the ceiling, which then cannot move', async () => {
     const { thing } = fieldsOf('crate');
     await user.click(toggle('Up to the ceiling'));
     expect(thing('crate')).toMatchObject({ to_ceiling: true });
@@ -126,7 +126,7 @@ describe('the fields of a model', () => {
     expect(thing('chair')).toMatchObject({ file: 'assets/desk.OBJ' });
   });
 
-  it('leave the colours and the size of a model of links to its file', () => {
+  it('leave colours and size of a model to its file', () => {
     fieldsOf('arm');
     expect(screen.queryByRole('textbox', { name: 'Colour' })).toBeNull();
     expect(screen.queryByRole('combobox', { name: 'Texture' })).toBeNull();
@@ -134,7 +134,7 @@ describe('the fields of a model', () => {
     expect(screen.getByRole('combobox', { name: 'File' })).toHaveValue('models/arm.urdf');
   });
 
-  it('are only seen in a project that may only be seen', () => {
+  it('cannot be edited in a read-only project', () => {
     fieldsOf('crate', lookOnly);
     for (const name of ['Movable', 'Solid', 'Up to the ceiling']) expect(toggle(name)).toBeDisabled();
     expect(screen.getByTestId('field-x')).toBeDisabled();

@@ -16,7 +16,7 @@ interface ModelFieldsProps {
   readonly thing: ModelThing;
 }
 
-/** The initial mass of a thing that gets one, in kg. */
+/** The initial mass in kg when a thing gets a mass. */
 const FIRST_MASS = 1;
 
 export function ModelFields({ editor, thing }: ModelFieldsProps) {
@@ -29,7 +29,7 @@ export function ModelFields({ editor, thing }: ModelFieldsProps) {
       (now) => setField(now, key, field, value),
       mergeKey === undefined ? {} : { mergeKey },
     );
-  /** A thing without a texture has no repetition size either. */
+  /** Sets the texture; without a texture, the size of its repetition is removed too. */
   const paint = (texture: string | undefined) =>
     edit(editor, 'texture', (now) => {
       const { ops } = setField(now, key, 'texture', texture);

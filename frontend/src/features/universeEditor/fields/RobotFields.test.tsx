@@ -22,7 +22,7 @@ function fields(text = HALL) {
 const model = () => screen.getByRole('combobox', { name: 'Robot' });
 
 describe('the fields of a robot in a universe', () => {
-  it('choose another robot: one of the project, or one that we ship', async () => {
+  it('choose another robot: one of the project, or a built-in one', async () => {
     const { thing } = fields();
     await waitFor(() => expect(model()).toHaveValue('Turtle'), { timeout: 10_000 });
     await choose(model(), 'Rover');
@@ -31,7 +31,7 @@ describe('the fields of a robot in a universe', () => {
     expect(thing('robot')).toMatchObject({ model: 'mine' });
   });
 
-  it('show a robot that does not exist by its id', async () => {
+  it('show a missing robot by its id', async () => {
     fields(HALL.replace('turtle2', 'gone'));
     await waitFor(() => expect(model()).toHaveValue('gone'));
   });
@@ -45,7 +45,7 @@ describe('the fields of a robot in a universe', () => {
     expect(thing('robot')).toMatchObject({ pose: [1, 3, 0, 0, 0, -1.5708] });
   });
 
-  it('are only seen in a project that may only be seen', () => {
+  it('cannot be edited in a read-only project', () => {
     fakeServer({ 'GET /catalog/robots': ROBOTS });
     const editor = openUniverse();
     lookOnly();

@@ -17,7 +17,7 @@ const options = async (input: HTMLElement) => {
 };
 
 describe('TextureField', () => {
-  it('offers none, those that we ship, and pictures of the project', async () => {
+  it('offers none, the built-in ones, and pictures of the project', async () => {
     const { input } = field('');
     expect(await options(input)).toEqual([
       'None',
@@ -26,7 +26,7 @@ describe('TextureField', () => {
     ]);
   });
 
-  it('also offers a picture that is gone, as long as it is chosen', async () => {
+  it('still offers a deleted picture while it is chosen', async () => {
     const { input } = field('assets/gone.png');
     expect(input).toHaveValue('assets/gone.png');
     expect(await options(input)).toContain('assets/gone.png');
@@ -39,7 +39,7 @@ describe('TextureField', () => {
     expect((await options(field(value).input)).filter((each) => each === label)).toHaveLength(1);
   });
 
-  it('says which was chosen; none is nothing', async () => {
+  it('reports the choice; none is undefined', async () => {
     const { input, onChange } = field('brick');
     await choose(input, 'Wood');
     expect(onChange).toHaveBeenLastCalledWith('wood');

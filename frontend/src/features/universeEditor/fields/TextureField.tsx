@@ -9,7 +9,7 @@ interface TextureFieldProps {
   readonly onChange: (texture: string | undefined) => void;
 }
 
-/** A picture that repeats over a thing or the ground: built in, or of the project. */
+/** The field for a picture that repeats over a thing or the ground: a built-in one, or one of the project. */
 export function TextureField({ value, onChange }: TextureFieldProps) {
   const { t } = useTranslation('universeEditor');
   const files = useProjectStore((state) => state.files);

@@ -20,7 +20,7 @@ describe('the fields of a thing', () => {
     ['carpet', 'Name · Plane', 'Movable'],
     ['walker', 'Name · Person', 'Speed (m/s)'],
     ['robot', 'Name · Robot', 'yaw'],
-  ])('of %s say its kind, and are those of its kind', (id, label, field) => {
+  ])('of %s show its kind, and are those of its kind', (id, label, field) => {
     fields(id);
     expect(screen.getByRole('textbox', { name: label })).toHaveValue(id);
     expect(screen.getByLabelText(field)).toBeInTheDocument();
@@ -29,17 +29,17 @@ describe('the fields of a thing', () => {
         expect(screen.queryByLabelText(other)).toBeNull();
   });
 
-  it('say what each seed varies', () => {
+  it('show what each seed varies', () => {
     fields('crate', `${HALL}random: {crate.pose.x: [0, 1], crate.mass: [1, 2], crates.mass: [1, 2]}\n`);
     expect(screen.getByText('Each seed draws new values for: crate.pose.x, crate.mass')).toBeInTheDocument();
   });
 
-  it('say nothing of what no seed varies', () => {
+  it('show nothing without such a variation', () => {
     fields('crate');
     expect(screen.queryByText(/Each seed/)).toBeNull();
   });
 
-  it('explain which names cannot be taken', async () => {
+  it('explain which names are invalid', async () => {
     const { thing } = fields('crate');
     const field = screen.getByTestId('field-id');
     const type = async (text: string) => {

@@ -14,7 +14,7 @@ interface ThingFieldsProps {
   readonly thing: Thing;
 }
 
-/** All properties of one thing. */
+/** The fields for all properties of a thing. */
 export function ThingFields({ editor, universe, thing }: ThingFieldsProps) {
   const { t } = useTranslation('universeEditor');
   const kind = thing.section === 'models' ? t(`shape.${thing.shape}`) : t(`section.${thing.section}`);

@@ -22,7 +22,7 @@ function fields(text = HALL, others: Readonly<Record<string, string>> = {}, answ
 const OWN = [HALL.replace('turtle2', 'mine'), { 'robots/mine/robot.yaml': CONFIG }] as const;
 
 describe('the topics of a robot', () => {
-  it('are those of a robot of the project, called as the robot calls them', () => {
+  it("are those of a robot of the project, with the robot's labels", () => {
     const { server } = fields(...OWN);
     expect(screen.getByTestId('topic-of-scan')).toHaveValue('');
     expect(screen.getByTestId('topic-of-scan')).toHaveAttribute('placeholder', '/scan');
@@ -30,14 +30,14 @@ describe('the topics of a robot', () => {
     expect(server.requests).toEqual([]);
   });
 
-  it('are asked for where the robot is one that we ship', async () => {
+  it('are requested for a built-in robot', async () => {
     fields(HALL, {}, { 'GET /catalog/robots/turtle2/config': new Response(CONFIG) });
     expect(screen.queryByText('Topics, called here')).toBeNull();
     expect(await screen.findByTestId('topic-of-scan')).toBeInTheDocument();
     expect(screen.getByText('Topics, called here')).toBeInTheDocument();
   });
 
-  it('get other names here, one by one, and lose them again', async () => {
+  it('can be renamed here, one by one, and reset', async () => {
     const { thing, universe } = fields(...OWN);
     await write('topic-of-scan', '/front');
     await write('topic-of-camera', '/eye');
@@ -48,7 +48,7 @@ describe('the topics of a robot', () => {
     expect(JSON.stringify(universe().raw['robots'])).not.toContain('topics');
   });
 
-  it('must be topics', async () => {
+  it('must be valid topics', async () => {
     const { thing } = fields(...OWN);
     await type('topic-of-scan', 'front');
     expect(screen.getByText(/A topic begins with \//)).toBeInTheDocument();

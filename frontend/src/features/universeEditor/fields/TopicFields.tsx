@@ -15,7 +15,9 @@ interface TopicFieldsProps {
 
 const TOPIC = /^\/[A-Za-z0-9_/]+$/;
 
-/** The names of a robot's topics in this universe; an empty field keeps the robot's own name. */
+/**
+ * The fields for the names of a robot's topics in this universe; an empty field keeps the robot's own name.
+ */
 export function TopicFields({ editor, thing }: TopicFieldsProps) {
   const { t } = useTranslation('universeEditor');
   const { key, model, topics } = thing;

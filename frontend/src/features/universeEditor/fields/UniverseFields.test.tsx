@@ -80,13 +80,13 @@ describe('the fields of a universe', () => {
     expect(universe().lights[0]?.intensity).toBe(0);
   });
 
-  it('offer no sun where there is none', () => {
+  it('offer no sun if there is none', () => {
     fields(HALL.replace(/lights: .*\n/, 'lights: []\n'));
     expect(screen.queryByText('Sun: direction and strength')).toBeNull();
     expect(screen.getByText('Select a thing to change it.')).toBeInTheDocument();
   });
 
-  it('are only seen in a project that may only be seen', () => {
+  it('cannot be edited in a read-only project', () => {
     const editor = openUniverse();
     lookOnly();
     showUniverse(editor, (now) => <UniverseFields editor={editor} universe={now} />);

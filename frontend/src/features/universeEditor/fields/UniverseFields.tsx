@@ -18,7 +18,7 @@ interface UniverseFieldsProps {
 const CEILING_M = 2.5;
 const AXES = ['x', 'y', 'z'] as const;
 
-/** Properties of the whole universe: name, ground and sun. */
+/** The fields for the whole universe: name, ground and lights. */
 export function UniverseFields({ editor, universe }: UniverseFieldsProps) {
   const { t } = useTranslation('universeEditor');
   const set = (path: Path, value: Json, mergeKey?: string) =>

@@ -13,7 +13,7 @@ beforeEach(() => {
 });
 
 describe('CameraInset', () => {
-  it('wants small pictures, as long as the view can be seen', () => {
+  it('subscribes to small pictures while the view is visible', () => {
     const { rerender } = show(<CameraInset isVisible />);
     expect(announced).toHaveBeenLastCalledWith('camera', { max_hz: 10, width: 320 });
     expect(screen.getByTestId('camera-inset')).toHaveTextContent("The camera's picture…");

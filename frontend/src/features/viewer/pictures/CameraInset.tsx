@@ -13,7 +13,7 @@ interface CameraInsetProps {
   readonly isVisible: boolean;
 }
 
-/** The robot's camera picture, small, in a corner of the 3D view. */
+/** The robot's camera picture in a corner of the 3D view. */
 export function CameraInset({ isVisible }: CameraInsetProps) {
   const { t } = useTranslation('viewer');
   const canvas = useRef<HTMLCanvasElement>(null);

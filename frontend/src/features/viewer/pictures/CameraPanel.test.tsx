@@ -31,7 +31,7 @@ function worldWith(...cameras: string[]) {
 const isShown = () => screen.getByTestId('viewer-camera').dataset['camera'];
 
 describe('CameraPanel', () => {
-  it("wants the camera's picture while it can be seen", () => {
+  it("subscribes to the camera's pictures while it is visible", () => {
     const { unmount } = show(<CameraPanel />);
     expect(announced).toHaveBeenLastCalledWith('camera', { max_hz: 15 });
     expect(screen.getByTestId('viewer-camera')).toHaveTextContent(
@@ -41,7 +41,7 @@ describe('CameraPanel', () => {
     expect(announced).toHaveBeenLastCalledWith('camera', null);
   });
 
-  it('says which camera it shows, without a choice among one', () => {
+  it('names its camera, without a choice for a single one', () => {
     show(<CameraPanel />);
     worldWith('front');
     expect(screen.getByText('front')).toBeInTheDocument();
@@ -49,7 +49,7 @@ describe('CameraPanel', () => {
     expect(screen.getByText('What the camera front sees')).toBeInTheDocument();
   });
 
-  it('shows another camera when it is chosen, and ends the stream of the last one', async () => {
+  it('shows another camera when it is chosen, and ends the previous stream', async () => {
     const onChoose = vi.fn();
     show(<CameraPanel onChoose={onChoose} />);
     worldWith('front', 'rear');
@@ -62,7 +62,7 @@ describe('CameraPanel', () => {
     ]);
   });
 
-  it('shows the first camera where the world has not the chosen one, and the chosen one in the next', () => {
+  it('shows the first camera if the world lacks the chosen one, and the chosen one in the next', () => {
     show(<CameraPanel chosen="rear" />);
     worldWith('front');
     expect(isShown()).toBe('front');
@@ -70,7 +70,7 @@ describe('CameraPanel', () => {
     expect(isShown()).toBe('rear');
   });
 
-  it('opens one more view, of the next camera', async () => {
+  it('opens another view, of the next camera', async () => {
     const onAnother = vi.fn();
     show(<CameraPanel chosen="front" onAnother={onAnother} />);
     worldWith('front', 'rear');

@@ -15,11 +15,11 @@ interface CameraPanelProps {
   /** The camera that the user chose for this view. */
   readonly chosen?: string | null;
   readonly onChoose?: (camera: string) => void;
-  /** Opens one more view, of the given camera. */
+  /** Opens another view, of the given camera. */
   readonly onAnother?: (camera: string | null) => void;
 }
 
-/** The picture of one of the robots' cameras. */
+/** The panel with the picture of one of the robots' cameras. */
 export function CameraPanel({ chosen = null, onChoose, onAnother }: CameraPanelProps) {
   const { t } = useTranslation('viewer');
   const panel = useRef<HTMLDivElement>(null);

@@ -48,7 +48,7 @@ const publish = (t: number) =>
   });
 
 describe('PicturePanel', () => {
-  it('says what it waits for until the first picture is there', async () => {
+  it('explains what it waits for until the first picture', async () => {
     const canvas = panel();
     expect(screen.getByText('Nothing yet')).toBeInTheDocument();
     expect(canvas.hidden).toBe(true);
@@ -60,7 +60,7 @@ describe('PicturePanel', () => {
     expect(screen.getByTestId('camera-figures')).toHaveTextContent(/^320 × 240$/);
   });
 
-  it('says how many pictures come, and how late they are', async () => {
+  it('shows the rate and the age of pictures', async () => {
     const canvas = panel();
     const now = vi.spyOn(performance, 'now').mockReturnValue(0);
     await publish(1);
@@ -81,7 +81,7 @@ describe('PicturePanel', () => {
   });
 
   it.each(['idle', 'connected', 'universe_ready'] as const)(
-    'shows no picture of a world in the state %s',
+    'shows no picture in the state %s',
     async (state) => {
       panel();
       await publish(1);

@@ -7,7 +7,7 @@ import classes from '../viewer.module.css';
 
 interface PicturePanelProps {
   readonly stream: 'camera' | 'view';
-  /** The camera whose pictures are drawn; null: of any. */
+  /** The camera whose pictures are drawn; null for those of any camera. */
   readonly sensor?: string | null;
   readonly canvas: RefObject<HTMLCanvasElement | null>;
   readonly label: string;
@@ -15,7 +15,7 @@ interface PicturePanelProps {
   readonly children?: ReactNode;
 }
 
-/** Pictures from the server, with their size and rate. */
+/** A panel with pictures from the server, their size and their rate. */
 export function PicturePanel({
   stream,
   sensor = null,

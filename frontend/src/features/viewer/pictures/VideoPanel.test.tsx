@@ -37,7 +37,7 @@ function panel() {
   return { view: screen.getByTestId('viewer-video'), unmount };
 }
 
-/** What the server is asked for once the gesture has been sent. */
+/** Returns the options that are requested from the server after a gesture. */
 function sent(): StreamOptions | null {
   act(() => {
     vi.advanceTimersByTime(60);
@@ -46,7 +46,7 @@ function sent(): StreamOptions | null {
 }
 
 const looksFrom = (orbit: Orbit) => ({ max_hz: 30, width: 640, camera_pose: poseOf(orbit) });
-/** jsdom's pointer events know no movement. */
+/** Moves the pointer over the view; jsdom's pointer events have no movement. */
 function drag(view: HTMLElement, x: number, y: number, more: object = {}): void {
   const event = new PointerEvent('pointermove', { bubbles: true, buttons: 1, ...more });
   Object.defineProperties(event, { movementX: { value: x }, movementY: { value: y } });
@@ -54,7 +54,7 @@ function drag(view: HTMLElement, x: number, y: number, more: object = {}): void 
 }
 
 describe('the world drawn by the server', () => {
-  it('is wanted from where one begins, and no longer when the panel is gone', () => {
+  it('subscribes from the initial direction, and ends with the panel', () => {
     const { view, unmount } = panel();
     expect(wanted).toEqual(looksFrom(START));
     expect(view).toHaveAccessibleName('The world, drawn by the server; drag to turn, scroll to zoom');
@@ -63,7 +63,7 @@ describe('the world drawn by the server', () => {
     expect(wanted).toBeNull();
   });
 
-  it('is explained where there is no WebGL', () => {
+  it('is explained if there is no WebGL', () => {
     panel();
     expect(screen.getByText(/This browser has no WebGL.*Press Run to start the world\./)).toBeInTheDocument();
   });
@@ -81,7 +81,7 @@ describe('the world drawn by the server', () => {
     expect(sent()).toEqual(looksFrom(orbit));
   });
 
-  it('leaves other keys, and those of what lies above it', () => {
+  it('ignores other keys, and those of elements above it', () => {
     const { view } = panel();
     expect(fireEvent.keyDown(view, { key: 'x' })).toBe(true);
     const above = document.createElement('button');
@@ -106,7 +106,7 @@ describe('the world drawn by the server', () => {
     expect(sent()).toEqual(looksFrom(panned(moved, 4, 0)));
   });
 
-  it('stays where no button is pressed', () => {
+  it('stays if no button is pressed', () => {
     const { view } = panel();
     drag(view, 10, 5, { buttons: 0 });
     expect(sent()).toEqual(looksFrom(START));
@@ -119,7 +119,7 @@ describe('the world drawn by the server', () => {
     expect(fireEvent.contextMenu(view)).toBe(false);
   });
 
-  it('sends a gesture every 60 ms, with all that was turned until then', () => {
+  it('sends a gesture every 60 ms, with all movement until then', () => {
     const { view } = panel();
     fireEvent.keyDown(view, { key: 'ArrowLeft' });
     fireEvent.keyDown(view, { key: 'ArrowLeft' });
@@ -139,7 +139,7 @@ describe('the world drawn by the server', () => {
     [700, 960],
     [1200, 1280],
     [3000, 1280],
-  ])('fills a panel of %s pixels with pictures of %s', (width, picture) => {
+  ])('requests for a panel of %s pixels pictures of %s', (width, picture) => {
     const { view } = panel();
     fireEvent.keyDown(view, { key: '+' });
     sent();
@@ -147,7 +147,7 @@ describe('the world drawn by the server', () => {
     expect(wanted).toEqual({ ...looksFrom(zoomed(START, 0.85)), width: picture });
   });
 
-  it('counts the pixels of a fine screen', () => {
+  it('counts the pixels of a high-resolution screen', () => {
     panel();
     vi.stubGlobal('devicePixelRatio', 2);
     act(() => resize(400));

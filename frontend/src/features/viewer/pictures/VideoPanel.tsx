@@ -19,14 +19,17 @@ import classes from '../viewer.module.css';
 import { hasWebGl } from '../webgl';
 
 const VIDEO_HZ = 30;
-/** The widths of pictures that may be requested, in px: few, since the server renders each one separately. */
+/**
+ * The widths in px of pictures that may be requested. They are few, since the server renders each width
+ * separately.
+ */
 const WIDTHS = [640, 960, 1280] as const;
 const SEND_EVERY_MS = 60;
 const KEY_PX = 24;
 
 /**
- * The world as pictures that the server draws, for browsers that cannot draw it. One picture of the world is
- * enough: with 3D in a window of its own, Video runs only where the user wants it.
+ * The panel with the world as pictures from the server, for browsers that cannot draw it. A single picture of
+ * the world suffices: if 3D is in a window of its own, Video starts only at the user's request.
  */
 export function VideoPanel() {
   const { t } = useTranslation('viewer');
@@ -47,7 +50,7 @@ export function VideoPanel() {
   );
 }
 
-/** The picture itself: turned by dragging, the wheel and keys. */
+/** The video picture; dragging, the wheel and keys turn it. */
 export function Video() {
   const { t } = useTranslation('viewer');
   const panel = useRef<HTMLDivElement>(null);
@@ -67,7 +70,7 @@ export function Video() {
     }, SEND_EVERY_MS);
   };
 
-  // A new width, or showing the panel again, keeps the camera's direction.
+  // The direction of the camera stays when the width changes or the panel is shown again.
   useEffect(() => {
     stream.current?.update({ max_hz: VIDEO_HZ, width, camera_pose: poseOf(orbit.current) });
   }, [stream, width, isVisible]);
@@ -85,11 +88,11 @@ export function Video() {
       clearTimeout(sending.current);
       sending.current = undefined;
     };
-    // `look` only uses references.
+    // `look` uses only references, so it is not a dependency.
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, []);
 
-  /** Elements on top of the picture handle their own gestures. */
+  /** Returns whether an event is on the picture: elements on top of it handle their own gestures. */
   const isOnPicture = ({ target }: SyntheticEvent) => target === panel.current || target === canvas.current;
   const onPress = (event: PointerEvent) => {
     if (isOnPicture(event)) panel.current?.setPointerCapture(event.pointerId);
@@ -115,14 +118,14 @@ export function Video() {
   };
 
   return (
-    // An application by its role: it is turned by dragging and by the arrow keys.
+    // The role is an application, since dragging and the arrow keys turn the picture.
     // eslint-disable-next-line jsx-a11y/no-noninteractive-element-interactions
     <div
       ref={panel}
       className={classes['panel']}
       data-testid="viewer-video"
       data-draggable
-      // The picture is turned with the arrow keys too, so it takes the focus.
+      // The picture takes the focus, since the arrow keys turn it too.
       // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex
       tabIndex={0}
       role="application"
@@ -143,7 +146,7 @@ export function Video() {
   );
 }
 
-/** The smallest width that fills an element. */
+/** Returns the smallest width of pictures that fills an element. */
 function usePictureWidth(element: RefObject<HTMLElement | null>): number {
   const [width, setWidth] = useState<number>(WIDTHS[0]);
   useEffect(() => {

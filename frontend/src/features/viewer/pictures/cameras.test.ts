@@ -24,12 +24,12 @@ const scene = {
 } as unknown as Scene;
 
 describe('the cameras of a world', () => {
-  it('are named by their sensors, those of further robots with the robot before', () => {
+  it('are named by their sensors, those of other robots with the robot first', () => {
     expect(camerasOf(scene)).toEqual(['front', 'rear', 'two/front']);
     expect(camerasOf(null)).toEqual([]);
   });
 
-  it('show the chosen one, and the first where the world has no such camera', () => {
+  it('show the chosen one, or the first if the world has no such camera', () => {
     const cameras = camerasOf(scene);
     expect(shownCamera(cameras, 'rear')).toBe('rear');
     expect(shownCamera(cameras, 'of another world')).toBe('front');
@@ -37,13 +37,13 @@ describe('the cameras of a world', () => {
     expect(shownCamera([], 'rear')).toBeNull();
   });
 
-  it('are requested by name, but for the first', () => {
+  it('are requested by name, except for the first', () => {
     expect(requestedName(camerasOf(scene), 'front')).toBeUndefined();
     expect(requestedName(camerasOf(scene), 'rear')).toBe('rear');
     expect(requestedName([], null)).toBeUndefined();
   });
 
-  it('come in turn in further views', () => {
+  it('take turns in additional views', () => {
     expect(nextCamera(['front', 'rear'], 'front')).toBe('rear');
     expect(nextCamera(['front', 'rear'], 'rear')).toBe('front');
     expect(nextCamera(['front'], null)).toBe('front');

@@ -1,8 +1,9 @@
 import type { Scene } from '@/generated/messages';
 
 /**
- * The cameras of a scene by the names under which their pictures are requested: the sensor's name, and
- * `robot/sensor` for every robot but the first. The first camera is the one that is sent without a name.
+ * Returns the cameras of a scene by the names under which their pictures are requested: the sensor's name,
+ * and `robot/sensor` for every robot but the first. The first camera is the one that is sent if no name is
+ * given.
  */
 export function camerasOf(scene: Scene | null): string[] {
   if (!scene) return [];
@@ -16,14 +17,17 @@ export function camerasOf(scene: Scene | null): string[] {
     });
 }
 
-/** The camera to show: the chosen one if the world has it, else the first; null as long as none is known. */
+/**
+ * Returns the camera to show: the chosen one if the world has it, otherwise the first; null while none is
+ * known.
+ */
 export const shownCamera = (cameras: readonly string[], chosen: string | null): string | null =>
   cameras.find((name) => name === chosen) ?? cameras[0] ?? null;
 
-/** The name with which a camera's pictures are requested; the first one needs none. */
+/** Returns the name under which a camera's pictures are requested; undefined for the first camera. */
 export const requestedName = (cameras: readonly string[], shown: string | null): string | undefined =>
   shown === null || shown === cameras[0] ? undefined : shown;
 
-/** The camera for one more view: the one after `shown`, in turn. */
+/** Returns the camera for another view: the next one after `shown`, in turn. */
 export const nextCamera = (cameras: readonly string[], shown: string | null): string | null =>
   cameras[(cameras.indexOf(shown ?? '') + 1) % Math.max(1, cameras.length)] ?? null;

@@ -19,7 +19,7 @@ interface Decoding {
   fail(): Promise<void>;
 }
 
-/** Pictures are decoded when a test says so. */
+/** Draws pictures that are decoded when the test says so. */
 function begin() {
   const decoding: Decoding[] = [];
   const close = vi.fn();
@@ -60,7 +60,7 @@ beforeEach(() => {
 });
 
 describe('drawPictures', () => {
-  it('draws a picture in its own size, and says so', async () => {
+  it('draws a picture in its own size, and reports that', async () => {
     const { decoding, canvas, drawImage, close, shown } = begin();
     frames.publish(frame(1));
     await decoding[0]!.done(640, 360);
@@ -71,7 +71,7 @@ describe('drawPictures', () => {
     expect(canvas.dataset['frames']).toBe('1');
   });
 
-  it('decodes one at a time, and of those that wait only the newest', async () => {
+  it('decodes one at a time, and of the waiting ones only the newest', async () => {
     const { decoding, drawImage } = begin();
     for (const t of [1, 2, 3]) frames.publish(frame(t));
     expect(decoding).toHaveLength(1);
@@ -94,7 +94,7 @@ describe('drawPictures', () => {
     expect(drawImage).toHaveBeenCalledOnce();
   });
 
-  it('says once a second how many came, and how late they were', async () => {
+  it('reports the rate and the age once a second', async () => {
     const { decoding, shown, now } = begin();
     const draw = async (t: number, at: number, world: number) => {
       frames.publish(frame(t));
@@ -124,7 +124,7 @@ describe('drawPictures', () => {
     expect(drawImage).toHaveBeenCalledOnce();
   });
 
-  it('draws nothing where the browser has no canvas', () => {
+  it('draws nothing if the browser has no canvas', () => {
     const { decoding } = begin();
     const canvas = document.createElement('canvas');
     onTestFinished(drawPictures('view', canvas, () => undefined));

@@ -6,15 +6,18 @@ export interface Shown {
   width: number;
   height: number;
   hz: number;
-  /** The age of pictures when they are drawn, in simulated ms; null until they were measured for a second. */
+  /** The age of pictures when they are drawn, in simulated ms; null during the first second of measuring. */
   latencyMs: number | null;
 }
 
-/** The age of time `t` in the simulation, according to the newest message, s. */
+/** Returns the age in s of a picture of simulated time `t`, according to the newest message. */
 const ageOf = (t: number): number =>
   Math.max(0, Math.max(frames.newest(), useSessionStore.getState().simTime) - t);
 
-/** Draws the pictures of a stream, or of one camera, on a canvas. While one is decoded, only the newest waits. */
+/**
+ * Draws the pictures of a stream, or of one camera, on a canvas. While one picture is decoded, only the
+ * newest of the next ones waits. Returns a function that stops it.
+ */
 export function drawPictures(
   stream: 'camera' | 'view',
   canvas: HTMLCanvasElement,
@@ -47,7 +50,7 @@ export function drawPictures(
       bitmap.close();
       measure(frame);
     } catch {
-      // A damaged picture is skipped; the next one comes soon.
+      // A damaged picture is skipped, since the next one comes soon.
     }
     void drawNext();
   };

@@ -5,7 +5,7 @@ import { panned, poseOf, START, turned, zoomed, type Orbit } from './orbit';
 const LEVEL: Orbit = { target: [1, 2, 0.3], azimuth: 0, elevation: Math.PI / 4, distance: 10 };
 
 describe('orbit', () => {
-  it('turns by 8 mrad a pixel: to the right the world turns right, down one looks from higher', () => {
+  it('turns by 8 mrad a pixel: to the right the world turns right, downwards the camera rises', () => {
     expect(turned(LEVEL, 100, 0).azimuth).toBeCloseTo(-0.8);
     expect(turned(LEVEL, 0, 50).elevation).toBeCloseTo(Math.PI / 4 + 0.4);
   });
@@ -15,7 +15,7 @@ describe('orbit', () => {
     expect(turned(LEVEL, 0, -1e4).elevation).toBe(0.05);
   });
 
-  it('stands where its angles say', () => {
+  it('is at the position of its angles', () => {
     const { eye, target } = poseOf(LEVEL);
     const flat = 10 * Math.SQRT1_2;
     expect(target).toEqual([1, 2, 0.3]);
@@ -24,8 +24,8 @@ describe('orbit', () => {
     expect([x, y]).toEqual([expect.closeTo(1), expect.closeTo(2 + flat)]);
   });
 
-  it('moves with the pointer: further the further away one is', () => {
-    // From +x, y points to the right on the screen: dragging right moves the target left.
+  it('moves with the pointer, more at a larger distance', () => {
+    // Seen from +x, y points to the right of the screen, so a drag to the right moves the target left.
     expect(panned(LEVEL, 100, 0).target).toEqual([expect.closeTo(1), expect.closeTo(2 - 1.5), 0.3]);
     expect(panned(LEVEL, 0, 100).target).toEqual([expect.closeTo(1 - 1.5), expect.closeTo(2), 0.3]);
     expect(panned({ ...LEVEL, azimuth: Math.PI / 2, distance: 20 }, 100, 0).target).toEqual([

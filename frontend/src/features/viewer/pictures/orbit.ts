@@ -12,7 +12,7 @@ export const START: Orbit = { target: [0, 0, 0.3], azimuth: -2.2, elevation: 0.7
 
 const clamp = (value: number, low: number, high: number) => Math.min(high, Math.max(low, value));
 
-/** The camera after a rotation by pixels of dragging. */
+/** Returns the camera after a rotation by pixels of dragging. */
 export function turned(orbit: Orbit, dx: number, dy: number): Orbit {
   return {
     ...orbit,
@@ -21,7 +21,7 @@ export function turned(orbit: Orbit, dx: number, dy: number): Orbit {
   };
 }
 
-/** The camera after a move over the ground by pixels of dragging. */
+/** Returns the camera after a move over the ground by pixels of dragging. */
 export function panned(orbit: Orbit, dx: number, dy: number): Orbit {
   const scale = orbit.distance * 0.0015;
   const [x, y, z] = orbit.target;

@@ -20,7 +20,7 @@ describe('useUsesCamera', () => {
     expect(screen.getByText(found)).toBeInTheDocument();
   });
 
-  it('follows what is written', () => {
+  it('follows edits', () => {
     openProject({ texts: { 'actions/See.py': '' } });
     show(<Probe />);
     act(() => useProjectStore.getState().setFileText('actions/See.py', 'import sensor_msgs.msg.Image'));

@@ -70,7 +70,7 @@ describe('what can be dragged', () => {
     expect(carriable(new World(SCENE, true), id)).toBe(body);
   });
 
-  it('is as large as it is made of, not as what its cameras see', () => {
+  it("has the size of its own shapes, without its cameras' frustums", () => {
     const world = new World(SCENE, true);
     const sight = new THREE.LineSegments(pyramidOf({ fov: 2.8, range: 40 }));
     expect(new THREE.Box3().setFromObject(sight).getSize(new THREE.Vector3()).length()).toBeGreaterThan(3);
@@ -80,7 +80,7 @@ describe('what can be dragged', () => {
 });
 
 describe('poseOf', () => {
-  it('is a place, and angles about fixed axes', () => {
+  it('is a position, and angles about fixed axes', () => {
     const object = new THREE.Object3D();
     object.position.set(1, 2, 3);
     object.quaternion.setFromEuler(new THREE.Euler(0.1, 0.2, 0.3, 'ZYX'));
@@ -89,11 +89,11 @@ describe('poseOf', () => {
 });
 
 describe('a dragged body', () => {
-  it('must be there', () => {
+  it('must exist', () => {
     expect(() => new DraggedBody(new World(SCENE, true), 'gone')).toThrow('there is no body gone');
   });
 
-  it('takes all its pieces along, and turns about its base', () => {
+  it('moves with all its parts, and turns about its base', () => {
     const { world, body } = dragged();
     expect(body.origin).toEqual(near([1, 2, 0, 0, 0, Math.PI / 2]));
     body.moveBy(3, -1);
@@ -106,7 +106,7 @@ describe('a dragged body', () => {
     expect(body.origin).toEqual(near([1, 2, 0, 0, 0, Math.PI / 2]));
   });
 
-  it('knows whether it has moved, or turned, by more than a trembling hand', () => {
+  it('tells whether it has moved or turned by more than a tremble', () => {
     const { body } = dragged();
     expect(body.hasMoved).toBe(false);
     body.moveBy(0.004, 0);
@@ -119,7 +119,7 @@ describe('a dragged body', () => {
     expect(body.hasMoved).toBe(true);
   });
 
-  it('leaves a ghost where it was, as long as it is dragged', () => {
+  it('leaves a ghost at its old place while it is dragged', () => {
     const { world, body } = dragged();
     const ghost = world.group.children.at(-1)!;
     expect(ghost.children).toHaveLength(2);
@@ -133,7 +133,7 @@ describe('a dragged body', () => {
     expect(ghost.parent).toBeNull();
   });
 
-  it('ignores what the session says meanwhile', () => {
+  it("ignores the session's poses meanwhile", () => {
     const { world, body } = dragged();
     body.moveBy(1, 0);
     world.receive([[2, [9, 9, 0, 0, 0, 0, 1]]], 1000);
@@ -144,7 +144,7 @@ describe('a dragged body', () => {
     expect(body.pose()[0]).toBeCloseTo(9);
   });
 
-  it('goes back where it is not kept', () => {
+  it('returns if it is not kept', () => {
     const { world, body } = dragged();
     body.moveBy(1, 1);
     body.turnBy(1);

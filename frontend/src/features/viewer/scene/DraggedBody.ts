@@ -2,12 +2,12 @@ import * as THREE from 'three';
 import type { MoveBody } from '@/generated/messages';
 import type { World } from './World';
 
-/** Larger bodies are parts of the room and cannot be dragged. */
+/** The size in m above which a body is part of the room and cannot be dragged. */
 const LARGEST_M = 3;
 
 export type BodyPose = MoveBody['pose'];
 
-/** The body of an object if it can be dragged; walls, ground and people cannot. */
+/** Returns the body of an object if it can be dragged: not walls, the ground or people. */
 export function carriable(world: World, objectId: number | null): string | null {
   const object = objectId === null ? undefined : world.scene.objects.find(({ id }) => id === objectId);
   if (!object || object.kind === 'actor') return null;
@@ -15,15 +15,16 @@ export function carriable(world: World, objectId: number | null): string | null 
   return Math.max(size.x, size.y) <= LARGEST_M ? object.body : null;
 }
 
-/** x, y, z in m and roll, pitch, yaw in rad, world frame. */
+/** Returns the pose of an object in the world frame: x, y, z in m and roll, pitch, yaw in rad. */
 export function poseOf(object: THREE.Object3D): BodyPose {
   const { x, y, z } = object.position;
-  // Roll, pitch and yaw about fixed axes equal yaw, pitch, roll about the body's own axes.
+  // Rotations by roll, pitch and yaw about fixed axes equal those by yaw, pitch and roll about the body's own
+  // axes.
   const angles = new THREE.Euler().setFromQuaternion(object.quaternion, 'ZYX');
   return [x, y, z, angles.x, angles.y, angles.z];
 }
 
-/** A dragged body, with a ghost at its old place. */
+/** A body during a drag, with a ghost at its old place. */
 export class DraggedBody {
   /** The pose of the body before the drag. */
   readonly origin: BodyPose;
@@ -81,7 +82,7 @@ export class DraggedBody {
     return poseOf(this.root);
   }
 
-  /** Ends the drag; the body stays at its new place, or returns. */
+  /** Ends the drag; the body stays at its new place, or returns to the old one. */
   release(isKept: boolean): void {
     if (!isKept) {
       this.offset.set(0, 0, 0);

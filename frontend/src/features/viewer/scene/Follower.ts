@@ -1,11 +1,11 @@
 import * as THREE from 'three';
 
-/** The time in which the camera covers most of its way to the robot, in s. */
+/** The time in s in which the camera covers most of its distance to the robot. */
 const SOFTNESS_S = 0.4;
 const LONGEST_STEP_S = 0.2;
 const NEAR_M = 1e-3;
 
-/** Moves a camera after the robot, softly: by a share of the way that is left, at each picture. */
+/** Moves a camera after the robot smoothly: at each picture by a share of the remaining distance. */
 export class Follower {
   private last: THREE.Vector3 | null = null;
   private readonly left = new THREE.Vector3();
@@ -14,7 +14,7 @@ export class Follower {
     return this.last !== null;
   }
 
-  /** Follows from now on; the camera first moves by `left`, which brings the robot into its middle. */
+  /** Starts following. The camera first moves by `left`, which brings the robot to the middle. */
   begin(robot: THREE.Vector3, left?: THREE.Vector3): void {
     this.last = robot.clone();
     this.left.set(left?.x ?? 0, left?.y ?? 0, 0);
@@ -25,7 +25,7 @@ export class Follower {
     this.left.set(0, 0, 0);
   }
 
-  /** Returns by how much the camera moves in this picture; null if it has arrived. */
+  /** Returns the movement of the camera in this picture; null if it has arrived. */
   step(robot: THREE.Vector3, seconds: number): THREE.Vector3 | null {
     if (!this.last) return null;
     this.left.add(robot).sub(this.last).setZ(0);

@@ -19,7 +19,7 @@ function ground(more: Partial<Parameters<typeof Ground>[0]> = {}) {
 }
 
 describe('Ground', () => {
-  it('is a wide floor, a little below all that stands on it', () => {
+  it('is a wide floor, a little below everything that is on it', () => {
     const { floor } = ground();
     expect(floor().position.z).toBe(-0.002);
     expect(floor().receiveShadow).toBe(true);
@@ -29,20 +29,20 @@ describe('Ground', () => {
     expect(floor().material.map).toBeNull();
   });
 
-  it('is darker at night', () => {
+  it('is darker in the dark theme', () => {
     const day = ground().floor().material.color;
     const night = ground({ isDark: true }).floor().material.color;
     expect(night.r).toBeCloseTo(day.r / 5);
     expect(night.g).toBeCloseTo(day.g / 5);
   });
 
-  it('is grey where no colour is said, and cheap where the processor draws', () => {
+  it('is grey without a colour, and simple with software rendering', () => {
     const { floor } = ground({ color: [], isSimple: true });
     expect(floor().material).toBeInstanceOf(THREE.MeshLambertMaterial);
     expect(floor().material.color.getHexString()).toBe('cccccc');
   });
 
-  it('repeats its picture from the origin of the world on', () => {
+  it('repeats its picture from the origin of the world', () => {
     let take: ((texture: THREE.Texture) => void) | undefined;
     const textures: Pictures = {
       whenLoaded: (name, taken) => {

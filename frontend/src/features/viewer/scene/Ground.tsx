@@ -8,12 +8,12 @@ interface GroundProps {
   readonly color: readonly number[];
   readonly isDark: boolean;
   readonly isSimple: boolean;
-  /** The name of its texture in `textures`. */
+  /** The name of the ground's texture in `textures`. */
   readonly picture?: string | undefined;
   readonly textures?: Pictures;
 }
 
-/** The endless floor at z = 0. */
+/** The unlimited floor at z = 0. */
 export function Ground({ color, isDark, isSimple, picture, textures }: GroundProps) {
   const map = useGroundPicture(textures, picture);
   const shown = useMemo(() => {
@@ -33,7 +33,7 @@ export function Ground({ color, isDark, isSimple, picture, textures }: GroundPro
   );
 }
 
-/** The ground's texture with a corner at the origin of the world; null until it has arrived. */
+/** Returns the ground's texture, with a corner at the origin of the world; null until it arrives. */
 function useGroundPicture(textures?: Pictures, name = ''): THREE.Texture | null {
   const [map, setMap] = useState<THREE.Texture | null>(null);
   useEffect(() => {

@@ -31,7 +31,7 @@ const SCENE: Scene = {
 const sizeOf = (axes: THREE.AxesHelper) => Math.max(...valuesOf(axes.geometry));
 
 describe('pyramidOf', () => {
-  it('is as wide as the camera sees, three quarters as high', () => {
+  it('is as wide as the field of view, and three quarters as high', () => {
     const values = valuesOf(pyramidOf({ fov: Math.PI / 2, range: 2 }));
     const corners = [
       [2, 2, 1.5],
@@ -66,7 +66,7 @@ describe('coordinate frames', () => {
     expect((axes[0]!.material as THREE.Material).depthTest).toBe(false);
   });
 
-  it('are shown, hidden, and taken away', () => {
+  it('are shown, hidden, and removed', () => {
     const world = new World(SCENE, true);
     const view = new FramesView(SCENE, world);
     view.show(false);
@@ -83,8 +83,8 @@ describe('coordinate frames', () => {
   });
 });
 
-describe('what cameras see', () => {
-  it('is a pyramid from each lens', () => {
+describe('the fields of view of cameras', () => {
+  it('are a pyramid from each lens', () => {
     const world = new World(SCENE, true);
     const view = new FrustumView(SCENE, world);
     const pyramids = objectsOf(world.group, THREE.LineSegments);
@@ -98,7 +98,7 @@ describe('what cameras see', () => {
     expect(pyramids[0]!.visible).toBe(true);
   });
 
-  it('is taken away and freed', () => {
+  it('are removed and freed', () => {
     const world = new World(SCENE, true);
     const view = new FrustumView(SCENE, world);
     const [pyramid] = objectsOf(world.group, THREE.LineSegments);

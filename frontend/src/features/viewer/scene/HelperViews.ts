@@ -3,13 +3,13 @@ import type { Scene, SensorPlacement } from '@/generated/messages';
 import type { World } from './World';
 
 const FRUSTUM_COLOR = 0x2f9e6e;
-/** The longest drawn frustum of a camera: a longer one would hide the room. */
+/** The length in m to which a camera's frustum is drawn at most; a longer one would hide the room. */
 const LONGEST_M = 2.5;
 const ASPECT = 4 / 3;
 const FRAME_M = 0.25;
 const WORLD_FRAME_M = 0.6;
 
-/** Coordinate frames (x red, y green, z blue) of the world, the robots' links and their sensors. */
+/** The coordinate frames (x red, y green, z blue) of the world, the robots' links and their sensors. */
 export class FramesView {
   private readonly axes: THREE.AxesHelper[] = [];
   readonly origin: THREE.AxesHelper;
@@ -47,7 +47,7 @@ export class FramesView {
   }
 }
 
-/** The field of view of the robots' cameras: a pyramid from each lens. Cameras look along x, z is up. */
+/** The fields of view of the robots' cameras: a pyramid from each lens. Cameras look along x, with z up. */
 export class FrustumView {
   private readonly pyramids: THREE.LineSegments[] = [];
 

@@ -21,7 +21,7 @@ const shown = ({ geometry }: THREE.LineSegments | THREE.Points) =>
   valuesOf(geometry).slice(0, geometry.drawRange.count * 3);
 
 describe('LidarView', () => {
-  it('draws each ray to what it hit, or as far as it sees', () => {
+  it('draws each ray to its hit, or to its range', () => {
     const view = new LidarView();
     view.show(scan([1, Infinity, 3, 8, 0, NaN], { angle_min: Math.PI / 2 }));
     const [rays, hits] = parts(view);
@@ -38,7 +38,7 @@ describe('LidarView', () => {
     expect(shown(hits)).toEqual([0, 1, 0, 0, -3, 0]);
   });
 
-  it('keeps its memory for a scan with fewer hits, and grows for more', () => {
+  it('keeps its buffers for a scan with fewer hits, and grows for more', () => {
     const view = new LidarView();
     const [rays, hits] = parts(view);
     view.show(scan([1, 2]));
@@ -56,7 +56,7 @@ describe('LidarView', () => {
     expect(rays.geometry.drawRange.count).toBe(0);
   });
 
-  it('is where the sensor is', () => {
+  it('is at the sensor', () => {
     const view = new LidarView();
     view.show(scan([1], { pose: [1, 2, 3, 0, 0, 1, 0] }));
     expect(view.group.position.toArray()).toEqual([1, 2, 3]);
@@ -66,7 +66,7 @@ describe('LidarView', () => {
     expect(view.group.position.length()).toBe(0);
   });
 
-  it('is drawn wherever it reaches, and freed', () => {
+  it('is drawn wherever it is, and freed', () => {
     const view = new LidarView();
     expect(parts(view).map(({ frustumCulled }) => frustumCulled)).toEqual([false, false]);
     const freed = vi.fn();

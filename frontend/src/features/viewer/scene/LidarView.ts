@@ -5,7 +5,7 @@ import { floatsOf } from '@/store/session/frames';
 const HIT_COLOR = 0xe8443a;
 const RAY_COLOR = 0x4f7cff;
 
-/** The last LIDAR scan: faint rays, and a dot where each one hit. */
+/** The last LIDAR scan: faint rays, with a dot where a ray hit something. */
 export class LidarView {
   readonly group = new THREE.Group();
   private readonly rays = new THREE.LineSegments(

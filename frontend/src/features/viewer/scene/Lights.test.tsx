@@ -18,7 +18,7 @@ function lights(more: Partial<Parameters<typeof Lights>[0]> = {}) {
 }
 
 describe('Lights', () => {
-  it('shine from where their rays come, from outside of the room', () => {
+  it('shine along their directions, from outside of the room', () => {
     const { suns } = lights();
     expect(suns.map(({ position }) => position.toArray().map((part) => Math.round(part) + 0))).toEqual([
       [0, 0, 20],
@@ -43,11 +43,11 @@ describe('Lights', () => {
     ]);
   });
 
-  it('cast none where the processor draws', () => {
+  it('cast none with software rendering', () => {
     expect(lights({ hasShadows: false }).suns.map(({ castShadow }) => castShadow)).toEqual([false, false]);
   });
 
-  it('are weaker at night', () => {
+  it('are weaker in the dark theme', () => {
     const { sky, suns } = lights({ isDark: true });
     expect(suns.map(({ intensity }) => intensity)).toEqual([0.75, 4.5]);
     expect([sky.intensity, sky.color.getHexString(), sky.groundColor.getHexString()]).toEqual([
@@ -64,7 +64,7 @@ describe('Lights', () => {
     expect(day.position.toArray()).toEqual([0, 0, 1]);
   });
 
-  it('are a sun where the world names none', () => {
+  it('are a sun if the world has none', () => {
     const { suns } = lights({ scene: { lights: [] } });
     expect(suns).toHaveLength(1);
     expect(suns[0]!.intensity).toBe(2);

@@ -28,7 +28,7 @@ describe('MeasureLine', () => {
     await vi.waitFor(() => expect(frames()).toBeGreaterThan(before));
   });
 
-  it('takes them away again, and frees them', () => {
+  it('removes them, and frees them', () => {
     const { scene } = showScene(<MeasureLine />);
     act(() => addMeasured([1, 2, 3]));
     const freed = vi.fn();

@@ -6,7 +6,7 @@ import { useMeasuring } from '../measuring';
 const COLOR = 0xd6336c;
 const DOT_PX = 9;
 
-/** The measured points and the line between them; never hidden by objects. */
+/** The measured points with the line between them; objects never hide them. */
 export function MeasureLine() {
   const points = useMeasuring((state) => state.points);
   const invalidate = useThree((state) => state.invalidate);

@@ -34,7 +34,7 @@ const SCAN: Scan = {
   ranges: new Uint8Array(new Float32Array([1, 2]).buffer),
 };
 
-/** The robot at x, as the session packs poses. */
+/** Returns a frame with the robot at x, packed as the session does. */
 function robotAt(x: number, t: number): Poses {
   const poses = new DataView(new ArrayBuffer(16));
   const units = Math.round(x * 1e4);
@@ -71,7 +71,7 @@ beforeEach(() => {
 });
 
 describe('the stage of a world', () => {
-  it('draws the world, and looks at it from the side', () => {
+  it('draws the world from the side', () => {
     const { scene, camera, robot } = stage();
     expect(scene.getObjectByName('wall')?.position.x).toBe(5);
     expect(robot().position.x).toBe(0);
@@ -79,7 +79,7 @@ describe('the stage of a world', () => {
     expect(camera.position.z).toBeGreaterThan(2);
   });
 
-  it('moves the robot as poses come, picture by picture', () => {
+  it('moves the robot by its poses, frame by frame', () => {
     const { draw, robot } = stage();
     const now = vi.spyOn(performance, 'now').mockReturnValue(1000);
     act(() => frames.publish(robotAt(0.1, 1)));
@@ -91,7 +91,7 @@ describe('the stage of a world', () => {
     expect(robot().position.x).toBeCloseTo(0.1, 3);
   });
 
-  it('follows the robot softly where that is wanted', () => {
+  it('follows the robot smoothly if that is switched on', () => {
     let now = performance.now();
     const clock = vi.spyOn(performance, 'now').mockImplementation(() => now);
     onTestFinished(() => clock.mockRestore());
@@ -117,7 +117,7 @@ describe('the stage of a world', () => {
     expect(camera.position.x - start).toBeCloseTo(0.5, 1);
   });
 
-  it('shows rays, trail, frames, what cameras see and the grid as is chosen', () => {
+  it("shows rays, trail, frames, cameras' fields of view and the grid as chosen", () => {
     const { scene, change, draw } = stage({ frames: true });
     act(() => frames.publish(SCAN));
     for (let step = 0; step < 4; step += 1) act(() => frames.publish(robotAt(step * 0.1, step)));
@@ -136,7 +136,7 @@ describe('the stage of a world', () => {
     expect(shown()).toEqual({ rays: false, trail: 0, frames: 0, frustum: 0, grid: 0 });
   });
 
-  it('draws the last scan where the sensor is', () => {
+  it('draws the last scan at the sensor', () => {
     const { scene } = stage();
     act(() => frames.publish(SCAN));
     const [hits] = objectsOf(scene, THREE.Points);
@@ -144,15 +144,15 @@ describe('the stage of a world', () => {
     expect(hits!.parent?.position.z).toBe(0.2);
   });
 
-  it('looks from above when it is asked to', () => {
+  it('moves the camera above on request', () => {
     const { camera, change } = stage();
     change({ viewpoint: { kind: 'top' } });
-    // In the middle of wall and robot.
+    // The camera is in the middle between wall and robot.
     expect(camera.position.x).toBeCloseTo(2.5, 1);
     expect(camera.position.y).toBeCloseTo(0, 1);
   });
 
-  it('draws another picture for each frame that comes', async () => {
+  it('draws another frame for each message', async () => {
     const { frames: count } = stage();
     await vi.waitFor(() => expect(count()).toBeGreaterThan(0));
     let before = count();
@@ -163,7 +163,7 @@ describe('the stage of a world', () => {
     await vi.waitFor(() => expect(count()).toBeGreaterThan(before));
   });
 
-  it('hears no frames after its end', () => {
+  it('receives nothing after its end', () => {
     const { rerender, robot, scene } = stage();
     const kept = robot();
     rerender(<group />);

@@ -29,11 +29,11 @@ interface StageProps {
   readonly isVisible: boolean;
   /** Called when the user turns or moves the camera. */
   readonly onMoved: () => void;
-  /** Called with the rate of pictures, 1/s, once it is too low for too long. */
+  /** Called with the rate of pictures in Hz when it has been too low for too long. */
   readonly onSlow: (hz: number) => void;
 }
 
-/** The content of the view: the world, its light, and optional helpers. */
+/** The content of the 3D view: the world, its light, and optional helpers. */
 export function Stage({ scene, options, isDark, isVisible, onMoved, onSlow }: StageProps) {
   const isSimple = isSoftwareWebGl();
   const invalidate = useThrottledInvalidate();
@@ -88,10 +88,10 @@ export function Stage({ scene, options, isDark, isVisible, onMoved, onSlow }: St
     if (isMoving) requestFrame();
   });
 
-  // Another world is a new view; the same one after a reset is not.
+  // Another world gets a new view; the same world keeps its view after a reset.
   const view = useMemo(
     () => ({ kind: options.viewpoint.kind, of: scene.name }),
-    // The request counts as an object, also to the place of the previous one.
+    // A new request object moves the camera, even to the place of the previous request.
 
     [options.viewpoint, scene.name],
   );

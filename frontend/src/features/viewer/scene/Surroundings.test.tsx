@@ -32,7 +32,7 @@ function surroundings(more: Partial<ComponentProps<typeof Surroundings>> = {}) {
 }
 
 describe('the surroundings of a world', () => {
-  it('are sky, fog, light and ground, and what is inside', () => {
+  it('are sky, fog, light and ground, with the content', () => {
     const { scene } = surroundings();
     expect((scene.background as THREE.Color).getHexString()).toBe('e6ebf3');
     expect(scene.fog).toMatchObject({ near: 30, far: 90 });
@@ -41,7 +41,7 @@ describe('the surroundings of a world', () => {
     expect(scene.getObjectByName('inside')).toBeDefined();
   });
 
-  it('are dark at night', () => {
+  it('are dark in the dark theme', () => {
     expect((surroundings({ isDark: true }).scene.background as THREE.Color).getHexString()).toBe('151922');
   });
 
@@ -55,7 +55,7 @@ describe('the surroundings of a world', () => {
   it.each([
     [0.5, 20, 0.3],
     [0.05, 10, 0.22],
-  ])('have finer lines of %s m where they are wanted', (fineGrid, side, opacity) => {
+  ])('have finer lines of %s m on request', (fineGrid, side, opacity) => {
     const { grids } = surroundings({ fineGrid });
     expect(grids).toHaveLength(2);
     expect(grids[1]).toMatchObject({ z: 0.003, opacity });
@@ -67,7 +67,7 @@ describe('the surroundings of a world', () => {
     expect(surroundings({ fineGrid }).grids).toHaveLength(1);
   });
 
-  it('are turned as far as the ground, and no further than is good', () => {
+  it('can be turned down to the ground, and within the distances', () => {
     const { controls } = surroundings();
     expect(controls).toMatchObject({ minDistance: 0.5, maxDistance: 60, enableDamping: true });
     expect(controls.maxPolarAngle).toBeCloseTo(Math.PI / 2 - 0.02);
@@ -112,7 +112,7 @@ describe('look', () => {
     expect(camera.position.z).toBeCloseTo(0.2 + 1.05 * diagonal);
   });
 
-  it('shows a selection from where one is, at its own height', () => {
+  it('shows a selection from the current direction, at its own height', () => {
     const camera = cameraAbove();
     camera.position.set(1, 1, 20);
     const { controls, look: to } = orbit(camera);
@@ -123,7 +123,7 @@ describe('look', () => {
     expect(camera.position.y).toBeCloseTo(0);
   });
 
-  it('ends what a gesture left of its swing', () => {
+  it('stops the inertia of a gesture', () => {
     const damped: boolean[] = [];
     const { controls, look: to } = orbit(cameraAbove());
     controls.update.mockImplementation(() => damped.push(controls.enableDamping));
@@ -134,13 +134,13 @@ describe('look', () => {
   it.each([
     [{ least: 30 }, 30],
     [{ most: 4 }, 4],
-  ])('keeps what is seen within %o', (limits, size) => {
+  ])('keeps the visible size within %o', (limits, size) => {
     const camera = cameraAbove();
     orbit(camera).look({ ...limits, kind: 'top' });
     expect(camera.position.z).toBeCloseTo(0.2 + 1.05 * size);
   });
 
-  it('looks at the origin of an empty world, also without controls', () => {
+  it('shows the origin of an empty world, also without controls', () => {
     const camera = cameraAbove();
     look(camera, null, { ...sight, bounds: new THREE.Box3(), kind: 'top' });
     expect(camera.position.x).toBeCloseTo(-0.001);
@@ -149,7 +149,7 @@ describe('look', () => {
 });
 
 describe('useSight', () => {
-  it('looks again for another request only', async () => {
+  it('moves the camera for another request only', async () => {
     const sight = vi.fn(() => ({ bounds: ROOM, least: 1, most: 10, kind: 'top' as const }));
     const controls = createRef<Orbit>();
     function Sight({ request }: { readonly request: object }) {

@@ -24,14 +24,14 @@ interface SurroundingsProps {
   readonly ground: { readonly color: readonly number[]; readonly picture?: string | undefined };
   readonly textures?: Pictures | undefined;
   readonly hasGrid: boolean;
-  /** Spacing of the finer lines around the origin, in m; 1 and 0 draw none. */
+  /** The spacing in m of the finer lines around the origin; 1 and 0 mean none. */
   readonly fineGrid?: number;
   /** The nearest and farthest distance of the camera, in m. */
   readonly reach: readonly [number, number];
   readonly children: ReactNode;
 }
 
-/** Sky, light, ground, grid and camera controls, the same for every view of a world. */
+/** The sky, light, ground, grid and camera controls of every view of a world. */
 export function Surroundings(props: SurroundingsProps) {
   const { controls, isDark, lights, bounds, ground, textures, hasGrid, fineGrid = 0, reach } = props;
   const isSimple = isSoftwareWebGl();
@@ -63,7 +63,8 @@ export function Surroundings(props: SurroundingsProps) {
       <OrbitControls
         ref={controls}
         makeDefault
-        // Damping draws many more pictures, and in software each takes time from the simulation.
+        // Damping draws many additional pictures, and with software rendering each takes time from the
+        // simulation.
         enableDamping={!isSimple}
         maxPolarAngle={Math.PI / 2 - 0.02}
         minDistance={nearest}
@@ -96,13 +97,13 @@ function Grid({ main, line, side, step, opacity }: GridProps) {
 
 interface Sight {
   readonly bounds: THREE.Box3;
-  /** The smallest visible diagonal, in m. */
+  /** The smallest visible diagonal, in m; `most` is the largest. */
   readonly least: number;
   readonly most: number;
   readonly kind: 'default' | 'top' | 'selection';
 }
 
-/** Moves the camera so that a box is visible: from above, from the side, or from the present direction. */
+/** Moves the camera so that a box is visible: from above, from the side, or from the current direction. */
 export function look(
   camera: THREE.Camera,
   controls: Orbit | null,
@@ -128,7 +129,7 @@ export function look(
   controls?.update();
 }
 
-/** Ends the inertia of a gesture, which would move the next view away. */
+/** Stops the inertia of a gesture, which would move the camera away from the next view. */
 function rest(controls: Orbit): void {
   const { enableDamping } = controls;
   controls.enableDamping = false;
@@ -143,7 +144,7 @@ export function useSight(controls: RefObject<Orbit | null>, request: object, sig
   useEffect(() => {
     look(camera, controls.current, sight());
     invalidate();
-    // Only a new request moves the camera, not what it would see by now.
+    // Only a new request moves the camera; a change of the world does not.
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, [request, camera, controls, invalidate]);
 }

@@ -20,7 +20,7 @@ describe('loadTexture', () => {
     });
   });
 
-  it('is nothing where it cannot be had', () => {
+  it('returns null if it cannot be loaded', () => {
     const [loading, done] = [watchPictures(), vi.fn()];
     loadTexture('/wood.jpg', 8, done);
     loading[0]!.fail();
@@ -56,7 +56,7 @@ describe('TextureCache', () => {
     expect(texture.anisotropy).toBe(4);
   });
 
-  it('knows only the pictures of the scene', () => {
+  it('has only the pictures of the scene', () => {
     const { loading, textures } = cache();
     textures.whenLoaded('brick', vi.fn());
     textures.whenLoaded('', vi.fn());
@@ -66,7 +66,7 @@ describe('TextureCache', () => {
     expect(textures.tileOf('brick')).toEqual([1, 1]);
   });
 
-  it('never hands out a damaged one', () => {
+  it('never returns a damaged one', () => {
     const { loading, onLoaded, textures } = cache();
     const take = vi.fn();
     textures.whenLoaded('wood', take);
@@ -76,7 +76,7 @@ describe('TextureCache', () => {
     expect(onLoaded).not.toHaveBeenCalled();
   });
 
-  it('frees pictures at its end, and hands out none after it', () => {
+  it('frees pictures at its end, and returns none after it', () => {
     const { loading, onLoaded, textures } = cache();
     const [take, freed] = [vi.fn(), vi.fn()];
     textures.whenLoaded('wood', vi.fn());

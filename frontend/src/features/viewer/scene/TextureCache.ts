@@ -3,16 +3,16 @@ import type { Texture as TextureData } from '@/generated/messages';
 
 type Take = (texture: THREE.Texture) => void;
 
-/** Pictures by name, which arrive asynchronously. */
+/** A source of pictures by name, which arrive asynchronously. */
 export interface Pictures {
-  /** Calls back with the repeating picture as soon as it has arrived; never for a damaged one. */
+  /** Calls `take` with the repeating picture when it has arrived; never for a damaged picture. */
   whenLoaded(name: string, take: Take): void;
-  /** The width and height of a repetition, in m. */
+  /** Returns the width and height of one repetition, in m. */
   tileOf(name: string): readonly [number, number];
   dispose(): void;
 }
 
-/** Loads a repeating picture; null if it cannot be loaded. */
+/** Loads a repeating picture; calls `done` with null if it cannot be loaded. */
 export function loadTexture(
   address: string,
   anisotropy: number,
@@ -32,7 +32,7 @@ interface Loading {
   waiting: Take[];
 }
 
-/** The pictures of a scene, each decoded once. Objects are drawn without a picture until it arrives. */
+/** The pictures of a scene, each decoded only once. Objects are drawn without a picture until it arrives. */
 export class TextureCache implements Pictures {
   private readonly known = new Map<string, Loading>();
   private isOver = false;

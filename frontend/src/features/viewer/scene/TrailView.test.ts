@@ -25,13 +25,13 @@ describe('TrailView', () => {
     expect(view.line.frustumCulled).toBe(false);
   });
 
-  it.each([0, 1])('draws nothing of %s points', (count) => {
+  it.each([0, 1])('draws nothing for %s points', (count) => {
     const view = new TrailView(walked(count));
     expect(view.line.visible).toBe(false);
     expect(view.line.geometry.instanceCount).toBe(0);
   });
 
-  it('says whether the trail has changed since', () => {
+  it('reports whether the trail has changed since', () => {
     const trail = walked(2);
     const view = new TrailView(trail);
     expect(view.update()).toBe(false);

@@ -8,7 +8,7 @@ const LIFT_M = 0.012;
 const WIDTH_PX = 3;
 const COLOR = 0xf59f00;
 
-/** The path of the robot, as a line of visible width. */
+/** The path of the robot, drawn as a line of visible width. */
 export class TrailView {
   readonly line: LineSegments2;
   private readonly segments = new Float32Array(MAX_POINTS * 6);
@@ -22,7 +22,7 @@ export class TrailView {
     this.update();
   }
 
-  /** Applies the present trail; returns whether it has changed. */
+  /** Applies the current trail; returns whether it has changed. */
   update(): boolean {
     const { trail, segments } = this;
     if (trail.version === this.shown) return false;

@@ -38,7 +38,7 @@ const xOf = (world: World, id: number) => world.object(id)!.position.x;
 beforeEach(() => currentPoses.clear());
 
 describe('the objects of a world', () => {
-  it('are where the scene says, named by body and link', () => {
+  it('are at the poses of the scene, named by body and link', () => {
     const world = new World(SCENE, true);
     expect(world.group.children.map(({ name }) => name)).toEqual([
       'wall',
@@ -52,12 +52,12 @@ describe('the objects of a world', () => {
     expect(world.bounds.min.x).toBe(-0.5);
   });
 
-  it('are where they moved since, not where they were when the scene was made', () => {
+  it('are at their latest poses, not at those of the scene', () => {
     currentPoses.set(2, pose(3));
     expect(xOf(new World(SCENE, true), 2)).toBe(3);
   });
 
-  it('of which the first robot is the one to follow', () => {
+  it('include the first robot, which is the one to follow', () => {
     const world = new World(SCENE, true);
     expect([world.robotId, world.robot]).toEqual([2, world.object(2)]);
     const still = new World({ ...SCENE, objects: [SCENE.objects[0]!] }, true);
@@ -77,7 +77,7 @@ describe('the objects of a world', () => {
     expect([receives(1), receives(4)]).toEqual([true, false]);
   });
 
-  it('know their parts, and parts know their object', () => {
+  it('have parts, and each part has its object', () => {
     const world = new World(SCENE, true);
     expect(world.objectsOf('robot')).toEqual([world.object(2), world.object(3)]);
     expect(world.objectsOf('gone')).toEqual([]);
@@ -85,7 +85,7 @@ describe('the objects of a world', () => {
     expect(world.idOf(world.group)).toBeNull();
   });
 
-  it('are as large as all pieces of their body, and no larger', () => {
+  it('have the size of all pieces of their body, and no more', () => {
     const world = new World(SCENE, true);
     world.object(2)!.add(new THREE.AxesHelper(50));
     const size = world.boundsOf('robot').getSize(new THREE.Vector3());
@@ -104,18 +104,18 @@ describe('the motion of a world', () => {
     expect(world.advance(9000)).toBe(false);
   });
 
-  it('turns on the way too', () => {
+  it('also interpolates the rotation', () => {
     const world = new World(SCENE, true);
     world.receive([[2, [0, 0, 0, 0, 0, 1, 0]]], 1000);
     world.advance(1025);
     expect(new THREE.Euler().setFromQuaternion(world.object(2)!.quaternion).z).toBeCloseTo(Math.PI / 2);
   });
 
-  it('follows the rate at which frames come', () => {
+  it('follows the rate of frames', () => {
     const world = new World(SCENE, true);
     world.receive([], 1000);
     world.receive([[2, pose(0.1)]], 1150);
-    // A tenth of the way from 50 ms to 150 ms.
+    // The interval is now 60 ms: a tenth of the way from 50 ms to 150 ms.
     expect(world.advance(1150 + 59)).toBe(true);
     expect(world.advance(1150 + 61)).toBe(false);
   });
@@ -123,7 +123,7 @@ describe('the motion of a world', () => {
   it.each([
     [9000, 50 + 15],
     [1001, 50 - 4],
-  ])('does not take a frame at %s ms for its rate', (at, interval) => {
+  ])('does not use a frame at %s ms for its rate', (at, interval) => {
     const world = new World(SCENE, true);
     world.receive([], 1000);
     world.receive([[2, pose(0.1)]], at);
@@ -140,7 +140,7 @@ describe('the motion of a world', () => {
     world.receive([[99, pose(1)]], 1000);
   });
 
-  it('leaves a body alone that is held, until it is let go', () => {
+  it('does not move a held body, until it is released', () => {
     const world = new World(SCENE, true);
     world.receive([[2, pose(0.5)]], 1000);
     world.hold('robot');
@@ -154,7 +154,7 @@ describe('the motion of a world', () => {
     expect(xOf(world, 2)).toBeCloseTo(0.9);
   });
 
-  it('puts a body back where the session last said', () => {
+  it('returns a body to its last received pose', () => {
     const world = new World(SCENE, true);
     currentPoses.set(2, pose(0.3));
     currentPoses.set(4, pose(7));

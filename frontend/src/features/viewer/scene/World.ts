@@ -13,10 +13,13 @@ interface Moving {
   start: number;
 }
 
-/** A longer jump is a reset or a drag and not motion: it is shown at once. */
+/**
+ * The distance in m above which a movement counts as a reset or a drag, which is shown at once without a
+ * motion.
+ */
 const JUMP_M = 1;
 
-/** The scene's objects as three.js draws them. Poses are applied here, outside React. */
+/** The scene's objects in three.js. Poses are applied here, outside React. */
 export class World {
   readonly group = new THREE.Group();
   readonly bounds = new THREE.Box3();
@@ -48,7 +51,7 @@ export class World {
     this.bounds.setFromObject(this.group);
   }
 
-  /** Sets the target poses of objects; they reach them within one interval between frames. */
+  /** Sets the target poses of objects, which reach them within one interval between frames. */
   receive(changed: Iterable<[number, Pose]>, now: number): void {
     if (this.lastFrameAt > 0) {
       const passed = Math.min(Math.max(now - this.lastFrameAt, 10), 200);
@@ -66,7 +69,7 @@ export class World {
     }
   }
 
-  /** Moves objects towards their poses; returns whether some have not arrived. */
+  /** Moves objects towards their target poses; returns whether some have not arrived yet. */
   advance(now: number): boolean {
     let isMoving = false;
     for (const item of this.moving.values()) {
@@ -87,7 +90,7 @@ export class World {
     return this.moving.get(id)?.object;
   }
 
-  /** The id of the object that a mesh belongs to. */
+  /** Returns the id of the object that a mesh belongs to. */
   idOf(part: THREE.Object3D): number | null {
     for (let at: THREE.Object3D | null = part; at; at = at.parent) {
       const id = this.ids.get(at);
@@ -96,12 +99,15 @@ export class World {
     return null;
   }
 
-  /** The pieces of a body, its base first. */
+  /** Returns the objects of a body, its base first. */
   objectsOf(body: string): THREE.Object3D[] {
     return [...this.moving.values()].filter((item) => item.body === body).map((item) => item.object);
   }
 
-  /** The bounding box of a body's own shapes; the drawn frustums and axes that hang on it are larger. */
+  /**
+   * Returns the bounding box of a body's own shapes, without the larger frustums and axes that are attached
+   * to it.
+   */
   boundsOf(body: string): THREE.Box3 {
     const bounds = new THREE.Box3();
     for (const object of this.objectsOf(body)) {
@@ -147,7 +153,7 @@ export class World {
     const node = new THREE.Group();
     node.name = object.link ? `${object.body}/${object.link}` : object.body;
     for (const shape of object.shapes) {
-      // Only robots' cameras see ceilings, since these would hide the rooms from above.
+      // Ceilings are drawn only for robots' cameras, since they would hide the rooms from above.
       if (shape.ceiling) continue;
       const mesh = meshOf(shape, this.geometries, this.materials);
       if (object.kind === 'static') mesh.receiveShadow = true;

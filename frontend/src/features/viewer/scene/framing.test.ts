@@ -11,7 +11,7 @@ function cameraOf(aspect: number): THREE.PerspectiveCamera {
   return camera;
 }
 
-/** Whether the camera sees all corners of the room from a distance. */
+/** Returns whether the camera sees all corners of the room from a distance in m. */
 function seesAll(camera: THREE.PerspectiveCamera, distance: number): boolean {
   const center = room.getCenter(new THREE.Vector3());
   camera.position.copy(SIDE).setLength(distance).add(center);
@@ -28,14 +28,14 @@ function seesAll(camera: THREE.PerspectiveCamera, distance: number): boolean {
 }
 
 describe('the first view', () => {
-  it.each([0.5, 1.4, 3])('shows the whole room, hardly more, in a picture of aspect %s', (aspect) => {
+  it.each([0.5, 1.4, 3])('shows the whole room with a small margin, at the aspect %s', (aspect) => {
     const camera = cameraOf(aspect);
     const distance = framingDistance(camera, room, SIDE);
     expect(seesAll(camera, distance)).toBe(true);
     expect(seesAll(camera, distance * 0.88)).toBe(false);
   });
 
-  it('shows what is around the robot in a large world', () => {
+  it('shows the surroundings of the robot in a large world', () => {
     const hall = new THREE.Box3(new THREE.Vector3(-50, -50, 0), new THREE.Vector3(50, 50, 3));
     const shown = surroundingsOf(hall, new THREE.Vector3(45, 0, 0), 24);
     expect(shown.containsPoint(new THREE.Vector3(45, 0, 0))).toBe(true);

@@ -1,9 +1,9 @@
 import * as THREE from 'three';
 
-/** The part of the picture that is left free round what is framed. */
+/** The factor that leaves a margin around the framed box. */
 const MARGIN = 1.06;
 
-/** The distance from a box's centre at which a camera in this direction sees all of the box, in m. */
+/** Returns the distance in m from a box's centre at which a camera in a direction sees the whole box. */
 export function framingDistance(
   camera: THREE.PerspectiveCamera,
   bounds: THREE.Box3,
@@ -30,7 +30,7 @@ function cornersOf({ min, max }: THREE.Box3): THREE.Vector3[] {
   );
 }
 
-/** The part of a large world that the first view shows: what is around the robot. */
+/** Returns the part of a large world that the first view shows: the surroundings of the robot. */
 export function surroundingsOf(bounds: THREE.Box3, robot: THREE.Vector3, most: number): THREE.Box3 {
   if (bounds.isEmpty() || bounds.getSize(new THREE.Vector3()).length() <= most) return bounds.clone();
   const around = new THREE.Box3().setFromCenterAndSize(robot, new THREE.Vector3(1, 1, 1));

@@ -38,7 +38,7 @@ describe('GeometryCache', () => {
     expect(sizeOf(new GeometryCache({}).get(shape(kind, [...size])))).toEqual(extent);
   });
 
-  it('makes shapes of a metre where no size is said', () => {
+  it('makes shapes of a metre if no size is given', () => {
     expect(sizeOf(new GeometryCache({}).get(shape('box', [])))).toEqual([1, 1, 1]);
   });
 
@@ -66,13 +66,13 @@ describe('GeometryCache', () => {
     expect(tiled).toBe(cache.get(shape('mesh', [1, 1, 1], 'a'), [1, 1]));
   });
 
-  it('has nothing of a mesh that is not there, with a picture or without', () => {
+  it('has nothing for a missing mesh, with a picture or without', () => {
     const cache = new GeometryCache({});
     expect(cache.get(shape('mesh', [1, 1, 1], 'gone')).hasAttribute('position')).toBe(false);
     expect(cache.get(shape('mesh', [1, 1, 1], 'gone'), [1, 1]).hasAttribute('position')).toBe(false);
   });
 
-  it('frees what it made, and makes it again', () => {
+  it('frees its geometries, and makes them again', () => {
     const cache = new GeometryCache({});
     const box = cache.get(shape('box', [1, 1, 1]));
     const freed = vi.fn();

@@ -3,13 +3,13 @@ import type { Mesh as MeshData, Shape } from '@/generated/messages';
 import { floatsOf, uint32Of } from '@/store/session/frames';
 import { mapPicture } from './mapping';
 
-/** Geometries by shape and size, shared by all objects of a scene. */
+/** The geometries by shape and size, shared by all objects of a scene. */
 export class GeometryCache {
   private readonly known = new Map<string, THREE.BufferGeometry>();
 
   constructor(private readonly meshes: Record<string, MeshData>) {}
 
-  /** The triangles of a shape; with the size of a texture, also its texture coordinates. */
+  /** Returns the triangles of a shape; if the size of a texture is given, with texture coordinates. */
   get(shape: Shape, tile?: readonly [number, number]): THREE.BufferGeometry {
     const size = shape.shape === 'mesh' && !tile ? '' : shape.size.join();
     const key = `${shape.shape}:${shape.mesh ?? ''}:${size}:${tile?.join() ?? ''}`;
@@ -28,7 +28,7 @@ export class GeometryCache {
 
   private painted(shape: Shape, tile: readonly [number, number]): THREE.BufferGeometry {
     const whole = this.make(shape);
-    // A mesh of which nothing is known here: who shows it brings the triangles.
+    // The mesh is unknown here: the object that shows it supplies the triangles.
     if (!whole.hasAttribute('position')) return whole;
     const uvs = this.meshes[shape.mesh ?? '']?.uvs;
     if (uvs) {
@@ -37,14 +37,14 @@ export class GeometryCache {
     }
     const [x = 1, y = 1, z = 1] = shape.shape === 'mesh' ? shape.size : [];
     const apart = whole.index ? whole.toNonIndexed() : whole;
-    // Texture coordinates are computed in m; the size of a mesh is set on the object that shows it.
+    // Texture coordinates are computed in m, but the size of a mesh is set on the object that shows it.
     mapPicture(apart.scale(x, y, z), shape.shape, tile);
     return apart.scale(1 / x, 1 / y, 1 / z);
   }
 
   private make({ shape, size, mesh = '' }: Shape): THREE.BufferGeometry {
     const [a = 1, b = 1, c = 1] = size;
-    // Round shapes of three.js have their axis along y, ours along z.
+    // The round shapes of three.js have their axis along y, ours along z.
     switch (shape) {
       case 'box':
         return new THREE.BoxGeometry(a, b, c);

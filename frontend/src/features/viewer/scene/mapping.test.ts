@@ -17,13 +17,13 @@ function uvsOf(shape: 'box' | 'cylinder' | 'sphere' | 'plane', size: number[], t
 }
 
 describe('pictures on shapes', () => {
-  it('lie on a box by size, from its lowest corner, never mirrored', () => {
+  it('are on a box by size, from its lowest corner, never mirrored', () => {
     const found = uvsOf('box', [4, 0.2, 2], [0.5, 1]);
     let seen = 0;
     for (let i = 0; i < found.length; i += 3) {
       const triangle = found.slice(i, i + 3);
       if (triangle.some(({ at }) => at.y > -0.09)) continue;
-      // Seen from -y, x grows to the right and z upwards: so do u and v.
+      // Seen from -y, x grows to the right and z upwards, like u and v.
       for (const { at, u, v } of triangle) {
         expect([u, v]).toEqual([expect.closeTo((at.x + 2) / 0.5, 4), expect.closeTo(at.z + 1, 4)]);
         seen += 1;
@@ -34,7 +34,7 @@ describe('pictures on shapes', () => {
     expect(Math.max(...found.map(({ v }) => v))).toBeCloseTo(2);
   });
 
-  it('lie on a plane from its corner', () => {
+  it('are on a plane from its corner', () => {
     for (const { at, u, v } of uvsOf('plane', [2, 1.2], [0.8, 0.8])) {
       expect(u).toBeCloseTo((at.x + 1) / 0.8);
       expect(v).toBeCloseTo((at.y + 0.6) / 0.8);
@@ -53,7 +53,7 @@ describe('pictures on shapes', () => {
     expect(widest).toBeLessThan(1.2);
   });
 
-  it('are as large on a mesh whatever its scale, and follow its own coordinates where it has some', () => {
+  it('have the same size on a mesh whatever its scale, and use its own coordinates if it has any', () => {
     const floats = (...values: number[]) => new Uint8Array(new Float32Array(values).buffer);
     const mesh = {
       positions: floats(0, 0, 0, 1, 0, 0, 0, 0, 1),

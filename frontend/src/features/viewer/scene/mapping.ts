@@ -1,18 +1,18 @@
 import * as THREE from 'three';
 import type { Shape } from '@/generated/messages';
 
-/** A normal of a cylinder with at least this share of z belongs to a lid. */
+/** The smallest share of z in the normal of a cylinder's lid. */
 const FLAT = 0.99;
 const TURN = 2 * Math.PI;
 
 type Tile = readonly [number, number];
 
 /**
- * Sets the texture coordinates of each vertex; 1 is a repetition, v points up. The rules are those of
+ * Sets the texture coordinates of each vertex; 1 is one repetition, and v points up. The rules are those of
  * `executor/render/mapping.py`: flat faces are projected along the axis that they face most, cylinders and
  * balls are wrapped.
  *
- * @param geometry three vertices a triangle, in m.
+ * @param geometry three vertices per triangle, in m
  */
 export function mapPicture(geometry: THREE.BufferGeometry, shape: Shape['shape'], tile: Tile): void {
   const points = geometry.getAttribute('position');
@@ -45,7 +45,7 @@ function alongAxis(corners: Corners, { min, max }: THREE.Box3, tile: Tile): numb
   const isFront = across[axis] > 0;
   return corners.flatMap((corner) => {
     const v = axis === 'z' ? corner.y - min.y : corner.z - min.z;
-    // Mirrored on opposite faces, so that the picture is never reversed when seen from outside.
+    // The picture is mirrored on opposite faces, so that it is never reversed when seen from outside.
     const along = axis === 'x' ? corner.y - min.y : corner.x - min.x;
     const back = axis === 'x' ? max.y - corner.y : max.x - corner.x;
     const u = (axis === 'y') === isFront ? back : along;

@@ -21,7 +21,7 @@ const pictures = () => {
 };
 
 describe('setPose', () => {
-  it('sets place and turn, where nothing is said at the origin', () => {
+  it('sets position and rotation, at the origin by default', () => {
     const object = new THREE.Object3D();
     setPose(object.position, object.quaternion, [1, 2, 3, 0, 0, 1, 0]);
     expect([...object.position.toArray(), ...object.quaternion.toArray()]).toEqual([1, 2, 3, 0, 0, 1, 0]);
@@ -31,7 +31,7 @@ describe('setPose', () => {
 });
 
 describe('MaterialCache', () => {
-  it('makes each colour once, as it is seen on a screen', () => {
+  it('makes each colour once, in the colour space of the screen', () => {
     const cache = new MaterialCache(true);
     const material = cache.get([1, 0.5, 0, 1]) as THREE.MeshLambertMaterial;
     expect(material.color.getHexString()).toBe('ff8000');
@@ -42,19 +42,19 @@ describe('MaterialCache', () => {
     expect((cache.get([]) as THREE.MeshLambertMaterial).color.getHexString()).toBe('b3b3b3');
   });
 
-  it('lets one see through where the colour does', () => {
+  it('is transparent if the colour is', () => {
     const material = new MaterialCache(true).get([1, 1, 1, 0.4]);
     expect([material.transparent, material.opacity]).toEqual([true, 0.4]);
   });
 
-  it('is cheap where the processor draws', () => {
+  it('is simple with software rendering', () => {
     expect(new MaterialCache(true).get([])).toBeInstanceOf(THREE.MeshLambertMaterial);
     const fine = new MaterialCache(false).get([]) as THREE.MeshStandardMaterial;
     expect(fine).toBeInstanceOf(THREE.MeshStandardMaterial);
     expect([fine.roughness, fine.metalness]).toEqual([0.72, 0.04]);
   });
 
-  it('puts the picture on as soon as it is there', () => {
+  it('adds the picture when it has arrived', () => {
     const textures = pictures();
     const material = new MaterialCache(true, textures).get([], 'wood') as THREE.MeshLambertMaterial;
     expect(textures.whenLoaded).toHaveBeenCalledExactlyOnceWith('wood', expect.any(Function));
@@ -80,7 +80,7 @@ describe('MaterialCache', () => {
 describe('meshOf', () => {
   const geometries = new GeometryCache({});
 
-  it('is where the shape is, and casts a shadow', () => {
+  it('is at the pose of the shape, and casts a shadow', () => {
     const mesh = meshOf(SHAPE, geometries, new MaterialCache(true));
     expect([...mesh.position.toArray(), ...mesh.quaternion.toArray()]).toEqual(SHAPE.pose);
     expect([mesh.castShadow, mesh.receiveShadow]).toEqual([true, false]);
@@ -99,7 +99,7 @@ describe('meshOf', () => {
     expect(scaled([])).toEqual([1, 1, 1]);
   });
 
-  it('repeats its picture by its tile, and asks for none without a picture', () => {
+  it('repeats its picture by its size, and requests none without a picture', () => {
     const textures = pictures();
     const materials = new MaterialCache(true, textures);
     expect(meshOf(SHAPE, geometries, materials).geometry).toBe(geometries.get(SHAPE));

@@ -9,7 +9,7 @@ export function setPose(position: THREE.Vector3, rotation: THREE.Quaternion, pos
   rotation.set(pose[3] ?? 0, pose[4] ?? 0, pose[5] ?? 0, pose[6] ?? 1);
 }
 
-/** Materials by colour and texture, shared by all objects of a scene. */
+/** The materials by colour and texture, shared by all objects of a scene. */
 export class MaterialCache {
   private readonly known = new Map<string, THREE.Material>();
 
@@ -44,7 +44,7 @@ export class MaterialCache {
   }
 }
 
-/** The three.js mesh of a shape. */
+/** Returns the three.js mesh of a shape. */
 export function meshOf(shape: Shape, geometries: GeometryCache, materials: MaterialCache): THREE.Mesh {
   const picture = shape.texture ?? '';
   const geometry = geometries.get(shape, picture ? materials.textures?.tileOf(picture) : undefined);

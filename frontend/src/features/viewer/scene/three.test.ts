@@ -3,12 +3,12 @@ import { describe, expect, it, vi } from 'vitest';
 import * as settings from './three';
 
 describe('three.js', () => {
-  it('has z upwards everywhere, by an import alone', () => {
+  it('has z upwards everywhere after an import', () => {
     expect(Object.keys(settings)).toEqual([]);
     expect(new THREE.Object3D().up.toArray()).toEqual([0, 0, 1]);
   });
 
-  it('says in the console what is wrong, but nothing of its clock', () => {
+  it('reports errors in the console, but no warning about its clock', () => {
     const warned = vi.spyOn(console, 'warn').mockImplementation(() => undefined);
     new THREE.Clock();
     expect(warned).not.toHaveBeenCalled();

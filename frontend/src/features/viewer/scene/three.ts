@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-/** Global settings of three.js for all 3D views; imported for its side effect. */
+/** Sets three.js up for all 3D views; this module is imported for its side effect. */
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
 // React's renderer uses a clock class that three.js has renamed; the warning does not help users.

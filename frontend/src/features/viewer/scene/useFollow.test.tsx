@@ -5,7 +5,7 @@ import type { Orbit } from './Surroundings';
 import { useFollow } from './useFollow';
 import type { World } from './World';
 
-it('tells when the user turns the camera, and not when he zooms', () => {
+it('reports when the user turns the camera, but not when the user zooms', () => {
   const orbit = Object.assign(new THREE.EventDispatcher<{ start: object; end: object }>(), {
     target: new THREE.Vector3(),
     object: new THREE.Object3D(),

@@ -9,7 +9,7 @@ const SAME = 1e-4;
 
 interface Following {
   readonly isOn: boolean;
-  /** A new object is a new view, in which the robot need not come to the middle. */
+  /** A new object is a new view, in which the robot need not be in the middle. */
   readonly view: object;
   /** Called when the user turns or moves the camera; zooming keeps the robot where it is. */
   readonly onMoved: () => void;
@@ -29,7 +29,7 @@ const stanceOf = ({ object, target }: Orbit): Stance => ({
 const isSame = (a: Stance, b: Stance): boolean =>
   a.target.distanceTo(b.target) < SAME && a.direction.distanceTo(b.direction) < SAME;
 
-/** Lets the camera follow the robot until the user moves it. */
+/** Makes the camera follow the robot until the user moves the camera. */
 export function useFollow(world: World, controls: RefObject<Orbit | null>, following: Following): void {
   const { isOn, view, requestFrame } = following;
   const onMoved = useEffectEvent(following.onMoved);
@@ -67,7 +67,7 @@ export function useFollow(world: World, controls: RefObject<Orbit | null>, follo
   }, [controls, world]);
 
   useFrame(({ camera }, seconds) => {
-    // While the user holds the camera, the robot does not pull at it.
+    // The robot does not move the camera during a gesture of the user.
     if (!world.robot || !controls.current || gesture.current) return;
     const by = follower.step(world.robot.position, seconds);
     if (!by) return;

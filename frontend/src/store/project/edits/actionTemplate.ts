@@ -5,7 +5,9 @@ export type ActionKind = 'Action' | 'Condition' | 'Control' | 'Decorator';
 
 const DECLARED = (port: string): string => `        "${port}": Port(str, description="Say what it is."),`;
 
-/** A control node or decorator: complete, runnable, and short enough to be read at once. */
+/**
+ * Returns the source of a control node or decorator: complete, runnable, and short enough to be read at once.
+ */
 function ownNodeSource(name: string, kind: 'Control' | 'Decorator', ports: readonly string[]): string {
   const base = `${kind}Node`;
   const names = [base, ...(ports.length === 0 ? [] : ['Port']), 'Status'].join(', ');
@@ -35,11 +37,11 @@ ${declared}    def update(self):
   return `from tree_gardener import ${names}\n\n\nclass ${name}(${base}):\n${rule}`;
 }
 
-/** The source of a new action: complete, runnable and short. */
+/** Returns the source of a new action: complete, runnable and short. */
 export function actionSource(
   name: string,
   kind: ActionKind,
-  /** Ports that a block of it already sets. */
+  /** The ports that one of its blocks already sets. */
   ports: readonly string[] = [],
 ): string {
   if (kind === 'Control' || kind === 'Decorator') return ownNodeSource(name, kind, ports);
@@ -94,7 +96,7 @@ export function createAction(name: string, kind: ActionKind = 'Action', ports: r
     default: name,
     required: false,
   } as const;
-  // Until the server has read the class after a save, these are the template's declarations.
+  // Until the server reads the class after a save, the template's declarations apply.
   setChecked({
     diagnostics,
     actions: [

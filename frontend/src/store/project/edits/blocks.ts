@@ -39,13 +39,13 @@ import type { EditOptions } from '../state';
 
 const store = () => useProjectStore.getState();
 
-/** The active tree; null if none is open. */
+/** Returns the active tree; null if none is open. */
 export function activeDiagram(): Diagram | null {
   const { activeTree, diagrams } = store();
   return activeTree === null ? null : (diagrams[activeTree] ?? null);
 }
 
-/** Whether a block of the active tree has a problem, found by the editor or the server. */
+/** Returns whether the editor or the server has found a problem in a block of the active tree. */
 export function hasProblem(id: NodeId | undefined): boolean {
   const diagram = activeDiagram();
   const { vocabulary, diagnostics } = store();
@@ -71,7 +71,7 @@ export function addAt(kind: Kind, place: Placement): NodeId | null {
   return id;
 }
 
-/** Adds a block at the best place for the present selection: for a click in the palette. */
+/** Adds a block at the best place for the current selection, after a click in the palette. */
 export function addHere(kind: Kind): NodeId | null {
   const diagram = activeDiagram();
   if (!diagram) return null;
@@ -99,7 +99,10 @@ export function achieve(goal: QuickAddGoal, kind: Kind): void {
   }
 }
 
-/** The block to select after these are removed: the next sibling, the previous one, or the parent. */
+/**
+ * Returns the block to select after these blocks are removed: the next sibling, the previous one, or the
+ * parent.
+ */
 function neighbourOf(diagram: Diagram, ids: readonly NodeId[]): NodeId[] {
   const [first] = topmost(diagram, ids);
   if (first === undefined) return [];
@@ -120,7 +123,7 @@ export function deleteSelection(): void {
   change('delete', [removeSubtrees(selection)], { select: neighbourOf(diagram, selection) });
 }
 
-/** Removes the selected blocks alone; their children take their places. */
+/** Removes the selected block alone; its children take its place. */
 export function unwrapSelection(): void {
   const diagram = activeDiagram();
   const [id] = store().selection;
@@ -142,7 +145,10 @@ interface Company {
   readonly ids: readonly NodeId[];
 }
 
-/** The selected blocks that keys move together: all if they are siblings, else the first one. */
+/**
+ * Returns the selected blocks that the keyboard moves together: all of them if they are siblings, otherwise
+ * the first.
+ */
 function selectedSiblings(): Company | null {
   const diagram = activeDiagram();
   const { selection } = store();
@@ -161,7 +167,7 @@ export function reorderSelection(by: number): void {
   if (found) change('reorder', [reorder(found.ids, by)]);
 }
 
-/** Moves the selected blocks beside their parent. */
+/** Moves the selected blocks out of their parent, to the place after it. */
 export function moveOut(): void {
   const found = selectedSiblings();
   if (!found) return;
@@ -187,7 +193,7 @@ export function moveIn(): void {
   change('move', [moveNodes(ids, { at: 'child', parent: target, index })]);
 }
 
-/** Moves a block under another, for a connection that is drawn by hand. */
+/** Moves a block under another one; used for a connection that the user draws. */
 export function connect(parent: NodeId, child: NodeId): boolean {
   const diagram = activeDiagram();
   if (!diagram || !canMoveUnder(diagram, child, parent, store().vocabulary)) return false;
@@ -197,12 +203,12 @@ export function connect(parent: NodeId, child: NodeId): boolean {
   return true;
 }
 
-/** Removes the connection to the parent; the block becomes a draft at its place. */
+/** Removes the connection to the parent; the block becomes a draft at its current place. */
 export function disconnect(id: NodeId, position: readonly [number, number]): void {
   change('disconnect', [moveNode(id, { at: 'draft', position })], { select: [id] });
 }
 
-/** The place after the selected block, or the best other place. */
+/** Returns the place after the selected block if its parent has room, otherwise the best other place. */
 export function placeAfter(diagram: Diagram, id: NodeId): Placement {
   const parent = parentOf(diagram, id);
   const { vocabulary } = store();

@@ -8,7 +8,7 @@ import { useProjectStore } from '../index';
 /** The last copied text, for browsers that do not allow reading the clipboard. */
 let remembered = '';
 
-/** The selected blocks as XML; null if there are none. */
+/** Returns the selected blocks as XML; null if there are none. */
 export function copiedText(): string | null {
   const diagram = activeDiagram();
   const { selection } = useProjectStore.getState();
@@ -22,7 +22,7 @@ export async function copySelection(): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(remembered);
   } catch {
-    // The browser refused: pasting in this tab uses the remembered text.
+    // The browser refused. Pasting in this tab uses the remembered text.
   }
   return true;
 }
@@ -31,7 +31,7 @@ export async function cutSelection(): Promise<void> {
   if (await copySelection()) deleteSelection();
 }
 
-/** The content of the clipboard: for a menu, which gets no paste event. */
+/** Returns the content of the clipboard. A menu needs this function, since it gets no paste event. */
 export async function clipboardText(): Promise<string> {
   try {
     return await navigator.clipboard.readText();
@@ -40,7 +40,7 @@ export async function clipboardText(): Promise<string> {
   }
 }
 
-/** Pastes under the selected block if it accepts children, else after it, else as a draft. */
+/** Pastes under the selected block if it accepts children, otherwise after it, otherwise as a draft. */
 export function pasteText(text: string): boolean {
   const fragment = xmlToFragment(text);
   const diagram = activeDiagram();

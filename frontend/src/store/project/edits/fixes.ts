@@ -18,7 +18,10 @@ function make(making: Making): () => void {
   };
 }
 
-/** Applies a fix. The returned function removes a file that it created; undo reverts the tree. */
+/**
+ * Applies a fix. If the fix created a file, returns a function that removes the file; changes of the tree are
+ * undone as usual.
+ */
 export function applyFix(tree: string, { does }: Fix): (() => void) | null {
   if (typeof does !== 'function') return make(does);
   store().apply(tree, 'fix', [does]);

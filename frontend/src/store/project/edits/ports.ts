@@ -1,7 +1,7 @@
 import { addPort, edit, removePort, renamePort, type Recipe } from '@/model/edits';
 import { useProjectStore } from '../index';
 
-/** Changes every tree, as one undo step of the tree in front. */
+/** Changes every tree in one undo step of the active tree. */
 function changeEverywhere(recipe: Recipe): void {
   const { activeTree, diagrams, apply } = useProjectStore.getState();
   if (activeTree === null) return;
@@ -10,14 +10,14 @@ function changeEverywhere(recipe: Recipe): void {
   apply(activeTree, 'port', [recipe], { also });
 }
 
-/** Ports of an action without declarations: all its blocks have the same ports. */
+/** Edits of the ports of an action without declarations: all its blocks have the same ports. */
 export const shared = {
   add: (type: string, name: string): void => changeEverywhere(addPort(type, name)),
   rename: (type: string, from: string, to: string): void => changeEverywhere(renamePort(type, from, to)),
   remove: (type: string, name: string): void => changeEverywhere(removePort(type, name)),
 };
 
-/** The ports that blocks of a type have, in the order of their first use. */
+/** Returns the ports that the blocks of a type set, in the order of their first use. */
 export function portsInUse(type: string): readonly string[] {
   const diagrams = Object.values(useProjectStore.getState().diagrams);
   const nodes = diagrams.flatMap((diagram) => Object.values(diagram.nodes));

@@ -22,7 +22,7 @@ describe('renameKey', () => {
     expect(texts()).toEqual(['{@k}', '{@k}']);
   });
 
-  it('is taken back by what it returns, unless there was another edit', () => {
+  it('is reverted by the returned function, unless there was another edit', () => {
     openProject({ trees: { Main: { r: sleep }, Other: { r: sleep } } });
     const undo = renameKey(plan());
     undo?.();

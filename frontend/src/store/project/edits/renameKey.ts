@@ -2,7 +2,7 @@ import { edit } from '@/model/edits';
 import { applyChanges, type RenamePlan } from '@/model/keys/rename';
 import { useProjectStore } from '../index';
 
-/** Renames a key in all trees, as one undo step of the tree in front; returns how to take it back. */
+/** Renames a key in all trees, in one undo step of the active tree; returns a function that reverts it. */
 export function renameKey(plan: RenamePlan): (() => void) | null {
   const { activeTree, diagrams, apply, role } = useProjectStore.getState();
   const trees = [...new Set(plan.changes.map(({ tree }) => tree))];

@@ -29,7 +29,7 @@ beforeEach(() => {
   );
 });
 
-/** What replaces a text everywhere, in the project as it is now. */
+/** Returns the replacements of a text everywhere in the current project. */
 function plan(text: string, replacement: string): Replacement[] {
   const passages = allPassages(store());
   const query = { text, matchesCase: true, isWholeWord: false, isRegex: false };
@@ -43,7 +43,7 @@ const portOf = (tree: string) => store().diagrams[tree]?.nodes['r']?.ports?.['sp
 const codeText = () => store().currentText('actions/Go.py');
 
 describe('allPassages', () => {
-  it('has the texts of trees and files; a tree that cannot be read is a text', () => {
+  it('has the texts of trees and files; an unreadable tree is a text', () => {
     const paths = new Set(allPassages(store()).map(({ path }) => path));
     expect([...paths]).toEqual([
       'trees/MainTree.json',
@@ -55,7 +55,7 @@ describe('allPassages', () => {
 });
 
 describe('replaceHits', () => {
-  it('changes trees and files, and names of ports stay', () => {
+  it('changes trees and files, but no names of ports', () => {
     const { count, documents } = replaceHits(plan('speed', 'v'));
     expect([count, documents]).toEqual([6, 4]);
     expect([portOf('MainTree'), portOf('Other'), codeText()]).toEqual(['{v}', '{v}', 'v = 1\n']);
@@ -71,7 +71,7 @@ describe('replaceHits', () => {
     expect(portOf('Other')).toBe('{speed}');
   });
 
-  it('is taken back in one step, with the selection of the tree in front', () => {
+  it('is reverted in one step, with the selection of the tree in front', () => {
     store().select('MainTree', ['r']);
     replaceHits(plan('speed', 'v')).undo();
     expect([portOf('MainTree'), portOf('Other'), codeText()]).toEqual(['{speed}', '{speed}', 'speed = 1\n']);
@@ -79,7 +79,7 @@ describe('replaceHits', () => {
     expect(store().pendingChanges()).toEqual([]);
   });
 
-  it('does not take back what was edited since then', () => {
+  it('does not revert later edits', () => {
     const { undo } = replaceHits(plan('speed', 'v'));
     store().apply('Other', 'rename', [setName('r', 'mine')]);
     store().setFileText('actions/Go.py', 'mine');
@@ -87,7 +87,7 @@ describe('replaceHits', () => {
     expect([portOf('MainTree'), portOf('Other'), codeText()]).toEqual(['{speed}', '{v}', 'mine']);
   });
 
-  it('leaves texts that changed since the search', () => {
+  it('leaves texts that have changed since the search', () => {
     const planned = plan('speed', 'v');
     store().setFileText('actions/Go.py', 'speed = 2\n');
     expect(replaceHits(planned).documents).toBe(3);

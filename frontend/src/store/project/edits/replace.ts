@@ -3,7 +3,7 @@ import { replaced, type Hit } from '@/model/search/seek';
 import { useProjectStore } from '../index';
 import { treeIdOf, type ProjectData } from '../state';
 
-/** All texts of the project that can be searched, trees first. */
+/** Returns all texts of the project that can be searched, trees first. */
 export function allPassages({ files, diagrams }: Pick<ProjectData, 'files' | 'diagrams'>): Passage[] {
   const paths = Object.keys(files).sort();
   const trees = paths.flatMap((path) => {
@@ -17,7 +17,7 @@ export function allPassages({ files, diagrams }: Pick<ProjectData, 'files' | 'di
   return [...trees, ...texts];
 }
 
-/** A text with its hits that shall be replaced. */
+/** A text, with the hits in it that are to be replaced. */
 export interface Replacement {
   readonly passage: Passage;
   readonly hits: readonly Hit[];
@@ -26,7 +26,7 @@ export interface Replacement {
 export interface Replaced {
   readonly count: number;
   readonly documents: number;
-  /** Takes back what was replaced, in each document that was not changed since then. */
+  /** Reverts the replacement in each document that has not changed since then. */
   readonly undo: () => void;
 }
 
@@ -38,7 +38,7 @@ function currentText({ path, place }: Passage): string | undefined {
   return diagram && textAt(diagram, place);
 }
 
-/** Changes a tree as one step of its own undo stack; returns how to take it back. */
+/** Changes a tree in one step of its own undo stack; returns a function that reverts it. */
 function replaceInTree(tree: string, list: readonly Replacement[]): () => void {
   const recipes = list.flatMap(({ passage, hits }) =>
     passage.place ? [setText(passage.place, replaced(passage.text, hits))] : [],
@@ -60,8 +60,8 @@ function replaceInText(path: string, { passage, hits }: Replacement): () => void
 }
 
 /**
- * Replaces hits in trees and texts; a text that has changed since it was searched stays. Does nothing in a
- * read-only project.
+ * Replaces hits in trees and texts. A text that has changed since the search stays as it is; in a read-only
+ * project nothing changes.
  */
 export function replaceHits(list: readonly Replacement[]): Replaced {
   const valid = store().role === 'viewer' ? [] : list.filter(isValid);

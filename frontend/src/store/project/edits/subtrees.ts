@@ -3,7 +3,7 @@ import { areNeighbours, extractSubtree, inlineSubtree } from '@/model/edits';
 import { activeDiagram, change } from './blocks';
 import { useProjectStore } from '../index';
 
-/** A tree name from a block's name: letters and digits, not used by a tree or a type. */
+/** Returns a tree name made from a block's name: letters and digits, not used by another tree or type. */
 function freeTreeId(wanted: string): string {
   const { diagrams, vocabulary } = useProjectStore.getState();
   const words = wanted.split(/[^\p{L}\p{N}]+/u).filter(Boolean);
@@ -34,7 +34,7 @@ export function extractSelection(): void {
   change('extract', [extracted.recipe], { also: { [treeId]: tree }, select: created });
 }
 
-/** Replaces the selected SubTree by the blocks of its tree. */
+/** Replaces the selected SubTree with the blocks of its tree. */
 export function inlineSelection(): void {
   const diagram = activeDiagram();
   const { selection, diagrams } = useProjectStore.getState();

@@ -1,9 +1,9 @@
 import type { NodeStatus } from '@/generated/messages';
 
-/** Statuses as bits, since a coarsened stretch can hold several. */
+/** The statuses as bits, since several are combined when stretches are joined. */
 export const BIT: Record<NodeStatus, number> = { IDLE: 0, RUNNING: 1, SUCCESS: 2, FAILURE: 4, SKIPPED: 8 };
 
-/** Results that follow each other within this time are drawn as one stretch, s. */
+/** Results that follow each other within this time, in s, are drawn as one stretch. */
 const JOIN_S = 0.15;
 const FIRST_CAPACITY = 16;
 export const MAX_STRETCHES = 2048;
@@ -14,7 +14,10 @@ export interface Stretch {
   mask: number;
 }
 
-/** The statuses of one node over simulated time, oldest first, in bounded memory. */
+/**
+ * The statuses of one node over simulated time, oldest first. Its memory is bounded: old stretches are
+ * joined.
+ */
 export class NodeTrace {
   count = 0;
   starts = new Float64Array(FIRST_CAPACITY);
@@ -42,7 +45,7 @@ export class NodeTrace {
     this.count -= first;
   }
 
-  /** Index of the first stretch that ends after a time. */
+  /** Returns the index of the first stretch that ends after a time. */
   firstAfter(time: number): number {
     let low = 0;
     let high = this.count;

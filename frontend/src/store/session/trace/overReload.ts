@@ -6,7 +6,7 @@ const KEY = 'bts.run.';
 let sessionId: string | null = null;
 
 /**
- * Keeps data that only this page has over a reload: the robot's trail, and the trace of the nodes. The
+ * Stores the data that only this page has before a reload: the robot's trail, and the trace of the nodes. The
  * session sends everything else again.
  */
 function keepRun(): void {
@@ -14,20 +14,22 @@ function keepRun(): void {
   try {
     sessionStorage.setItem(KEY, JSON.stringify({ sessionId, trail: trail.keep(), history: trace.keep() }));
   } catch {
-    // The browser's storage is full: trail and trace start empty after the reload.
+    // The browser's storage is full: after the reload, trail and trace start empty.
   }
 }
 
 interface Kept {
   sessionId: string;
   trail: string;
-  /** The old name of the field, which pages that were opened before an update still store. */
+  /**
+   * The trace. The field keeps its old name, since pages that were opened before an update still store it.
+   */
   history: string;
 }
 
 let kept: Kept | null = null;
 
-/** Starts to keep the run of this session, and restores what a reload left of it. */
+/** Starts to store the run of this session, and restores what was stored before a reload. */
 export function rememberRun(id: string): void {
   if (id === sessionId) return;
   if (sessionId) trail.clear();
@@ -49,7 +51,9 @@ export function forgetRun(): void {
   trace.start([], 0);
 }
 
-/** After a reload the trace from before it, but only once; otherwise the present trace, for a reconnection. */
+/**
+ * Returns the trace from before a reload, but only once; afterwards the current trace, for a reconnection.
+ */
 export function takeCachedTrace(): string | null {
   const text = kept?.history ?? null;
   kept = null;

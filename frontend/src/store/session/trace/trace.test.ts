@@ -46,7 +46,7 @@ describe('NodeTrace', () => {
 });
 
 describe('Trace', () => {
-  it('tells what a node did and is doing', () => {
+  it('returns the past and present statuses of a node', () => {
     const trace = new Trace();
     trace.start([node(1)], 0);
     trace.tick([[1, 'RUNNING']], [], 1);
@@ -62,7 +62,7 @@ describe('Trace', () => {
     expect(trace.status(1)).toBe('IDLE');
   });
 
-  it('shows results that were gone after their tick, joined where they follow each other', () => {
+  it('shows results that lasted one tick, joined if they follow each other', () => {
     const trace = new Trace();
     trace.start([node(1)], 0);
     for (let tick = 1; tick <= 20; tick++) trace.tick([], [[1, 'FAILURE']], tick * 0.05);
@@ -86,14 +86,14 @@ describe('Trace', () => {
     }
   });
 
-  it('forgets what is older than ten minutes', () => {
+  it('drops data older than ten minutes', () => {
     const trace = new Trace();
     trace.start([node(1)], 0);
     for (let t = 0; t < HISTORY_S * 2; t++) trace.tick([[1, t % 2 ? 'RUNNING' : 'IDLE']], [], t);
     expect(trace.stretches(1, 0, Infinity)[0]!.start).toBeGreaterThan(HISTORY_S - 30);
   });
 
-  it('comes back after a reload for the same tree alone', () => {
+  it('is restored after a reload for the same tree only', () => {
     const statuses: NodeStatus[] = ['RUNNING', 'SUCCESS', 'IDLE'];
     const trace = new Trace();
     trace.start([node(1)], 0);

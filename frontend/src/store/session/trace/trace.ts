@@ -4,11 +4,11 @@ import { BIT, NodeTrace, type Stretch } from './nodeTrace';
 /** The length of the timeline, in simulated seconds. */
 export const HISTORY_S = 600;
 
-/** The drawn length of a result that lasted only for its tick, s. */
+/** The drawn length, in s, of a result that lasted for one tick only. */
 const FLASH_S = 0.05;
 const FORGET_EVERY_S = 20;
 /**
- * The number of stretches that are kept over a reload, for all nodes together; within the browser's storage
+ * The number of stretches that are kept over a reload, for all nodes together; it fits the browser's storage
  * limit.
  */
 const KEPT_STRETCHES = 40_000;
@@ -26,11 +26,12 @@ interface Kept {
 }
 
 /**
- * The statuses of each node over the last ten minutes. Kept outside of React: panels read it when they draw.
+ * The statuses of each node over the last ten minutes. The data are outside of React: panels read them when
+ * they draw.
  */
 export class Trace {
   nodes: readonly TreeNode[] = [];
-  /** The simulated times of the oldest and of the newest data. */
+  /** The simulated times of the oldest and the newest data. */
   begin = 0;
   now = 0;
   /** Increases with each run. */
@@ -38,7 +39,7 @@ export class Trace {
   private nodeTraces = new Map<number, NodeTrace>();
   private open = new Map<number, Open>();
   private forgottenAt = 0;
-  /** The time until which the results of the last tick with such results are drawn. */
+  /** The end of the drawn results of the most recent tick that had any. */
   private resultsEnd = 0;
 
   start(nodes: readonly TreeNode[], t: number): void {
@@ -58,7 +59,7 @@ export class Trace {
     flashed: readonly (readonly [number, NodeStatus])[],
     t: number,
   ): void {
-    // The world was reset: times would overlap.
+    // Time went back because the world was reset: the times would overlap.
     if (t < this.now - 1) this.start(this.nodes, t);
     this.advance(t);
     for (const [uid, status] of flashed) this.addResult(uid, status, t);
@@ -74,10 +75,10 @@ export class Trace {
     this.begin = Math.max(this.begin, before);
   }
 
-  /** The run ended: no stretch continues. */
+  /** Ends all stretches at the end of the run. */
   close(): void {
     for (const uid of [...this.open.keys()]) this.change(uid, 'IDLE', this.now);
-    // The results of the last tick end after it, where the drawn run ends now.
+    // The results of the last tick are drawn after it, so the drawn run ends with them.
     this.advance(this.resultsEnd);
   }
 
@@ -85,7 +86,7 @@ export class Trace {
     return this.open.get(uid)?.status ?? 'IDLE';
   }
 
-  /** Stretches of a node that overlap a span of time, the current one last. */
+  /** Returns the stretches of a node that overlap a span of time, the current one last. */
   stretches(uid: number, from: number, to: number): Stretch[] {
     const found: Stretch[] = [];
     const nodeTrace = this.nodeTraces.get(uid);
@@ -101,7 +102,7 @@ export class Trace {
     return found;
   }
 
-  /** The seconds that a node was running, and the number of times that it started. */
+  /** Returns for how many seconds a node was running, and how often it started. */
   runningOf(uid: number): { seconds: number; times: number } {
     let seconds = 0;
     let times = 0;
@@ -150,7 +151,7 @@ export class Trace {
         }
       }
     } catch {
-      // The stored trace is unreadable: it starts empty.
+      // An unreadable stored trace is dropped.
     }
   }
 
@@ -162,7 +163,7 @@ export class Trace {
     else this.open.set(uid, { status, since: t });
   }
 
-  /** Adds a status that the node had only within the tick. */
+  /** Adds a status that a node had only within the tick. */
   private addResult(uid: number, status: NodeStatus, t: number): void {
     this.resultsEnd = t + FLASH_S;
     this.nodeTrace(uid).add(t, this.resultsEnd, BIT[status]);
@@ -177,7 +178,7 @@ export class Trace {
 
 const round = (seconds: number) => Math.round(seconds * 100) / 100;
 
-/** A text that is equal for equal trees. */
+/** Returns a text that is equal for equal trees. */
 function signature(nodes: readonly TreeNode[]): string {
   return nodes.map((node) => `${node.uid}:${node.tree_id}/${node.node_id}:${node.type}`).join(';');
 }

@@ -4,7 +4,7 @@ import { takeCachedTrace } from './overReload';
 
 const APPLICATION: readonly State[] = ['application_running', 'paused'];
 
-/** Passes events of nodes on to the trace. */
+/** Passes events about nodes to the trace. */
 export function feedTrace({ command, data, t }: ServerMessage): void {
   switch (command) {
     case 'tree':

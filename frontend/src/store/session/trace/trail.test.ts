@@ -8,7 +8,7 @@ const straight = (count: number): Trail => {
 };
 
 describe('Trail', () => {
-  it('grows as the robot goes, and not while it stands', () => {
+  it('grows while the robot moves, and not while it stands', () => {
     const trail = straight(10);
     trail.add(0.9, 0, 11);
     expect(trail.count).toBe(10);
@@ -22,11 +22,11 @@ describe('Trail', () => {
     expect(trail.count).toBe(1);
   });
 
-  it('forgets the oldest half rather than grow without end', () => {
+  it('drops the oldest half above the limit', () => {
     expect(straight(MAX_POINTS + 10).count).toBe(MAX_POINTS / 2 + 10);
   });
 
-  it('comes back after a reload, and survives what cannot be read', () => {
+  it('is restored after a reload, and drops unreadable data', () => {
     const trail = new Trail();
     trail.restore(straight(10).keep());
     expect([trail.count, trail.time, trail.x(9)]).toEqual([10, 9, expect.closeTo(0.9)]);

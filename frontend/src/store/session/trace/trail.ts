@@ -5,19 +5,19 @@ export const MAX_POINTS = 6000;
 const STEP_M = 0.03;
 const FASTEST_M_S = 5;
 
-/** The path of the first robot: x and y in m, world frame. It grows whichever view is open. */
+/** The path of the first robot: x and y in m, in the world frame. It is recorded whichever view is open. */
 export class Trail {
   readonly points = new Float32Array(MAX_POINTS * 2);
   count = 0;
-  /** Simulated time of the last point. */
+  /** The simulated time of the last point, in s. */
   time = 0;
-  /** Counts up whenever the points change. */
+  /** Increases when the points change. */
   version = 0;
 
   add(x: number, y: number, t: number): void {
     const step = Math.hypot(x - this.x(this.count - 1), y - this.y(this.count - 1));
     const passed = t - this.time;
-    // Time went back or the robot was moved: the old path does not connect to the new place.
+    // Time went back, or the robot was moved by hand: the old path is not connected to the new place.
     if (passed < 0 || (this.count > 0 && step > Math.max(STEP_M, passed * FASTEST_M_S))) this.count = 0;
     else if (this.count > 0 && step < STEP_M) return;
     this.time = t;
@@ -59,7 +59,7 @@ export class Trail {
       this.time = time;
       this.version += 1;
     } catch {
-      // The stored trail is unreadable: it starts empty.
+      // An unreadable stored trail is dropped.
     }
   }
 }

@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.e2e.accessibility import expect_focus_to_show
-from tests.e2e.canvas_by_hand import block, children, focused, middle, place, selected
+from tests.e2e.canvas_by_hand import block, middle, place
 from tests.e2e.server import wait_until
 
 if TYPE_CHECKING:
@@ -189,44 +189,3 @@ def test_the_page_of_shortcuts_tells_the_truth(shared_studio: Studio) -> None:
         keys.press(shortcut)
         expect(studio.page.locator(target).first).to_be_visible()
         keys.press("Alt+t")
-        focused(studio, "canvas")
-    blocks_are_changed_by_keys(studio)
-
-
-def blocks_are_changed_by_keys(studio: Studio) -> None:
-    """Top, walk, duplicate, all, another type, away with its parent, and back."""
-    keys = studio.page.keyboard
-    whole = children(studio)
-    for key, type_ in (
-        ("Home", "ReactiveSequence"),
-        ("ArrowDown", "ReactiveFallback"),
-        ("ArrowRight", "Forward"),
-        ("ArrowUp", "ReactiveSequence"),
-    ):
-        keys.press(key)
-        wait_until(lambda: selected(studio) == [type_], f"{key} selects {type_}")  # noqa: B023
-    keys.press("ArrowDown")
-    keys.press("ArrowRight")
-    keys.press("Control+d")
-    expect(block(studio, "Forward")).to_have_count(2)
-    keys.press("Control+z")
-    expect(block(studio, "Forward")).to_have_count(1)
-    keys.press("Control+Shift+KeyZ")
-    expect(block(studio, "Forward")).to_have_count(2)
-    keys.press("Control+z")
-    keys.press("Control+a")
-    wait_until(lambda: len(selected(studio)) == len(whole), "all blocks are selected")
-    keys.press("Home")
-    keys.press("ArrowDown")
-    keys.press("Control+m")
-    studio.writing()
-    keys.type("Sequence")
-    keys.press("Enter")
-    expect(block(studio, "Sequence")).to_be_visible()
-    keys.press("Control+z")
-    wait_until(lambda: children(studio) == whole, "the type is as before")
-    keys.press("Home")
-    keys.press("Space")
-    expect(block(studio, "Forward")).to_have_count(0)
-    keys.press("Space")
-    expect(block(studio, "Forward")).to_be_visible()

@@ -32,10 +32,8 @@ def test_an_own_robot_drives_in_an_own_room(
     observer = studio.observe()
     wait_until(lambda: position(observer, "robot")[0] > 0.5, "the robot drives towards the crate")
     assert position(observer, "crate") == pytest.approx((3, 0), abs=0.05)
-    wait_until(lambda: abs(position(observer, "robot")[1]) > 0.3, "it turns before the crate")
     assert studio.stat("collisions") == 0
     observer.close()
-    the_crate_stands_elsewhere_in_the_next_run(studio)
     studio.end_session()
 
 
@@ -86,14 +84,3 @@ def both_are_chosen(studio: Studio) -> None:
     studio.saved()
     studio.page.reload()
     expect(studio.at("open-worlds")).to_contain_text("Yard")
-
-
-def the_crate_stands_elsewhere_in_the_next_run(studio: Studio) -> None:
-    """An edit of the room while its world is up counts from the next Run on."""
-    studio.page.get_by_role("tab", name="yard", exact=False).first.click()
-    studio.at("thing-crate").click()
-    the_crate_is_put_to(studio, "2")
-    studio.run()
-    observer = studio.observe()
-    wait_until(lambda: position(observer, "crate") == pytest.approx((2, 0), abs=0.05), "it stands there")
-    observer.close()

@@ -1,4 +1,4 @@
-"""The settings of a project decide what a run starts, and what happens at its end and at an error."""
+"""The settings of a project decide what a run starts, and what happens at its end."""
 
 from __future__ import annotations
 
@@ -19,14 +19,6 @@ if TYPE_CHECKING:
 
 pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(300)]
 
-RAISES = """import py_trees
-
-
-class Trip(py_trees.behaviour.Behaviour):
-    def update(self):
-        raise ValueError("over a cable")
-"""
-
 
 @pytest.mark.long_walk
 def test_a_run_follows_the_settings(
@@ -41,7 +33,6 @@ def test_a_run_follows_the_settings(
     studio.saved()
     it_begins_again(studio)
     another_tree_is_started(studio)
-    an_error_counts_as_a_failure(studio)
     studio.end_session()
 
 
@@ -106,27 +97,3 @@ def another_tree_is_started(studio: Studio) -> None:
     studio.at("run").click()
     expect(studio.at("banner")).to_contain_text("The run failed at AlwaysFailure.")
     studio.expect_state("visualization_ready")
-
-
-def an_error_counts_as_a_failure(studio: Studio) -> None:
-    """First it ends the run, then the fallback goes on to its next child."""
-    studio.command("open tree other")
-    block(studio, "AlwaysFailure").click()
-    add(studio, "Control+m", "Trip")
-    studio.page.keyboard.press("Enter")
-    editor = studio.page.locator('[data-path="actions/Trip.py"] .cm-content')
-    expect(editor).to_be_focused()
-    studio.page.keyboard.press("Control+a")
-    studio.page.keyboard.insert_text(RAISES)
-    studio.page.keyboard.press("Alt+t")
-    add(studio, "Control+Enter", "AlwaysSuccess")
-    studio.saved()
-    studio.at("run").click()
-    expect(studio.at("banner")).to_contain_text("over a cable")
-    expect(studio.at("executor-state")).to_have_text("Stopped: fault")
-    form = settings(studio)
-    form.get_by_role("radio", name="Count it as a failure").check()
-    keep(studio, form)
-    studio.at("run").click()
-    expect(studio.at("banner")).to_contain_text("the tree succeeded")
-    expect(block(studio, "Trip")).to_have_attribute("data-past", "FAILURE")

@@ -196,6 +196,15 @@ class SetBlackboard(_Message, tag="set_blackboard"):
     value: Any
 
 
+class SetPort(_Asked, tag="set_port"):
+    """Give a port of a node another text, or none; a `PortSet` comes before the answer."""
+
+    node_id: str
+    path: str
+    port: str
+    value: str | None
+
+
 # --- from both ------------------------------------------------------------------------------------
 
 
@@ -364,6 +373,10 @@ class Blackboard(messages.Blackboard, tag_field="type", tag="blackboard"):
     """The event `blackboard` for clients."""
 
 
+class PortSet(messages.PortSet, tag_field="type", tag="port_set"):
+    """The event `port_set` for clients."""
+
+
 class Fault(messages.Fault, tag_field="type", tag="fault"):
     """The event `fault` for clients."""
 
@@ -406,7 +419,7 @@ FromWorld = (
     | TypeDescription
     | Frame
 )
-ToApplication = StartApplication | Stop | Pause | Resume | StepTick | SetTickRate | SetBlackboard
+ToApplication = StartApplication | Stop | Pause | Resume | StepTick | SetTickRate | SetBlackboard | SetPort
 FromApplication = (
     Beat
     | Log
@@ -420,6 +433,7 @@ FromApplication = (
     | Tree
     | Tick
     | Blackboard
+    | PortSet
     | Fault
     | Finished
 )
@@ -439,6 +453,7 @@ Request = (
     | PublishTopic
     | DescribeType
     | SetTickRate
+    | SetPort
 )
 """Messages that a child answers with `Answer`."""
 

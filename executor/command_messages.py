@@ -17,6 +17,10 @@ StreamWidth = Annotated[int, Meta(ge=64, le=1920)]
 DomainId = Annotated[int, Meta(ge=0, le=232)]
 CameraName = Annotated[str, Meta(max_length=128)]
 FileName = Annotated[str, Meta(min_length=1, max_length=255)]
+NodeId = Annotated[str, Meta(max_length=255)]
+NodePath = Annotated[str, Meta(min_length=1, max_length=65536)]
+PortName = Annotated[str, Meta(min_length=1, max_length=255)]
+PortValue = Annotated[str, Meta(max_length=65536)]
 Velocity = Annotated[float, Meta(ge=-1000, le=1000)]
 
 
@@ -89,6 +93,20 @@ class SetBlackboard(Struct, forbid_unknown_fields=True):
     scope: str
     key: str
     value: Any
+
+
+class SetPort(Struct, forbid_unknown_fields=True):
+    """Gives a port of a running node another text from the next tick on; null takes its value away.
+
+    The node is the one with the id `node_id` in the diagram at `path`, which names its instance as in the
+    event `tree`. `value` is a text as in the diagram: a literal, or `{key}`. Refused with `port_fixed` if the
+    engine reads the port only when the tree is built, and with `bad_port` if the port does not take the text.
+    """
+
+    node_id: NodeId
+    path: NodePath
+    port: PortName
+    value: PortValue | None = None
 
 
 class Teleop(Struct, forbid_unknown_fields=True):
@@ -188,6 +206,7 @@ COMMANDS: Final[dict[str, type[Struct]]] = {
     "terminate_universe": Empty,
     "disconnect": Empty,
     "set_blackboard": SetBlackboard,
+    "set_port": SetPort,
     "teleop": Teleop,
     "move_body": MoveBody,
     "subscribe": Subscribe,

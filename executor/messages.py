@@ -32,6 +32,7 @@ from executor.command_messages import (
     Run,
     RunApplication,
     SetBlackboard,
+    SetPort,
     SetSpeed,
     SetTickRate,
     StreamName,
@@ -81,6 +82,7 @@ __all__ = [
     "SceneObject",
     "SensorPlacement",
     "SetBlackboard",
+    "SetPort",
     "SetSpeed",
     "SetTickRate",
     "Shape",
@@ -103,6 +105,8 @@ LogLevel = Literal["debug", "info", "warning", "error"]
 Role = Literal["driver", "viewer"]
 LaunchState = Literal["running", "ended", "failed"]
 FaultKind = Literal["exception", "process", "timeout", "load"]
+PortEffect = Literal["next_tick", "next_start"]
+MismatchCode = Literal["type", "reliability", "durability", "qos"]
 FinishReason = Literal["root_finished", "action_raised", "terminated", "process_died"]
 
 
@@ -207,6 +211,23 @@ class Blackboard(Struct):
     """Entries that changed since the previous message of this kind."""
 
     entries: list[BlackboardEntry]
+
+
+class PortSet(Struct):
+    """A port of a node of the running tree was given another text.
+
+    `saved` is the text with which the tree was built; null stands for none. `effect` says when the node uses
+    the new text: from the next tick on, or, because its action read the port only before the first tick, when
+    the program starts again.
+    """
+
+    node_id: str
+    tree_id: str
+    path: str
+    port: str
+    value: str | None
+    saved: str | None
+    effect: PortEffect
 
 
 class Log(Struct):
@@ -316,7 +337,8 @@ class TopicMismatch(Struct):
     """Two ends of a topic do not match, so no message arrives; reported once while both exist.
 
     `publisher` and `subscriber` are names of ROS nodes. `reason` is the difference: message type or quality
-    of service. `hint` says how to fix it.
+    of service. `code` names it exactly, and `values` holds what `message` tells except the names. `hint`
+    says how to fix it. With `resolved`, the mismatch that was reported does not exist any more.
     """
 
     topic: str
@@ -325,6 +347,9 @@ class TopicMismatch(Struct):
     reason: Literal["type", "qos"]
     message: str
     hint: str
+    code: MismatchCode
+    values: dict[str, str] = {}
+    resolved: bool = False
 
 
 class LaunchNode(Struct):
@@ -366,6 +391,7 @@ class Snapshot(Struct):
     mismatches: list[TopicMismatch] = []
     past: list[tuple[int, NodeStatus]] = []
     finished: Finished | None = None
+    ports: list[PortSet] = []
 
 
 EVENTS: Final[dict[str, type[Struct]]] = {
@@ -378,6 +404,7 @@ EVENTS: Final[dict[str, type[Struct]]] = {
     "tree": Tree,
     "tick": Tick,
     "blackboard": Blackboard,
+    "port_set": PortSet,
     "log": Log,
     "fault": Fault,
     "finished": Finished,

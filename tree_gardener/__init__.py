@@ -12,8 +12,9 @@ while tree.tick_once() is Status.RUNNING:
 
 from tree_gardener.clock import ManualClock, SystemClock
 from tree_gardener.control_node import ControlNode, DecoratorNode, LoopNode
-from tree_gardener.errors import Diagnostic, LoadError, PortError, ScriptError, TickError
+from tree_gardener.errors import Diagnostic, LoadError, PortError, PortRefusedError, ScriptError, TickError
 from tree_gardener.observe import BlackboardChange, TickChanges
+from tree_gardener.port_change import PortEffect, set_port
 from tree_gardener.ports import Port, get_input, set_output
 from tree_gardener.status import Status
 from tree_gardener.tree import Tree
@@ -30,7 +31,9 @@ __all__ = [
     "LoopNode",
     "ManualClock",
     "Port",
+    "PortEffect",
     "PortError",
+    "PortRefusedError",
     "ScriptError",
     "SharedQueue",
     "Status",
@@ -41,4 +44,5 @@ __all__ = [
     "__version__",
     "get_input",
     "set_output",
+    "set_port",
 ]

@@ -6,6 +6,7 @@ TreeGardenerError
 ├── TickError      a node that failed to do its work; carries node, file, line and the cause
 ├── ScriptError    a script that does not parse or cannot be evaluated; carries the span
 └── PortError      a port that cannot be read or written
+    └── PortRefusedError   a new text for a port that is refused; carries the Diagnostic
 ```
 """
 
@@ -93,6 +94,19 @@ class ScriptError(TreeGardenerError):
 
 class PortError(TreeGardenerError):
     """A port cannot be read or written: missing, empty, or not convertible."""
+
+
+class PortRefusedError(PortError):
+    """A port of a running tree does not take a new text.
+
+    Attributes:
+        diagnostic: what is wrong, with the node and the port.
+    """
+
+    def __init__(self, diagnostic: Diagnostic) -> None:
+        self.diagnostic = diagnostic
+        hint = f" ({diagnostic.hint})" if diagnostic.hint else ""
+        super().__init__(f"{diagnostic.message}{hint}")
 
 
 class TickError(TreeGardenerError):

@@ -20,21 +20,19 @@ from tree_gardener.forest import Forest
 from tree_gardener.leaves.behaviour import BehaviourLeaf
 from tree_gardener.leaves.test_node import TestConfig, TestNode
 from tree_gardener.node import NO_PORTS, Instance, Node
-from tree_gardener.ports import NO_DEFAULT, OUTPUT, Manifest, PortSpec, pointer_key
+from tree_gardener.port_checks import PortProblem, check_text, declare_entry, script_problem
+from tree_gardener.ports import IDENTITY, NO_DEFAULT, BoundPorts, Manifest, pointer_key
 from tree_gardener.rebind import rebind
 from tree_gardener.registry import NodeType
 from tree_gardener.script import Environment, compile_script
 from tree_gardener.structure import Definition, type_of
 from tree_gardener.substitution import Rule
 from tree_gardener.values import (
-    ANY,
     DOUBLE,
     INT,
     INT32,
     INT64,
     INT_64,
-    STATUS,
-    STRING,
     ConversionError,
     ValueType,
     parse_bool,
@@ -46,7 +44,6 @@ if TYPE_CHECKING:
 MAX_PROBLEMS: Final = 100
 _INTEGER = re.compile(r"-?[0-9]+\Z")
 _REAL = re.compile(r"-?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\Z")
-_IDENTITY: Final = frozenset(("name", "ID"))
 _LOG = logging.getLogger(__name__)
 
 
@@ -176,16 +173,16 @@ class Builder:
             return {
                 name: value
                 for name, value in element.attributes.items()
-                if name[0].isalpha() and name not in _IDENTITY
+                if name[0].isalpha() and name not in IDENTITY
             }
         given = {}
         for name, value in element.attributes.items():
-            if name[0] == "_" or name in _IDENTITY:
+            if name[0] == "_" or name in IDENTITY:
                 continue
             spec = manifest.get(name)
             if spec is not None:
                 given[name] = value
-                self.check_value(element, kind, spec, value)
+                self.found(element, name, check_text(kind.node_class, spec, value))
             elif kind.name != "TestNode" and name[0].isalpha():
                 known = ", ".join(manifest) or "it has none"
                 self.report(
@@ -197,41 +194,11 @@ class Builder:
                 self.report(element, "TG302", f"the port '{spec.name}' of {kind.name} needs a value", hint)
         return given or NO_PORTS
 
-    def check_value(self, element: Element, kind: NodeType, spec: PortSpec, text: str) -> None:
-        """Checks a literal against the port's type."""
-        if pointer_key(text, spec.name) is not None:
-            return
-        if text.count("{") != text.count("}") and text.strip()[:1] == "{":
-            message = f"'{text}' opens a brace and does not close it"
-            self.report(element, "TG303", message, "an entry is written {key}", spec.name)
-            return
-        if spec.direction == OUTPUT:
-            if spec.type.is_strong:
-                message = f"the output port '{spec.name}' needs an entry, not '{text}'"
-                self.report(element, "TG304", message, f"write {{{text or 'key'}}}", spec.name)
-            return
-        if spec.name == kind.node_class.CODE:
-            self.check_script(element, spec.name, text)
-        elif spec.type is not STATUS:
-            try:
-                spec.type.parse(text)
-            except ConversionError as error:
-                message = f"the port '{spec.name}' is of type {spec.type.name}: {error}"
-                self.report(element, "TG305", message, "write a literal of that type, or a {key}", spec.name)
-
-    def check_script(self, element: Element, attribute: str, text: str) -> None:
-        """Checks that a script parses; an empty one does nothing."""
-        if not text:
-            return
-        try:
-            compile_script(text)
-        except ScriptError as error:
-            self.script_problem(element, attribute, error)
-
-    def script_problem(self, element: Element, attribute: str, error: ScriptError) -> None:
-        """Reports a script that does not parse, at the position of the error."""
-        message = f"in the script of '{attribute}': {error.message}"
-        self.report(element, "TG401", message, error.hint, attribute, error.span[0])
+    def found(self, element: Element, attribute: str, problem: PortProblem | None) -> None:
+        """Adds a problem of an attribute, if there is one."""
+        if problem is not None:
+            code, message, hint, span_start = problem
+            self.report(element, code, message, hint, attribute, span_start)
 
     def construct(self, node: Node) -> None:
         """Reports what BehaviorTree.CPP's constructor of the node would miss."""
@@ -262,29 +229,8 @@ class Builder:
             return
         for name, text in element.attributes.items():
             spec = manifest.get(name)
-            key = pointer_key(text, name) if spec is not None else None
-            if spec is None or key is None:
-                continue
-            # Nodes that watch an entry declare it as BT::Any, which takes no strings later.
-            weak = ANY if spec.name == kind.node_class.NEEDS else None
-            kind_of_port = spec.type if spec.type.is_strong else weak
-            entry = board.find(key)
-            if entry is None:
-                try:
-                    board.create(key, kind_of_port)
-                except (Exception, SystemExit) as error:
-                    self.report(element, "TG306", str(error), "", name)
-            elif (
-                entry.type is not None
-                and entry.type.is_strong
-                and spec.type.is_strong
-                and entry.type is not spec.type
-                and entry.type is not STRING
-            ):
-                message = (
-                    f"the entry '{key}' is of type {entry.type.name} elsewhere and {spec.type.name} here"
-                )
-                self.report(element, "TG306", message, "use two entries, or ports of one type", name)
+            if spec is not None:
+                self.found(element, name, declare_entry(kind.node_class, spec, text, board))
 
     def guard(self, node: Node) -> None:
         """Compiles the node's conditions."""
@@ -297,7 +243,7 @@ class Builder:
                 try:
                     compile_script(text)
                 except ScriptError as error:
-                    self.script_problem(node.element, attribute, error)
+                    self.found(node.element, attribute, script_problem(attribute, error))
             return
         node.guard = Guard(scripts, Environment(node.board, self.tree.enums, node.uid))
 
@@ -306,12 +252,14 @@ class Builder:
         assert kind.behaviour_class is not None
         try:
             if kind.takes_ports:
-                behaviour = kind.behaviour_class(node.name, ports=bound_ports(node))
+                node.bound = BoundPorts(bound_ports(node))
+                behaviour = kind.behaviour_class(node.name, ports=node.bound)
             else:
                 behaviour = kind.behaviour_class(node.name)
             behaviour.tree_gardener_node = node
             node.bind(behaviour)
             rebind(behaviour)
+            node.note_early_reads()
         except (Exception, SystemExit) as error:
             _LOG.debug("the action %s cannot be made", kind.name, exc_info=True)
             hint = "look at its __init__: it is called with the node's name"
@@ -356,9 +304,7 @@ class Builder:
     def remapping(self, element: Element, *, autoremap: bool) -> dict[str, str]:
         """Returns the SubTree's ports, with the defaults of its model."""
         given = {
-            name: text
-            for name, text in element.attributes.items()
-            if name[0] != "_" and name not in _IDENTITY
+            name: text for name, text in element.attributes.items() if name[0] != "_" and name not in IDENTITY
         }
         model = self.forest.models.get(element.attributes["ID"])
         if model is None or autoremap:
@@ -404,7 +350,7 @@ class PortText(str):
 
 
 def bound_ports(node: Node) -> dict[str, str]:
-    """Returns the ``ports`` argument of an action's constructor: port name to text."""
+    """Returns the texts of a node's ports as the ``ports`` argument of an action's constructor holds them."""
     texts = {
         spec.name: str(spec.default)
         for spec in (node.manifest or {}).values()

@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from tree_gardener.errors import PortError, TickError
-from tree_gardener.ports import Manifest, read_port, write_port
+from tree_gardener.ports import BoundPorts, Manifest, read_port, write_port
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
 
 if TYPE_CHECKING:
@@ -68,12 +68,16 @@ class Node:
         status: the stored status; never SKIPPED.
         board: the scope of the blackboard that its ports and scripts use.
         ports: the texts that the document gives its ports.
+        bound: the ports that an action's constructor received; None for others.
+        early: the ports that an action read before the first tick.
     """
 
     __slots__ = (
         *(
             "board",
+            "bound",
             "children",
+            "early",
             "element",
             "guard",
             "inputs",
@@ -93,6 +97,8 @@ class Node:
     """The port without which the node cannot be created; BehaviorTree.CPP reads it in the constructor."""
     CODE: ClassVar[str] = ""
     """The port that holds a script, which is read when the node is made."""
+    READ_AT_LOAD: ClassVar[str] = ""
+    """The port that is read when the tree is built, and never again."""
 
     tree: "Tree"
 
@@ -102,6 +108,8 @@ class Node:
         self.manifest = manifest
         self.ports = ports
         self.inputs: dict[str, Any] = {}
+        self.bound: BoundPorts | None = None
+        self.early: frozenset[str] = frozenset()
         self.uid = 0
         self.parent: Node | None = None
         self.children: tuple[Node, ...] = ()
@@ -243,6 +251,18 @@ class Node:
         return self.tree.run_hooks(self, inner)
 
     # -- ports and errors ---------------------------------------------------------------------------
+
+    @property
+    def ports_read(self) -> frozenset[str]:
+        """The ports that were read since `note_early_reads`."""
+        return frozenset(self.inputs) | (self.bound.read if self.bound is not None else frozenset())
+
+    def note_early_reads(self) -> None:
+        """Adds the ports that were read so far to `early`; called before the first tick."""
+        self.early |= self.ports_read
+        self.inputs.clear()
+        if self.bound is not None:
+            self.bound.read.clear()
 
     def get(self, port: str) -> Any:
         """Reads a port of the node.

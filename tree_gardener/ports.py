@@ -11,7 +11,7 @@ class Forward(py_trees.behaviour.Behaviour):
 
 import dataclasses
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Final
 
 from tree_gardener.blackboard import EMPTY
@@ -19,6 +19,8 @@ from tree_gardener.errors import PortError
 from tree_gardener.values import ANY, ConversionError, ValueType, value_type
 
 if TYPE_CHECKING:
+    from _collections_abc import dict_items, dict_values
+
     from tree_gardener.node import Node
 
 INPUT: Final = "input"
@@ -26,6 +28,8 @@ OUTPUT: Final = "output"
 INOUT: Final = "inout"
 
 NO_DEFAULT: Final = EMPTY
+IDENTITY: Final = frozenset(("name", "ID"))
+"""Attributes of a node in XML that are no ports."""
 
 _POINTER = re.compile(r"[ \t\r\n]*\{(.+)\}[ \t\r\n]*\Z", re.DOTALL)
 
@@ -238,3 +242,45 @@ def set_output(behaviour: Any, name: str, value: Any) -> None:
         PortError: the tree gives the port no ``{key}``, or the entry has another type.
     """
     write_port(node_of(behaviour), name, value)
+
+
+class BoundPorts(dict[str, str]):
+    """The ``ports`` argument of an action's constructor: port name to text.
+
+    Attributes:
+        read: the names of the ports that were read; a copy reads all of them.
+    """
+
+    __slots__ = ("read",)
+
+    def __init__(self, texts: Mapping[str, str]) -> None:
+        super().__init__(texts)
+        self.read: set[str] = set()
+
+    def replace(self, texts: Mapping[str, str]) -> None:
+        """Replaces all texts; the action sees them where it reads its ports later."""
+        super().clear()
+        super().update(texts)
+
+    def __getitem__(self, name: str) -> str:
+        self.read.add(name)
+        return super().__getitem__(name)
+
+    def get(self, name: str, default: Any = None, /) -> Any:
+        """Returns the text of a port, which was read now."""
+        self.read.add(name)
+        return super().get(name, default)
+
+    def __iter__(self) -> Iterator[str]:
+        self.read.update(super().keys())
+        return super().__iter__()
+
+    def items(self) -> "dict_items[str, str]":
+        """Returns the names with their texts, all of which were read now."""
+        self.read.update(super().keys())
+        return super().items()
+
+    def values(self) -> "dict_values[str, str]":
+        """Returns the texts, all of which were read now."""
+        self.read.update(super().keys())
+        return super().values()

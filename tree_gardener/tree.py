@@ -198,6 +198,7 @@ class Tree:
                 own.instance_behaviour.setup(node=node, **kwargs)
             except (Exception, SystemExit) as error:
                 raise TickError(own, describe(error), error) from error
+            own.note_early_reads()
 
     def halt(self) -> None:
         """Halts the whole tree, as BT.CPP's ``haltTree``: the root, and then every node once more."""

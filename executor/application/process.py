@@ -126,6 +126,8 @@ class Application:
         self._guarded(lambda: self._graph.spin_once(SPIN_S))
 
     def _obey(self, message: ToApplication) -> None:
+        from executor.application.live_ports import set_port  # noqa: PLC0415 - as all of the engine
+
         runner = self._runner
         assert runner is not None  # noqa: S101 - commands come after `ready`
         match message:
@@ -146,6 +148,9 @@ class Application:
             case child_messages.SetTickRate():
                 runner.set_tick_rate(message.tick_hz)
                 self._channel.send(child_messages.Answer(request=message.request))
+            case child_messages.SetPort():
+                error = set_port(runner.tree, message, self._channel.send)
+                self._channel.send(child_messages.Answer(request=message.request, error=error))
             case child_messages.SetBlackboard():
                 self._channel.send(child_messages.BlackboardSet(self._set_blackboard(message)))
 

@@ -253,7 +253,8 @@ class _Runner:
             is_about = data["level"] == "warning" and data["node_path"]
             self._say(f"{data['node_path']}: {data['text']}" if is_about else data["text"])
         elif name == "topic_mismatch":
-            self._say(mismatch_line(data["topic"], data["message"], data["hint"]))
+            if not data["resolved"]:
+                self._say(mismatch_line(data["topic"], data["message"], data["hint"]))
         else:
             if name == "fault" and data["kind"] == "timeout":
                 self._hangs_s = time.monotonic()

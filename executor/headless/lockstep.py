@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
+    from executor.child_messages import TopicMismatch
     from executor.headless.recorder import RunRecorder
     from executor.headless.recording import Recording
     from executor.ros.spin import DrainingExecutor
@@ -215,11 +216,12 @@ class _Run:
         self._executor: DrainingExecutor = DrainingExecutor(context=context)
         self._executor.add_node(self._application)
         self._stack.append(self._executor.shutdown)
-        self._mismatches = Mismatches(
-            self._application,
-            lambda found: self._say(mismatch_line(found.topic, found.message, found.hint)),
-        )
+        self._mismatches = Mismatches(self._application, self._say_mismatch)
         self._stack.append(wait_in_simulation(lambda: self._world.time_s, self._let_time_pass))
+
+    def _say_mismatch(self, found: TopicMismatch) -> None:
+        if not found.resolved:
+            self._say(mismatch_line(found.topic, found.message, found.hint))
 
     def _make_tree(self, project: Project) -> Tree:
         from executor.application.host import enter, prepare  # noqa: PLC0415 - after the environment

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from msgspec.structs import astuple
+from msgspec.structs import replace
 from rclpy.qos import DurabilityPolicy, QoSCompatibility, ReliabilityPolicy, qos_check_compatible
 
 from executor.child_messages import TopicMismatch
@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from rclpy.node import Node
+
+    from executor.messages import MismatchCode
 
 __all__ = ["Mismatches"]
 
@@ -23,8 +25,11 @@ _IGNORED: Final = ("/rosout", "/parameter_events")
 _NO_NAME_YET: Final = "_NODE_NAME_UNKNOWN_"
 
 
+_Key = tuple[str, str, str, str]
+
+
 class Mismatches:
-    """Finds topics whose ends do not match, and reports each mismatch once while it exists.
+    """Finds topics whose ends do not match, and reports each mismatch once while it exists, and its end.
 
     Args:
         node: the node that queries the ROS graph.
@@ -34,8 +39,8 @@ class Mismatches:
     def __init__(self, node: Node, report: Callable[[TopicMismatch], None]) -> None:
         self._node = node
         self._report = report
-        self._told: set[tuple[str, ...]] = set()
-        self._seen: set[tuple[str, ...]] = set()
+        self._told: dict[_Key, TopicMismatch] = {}
+        self._seen: set[_Key] = set()
         self._look_s = 0.0
 
     def poll(self, now_s: float) -> None:
@@ -46,7 +51,7 @@ class Mismatches:
 
     def look(self) -> None:
         """Checks the graph now."""
-        present: set[tuple[str, ...]] = set()
+        present: set[_Key] = set()
         for topic, _ in self._node.get_topic_names_and_types():
             if topic in _IGNORED:
                 continue
@@ -56,13 +61,14 @@ class Mismatches:
                 *_types_differ(topic, publishers, subscribers),
                 *_qos_differs(topic, publishers, subscribers),
             ):
-                key = astuple(found)
+                key = (found.topic, found.publisher, found.subscriber, found.message)
                 present.add(key)
                 if key not in self._told and (key in self._seen or not _may_pass(found)):
-                    self._told.add(key)
+                    self._told[key] = found
                     self._report(found)
         self._seen = present
-        self._told &= present
+        for key in self._told.keys() - present:
+            self._report(replace(self._told.pop(key), resolved=True))
 
 
 def _may_pass(found: TopicMismatch) -> bool:
@@ -95,6 +101,8 @@ def _types_differ(topic: str, publishers: list[Any], subscribers: list[Any]) -> 
                     f"Nothing arrives: {_name(publisher)} publishes {publisher.topic_type}, "
                     f"{_name(subscriber)} subscribes to {subscriber.topic_type}.",
                     "Use the same message type at both ends.",
+                    "type",
+                    {"published": publisher.topic_type, "wanted": subscriber.topic_type},
                 )
 
 
@@ -106,25 +114,33 @@ def _qos_differs(topic: str, publishers: list[Any], subscribers: list[Any]) -> I
             said, wanted = publisher.qos_profile, subscriber.qos_profile
             compatible, reason = qos_check_compatible(said, wanted)
             if compatible == QoSCompatibility.ERROR:
-                text, hint = _explained(publisher, subscriber, reason)
+                code, text, hint = _explained(publisher, subscriber, reason)
                 ends = _name(publisher), _name(subscriber)
-                yield TopicMismatch(topic, *ends, "qos", f"Nothing arrives: {text}.", hint)
+                message = f"Nothing arrives: {text}."
+                values = {"problem": _plain(reason)}
+                yield TopicMismatch(topic, *ends, "qos", message, hint, code, values)
 
 
-def _explained(publisher: Any, subscriber: Any, reason: str) -> tuple[str, str]:
+def _plain(reason: str) -> str:
+    return reason.strip().rstrip(";").removeprefix("ERROR: ")
+
+
+def _explained(publisher: Any, subscriber: Any, reason: str) -> tuple[MismatchCode, str, str]:
     said, wanted = publisher.qos_profile, subscriber.qos_profile
     if said.reliability is ReliabilityPolicy.BEST_EFFORT and wanted.reliability is ReliabilityPolicy.RELIABLE:
         return (
+            "reliability",
             f"{_name(publisher)} publishes best effort, {_name(subscriber)} asks for reliable delivery",
             "Subscribe with rclpy.qos.qos_profile_sensor_data, or publish with QoSProfile(depth=10).",
         )
     if said.durability is DurabilityPolicy.VOLATILE and wanted.durability is DurabilityPolicy.TRANSIENT_LOCAL:
         return (
+            "durability",
             f"{_name(publisher)} keeps nothing for late subscribers, {_name(subscriber)} asks for that",
             "Subscribe with DurabilityPolicy.VOLATILE, or publish with DurabilityPolicy.TRANSIENT_LOCAL.",
         )
-    text = reason.strip().rstrip(";").removeprefix("ERROR: ")
     return (
-        f"{_name(publisher)} and {_name(subscriber)} differ in quality of service: {text}",
+        "qos",
+        f"{_name(publisher)} and {_name(subscriber)} differ in quality of service: {_plain(reason)}",
         "Use the same QoSProfile at both ends.",
     )

@@ -21,6 +21,7 @@ __all__ = ["forward", "log"]
 _SAME: dict[type[Struct], type[Struct]] = {
     child_messages.Tree: messages.Tree,
     child_messages.Blackboard: messages.Blackboard,
+    child_messages.PortSet: messages.PortSet,
     child_messages.Fault: messages.Fault,
     child_messages.Finished: messages.Finished,
     child_messages.TopicMismatch: messages.TopicMismatch,

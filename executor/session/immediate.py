@@ -62,6 +62,11 @@ def _set_tick_rate(stage: Stage, event: CommandCame, data: messages.SetTickRate)
     _ask(stage, event, "application", child_messages.SetTickRate(data.tick_hz), then=note)
 
 
+def _set_port(stage: Stage, event: CommandCame, data: messages.SetPort) -> None:
+    message = child_messages.SetPort(node_id=data.node_id, path=data.path, port=data.port, value=data.value)
+    _ask(stage, event, "application", message)
+
+
 def _set_speed(stage: Stage, event: CommandCame, data: messages.SetSpeed) -> None:
     def note() -> None:
         stage.mirror.speed = data.speed
@@ -167,6 +172,7 @@ def _typed(
 
 IMMEDIATE: Final[dict[str, Callable[[Stage, CommandCame], None]]] = {
     "set_tick_rate": _typed(messages.SetTickRate, _set_tick_rate),
+    "set_port": _typed(messages.SetPort, _set_port),
     "set_speed": _typed(messages.SetSpeed, _set_speed),
     "reset_world": _typed(messages.Empty, _reset_world),
     "run_world": _typed(messages.Empty, _run_world),
@@ -186,6 +192,7 @@ IMMEDIATE: Final[dict[str, Callable[[Stage, CommandCame], None]]] = {
 ANSWER_LATER: Final = frozenset(
     {
         "set_tick_rate",
+        "set_port",
         "set_speed",
         "reset_world",
         "run_world",

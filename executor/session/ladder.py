@@ -108,6 +108,7 @@ TABLE: Final[dict[str, Row]] = {
     "cancel": _act(ANY, "Ends the step under way; the ladder stays on the last rung reached."),
     "step": _act(frozenset({State.PAUSED}), "One tick, and `1/tick_hz` of simulated time.", is_step=True),
     "set_tick_rate": _act(HAS_APPLICATION, "Changes the tick rate from the next tick on."),
+    "set_port": _act(HAS_APPLICATION, "Changes a port of a running node from the next tick on."),
     "set_speed": _act(WORLD_UP, "Changes how fast simulated time passes."),
     "reset_world": _act(WORLD_UP, "Restores the initial state of the world."),
     "run_world": _act(

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING, Final
 
+from msgspec import structs
+
 from executor.messages import (
     Blackboard,
     BlackboardEntry,
@@ -18,6 +20,7 @@ from executor.messages import (
     LaunchNodes,
     Log,
     NodeStatus,
+    PortSet,
     Sim,
     Snapshot,
     StateChanged,
@@ -48,6 +51,7 @@ class Mirror:
         self.statuses: dict[int, NodeStatus] = {}
         self.past: list[tuple[int, NodeStatus]] = []
         self.finished: Finished | None = None
+        self.ports: dict[tuple[str, str, str], PortSet] = {}
         self.blackboard: dict[tuple[str, str], BlackboardEntry] = {}
         self.logs: deque[Log] = deque(maxlen=LOG_LINES)
         self.launch_nodes: list[LaunchNode] = []
@@ -66,6 +70,7 @@ class Mirror:
         self.statuses.clear()
         self.past = []
         self.finished = None
+        self.ports.clear()
         self.blackboard.clear()
         self.faults.clear()
         self.tick = 0
@@ -76,7 +81,7 @@ class Mirror:
         """Updates the state by one event that is sent to all clients."""
         match event:
             case StateChanged():
-                self.state = State(event.state)
+                self._enter(State(event.state))
             case Tree():
                 self.tree = event
                 self.statuses = {node.uid: "IDLE" for node in event.nodes}
@@ -89,6 +94,8 @@ class Mirror:
                 self.finished = event
             case Blackboard():
                 self._apply_entries(event.entries)
+            case PortSet():
+                self.ports[event.path, event.node_id, event.port] = event
             case Log():
                 self.logs.append(event)
             case LaunchNodes():
@@ -97,8 +104,7 @@ class Mirror:
             case Fault():
                 self.faults.append(event)
             case TopicMismatch():
-                if event not in self.mismatches:
-                    self.mismatches.append(event)
+                self._apply_mismatch(event)
             case Sim():
                 self.speed = event.speed
                 self.real_time_factor = event.real_time_factor
@@ -125,7 +131,20 @@ class Mirror:
             mismatches=list(self.mismatches),
             past=self.past,
             finished=self.finished,
+            ports=list(self.ports.values()),
         )
+
+    def _enter(self, state: State) -> None:
+        self.state = state
+        if not state.reaches(State.UNIVERSE_READY):
+            self.mismatches.clear()
+
+    def _apply_mismatch(self, event: TopicMismatch) -> None:
+        found = structs.replace(event, resolved=False)
+        if event.resolved and found in self.mismatches:
+            self.mismatches.remove(found)
+        elif not event.resolved and found not in self.mismatches:
+            self.mismatches.append(found)
 
     def _forget_faults_of(self, nodes: list[LaunchNode]) -> None:
         """Removes the faults of launch nodes that run again."""

@@ -23,6 +23,7 @@ setNavigator({
     location.search = `?tree=${id}`;
   },
   openFile: () => undefined,
+  openTopics: () => undefined,
   aimAt: () => undefined,
   renamed: () => undefined,
 });

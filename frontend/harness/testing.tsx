@@ -13,6 +13,7 @@ import type { DiagramNode } from '@/model/diagram';
 import { useProjectStore } from '@/store/project';
 import { useLiveStore } from '@/store/project/live';
 import { setNavigator } from '@/store/project/navigation';
+import { useLivePorts } from '@/store/run/livePorts';
 import { useRunStore } from '@/store/run/store';
 import { ensureConnected, leave } from '@/store/session/connection';
 import { initialSession } from '@/store/session/reduce';
@@ -112,7 +113,13 @@ export const action = (name: string, more: Partial<ActionModel> = {}): ActionMod
 
 /** Records what is opened: documents belong to the frame, which these tests leave out. */
 export function watchNavigation() {
-  const navigator = { openTree: vi.fn(), openFile: vi.fn(), aimAt: vi.fn(), renamed: vi.fn() };
+  const navigator = {
+    openTree: vi.fn(),
+    openFile: vi.fn(),
+    openTopics: vi.fn(),
+    aimAt: vi.fn(),
+    renamed: vi.fn(),
+  };
   setNavigator(navigator);
   onTestFinished(() => {
     setNavigator(null);
@@ -254,6 +261,7 @@ function resetStores(): void {
   useSessionStore.setState(initialSession, true);
   useLiveStore.getState().clear();
   useRunStore.setState(useRunStore.getInitialState(), true);
+  useLivePorts.setState(useLivePorts.getInitialState(), true);
   useTopicsStore.setState(useTopicsStore.getInitialState(), true);
   localStorage.clear();
 }

@@ -317,6 +317,8 @@ def behaviour_is_reused(studio: Studio) -> None:
     edit(studio, "actions/DriveDistance.py", "# mine\n" + library_source("DriveDistance"))
     studio.at("file-trees/MainTree.json").click()
     studio.at("insert-DriveForward").click()
+    expect(studio.at("arrival-actions/DriveDistance.py")).to_contain_text("comes as DriveDistance2")
+    studio.at("take-arrivals").click()
     expect(studio.at("file-trees/DriveForward2.json")).to_be_visible()
     expect(studio.at("file-actions/DriveDistance2.py")).to_be_visible()
     studio.saved()

@@ -31,6 +31,20 @@ class Forward(py_trees.behaviour.Behaviour):
 """
 
 
+DEAF = """import py_trees
+from std_msgs.msg import String
+
+
+class CheckObstacle(py_trees.behaviour.Behaviour):
+    def setup(self, **kwargs):
+        self.ear = kwargs["node"].create_subscription(String, "/scan", print, 10)
+
+    def update(self):
+        return py_trees.common.Status.FAILURE
+"""
+CHECK = "actions/CheckObstacle.py"
+
+
 def show_problems(studio: Studio) -> Locator:
     studio.page.get_by_role("tab", name="Problems").click()
     expect(studio.at("problems")).to_be_visible()
@@ -129,3 +143,25 @@ def test_a_new_field_has_the_caret_and_is_blamed_only_when_it_is_left(shared_stu
     page.keyboard.type("true")
     expect(problems).to_contain_text("the project can run")
     studio.saved()
+
+
+@pytest.mark.simulation
+def test_a_topic_whose_ends_do_not_match_is_a_problem_until_it_is_repaired(studio: Studio) -> None:
+    studio.new_from("laser_bump_and_go")
+    replace(studio, CHECK, DEAF)
+    studio.saved()
+    studio.run()
+    problems = show_problems(studio)
+    row = problems.get_by_role("button").filter(has_text="Nothing arrives on /scan")
+    expect(row).to_have_attribute("data-severity", "error")
+    expect(row).to_contain_text("subscribes to std_msgs/msg/String. Use the same message type at both ends.")
+    expect(row).to_contain_text(f"{CHECK}:7")
+    studio.picture("mismatch")
+    tab(studio, "MainTree").click()
+    row.press("Enter")
+    expect(editor(studio, CHECK)).to_be_focused()
+    expect(studio.page.locator(f'[data-path="{CHECK}"] .cm-activeLine')).to_contain_text('"/scan"')
+    studio.at("stop").click()
+    studio.expect_state("visualization_ready")
+    expect(row).to_have_count(0)
+    studio.end_session()

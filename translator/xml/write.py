@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from translator.catalog import NodeModel, PortModel, builtins
 from translator.text import is_xml_name
 from translator.tree import SUBTREE, Node, Tree
-from translator.xml.attributes import is_free, to_attributes
+from translator.xml.attributes import COMMENT, is_free, to_attributes
 from translator.xml.escape import attribute, character_data
 
 if TYPE_CHECKING:
@@ -54,7 +54,8 @@ def ordered_trees(project: Project) -> list[Tree]:
 
 def tree_lines(tree: Tree, project: Project, *, depth: int, indent: str = INDENT) -> list[str]:
     """Returns the lines of one `<BehaviorTree>`."""
-    values = {"ID": tree.id, **{name: text for name, text in tree.attributes.items() if is_free(name)}}
+    kept = {name: text for name, text in tree.attributes.items() if name == COMMENT or is_free(name)}
+    values = {"ID": tree.id, **kept}
     if tree.layout and tree.layout != "vertical":
         values[LAYOUT] = tree.layout
     if tree.root is None:

@@ -14,7 +14,7 @@ class Precondition(Decorator):
 
     __slots__ = ("open", "script")
     MARKS_RUNNING = ()
-    NEEDS = CODE = "if"
+    NEEDS = CODE = READ_AT_LOAD = "if"
 
     def prepare(self) -> None:
         super().prepare()

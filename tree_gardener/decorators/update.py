@@ -10,7 +10,7 @@ class _WhenUpdated(Decorator):
 
     __slots__ = ("busy", "key", "seen")
     MARKS_RUNNING = ()
-    NEEDS = "entry"
+    NEEDS = READ_AT_LOAD = "entry"
     OTHERWISE: ClassVar[Status]
 
     def prepare(self) -> None:

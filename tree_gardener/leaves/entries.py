@@ -91,7 +91,7 @@ class WasEntryUpdated(SyncLeaf):
     """Succeeds if a blackboard entry was written since the last test, else fails."""
 
     __slots__ = ("key", "seen")
-    NEEDS = "entry"
+    NEEDS = READ_AT_LOAD = "entry"
 
     def prepare(self) -> None:
         self.seen = 0

@@ -15,7 +15,7 @@ class Script(SyncLeaf):
     """
 
     __slots__ = ("script",)
-    NEEDS = CODE = "code"
+    NEEDS = CODE = READ_AT_LOAD = "code"
 
     def prepare(self) -> None:
         self.script = ScriptPort(self, "code", _bind_any)
@@ -38,7 +38,7 @@ class ScriptCondition(SyncLeaf):
 
     __slots__ = ("script",)
     KIND = Kind.CONDITION
-    NEEDS = CODE = "code"
+    NEEDS = CODE = READ_AT_LOAD = "code"
 
     def prepare(self) -> None:
         self.script = ScriptPort(self, "code", bind_test)

@@ -10,6 +10,7 @@ import { registerCanvasCommands } from '@/features/canvas/commands/canvasCommand
 import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
 import { ExportDialog } from '@/features/export/ExportDialog';
+import { ArrivalsDialog } from '@/features/library/ArrivalsDialog';
 import { ImportReport } from '@/features/importReport/ImportReport';
 import { Shortcuts } from '@/features/onboarding/Shortcuts';
 import { RunStrip } from '@/features/run/strip/RunStrip';
@@ -106,6 +107,7 @@ function Workbench({ projectId }: StudioProps) {
     setNavigator({
       openTree: (id) => openTab({ kind: 'tree', id }),
       openFile: (path, line) => openTab({ kind: 'file', path }, line),
+      openTopics: () => showPanel('topics'),
       renamed: (kind, from, to) =>
         kind === 'tree'
           ? followRename({ kind, id: from }, { kind, id: to })
@@ -154,6 +156,7 @@ function Workbench({ projectId }: StudioProps) {
       <PublishDialog />
       <ConnectDialog />
       <RenameKeyDialog />
+      <ArrivalsDialog />
       <RestoredNotice />
       <ImportReport projectId={projectId} />
     </div>

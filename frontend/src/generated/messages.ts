@@ -25,6 +25,10 @@ export type LaunchState = "running" | "ended" | "failed";
 
 export type FaultKind = "exception" | "process" | "timeout" | "load";
 
+export type PortEffect = "next_tick" | "next_start";
+
+export type MismatchCode = "type" | "reliability" | "durability" | "qos";
+
 export type FinishReason = "root_finished" | "action_raised" | "terminated" | "process_died";
 
 /** A command without arguments. */
@@ -92,6 +96,20 @@ export interface SetBlackboard {
   scope: string;
   key: string;
   value: unknown;
+}
+
+/**
+ * Gives a port of a running node another text from the next tick on; null takes its value away.
+ *
+ * The node is the one with the id `node_id` in the diagram at `path`, which names its instance as in the
+ * event `tree`. `value` is a text as in the diagram: a literal, or `{key}`. Refused with `port_fixed` if the
+ * engine reads the port only when the tree is built, and with `bad_port` if the port does not take the text.
+ */
+export interface SetPort {
+  node_id: string;
+  path: string;
+  port: string;
+  value?: string | null;
 }
 
 /** Drives the robot by hand: linear x in m/s, angular z in rad/s. */
@@ -268,6 +286,23 @@ export interface Blackboard {
   entries: BlackboardEntry[];
 }
 
+/**
+ * A port of a node of the running tree was given another text.
+ *
+ * `saved` is the text with which the tree was built; null stands for none. `effect` says when the node uses
+ * the new text: from the next tick on, or, because its action read the port only before the first tick, when
+ * the program starts again.
+ */
+export interface PortSet {
+  node_id: string;
+  tree_id: string;
+  path: string;
+  port: string;
+  value: string | null;
+  saved: string | null;
+  effect: PortEffect;
+}
+
 /** One line of output. */
 export interface Log {
   source: LogSource;
@@ -363,7 +398,8 @@ export interface TypeDescription {
  * Two ends of a topic do not match, so no message arrives; reported once while both exist.
  *
  * `publisher` and `subscriber` are names of ROS nodes. `reason` is the difference: message type or quality
- * of service. `hint` says how to fix it.
+ * of service. `code` names it exactly, and `values` holds what `message` tells except the names. `hint`
+ * says how to fix it. With `resolved`, the mismatch that was reported does not exist any more.
  */
 export interface TopicMismatch {
   topic: string;
@@ -372,6 +408,9 @@ export interface TopicMismatch {
   reason: "qos" | "type";
   message: string;
   hint: string;
+  code: MismatchCode;
+  values: Record<string, string>;
+  resolved: boolean;
 }
 
 /**
@@ -411,6 +450,7 @@ export interface Snapshot {
   mismatches: TopicMismatch[];
   past: [number, NodeStatus][];
   finished: Finished | null;
+  ports: PortSet[];
 }
 
 /** The envelope of an event. */
@@ -580,6 +620,7 @@ export interface Commands {
   terminate_universe: Empty;
   disconnect: Empty;
   set_blackboard: SetBlackboard;
+  set_port: SetPort;
   teleop: Teleop;
   move_body: MoveBody;
   subscribe: Subscribe;
@@ -604,6 +645,7 @@ export interface Events {
   tree: Tree;
   tick: Tick;
   blackboard: Blackboard;
+  port_set: PortSet;
   log: Log;
   fault: Fault;
   finished: Finished;

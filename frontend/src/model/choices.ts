@@ -18,9 +18,10 @@ export function allChoices(diagram: Pick<Diagram, 'id'> | null, vocabulary: Voca
   }
   const subtree = vocabulary.specs.get('SubTree');
   if (subtree && diagram) {
-    for (const tree of vocabulary.trees.keys()) {
+    for (const [tree, { description }] of vocabulary.trees) {
       const kind = { type: 'SubTree', tree };
-      if (isKindLegal(diagram, kind, vocabulary)) choices.push({ kind, spec: subtree, label: tree });
+      const spec = description === '' ? subtree : { ...subtree, summary: description };
+      if (isKindLegal(diagram, kind, vocabulary)) choices.push({ kind, spec, label: tree });
     }
   }
   return choices;

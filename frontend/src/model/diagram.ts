@@ -33,6 +33,8 @@ export interface Diagram {
   readonly layout: Orientation;
   /** The ports that the tree has as a SubTree, unparsed; `treeFacts` reads them. */
   readonly ports?: unknown;
+  /** Attributes of its `<BehaviorTree>`; `treeAttributes` reads them. */
+  readonly attributes?: Readonly<Record<string, string>>;
 }
 
 export function emptyDiagram(id: string): Diagram {

@@ -29,7 +29,7 @@ export interface Fix {
 /** The part of a finding that determines its fixes: the editor's kind, or the server's code. */
 export type Fixable =
   | Pick<Problem, 'kind' | 'node' | 'port'>
-  | { readonly code: string; readonly node: NodeId | null; readonly port?: string };
+  | { readonly code: string; readonly node: NodeId | null; readonly port?: string | undefined };
 
 const fix = (key: string, does: Fix['does'], values: Fix['values'] = {}): Fix => ({ key, values, does });
 

@@ -1,17 +1,42 @@
 import { parseDiagram, serializeDiagram } from './serialize';
 import type { Diagram, DiagramNode } from './diagram';
+import { importsName, withName } from './pythonNames';
 
 /** The contents of files, by path. */
 export type Sources = Readonly<Record<string, string>>;
 
-/** The result of adding a behaviour to a project. */
+/** What becomes of a file that comes under the name of another file of the project. */
+export type Choice = 'keep' | 'rename' | 'replace';
+
+/** A file that comes, and what becomes of it. */
+export interface Arrival {
+  /** Its path where it comes from. */
+  readonly path: string;
+  /** Its path in the project. */
+  readonly place: string;
+  /** Nothing has its name; the same file is here; or another file has its name, and the choice says what is done. */
+  readonly state: 'new' | 'same' | Choice;
+}
+
+/** The result of bringing files to a project. */
 export interface Insertion {
-  /** The tree to call, by its name in the project. */
-  readonly tree: string;
+  /** What comes, in order of use; files that only a file uses that is not taken are left out. */
+  readonly arrivals: readonly Arrival[];
   /** The files to write, by path, without those that already have the same content. */
   readonly files: Sources;
-  /** The path in the project of each file of the behaviour. */
+  /** The path in the project of each file that comes. */
   readonly places: Readonly<Record<string, string>>;
+}
+
+/** What is brought to a project, and what the project has. */
+export interface Bringing {
+  /** The paths that are used where the user inserts: a tree, or the actions and trees of blocks. */
+  readonly needs: readonly string[];
+  readonly sources: Sources;
+  readonly existing: (path: string) => string | null;
+  readonly isTaken: (name: string) => boolean;
+  /** By path; a clash without a choice is renamed. */
+  readonly choices?: Readonly<Record<string, Choice>>;
 }
 
 const ACTION = /^actions\/([^/]+)\.py$/;
@@ -38,9 +63,9 @@ function renamed(sources: Sources, path: string, name: string): Record<string, s
   const tree = TREE.exec(path)?.[1];
   const result: Record<string, string> = {};
   for (const [each, text] of Object.entries(sources)) {
-    if (each === path && action !== undefined) {
-      const declaration = new RegExp(`^(\\s*class\\s+)${action}\\b`, 'm');
-      result[`actions/${name}.py`] = text.replace(declaration, `$1${name}`);
+    if (each === path && action !== undefined) result[`actions/${name}.py`] = withName(text, action, name);
+    else if (action !== undefined && ACTION.test(each) && importsName(text, action)) {
+      result[each] = withName(text, action, name);
     } else if (TREE.test(each)) {
       const diagram = parseDiagram(text);
       const changed = mapNodes(diagram, (node) => {
@@ -54,70 +79,92 @@ function renamed(sources: Sources, path: string, name: string): Record<string, s
   return result;
 }
 
-/**
- * Returns the files of a tree and of everything that it uses: its actions, the trees that it calls, and
- * theirs.
- */
-export function closureOf(tree: string, files: Sources): Sources {
-  const found: Record<string, string> = {};
-  const waiting = [tree];
-  for (let id = waiting.pop(); id !== undefined; id = waiting.pop()) {
-    const path = `trees/${id}.json`;
-    const text = files[path];
-    if (text === undefined || path in found) continue;
-    found[path] = text;
-    for (const node of Object.values(parseDiagram(text).nodes)) {
-      const action = `actions/${node.type}.py`;
-      const source = files[action];
-      if (node.type === 'SubTree' && node.tree !== undefined) waiting.push(node.tree);
-      else if (source !== undefined) found[action] = source;
-    }
+/** Returns the name in a path of an action or a tree. */
+export const nameIn = (path: string): string => (ACTION.exec(path) ?? TREE.exec(path))?.[1] ?? path;
+
+const normalized = (sources: Sources): Record<string, string> =>
+  Object.fromEntries(Object.entries(sources).map(([path, text]) => [path, normal(path, text)]));
+
+/** Returns the path of what a block uses: its tree, or the action of its type. */
+export const pathOf = ({ type, tree }: Pick<DiagramNode, 'type' | 'tree'>): string =>
+  type === 'SubTree' ? `trees/${tree ?? ''}.json` : `actions/${type}.py`;
+
+/** Returns the files that a file refers to: actions and trees of a tree, the other actions that an action imports. */
+function referencesOf(path: string, files: Sources): string[] {
+  const text = files[path] ?? '';
+  const paths = ACTION.test(path)
+    ? Object.keys(files).filter((each) => ACTION.test(each) && importsName(text, nameIn(each)))
+    : Object.values(parseDiagram(text).nodes).map(pathOf);
+  return paths.filter((each) => each in files);
+}
+
+/** Returns the given paths and all that their files refer to, in order of use. */
+function reached(needs: readonly string[], files: Sources, isOpened: (path: string) => boolean): Set<string> {
+  const found = new Set(needs.filter((path) => path in files));
+  for (const path of found) {
+    if (!isOpened(path)) continue;
+    for (const next of referencesOf(path, files)) found.add(next);
   }
   return found;
 }
 
+/** Returns the files at the given paths and everything that they use: their actions, and the trees that they call. */
+export function closureOf(needs: readonly string[], files: Sources): Sources {
+  const found = [...reached(needs, files, () => true)];
+  return Object.fromEntries(found.map((path) => [path, files[path] ?? '']));
+}
+
 /**
- * Plans how to add a behaviour to a project. Identical files are reused. If another file has the name
- * already, the new file gets a free name, and all references to it change.
+ * Plans how to bring files to a project. Identical files are reused; a file whose name is taken by something
+ * else is left out, replaces it, or gets a free name, and all references to it change.
  */
-export function planInsertion(
-  tree: string,
-  sources: Sources,
-  existing: (path: string) => string | null,
-  isTaken: (name: string) => boolean,
-): Insertion {
-  let files: Record<string, string> = Object.fromEntries(
-    Object.entries(sources).map(([path, text]) => [path, normal(path, text)]),
-  );
-  const origin: Record<string, string> = Object.fromEntries(Object.keys(files).map((path) => [path, path]));
-  const differs = (path: string) => {
-    const there = existing(path);
-    return there !== null && normal(path, there) !== files[path];
+export function planInsertion({ needs, sources, existing, isTaken, choices = {} }: Bringing): Insertion {
+  let files = normalized(sources);
+  const places = new Map(Object.keys(files).map((path) => [path, path]));
+  const differs = (place: string) => {
+    const there = existing(place);
+    return there !== null && normal(place, there) !== files[place];
   };
-  // A renamed file changes the files that refer to it, which may then clash too: this repeats until none
-  // does.
-  for (let clash = Object.keys(files).find(differs); clash; clash = Object.keys(files).find(differs)) {
-    const base = (ACTION.exec(clash) ?? TREE.exec(clash))?.[1] ?? clash;
+  const clashing = () =>
+    [...places].find(([path, place]) => differs(place) && (choices[path] ?? 'rename') === 'rename');
+  // A renamed file changes the files that refer to it, which may then clash too: repeated until none does.
+  for (let clash = clashing(); clash; clash = clashing()) {
+    const [path, place] = clash;
+    const placed = (name: string) => place.replace(nameIn(place), name);
     let count = 2;
-    while (isTaken(`${base}${count}`)) count += 1;
-    const name = `${base}${count}`;
-    const place = ACTION.test(clash) ? `actions/${name}.py` : `trees/${name}.json`;
-    files = renamed(files, clash, name);
-    for (const [from, to] of Object.entries(origin)) if (to === clash) origin[from] = place;
+    while (isTaken(`${nameIn(path)}${count}`) || placed(`${nameIn(path)}${count}`) in files) count += 1;
+    const name = `${nameIn(path)}${count}`;
+    files = renamed(files, place, name);
+    places.set(path, placed(name));
   }
-  const fresh = Object.entries(files).filter(([path]) => existing(path) === null);
-  const place = origin[`trees/${tree}.json`] ?? '';
-  return { tree: TREE.exec(place)?.[1] ?? tree, files: Object.fromEntries(fresh), places: origin };
+  const origins = new Map([...places].map(([path, place]) => [place, path]));
+  const stateOf = (path: string, place: string): Arrival['state'] => {
+    if (path !== place) return 'rename';
+    if (existing(place) === null) return 'new';
+    return differs(place) ? (choices[path] ?? 'rename') : 'same';
+  };
+  const isKept = (place: string) => stateOf(origins.get(place) ?? place, place) === 'keep';
+  const starts = needs.map((path) => places.get(path) ?? path);
+  const used = reached(starts, files, () => true);
+  const loose = Object.keys(files).filter((place) => !used.has(place));
+  const taken = [...reached(starts, files, (place) => !isKept(place)), ...loose];
+  const arrivals = taken.map((place) => {
+    const path = origins.get(place) ?? place;
+    return { path, place, state: stateOf(path, place) };
+  });
+  const written = arrivals.filter(({ state }) => state !== 'same' && state !== 'keep');
+  return {
+    arrivals,
+    files: Object.fromEntries(written.map(({ place }) => [place, files[place] ?? ''])),
+    places: Object.fromEntries(arrivals.map(({ path, place }) => [path, place])),
+  };
 }
 
 /** Returns the files of a behaviour at their places in a project. */
 export function atPlaces(sources: Sources, places: Readonly<Record<string, string>>): Sources {
-  let files: Record<string, string> = Object.fromEntries(
-    Object.entries(sources).map(([path, text]) => [path, normal(path, text)]),
-  );
+  let files = normalized(sources);
   for (const [from, to] of Object.entries(places)) {
-    const name = (ACTION.exec(to) ?? TREE.exec(to))?.[1];
-    if (from !== to && from in files && name !== undefined) files = renamed(files, from, name);
+    if (from !== to && from in files) files = renamed(files, from, nameIn(to));
   }
   return files;
 }

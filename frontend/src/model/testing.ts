@@ -38,11 +38,12 @@ export const vocabulary: Vocabulary = makeVocabulary(
   readCatalog(document),
   actions,
   new Map<string, TreeFacts>([
-    ['MainTree', { calls: new Set(), ports: [] }],
+    ['MainTree', { calls: new Set(), ports: [], description: '' }],
     [
       'Inner',
       {
         calls: new Set(),
+        description: '',
         ports: [
           {
             name: 'far',

@@ -1,5 +1,6 @@
 import { subtreeOf, type Diagram } from './diagram';
 import type { PortDirection, PortSpec } from './ports';
+import { descriptionOf } from './treeAttributes';
 
 /** Facts about a tree that other trees of the project need. */
 export interface TreeFacts {
@@ -7,6 +8,8 @@ export interface TreeFacts {
   readonly calls: ReadonlySet<string>;
   /** The ports that the tree has as a SubTree. */
   readonly ports: readonly PortSpec[];
+  /** What it is for; empty if nobody wrote it. */
+  readonly description: string;
 }
 
 const DIRECTIONS: readonly string[] = ['input', 'output', 'inout'] satisfies PortDirection[];
@@ -36,7 +39,7 @@ function read(diagram: Diagram): TreeFacts {
     return node?.type === 'SubTree' && node.tree ? [node.tree] : [];
   });
   const rows: readonly unknown[] = Array.isArray(diagram.ports) ? diagram.ports : [];
-  return { calls: new Set(called), ports: rows.flatMap(portOf) };
+  return { calls: new Set(called), ports: rows.flatMap(portOf), description: descriptionOf(diagram) };
 }
 
 const known = new WeakMap<Diagram, TreeFacts>();
@@ -54,7 +57,8 @@ export function sameFacts(a: TreeFacts, b: TreeFacts): boolean {
     JSON.stringify(port) === JSON.stringify(b.ports[index]);
   return (
     a === b ||
-    (a.calls.size === b.calls.size &&
+    (a.description === b.description &&
+      a.calls.size === b.calls.size &&
       [...a.calls].every((tree) => b.calls.has(tree)) &&
       a.ports.length === b.ports.length &&
       a.ports.every(isSamePort))

@@ -5,6 +5,13 @@ export interface Renaming {
   readonly to: string;
 }
 
+/** A file that a step wrote beside its tree: its texts before and after; null where there is no file. */
+export interface WrittenFile {
+  readonly path: string;
+  readonly before: string | null;
+  readonly after: string | null;
+}
+
 /** One undoable step of one tree: its label, and the patches in both directions. */
 export interface UndoEntry {
   readonly label: string;
@@ -14,6 +21,7 @@ export interface UndoEntry {
   readonly inverse: readonly Patch[];
   /** An action that the step renamed, with its file. */
   readonly renamed?: Renaming | undefined;
+  readonly files?: readonly WrittenFile[] | undefined;
   /** The selection before and after, so that undo shows where the change was. */
   readonly before: readonly string[];
   readonly after: readonly string[];
@@ -32,7 +40,7 @@ const LIMIT = 500;
 
 /** Adds a step. It clears the redo stack and drops the oldest steps beyond 500. */
 export function record(undoStack: UndoStack, entry: UndoEntry): UndoStack {
-  if (entry.patches.length === 0) return undoStack;
+  if (entry.patches.length === 0 && !entry.files?.length) return undoStack;
   const last = undoStack.past.at(-1);
   const merges = !undoStack.sealed && entry.mergeKey !== null && last?.mergeKey === entry.mergeKey;
   if (last && merges) {

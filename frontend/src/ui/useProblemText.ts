@@ -1,6 +1,7 @@
 import type { TFunction } from 'i18next';
 import { useTranslation } from 'react-i18next';
-import type { ShownProblem } from '@/store/project/problems';
+import { t as translate } from '@/i18n';
+import type { ShownProblem, TopicProblem } from '@/store/project/problems';
 import { findingText } from './findingText';
 import { scriptText } from './scriptText';
 
@@ -18,8 +19,16 @@ function ownText(problem: ShownProblem & { source: 'editor' }, t: TFunction<'edi
   };
 }
 
-/** Returns a function that gives the text of a finding, of the editor's own checks or of the server's. */
+const topicText = ({ code, values }: TopicProblem): ProblemText => ({
+  message: translate(`problems:mismatch.${code}.message`, { replace: values }),
+  hint: translate(`problems:mismatch.${code}.hint`, { replace: values }),
+});
+
+/** Returns a function for the text of a finding, of the editor's own checks or of the server's. */
 export function useProblemText(): (problem: ShownProblem) => ProblemText {
   const { t } = useTranslation('editor');
-  return (problem) => (problem.source === 'server' ? findingText(problem) : ownText(problem, t));
+  return (problem) => {
+    if (problem.source === 'topic') return topicText(problem);
+    return problem.source === 'server' ? findingText(problem) : ownText(problem, t);
+  };
 }

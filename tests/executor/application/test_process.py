@@ -160,6 +160,42 @@ class Act(py_trees.behaviour.Behaviour):
         await client.event("tick", lambda d: d["n"] > before + 5, after=at)
 
 
+async def test_a_port_is_changed_while_it_runs():
+    source = """
+import py_trees
+from tree_gardener.ports import Port, get_input, set_output
+
+
+class Act(py_trees.behaviour.Behaviour):
+    INPUT_PORTS = {"gain": Port(int, default=1)}
+    OUTPUT_PORTS = {"seen": Port(int)}
+
+    def update(self):
+        set_output(self, "seen", get_input(self, "gain"))
+        return py_trees.common.Status.RUNNING
+"""
+
+    def has_seen(number):
+        return lambda d: any((e["key"], e["value"]) == ("seen", number) for e in d["entries"])
+
+    async with session() as client:
+        tree = "<Act name='act' _bts_id='n1' gain='1' seen='{seen}'/>"
+        assert await client.ask("run", run_data(app(source, tree))) == "ack"
+        await client.event("blackboard", has_seen(1))
+        change = {"node_id": "n1", "path": "act", "port": "gain", "value": "7"}
+        assert await client.ask("set_port", change) == "ack"
+        await client.event("blackboard", has_seen(7))
+        [changed] = client.named("port_set")
+        assert (changed["value"], changed["saved"], changed["effect"]) == ("7", "1", "next_tick")
+        bad = await client.ask("set_port", {**change, "value": "many"})
+        assert (bad["code"], bad["hint"]) == ("bad_port", "Write a literal of that type, or a {key}.")
+        assert await client.ask("pause") == "ack"
+        assert await client.ask("set_port", {**change, "value": None}) == "ack", "also while paused"
+        at = len(client.events)
+        assert await client.ask("resume") == "ack"
+        await client.event("blackboard", has_seen(1), after=at)
+
+
 async def test_an_action_that_raises_ends_the_run_with_its_line():
     source = action("def update(self):\n    return 1 / 0")
     async with session() as client:

@@ -39,6 +39,7 @@ DATA: dict[str, dict[str, Any]] = {
     "run": {"universe": UNIVERSE, "application": APPLICATION},
     "set_tick_rate": {"tick_hz": 10.0},
     "set_speed": {"speed": 2.0},
+    "set_port": {"node_id": "n1", "path": "Act::1", "port": "gain", "value": "2"},
     "set_blackboard": {"scope": "", "key": "k", "value": 1},
     "teleop": {"linear": 0.1, "angular": 0.0},
     "move_body": {"id": "crate", "pose": [0, 0, 0, 0, 0, 0]},

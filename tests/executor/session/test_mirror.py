@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from msgspec import structs
+
 from executor.messages import (
     Blackboard,
     BlackboardEntry,
@@ -9,8 +11,10 @@ from executor.messages import (
     Finished,
     LaunchNode,
     LaunchNodes,
+    PortSet,
     StateChanged,
     Tick,
+    TopicMismatch,
     Tree,
     TreeNode,
 )
@@ -60,6 +64,33 @@ def test_the_last_tick_and_the_end_stay_until_the_next_run() -> None:
     assert (mirror.snapshot().past, mirror.snapshot().finished) == ([(1, "FAILURE")], end)
     mirror.begin_run(10.0)
     assert (mirror.snapshot().past, mirror.snapshot().finished) == ([], None)
+
+
+def test_a_port_has_its_last_text_until_the_next_run() -> None:
+    mirror = Mirror()
+    mirror.begin_run(10.0)
+    first = PortSet("n1", "T", "A::1", "speed", "0.5", "0.3", "next_tick")
+    mirror.apply(first)
+    mirror.apply(other := PortSet("n1", "T", "A::1", "angle", "1", None, "next_start"))
+    mirror.apply(last := structs.replace(first, value="0.7"))
+    assert mirror.snapshot().ports == [last, other]
+    mirror.begin_run(10.0)
+    assert mirror.snapshot().ports == []
+
+
+def test_a_mismatch_stays_until_it_is_resolved_or_the_world_ends() -> None:
+    mirror = Mirror()
+    mirror.apply(StateChanged(State.UNIVERSE_READY.value))
+    found = TopicMismatch("/scan", "/world", "/a", "qos", "Nothing arrives.", "Do this.", "durability")
+    mirror.apply(found)
+    mirror.apply(found)
+    mirror.begin_run(10.0)
+    assert mirror.snapshot().mismatches == [found]
+    mirror.apply(structs.replace(found, resolved=True))
+    assert mirror.snapshot().mismatches == []
+    mirror.apply(found)
+    mirror.apply(StateChanged(State.CONNECTED.value))
+    assert mirror.snapshot().mismatches == []
 
 
 def test_a_launch_node_that_runs_again_has_no_fault() -> None:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from xml.etree import ElementTree
 
 from tests.translator.check.finding import LEAF
+from translator.xml.read import read_document
 from translator.xml.write import cpp_type, ordered_trees, tag_of, write_document
 
 
@@ -29,3 +31,12 @@ def test_types_of_ports_are_those_of_the_library():
     assert cpp_type("int") == "int"
     assert cpp_type("string") == "std::string"
     assert cpp_type("any") is None
+
+
+def test_a_tree_keeps_what_it_says_of_itself(make_project):
+    project = make_project({"n1": LEAF})
+    said = {"_description": "Goes <home>.", "_bts_offered": "1"}
+    tree = replace(project.trees["MainTree"], attributes={**said, "name": "x"})
+    text = write_document(replace(project, trees={"MainTree": tree}))
+    (source,) = read_document(text, file="t.xml").trees
+    assert dict(source.tree.attributes) == said

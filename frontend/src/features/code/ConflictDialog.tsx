@@ -6,6 +6,7 @@ import type { Conflict } from '@/api/types';
 import { resolveConflict } from '@/store/saving/conflicts';
 import { useSavingStore } from '@/store/saving/store';
 import { lazyPart } from '@/ui/parts';
+import { useIsNarrow } from '@/ui/useIsNarrow';
 import classes from './code.module.css';
 
 const MergeView = lazyPart(async () => (await import('./MergeView')).MergeView);
@@ -41,6 +42,7 @@ function Choice({ conflict, left }: { readonly conflict: Conflict; readonly left
   const mine = conflict.mine.content;
   const theirs = conflict.theirs?.content ?? null;
   const merged = useRef(mine ?? '');
+  const isNarrow = useIsNarrow();
   const choose = (text: string | null) => {
     resolveConflict(conflict, text).catch((error: Error) =>
       notifications.show({ color: 'red', title: t('conflict.failed'), message: error.message }),
@@ -49,12 +51,15 @@ function Choice({ conflict, left }: { readonly conflict: Conflict; readonly left
   return (
     <>
       <Text size="sm" c="dimmed" mb="sm">
-        {t('conflict.text')} {left > 0 ? t('conflict.left', { count: left }) : null}
+        {t(isNarrow ? 'conflict.textUnified' : 'conflict.text')}{' '}
+        {left > 0 ? t('conflict.left', { count: left }) : null}
       </Text>
-      <div className={classes['mergeHeads']}>
-        <span>{t('conflict.theirs')}</span>
-        <span>{t('conflict.mine')}</span>
-      </div>
+      {isNarrow ? null : (
+        <div className={classes['mergeHeads']}>
+          <span>{t('conflict.theirs')}</span>
+          <span>{t('conflict.mine')}</span>
+        </div>
+      )}
       <Suspense fallback={<div className={classes['merge']} />}>
         <MergeView
           path={conflict.path}
@@ -73,7 +78,7 @@ function Choice({ conflict, left }: { readonly conflict: Conflict; readonly left
           {t('conflict.keepMine')}
         </Button>
         <Button data-autofocus data-testid="save-merge" onClick={() => choose(merged.current)}>
-          {t('conflict.saveMerge')}
+          {t(isNarrow ? 'conflict.saveUnified' : 'conflict.saveMerge')}
         </Button>
       </Group>
     </>

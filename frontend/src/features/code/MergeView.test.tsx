@@ -1,6 +1,6 @@
 import { EditorView } from '@codemirror/view';
 import { act, fireEvent, screen, waitFor } from '@testing-library/react';
-import { describe, expect, it, vi } from 'vitest';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { show } from '../../../harness/testing';
 import { MergeView } from './MergeView';
 
@@ -45,5 +45,30 @@ describe('MergeView', () => {
     act(() => view('Yours').dispatch({ changes: { from: 0, insert: 'x' } }));
     expect(first).not.toHaveBeenCalled();
     expect(second).toHaveBeenCalledWith('x');
+  });
+
+  describe('in a narrow window', () => {
+    beforeEach(() => {
+      const listen = { addEventListener: () => undefined, removeEventListener: () => undefined };
+      vi.spyOn(window, 'matchMedia').mockImplementation(
+        (query) => ({ matches: query === '(max-width: 900px)', ...listen }) as unknown as MediaQueryList,
+      );
+    });
+
+    it('is one text, where a difference can be taken from the server', async () => {
+      const onChange = vi.fn();
+      show(<MergeView path="a.py" theirs={'a\nb\n'} mine={'a\nc\n'} onChange={onChange} />);
+      expect(screen.getAllByRole('textbox')).toHaveLength(1);
+      expect(text('Yours')).toBe('a\nc\n');
+      fireEvent.mouseDown(await screen.findByRole('button', { name: "Take the server's" }));
+      expect(onChange).toHaveBeenLastCalledWith('a\nb\n');
+    });
+
+    it('is edited', () => {
+      const onChange = vi.fn();
+      show(<MergeView path="a.py" theirs="theirs" mine="mine" onChange={onChange} />);
+      act(() => view('Yours').dispatch({ changes: { from: 4, insert: ' too' } }));
+      expect(onChange).toHaveBeenCalledExactlyOnceWith('mine too');
+    });
   });
 });

@@ -1,4 +1,4 @@
-import { MergeView as CodeMirrorMerge } from '@codemirror/merge';
+import { MergeView as CodeMirrorMerge, unifiedMergeView } from '@codemirror/merge';
 import { EditorState } from '@codemirror/state';
 import { EditorView, lineNumbers } from '@codemirror/view';
 import { useEffect, useRef } from 'react';
@@ -7,6 +7,7 @@ import classes from './code.module.css';
 import { editorTheme } from './editorTheme';
 import { languageOf } from './modes';
 import { phrases } from './phrases';
+import { useIsNarrow } from '@/ui/useIsNarrow';
 
 interface MergeViewProps {
   readonly path: string;
@@ -16,19 +17,36 @@ interface MergeViewProps {
 }
 
 /**
- * Both versions of a file: the server's on the left, and the user's on the right, which can be edited, with
- * arrows that copy pieces over.
+ * The server's version on the left; the user's on the right, editable, with arrows that copy pieces over. In a
+ * narrow window it is one text, editable, where each difference is kept or taken back.
  */
 export function MergeView({ path, theirs, mine, onChange }: MergeViewProps) {
   const { t } = useTranslation('code');
   const host = useRef<HTMLDivElement>(null);
   const changed = useRef(onChange);
+  const text = useRef(mine);
+  const isNarrow = useIsNarrow();
   useEffect(() => {
     changed.current = onChange;
   });
   useEffect(() => {
     if (!host.current) return;
     const shared = [lineNumbers(), languageOf(path), editorTheme, phrases()];
+    const editable = [
+      shared,
+      EditorView.contentAttributes.of({ 'aria-label': t('conflict.mine') }),
+      EditorView.updateListener.of((update) => {
+        if (!update.docChanged) return;
+        text.current = update.state.doc.toString();
+        changed.current(text.current);
+      }),
+    ];
+    if (isNarrow) {
+      const unified = unifiedMergeView({ original: theirs });
+      const state = EditorState.create({ doc: text.current, extensions: [editable, unified] });
+      const view = new EditorView({ parent: host.current, state });
+      return () => view.destroy();
+    }
     const merge = new CodeMirrorMerge({
       parent: host.current,
       revertControls: 'a-to-b',
@@ -40,18 +58,9 @@ export function MergeView({ path, theirs, mine, onChange }: MergeViewProps) {
           EditorView.contentAttributes.of({ 'aria-label': t('conflict.theirs') }),
         ],
       },
-      b: {
-        doc: mine,
-        extensions: [
-          shared,
-          EditorView.contentAttributes.of({ 'aria-label': t('conflict.mine') }),
-          EditorView.updateListener.of((update) => {
-            if (update.docChanged) changed.current(update.state.doc.toString());
-          }),
-        ],
-      },
+      b: { doc: text.current, extensions: editable },
     });
     return () => merge.destroy();
-  }, [path, theirs, mine, t]);
+  }, [path, theirs, isNarrow, t]);
   return <div ref={host} className={classes['merge']} />;
 }

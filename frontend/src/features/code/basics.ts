@@ -17,6 +17,7 @@ import {
   lineNumbers,
   type KeyBinding,
 } from '@codemirror/view';
+import { withoutFiles } from '@/model/copied';
 import { useProjectStore } from '@/store/project';
 import { editorTheme } from './editorTheme';
 import { fontSizeKeys } from './fontSize';
@@ -39,7 +40,9 @@ export function basics(label: string, keys: readonly KeyBinding[] = []): Extensi
     lintGutter(),
     editorTheme,
     phrases(),
-    // The element is focusable anyway. The attribute shows accessibility checks that the scroll area can be
+    // Blocks that were copied from a canvas are pasted here as XML alone, without the files that they bring.
+    EditorView.clipboardInputFilter.of(withoutFiles),
+    // The element is focusable anyway; the attribute tells accessibility checks that its scroll area can be
     // reached by keyboard.
     EditorView.contentAttributes.of({ 'aria-label': label, tabindex: '0' }),
     keymap.of([

@@ -55,7 +55,7 @@ describe('ConsolePanel', () => {
 
   it('opens the line that a link names', async () => {
     const openFile = vi.fn();
-    setNavigator({ openTree: vi.fn(), aimAt: vi.fn(), renamed: vi.fn(), openFile });
+    setNavigator({ openTree: vi.fn(), aimAt: vi.fn(), renamed: vi.fn(), openTopics: vi.fn(), openFile });
     act(() => {
       useSessionStore.setState(appendLogs(initialSession, [log('see Forward.py:12')]));
     });

@@ -1,5 +1,6 @@
 import { act, screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it } from 'vitest';
+import { setDescription } from '@/model/edits';
 import { useFileDialog } from '@/store/dialogs/files';
 import { useProjectStore } from '@/store/project';
 import { useScope } from '@/store/revisions/scope';
@@ -84,6 +85,8 @@ describe('the menu', () => {
       ['Make it the main tree', false],
       ['Rename', false],
       ['Duplicate', false],
+      ['Copy', false],
+      ['Offer in the library', false],
       ['Copy path', false],
       ['History', false],
       ['Delete', false],
@@ -99,6 +102,8 @@ describe('the menu', () => {
       ['Open', false],
       ['Rename', false],
       ['Duplicate', false],
+      ['Copy', false],
+      ['Offer in the library', false],
       ['Copy path', false],
       ['History', false],
       ['Delete', true],
@@ -131,4 +136,10 @@ describe('the menu', () => {
 it.each(['error', 'warning', undefined] as const)('is marked with its worst finding: %s', (worst) => {
   show(<ExplorerItem path="README.md" isTree={false} isAction={false} worst={worst} />);
   expect(item('README.md').parentElement!.dataset['severity']).toBe(worst);
+});
+
+it('tells what a tree is for', () => {
+  useProjectStore.getState().apply('Dock', 'describe', [setDescription('Goes home.')]);
+  open('trees/Dock.json', true);
+  expect(item('trees/Dock.json')).toHaveAttribute('title', 'trees/Dock.json\nGoes home.');
 });

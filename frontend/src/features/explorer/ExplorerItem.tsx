@@ -31,6 +31,9 @@ export function ExplorerItem({ path, isTree, isAction, worst }: ExplorerItemProp
   const isDiagram = useProjectStore((state) => state.files[path]?.kind === 'tree');
   const isBinary = useProjectStore((state) => state.files[path]?.kind === 'binary');
   const isMain = useProjectStore((state) => treeId !== null && state.mainTree === treeId);
+  const description = useProjectStore(
+    ({ vocabulary }) => vocabulary.trees.get(treeId ?? '')?.description ?? '',
+  );
   const tab: DocumentTab =
     isDiagram && treeId !== null ? { kind: 'tree', id: treeId } : { kind: 'file', path };
   const Icon = isTree
@@ -57,7 +60,7 @@ export function ExplorerItem({ path, isTree, isAction, worst }: ExplorerItemProp
         className={classes['open']}
         data-testid={`file-${path}`}
         disabled={isBinary}
-        title={path}
+        title={description === '' ? path : `${path}\n${description}`}
         onContextMenu={onContextMenu}
         onClick={() => openTab(tab)}
       >

@@ -1,5 +1,6 @@
 import { fireEvent, screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
+import { isOffered } from '@/model/treeAttributes';
 import { useProjectStore } from '@/store/project';
 import { openProject, show, user } from '../../../harness/testing';
 import { ExplorerItem } from './ExplorerItem';
@@ -10,12 +11,15 @@ const paths = () => Object.keys(useProjectStore.getState().files);
 
 beforeEach(() => {
   openProject({ trees: { Main: { r: { type: 'Sequence' } } }, texts: { 'notes/a.md': 'Hello' } });
-  show(<ExplorerItem path="notes/a.md" isTree={false} isAction={false} worst={undefined} />);
-  fireEvent.contextMenu(screen.getByTestId('file-notes/a.md'));
 });
 
 describe('a right click, or the menu key', () => {
-  it('duplicates, and undoes that', async () => {
+  beforeEach(() => {
+    show(<ExplorerItem path="notes/a.md" isTree={false} isAction={false} worst={undefined} />);
+    fireEvent.contextMenu(screen.getByTestId('file-notes/a.md'));
+  });
+
+  it('duplicates, and takes it back', async () => {
     await choose('Duplicate');
     expect(paths()).toContain('notes/a_copy.md');
     await user.click(await screen.findByRole('button', { name: 'Undo' }));
@@ -35,4 +39,31 @@ describe('a right click, or the menu key', () => {
 it('is closed until it is requested', () => {
   show(<ExplorerMenu path="b.md" name="b.md" isOpened={false} onChange={vi.fn()} onOpen={vi.fn()} />);
   expect(screen.getByRole('button', { name: 'More for b.md' })).toHaveAttribute('aria-expanded', 'false');
+});
+
+describe('a tree', () => {
+  beforeEach(() => {
+    show(<ExplorerItem path="trees/Main.json" isTree isAction={false} worst={undefined} />);
+    fireEvent.contextMenu(screen.getByTestId('file-trees/Main.json'));
+  });
+
+  it('is offered in the library, and no longer', async () => {
+    const offered = () => isOffered(useProjectStore.getState().diagrams['Main']!);
+    await choose('Offer in the library');
+    expect(offered()).toBe(true);
+    expect(await screen.findByText(/Your other projects find Main/)).toBeInTheDocument();
+    fireEvent.contextMenu(screen.getByTestId('file-trees/Main.json'));
+    await choose('No longer offer in the library');
+    expect(offered()).toBe(false);
+    useProjectStore.getState().undo('Main');
+    expect(offered()).toBe(true);
+  });
+
+  it('is copied as a block that calls it', async () => {
+    const writeText = vi.fn(async () => undefined);
+    vi.stubGlobal('navigator', { ...navigator, clipboard: { writeText } });
+    await choose('Copy');
+    expect(writeText).toHaveBeenCalledExactlyOnceWith(expect.stringContaining('<SubTree ID="Main"/>'));
+    vi.unstubAllGlobals();
+  });
 });

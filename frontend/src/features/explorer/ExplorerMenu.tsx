@@ -1,8 +1,10 @@
 import { ActionIcon, Menu } from '@mantine/core';
 import { notifications } from '@mantine/notifications';
 import {
+  IconBooks,
   IconClipboard,
   IconCopy,
+  IconCopyPlus,
   IconDots,
   IconFolderOpen,
   IconHistory,
@@ -11,9 +13,12 @@ import {
   IconTrash,
 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
+import { setOffered } from '@/model/edits';
+import { isOffered } from '@/model/treeAttributes';
 import { openRename } from '@/store/dialogs/files';
 import { useProjectStore } from '@/store/project';
 import { canDuplicate, duplicateDocument } from '@/store/project/duplicating';
+import { copyTree } from '@/store/project/edits/clipboard';
 import { treeIdOf } from '@/store/project/state';
 import { setScope } from '@/store/revisions/scope';
 import { undoNotification } from '@/ui/undoNotification';
@@ -36,6 +41,10 @@ export function ExplorerMenu({ path, name, isOpened, onChange, onOpen }: Explore
   const isDiagram = useProjectStore((state) => state.files[path]?.kind === 'tree');
   const isBinary = useProjectStore((state) => state.files[path]?.kind === 'binary');
   const isMain = useProjectStore((state) => treeId !== null && state.mainTree === treeId);
+  const isInLibrary = useProjectStore(({ diagrams }) => {
+    const diagram = treeId === null ? undefined : diagrams[treeId];
+    return diagram !== undefined && isOffered(diagram);
+  });
 
   const showHistory = () => {
     onOpen();
@@ -50,6 +59,16 @@ export function ExplorerMenu({ path, name, isOpened, onChange, onOpen }: Explore
       undoLabel: t('undo'),
       undo: () => useProjectStore.getState().deleteFile(copy),
     });
+  };
+  const copy = async (tree: string) => {
+    await copyTree(tree);
+    notifications.show({ message: t('explorer.treeCopied', { name }) });
+  };
+  const offer = (tree: string) => {
+    const { apply, role } = useProjectStore.getState();
+    apply(tree, 'offer', [setOffered(!isInLibrary)]);
+    if (role === 'viewer') return;
+    notifications.show({ message: t(isInLibrary ? 'explorer.offeredNot' : 'explorer.offered', { name }) });
   };
   const copyPath = async () => {
     await navigator.clipboard.writeText(path);
@@ -81,6 +100,16 @@ export function ExplorerMenu({ path, name, isOpened, onChange, onOpen }: Explore
         <Menu.Item disabled={!canDuplicate(path)} leftSection={<IconCopy size={16} />} onClick={duplicate}>
           {t('explorer.duplicate')}
         </Menu.Item>
+        {isDiagram && treeId !== null ? (
+          <>
+            <Menu.Item leftSection={<IconCopyPlus size={16} />} onClick={() => void copy(treeId)}>
+              {t('explorer.copyTree')}
+            </Menu.Item>
+            <Menu.Item leftSection={<IconBooks size={16} />} onClick={() => offer(treeId)}>
+              {t(isInLibrary ? 'explorer.offerNot' : 'explorer.offer')}
+            </Menu.Item>
+          </>
+        ) : null}
         <Menu.Item leftSection={<IconClipboard size={16} />} onClick={() => void copyPath()}>
           {t('explorer.copyPath')}
         </Menu.Item>

@@ -13,6 +13,7 @@ import { NodeHeader } from './NodeHeader';
 import { NodeProblems } from './NodeProblems';
 import { PortList } from './PortList';
 import { targetOf } from './target';
+import { TreeDescription } from './tree/TreeDescription';
 import { TreeField } from './TreeField';
 import classes from './Inspector.module.css';
 
@@ -45,16 +46,19 @@ const Fields = memo(function Fields({ diagram, count, id }: Shown) {
   const target = count > 1 ? null : targetOf(diagram, id, vocabulary);
   if (!target) {
     return (
-      <section className={classes['empty']} aria-label={t('empty.title')} data-testid="inspector">
-        <strong>{count > 1 ? t('empty.many', { count }) : t('empty.title')}</strong>
-        {count === 0 && <p>{t('empty.text')}</p>}
-        {count > 1 && (
-          <div className={classes['together']}>
-            {TOGETHER.map((action) => (
-              <CommandButton key={action} command={action} />
-            ))}
-          </div>
-        )}
+      <section className={classes['inspector']} aria-label={t('empty.title')} data-testid="inspector">
+        {count === 0 && diagram && <TreeDescription key={diagram.id} diagram={diagram} />}
+        <div className={classes['empty']}>
+          <strong>{count > 1 ? t('empty.many', { count }) : t('empty.title')}</strong>
+          {count === 0 && <p>{t('empty.text')}</p>}
+          {count > 1 && (
+            <div className={classes['together']}>
+              {TOGETHER.map((action) => (
+                <CommandButton key={action} command={action} />
+              ))}
+            </div>
+          )}
+        </div>
       </section>
     );
   }

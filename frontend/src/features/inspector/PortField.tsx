@@ -3,6 +3,9 @@ import { IconArrowBackUp, IconBraces, IconCursorText, IconPencil, IconTrash } fr
 import { useEffect, useId, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { readPortText, type PortSpec } from '@/model/ports';
+import type { PortMark } from '@/store/run/portMarks';
+import { LivePort } from './ports/LivePort';
+import { useTyping } from './ports/useTyping';
 import { KeyInput } from './KeyInput';
 import { PortNameInput } from './PortNameInput';
 import { useKeptCaret } from './ports/useKeptCaret';
@@ -26,6 +29,12 @@ interface PortFieldProps {
   readonly onRename?: ((name: string) => void) | undefined;
   /** Renames the key that the port names, wherever the key is the same entry. */
   readonly onRenameKey: (key: string) => void;
+  /** How the running program differs from what was saved. */
+  readonly mark?: PortMark | undefined;
+  /** Takes the present text for the saved one. */
+  readonly onKeep?: () => void;
+  /** Sets the saved text again. */
+  readonly onBack?: (saved: string | null) => void;
   /** The names of the other ports. */
   readonly taken: readonly string[];
 }
@@ -33,7 +42,7 @@ interface PortFieldProps {
 /** The field of one port: a value or a blackboard key, with the widget for its type. */
 export function PortField(props: PortFieldProps) {
   const { port, value, keys, error, onChange, onRemove, onRename, onRenameKey } = props;
-  const { taken, isNew = false, onLeave } = props;
+  const { taken, isNew = false, onLeave, mark, onKeep, onBack } = props;
   const { t } = useTranslation(['inspector', 'keys']);
   const label = useId();
   const field = useRef<HTMLDivElement>(null);
@@ -56,6 +65,7 @@ export function PortField(props: PortFieldProps) {
       host.removeEventListener('focusout', left);
     };
   }, [isNew]);
+  const { isTyping, handlers } = useTyping();
   const [isRenaming, setIsRenaming] = useState(false);
   const isExtra = onRemove !== undefined;
   const read = readPortText(value ?? '');
@@ -65,7 +75,7 @@ export function PortField(props: PortFieldProps) {
   const isKey = kind === 'key' || kind === 'same-name' || kind === 'broken' || port.direction === 'output';
   const kept = useKeptCaret(field, isKey ? 'key' : 'value');
   return (
-    <div ref={field} className={classes['portField']} {...kept}>
+    <div ref={field} className={classes['portField']} {...handlers} {...kept}>
       <div className={classes['portHead']}>
         {isRenaming ? (
           <PortNameInput
@@ -161,6 +171,19 @@ export function PortField(props: PortFieldProps) {
           onChange={onChange}
         />
       )}
+      <LivePort
+        port={port}
+        mark={mark}
+        isTyping={isTyping}
+        onKeep={() => {
+          field.current?.querySelector('input')?.focus();
+          onKeep?.();
+        }}
+        onBack={(saved) => {
+          field.current?.querySelector('input')?.focus();
+          onBack?.(saved);
+        }}
+      />
       {port.description && <p className={classes['portDoc']}>{port.description}</p>}
     </div>
   );

@@ -3,7 +3,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import { useProjectStore } from '@/store/project';
 import { oneBlock } from '@/store/testing';
 import { shownTarget } from '../../../harness/target';
-import { action, nodeOf, openProject, port, show, user } from '../../../harness/testing';
+import { action, nodeOf, openProject, openSession, port, show, user } from '../../../harness/testing';
 import { PortList } from './PortList';
 
 const List = shownTarget('Main', PortList);
@@ -78,6 +78,35 @@ describe('the ports of a block', () => {
     expect(screen.queryByRole('button', { name: 'Remove port speed' })).toBeNull();
     await user.click(screen.getByRole('button', { name: 'Remove port extra' }));
     expect(portsOf('a')).toEqual({ speed: '1' });
+  });
+});
+
+describe('a port that differs from that of the running program', () => {
+  const open = async () => {
+    const executor = await openSession();
+    const value = { node_id: 'a', tree_id: 'Main', path: 'Drive', effect: 'next_tick' } as const;
+    executor.emit('port_set', { ...value, port: 'speed', value: '1', saved: '0.3' });
+    show(<List id="a" />);
+    return within(screen.getByTestId('live-speed'));
+  };
+
+  it('goes back to the saved value in one step of undo, and has the caret', async () => {
+    const live = await open();
+    await user.click(live.getByRole('button', { name: 'Back to the saved value' }));
+    expect(portsOf('a')).toEqual({ speed: '0.3', extra: 'e' });
+    expect(screen.queryByTestId('live-speed')).toBeNull();
+    expect(screen.getByTestId('port-speed')).toHaveFocus();
+    act(() => useProjectStore.getState().undo());
+    expect(portsOf('a')).toEqual({ speed: '1', extra: 'e' });
+    expect(screen.getByTestId('live-speed')).toBeInTheDocument();
+  });
+
+  it('keeps its value', async () => {
+    const live = await open();
+    await user.click(live.getByRole('button', { name: 'Keep this value' }));
+    expect(portsOf('a')).toEqual({ speed: '1', extra: 'e' });
+    expect(screen.queryByTestId('live-speed')).toBeNull();
+    expect(screen.getByTestId('port-speed')).toHaveFocus();
   });
 });
 

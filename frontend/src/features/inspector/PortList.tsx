@@ -10,10 +10,13 @@ import { keyOf } from '@/model/keys/rename';
 import { openRenameKey } from '@/store/dialogs/renameKey';
 import { change } from '@/store/project/edits/blocks';
 import { portsInUse, shared } from '@/store/project/edits/ports';
+import { liveKey } from '@/store/project/live';
 import { problemsOf } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
 import { useProblemText } from '@/ui/useProblemText';
 import { shippedPort } from '@/i18n/shipped';
+import { keepPort } from '@/store/run/livePorts';
+import { usePortMarks } from '@/store/run/portMarks';
 import { OutdatedPorts } from './ports/OutdatedPorts';
 import { PortField } from './PortField';
 import { PortNameInput } from './PortNameInput';
@@ -43,6 +46,7 @@ export function PortList(target: Target) {
   const { t } = useTranslation('inspector');
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const diagnostics = useProjectStore((state) => state.diagnostics);
+  const marks = usePortMarks(diagram.id, id, node.ports);
   const textOf = useProblemText();
   const [isAdding, setIsAdding] = useState(false);
   const [fresh, setFresh] = useState<{ readonly id: NodeId; readonly name: string } | null>(null);
@@ -101,6 +105,12 @@ export function PortList(target: Target) {
           }}
           error={errorOf(port.name)}
           taken={taken}
+          mark={marks.get(port.name)}
+          onKeep={() => keepPort(liveKey(diagram.id, id), port.name, node.ports?.[port.name] ?? null)}
+          onBack={(saved) => {
+            useProjectStore.getState().seal();
+            set(port.name, saved);
+          }}
           onChange={(value) => {
             set(port.name, value);
           }}

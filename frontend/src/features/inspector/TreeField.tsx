@@ -16,9 +16,12 @@ export function TreeField({ tree, id, node }: Target) {
     () => [...vocabulary.trees.keys()].filter((other) => !wouldRecurse(vocabulary, tree, other)),
     [vocabulary, tree],
   );
+  const description = vocabulary.trees.get(node.tree ?? '')?.description ?? '';
   return (
     <Select
       className={classes['pad'] ?? ''}
+      description={description}
+      inputWrapperOrder={['label', 'input', 'description']}
       size="xs"
       label={t('tree')}
       data={choices}

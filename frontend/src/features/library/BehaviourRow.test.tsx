@@ -3,6 +3,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import { useProjectStore } from '@/store/project';
 import { oneBlock } from '@/store/testing';
 import { fakeServer, openProject, show, user } from '../../../harness/testing';
+import { ArrivalsDialog } from './ArrivalsDialog';
 import { BehaviourRow } from './BehaviourRow';
 import type { Offer } from './useReusables';
 
@@ -15,6 +16,8 @@ const offer: Offer = {
   summary: 'Goes home.',
   doc: 'Looks for the dock first.',
   diagram: JSON.parse(text) as unknown,
+  project: null,
+  isOffered: true,
   files: { 'trees/Dock.json': text, 'actions/Dock.py': 'class Dock: ...' },
 };
 
@@ -24,7 +27,12 @@ beforeEach(() => {
 });
 
 function open(takenVersion: string | null = null, more: Partial<Offer> = {}) {
-  show(<BehaviourRow offer={{ ...offer, ...more }} takenVersion={takenVersion} />);
+  show(
+    <>
+      <BehaviourRow offer={{ ...offer, ...more }} takenVersion={takenVersion} />
+      <ArrivalsDialog />
+    </>,
+  );
   return within(screen.getByTestId('behaviour-Dock'));
 }
 const unfold = () => user.click(screen.getByRole('button', { name: 'Dock' }));
@@ -62,7 +70,15 @@ describe('a behaviour', () => {
     expect(row.getByText('Here: 1.1')).toBeInTheDocument();
   });
 
-  it.each([null, '1.2'])('cannot be updated if the project has %s', (taken) => {
+  it('says where its state comes from if that is a project', async () => {
+    const row = open('r3', { version: 'r7', project: 'Rover' });
+    await unfold();
+    expect(row.getByText('As it is now in Rover')).toBeInTheDocument();
+    expect(row.getByText('Here: as it was earlier')).toBeInTheDocument();
+    expect(row.queryByText(/r3|r7/)).toBeNull();
+  });
+
+  it.each([null, '1.2'])('is not updated where the project has %s', (taken) => {
     expect(open(taken).queryByTestId('update-Dock')).toBeNull();
   });
 
@@ -85,10 +101,23 @@ describe('a behaviour that is inserted', () => {
     expect(await screen.findByText('Dock is in the tree, with its actions.')).toBeInTheDocument();
   });
 
-  it('gets another name if the project has a tree of that name', async () => {
+  it('is taken back with its files, in one step', async () => {
+    useProjectStore.getState().setActiveTree('Main');
+    open();
+    await user.click(screen.getByTestId('insert-Dock'));
+    expect(useProjectStore.getState().currentText('assets/library.json')).toContain('1.2');
+    useProjectStore.getState().undo();
+    expect(useProjectStore.getState().pendingChanges()).toEqual([]);
+    useProjectStore.getState().redo();
+    expect(useProjectStore.getState().currentText('actions/Dock.py')).toBe('class Dock: ...');
+  });
+
+  it('has another name where the project has a tree of that name', async () => {
     useProjectStore.getState().addFile('trees/Dock.json', oneBlock('Dock', 'AlwaysFailure'));
     open();
     await user.click(screen.getByTestId('insert-Dock'));
+    expect(await screen.findByRole('dialog', { name: 'Insert Dock' })).toBeInTheDocument();
+    await user.click(screen.getByTestId('take-arrivals'));
     expect(await screen.findByText(/^This project already has another Dock/)).toBeInTheDocument();
     const { diagrams } = useProjectStore.getState();
     expect(diagrams['Dock']?.nodes['n1']?.type).toBe('AlwaysFailure');

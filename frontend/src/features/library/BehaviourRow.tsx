@@ -3,7 +3,8 @@ import { notifications } from '@mantine/notifications';
 import { IconChevronRight, IconPlus, IconRefresh } from '@tabler/icons-react';
 import { Suspense, useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { insertBehaviour } from '@/store/project/library';
+import { bring } from '@/store/dialogs/arrivals';
+import { deliveryOf, insertBehaviour } from '@/store/project/library';
 import { TreePicture } from '@/features/projects/TreePicture';
 import { lazyPart } from '@/ui/parts';
 import classes from './library.module.css';
@@ -25,11 +26,17 @@ export function BehaviourRow({ offer, takenVersion }: BehaviourRowProps) {
   const isOld = takenVersion !== null && takenVersion !== offer.version;
   const files = Object.keys(offer.files);
 
-  const insert = () => {
-    const name = insertBehaviour(offer);
-    const message = name === offer.id ? t('inserted', { name }) : t('renamed', { id: offer.id, name });
-    notifications.show({ message });
-  };
+  const insert = () =>
+    bring({
+      ...deliveryOf(offer),
+      act: 'insert',
+      name: offer.id,
+      take: (plan) => {
+        const name = insertBehaviour(offer, plan);
+        const message = name === offer.id ? t('inserted', { name }) : t('renamed', { id: offer.id, name });
+        notifications.show({ message });
+      },
+    });
 
   return (
     <li className={classes['row']} data-testid={`behaviour-${offer.id}`}>
@@ -65,9 +72,11 @@ export function BehaviourRow({ offer, takenVersion }: BehaviourRowProps) {
           {t('insert')}
         </Button>
       </div>
-      <Text size="xs" className={classes['summary'] ?? ''}>
-        {offer.summary}
-      </Text>
+      {offer.summary === '' ? null : (
+        <Text size="xs" className={classes['summary'] ?? ''}>
+          {offer.summary}
+        </Text>
+      )}
       {isOpen ? (
         <div className={classes['details']}>
           <div className={classes['picture']}>
@@ -76,11 +85,15 @@ export function BehaviourRow({ offer, takenVersion }: BehaviourRowProps) {
           {offer.doc ? <Text size="xs">{offer.doc}</Text> : null}
           <Group gap={6}>
             <Badge size="sm" variant="light" color="gray" tt="none">
-              {t('version', { version: offer.version })}
+              {offer.project === null
+                ? t('version', { version: offer.version })
+                : t('asNow', { project: offer.project })}
             </Badge>
             {takenVersion !== null ? (
               <Badge size="sm" variant="light" tt="none">
-                {t('taken', { version: takenVersion })}
+                {offer.project === null
+                  ? t('taken', { version: takenVersion })
+                  : t(isOld ? 'takenEarlier' : 'takenNow')}
               </Badge>
             ) : null}
           </Group>

@@ -99,6 +99,23 @@ describe('Library', () => {
     expect(offers()).toEqual(['Patrol']);
   });
 
+  it('shows the trees that a project offers, and the others on demand', async () => {
+    const offered = JSON.stringify({
+      ...(JSON.parse(oneBlock('Dock', 'AlwaysSuccess')) as object),
+      attributes: { _bts_offered: '1' },
+    });
+    open({
+      'GET /projects/p2': { ...other, files: [...other.files, projectFile('trees/Dock.json', 1, offered)] },
+    });
+    await screen.findByTestId('behaviour-Follow');
+    expect(screen.queryByRole('switch')).toBeNull();
+    await user.click(screen.getByRole('combobox', { name: 'Where from' }));
+    await user.click(await screen.findByRole('option', { name: 'Other' }));
+    await waitFor(() => expect(offers()).toEqual(['Dock']));
+    await user.click(screen.getByRole('switch', { name: 'Show all trees, also those not offered' }));
+    expect(offers()).toEqual(['Patrol', 'Dock']);
+  });
+
   it('finds a project by its name, and keeps the chosen one in the list', async () => {
     const found = PROJECTS.replace('search=', 'search=Ro');
     const { requests } = open({

@@ -1,4 +1,4 @@
-import { Loader, Select, Text, TextInput } from '@mantine/core';
+import { Loader, Select, Switch, Text, TextInput } from '@mantine/core';
 import { useDebouncedValue } from '@mantine/hooks';
 import { IconSearch } from '@tabler/icons-react';
 import { useMemo, useState } from 'react';
@@ -54,12 +54,17 @@ export function Library() {
   const record = useProjectStore((state) => state.currentText('assets/library.json'));
   const [source, setSource] = useState(BUILT_IN);
   const [search, setSearch] = useState('');
+  const [showsAll, setShowsAll] = useState(false);
   const library = useLibrary(i18n.language);
   const trees = useTreesOf(source === BUILT_IN ? null : source);
   const taken = useMemo(() => takenIn(record), [record]);
   const { data, error, isPending } = source === BUILT_IN ? library : trees;
+  // A project that offers some of its trees by name shows the others on demand.
+  const curates = (data ?? []).some(({ isOffered }) => isOffered);
+  const hasMore = curates && (data ?? []).some(({ isOffered }) => !isOffered);
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
-  const shown = (data ?? []).filter(({ id, summary, doc }) => {
+  const offers = (data ?? []).filter((offer) => showsAll || !curates || offer.isOffered);
+  const shown = offers.filter(({ id, summary, doc }) => {
     const text = `${id} ${summary} ${doc}`.toLowerCase();
     return words.every((word) => text.includes(word));
   });
@@ -76,6 +81,14 @@ export function Library() {
           onChange={(event) => setSearch(event.currentTarget.value)}
         />
         <Source value={source} onChange={setSource} />
+        {hasMore ? (
+          <Switch
+            size="xs"
+            label={t('allTrees')}
+            checked={showsAll}
+            onChange={(event) => setShowsAll(event.currentTarget.checked)}
+          />
+        ) : null}
       </div>
       {isPending ? <Loader size="xs" m="md" aria-label={t('loading')} /> : null}
       {error ? (

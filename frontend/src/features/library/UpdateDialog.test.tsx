@@ -17,6 +17,8 @@ const offer = (version: string, source: string): Offer => ({
   summary: '',
   doc: '',
   diagram: null,
+  project: null,
+  isOffered: true,
   files: { 'trees/Dock.json': oneBlock('Dock', 'AlwaysSuccess'), 'actions/Dock.py': source },
 });
 const text = () => useProjectStore.getState().currentText('actions/Dock.py');
@@ -40,6 +42,14 @@ describe('UpdateDialog', () => {
     expect(textOf('actions/Dock.py as the update has it')).toBe('class Dock: new');
     expect(screen.queryByText(/The files are the same/)).toBeNull();
     expect(text()).toBe('class Dock: old');
+  });
+
+  it('names the project, not a number, where the tree comes from one', () => {
+    const newer = { ...offer('r7', 'class Dock: new'), project: 'Rover' };
+    show(<UpdateDialog offer={newer} onClose={onClose} />);
+    expect(
+      screen.getByRole('dialog', { name: 'Dock: what changes to have it as it is now in Rover' }),
+    ).toBeInTheDocument();
   });
 
   it('updates', async () => {

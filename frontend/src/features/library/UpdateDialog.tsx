@@ -1,49 +1,25 @@
-import { MergeView } from '@codemirror/merge';
-import { EditorState } from '@codemirror/state';
-import { EditorView, lineNumbers } from '@codemirror/view';
 import { Button, Group, Modal, Stack, Text } from '@mantine/core';
-import { useEffect, useRef, useState } from 'react';
+import type { TFunction } from 'i18next';
+import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { editorTheme } from '@/features/code/editorTheme';
-import { languageOf } from '@/features/code/modes';
-import { phrases } from '@/features/code/phrases';
+import { TextDifference } from '@/features/revisions/TextDifference';
 import { differencesOf, updateBehaviour, type Difference } from '@/store/project/library';
 import classes from './library.module.css';
 import type { Offer } from './useReusables';
 
-/** One file before and after the update, side by side. */
+/** One file before and after the update. */
 function FileDifference({ difference }: { readonly difference: Difference }) {
   const { t } = useTranslation('library');
-  const host = useRef<HTMLDivElement>(null);
   const { path, mine, theirs } = difference;
-  useEffect(() => {
-    if (!host.current) return;
-    const side = (doc: string, label: string) => ({
-      doc,
-      extensions: [
-        lineNumbers(),
-        languageOf(path),
-        editorTheme,
-        phrases(),
-        EditorState.readOnly.of(true),
-        EditorView.lineWrapping,
-        EditorView.contentAttributes.of({ 'aria-label': label }),
-      ],
-    });
-    const view = new MergeView({
-      parent: host.current,
-      a: side(mine, t('before', { path })),
-      b: side(theirs, t('after', { path })),
-      collapseUnchanged: {},
-    });
-    return () => view.destroy();
-  }, [path, mine, theirs, t]);
+  const labels = { before: t('before', { path }), after: t('after', { path }) };
   return (
     <div>
       <Text size="sm" fw={600} mb={4}>
         {path}
       </Text>
-      <div ref={host} className={classes['difference']} data-testid={`difference-${path}`} />
+      <div className={classes['difference']} data-testid={`difference-${path}`}>
+        <TextDifference path={path} before={mine} after={theirs} labels={labels} />
+      </div>
     </div>
   );
 }
@@ -53,7 +29,13 @@ interface UpdateDialogProps {
   readonly onClose: () => void;
 }
 
-/** A dialogue with the changes of an update before it is made. */
+function titleOf(t: TFunction<'library'>, { id, version, project }: Offer): string {
+  return project === null
+    ? t('updateTitle', { name: id, version })
+    : t('updateTitleOf', { name: id, project });
+}
+
+/** Shows the changes of an update before it is made. */
 export function UpdateDialog({ offer, onClose }: UpdateDialogProps) {
   const { t } = useTranslation('library');
   const [differences] = useState(() => differencesOf(offer));
@@ -62,7 +44,7 @@ export function UpdateDialog({ offer, onClose }: UpdateDialogProps) {
       opened
       onClose={onClose}
       size="xl"
-      title={t('updateTitle', { name: offer.id, version: offer.version })}
+      title={titleOf(t, offer)}
       closeButtonProps={{ 'aria-label': t('cancel') }}
     >
       <Stack>

@@ -36,6 +36,8 @@ describe('useLibrary', () => {
         version: '1.1',
         group: 'motion',
         source: 'library',
+        project: null,
+        isOffered: true,
         summary,
         doc,
         diagram: { id: 'Dock' },
@@ -70,6 +72,7 @@ describe('useTreesOf', () => {
       projectFile('actions/Turn.py', 1, 'class Turn: ...'),
     ]),
     id: 'p2',
+    main_tree: 'Patrol',
     description: 'Goes around.',
   };
   const files = [...detail.files, { ...projectFile('mesh.stl', 1, ''), content: null }];
@@ -86,6 +89,8 @@ describe('useTreesOf', () => {
         group: 'project',
         summary: 'Goes around.',
         doc: '',
+        project: 'Test',
+        isOffered: false,
       }),
     ]);
     expect(result.current.data?.[0]?.diagram).toMatchObject({ id: 'Patrol', root: 'n1' });
@@ -96,5 +101,25 @@ describe('useTreesOf', () => {
     const { result } = query(() => useTreesOf(null));
     expect(result.current.fetchStatus).toBe('idle');
     expect(requests).toEqual([]);
+  });
+
+  it('has the description of each tree; of the main one, else that of the project', async () => {
+    const dock = JSON.stringify({
+      ...(JSON.parse(oneBlock('Dock', 'AlwaysSuccess')) as object),
+      attributes: { _description: 'Goes home.', _bts_offered: '1' },
+    });
+    const trees = [
+      projectFile('trees/Dock.json', 1, dock),
+      projectFile('trees/Main.json', 1, oneBlock('Main', 'AlwaysSuccess')),
+      projectFile('trees/Wait.json', 1, oneBlock('Wait', 'AlwaysSuccess')),
+    ];
+    fakeServer({ 'GET /projects/p2': { ...detail, main_tree: 'Main', files: trees } });
+    const { result } = query(() => useTreesOf('p2'));
+    await waitFor(() => expect(result.current.data).toBeDefined());
+    expect(result.current.data?.map(({ id, summary, isOffered }) => [id, summary, isOffered])).toEqual([
+      ['Dock', 'Goes home.', true],
+      ['Main', 'Goes around.', false],
+      ['Wait', '', false],
+    ]);
   });
 });

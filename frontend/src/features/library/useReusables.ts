@@ -1,7 +1,10 @@
 import { keepPreviousData, useQuery } from '@tanstack/react-query';
 import { api } from '@/api/client';
 import type { BehaviourInfo } from '@/api/types';
+import { parseDiagram } from '@/model/serialize';
+import { descriptionOf, isOffered } from '@/model/treeAttributes';
 import { reusablesOf, type Reusable } from '@/store/project/library';
+import { treePath } from '@/store/project/state';
 
 /** A reusable behaviour with the data that the panel shows. */
 export interface Offer extends Reusable {
@@ -9,6 +12,10 @@ export interface Offer extends Reusable {
   readonly summary: string;
   readonly doc: string;
   readonly diagram: unknown;
+  /** The name of its project; null in the built-in library. */
+  readonly project: string | null;
+  /** Its project offers it by name. */
+  readonly isOffered: boolean;
 }
 
 function offerOf(behaviour: BehaviourInfo, language: string): Offer {
@@ -21,6 +28,8 @@ function offerOf(behaviour: BehaviourInfo, language: string): Offer {
     diagram,
     files,
     source: 'library',
+    project: null,
+    isOffered: true,
     summary: text(behaviour.summary),
     doc: text(behaviour.doc),
   };
@@ -55,13 +64,19 @@ export function useTreesOf(project: string | null) {
       const detail = await api.getProject(project ?? '', signal);
       const texts = detail.files.flatMap(({ path, content }) => (content === null ? [] : [[path, content]]));
       const files = Object.fromEntries(texts) as Record<string, string>;
-      return reusablesOf(detail.id, detail.revision, files).map((reusable) => ({
-        ...reusable,
-        group: 'project',
-        summary: detail.description,
-        doc: '',
-        diagram: JSON.parse(files[`trees/${reusable.id}.json`] ?? 'null') as unknown,
-      }));
+      return reusablesOf(detail.id, detail.revision, files).map((reusable) => {
+        const diagram = parseDiagram(files[treePath(reusable.id)] ?? '');
+        const isMain = reusable.id === detail.main_tree;
+        return {
+          ...reusable,
+          group: 'project',
+          summary: descriptionOf(diagram) || (isMain ? detail.description : ''),
+          doc: '',
+          diagram,
+          project: detail.name,
+          isOffered: isOffered(diagram),
+        };
+      });
     },
     enabled: project !== null,
     gcTime: 0,

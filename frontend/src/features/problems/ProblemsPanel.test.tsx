@@ -1,6 +1,8 @@
 import { act, screen } from '@testing-library/react';
 import { afterEach, describe, expect, it } from 'vitest';
 import type { Diagnostic } from '@/api/types';
+import type { TopicMismatch } from '@/generated/messages';
+import { setLanguage } from '@/i18n';
 import { useLanguageStore } from '@/store/language';
 import { useProjectStore } from '@/store/project';
 import { initialSession } from '@/store/session/reduce';
@@ -35,6 +37,7 @@ function openWith(msec: string, ...diagnostics: Diagnostic[]) {
 const rows = () => screen.getAllByRole('listitem').map((row) => row.querySelector('button')!);
 
 afterEach(() => {
+  act(() => setLanguage('en'));
   useSessionStore.setState(initialSession, true);
   useLanguageStore.setState(useLanguageStore.getInitialState(), true);
 });
@@ -147,6 +150,35 @@ describe('ProblemsPanel', () => {
     await user.click(rows()[0]!);
     expect(openFile).toHaveBeenCalledWith('actions/Go.py', 1);
   });
+
+  it.each([
+    ['en', 'Nothing arrives on /scan: /world publishes a/msg/A, /ears subscribes to b/msg/B.', 'Topic'],
+    ['es', 'No llega nada por /scan: /world publica a/msg/A y /ears se suscribe a b/msg/B.', 'Tópico'],
+  ] as const)(
+    'lists a topic whose ends do not match, in %s, and leads to the topics',
+    async (language, text, kind) => {
+      act(() => setLanguage(language));
+      const { openTopics } = open();
+      const mismatch: TopicMismatch = {
+        topic: '/scan',
+        publisher: '/world',
+        subscriber: '/ears',
+        reason: 'type',
+        message: '',
+        hint: '',
+        code: 'type',
+        values: { published: 'a/msg/A', wanted: 'b/msg/B' },
+        resolved: false,
+      };
+      act(() => useSessionStore.setState({ mismatches: [mismatch] }));
+      expect(rows()[0]).toHaveTextContent(text);
+      expect(rows()[0]).toHaveTextContent(new RegExp(`/scan${kind}$`));
+      await user.click(rows()[0]!);
+      expect(openTopics).toHaveBeenCalledOnce();
+      act(() => useSessionStore.setState({ mismatches: [] }));
+      expect(screen.queryByRole('list')).toBeNull();
+    },
+  );
 
   it('lists the findings in a text, and opens their lines', async () => {
     const { openFile } = open();

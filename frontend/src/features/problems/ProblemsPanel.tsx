@@ -44,7 +44,12 @@ function Row({ item }: { readonly item: ListedProblem }) {
   const node = item.node ? diagram?.nodes[item.node] : undefined;
   const Icon = ICONS[item.severity];
   const place = item.file ? [item.file, item.line].filter(Boolean).join(':') : (item.tree ?? '');
-  const where = [node ? displayName(node) : '', item.port ? t('port', { port: item.port }) : '', place]
+  const where = [
+    item.topic ?? '',
+    node ? displayName(node) : '',
+    item.port ? t('port', { port: item.port }) : '',
+    place,
+  ]
     .filter(Boolean)
     .join(' · ');
   const fixes = diagram && !item.isFault ? fixesFor(item.problem, diagram, vocabulary) : [];
@@ -62,7 +67,9 @@ function Row({ item }: { readonly item: ListedProblem }) {
           {message} {hint ? <span className={classes['hint']}>{hint}</span> : null}
         </span>
         <span className={classes['where']}>{where}</span>
-        <span className={classes['code']}>{item.isFault ? t('fault') : item.code}</span>
+        <span className={classes['code']}>
+          {item.isFault ? t('fault') : item.topic === null ? item.code : t('topic')}
+        </span>
       </button>
       {fixes.length > 0 ? (
         <div className={classes['fixes']}>

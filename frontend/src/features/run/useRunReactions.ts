@@ -1,6 +1,7 @@
 import { useEffect, useRef } from 'react';
 import type { Fault } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
+import { followPorts } from '@/store/run/portSync';
 import { useRunStore } from '@/store/run/store';
 import { launchNodeFaults } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
@@ -19,6 +20,7 @@ export function useRunReactions({ showPanel, openFile }: Frame): void {
 
   useEffect(followRunning, []);
   useEffect(forgetWithTheFirstEdit, []);
+  useEffect(followPorts, []);
 
   useEffect(() => {
     if (!failure || failure.diagnostics.length === 0) return;

@@ -4,3 +4,4 @@ export * from './fields';
 export * from './levels';
 export * from './structure';
 export * from './subtree';
+export * from './tree';

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { Diagnostic } from '@/api/types';
-import type { Fault } from '@/generated/messages';
+import type { Fault, TopicMismatch } from '@/generated/messages';
 import { emptyDiagram, type Diagram, type DiagramNode } from '@/model/diagram';
 import type { CodeFinding } from '@/store/language';
 import { useProjectStore } from '@/store/project';
@@ -46,6 +46,8 @@ const listed = (more: Partial<ProblemSources>) =>
     linted: {},
     errors: {},
     faults: [],
+    mismatches: [],
+    launchNodes: [],
     ...more,
   });
 const shown = (more: Partial<ProblemSources>) =>
@@ -67,6 +69,27 @@ describe('the list', () => {
       Other: tree('Other', { type: 'Nobody' }),
     };
     expect(shown({ diagrams })).toEqual([['error', 'BT0102', 'Other', 'n1']]);
+  });
+
+  it('has topics whose ends do not match, with the names and the line that has the topic', () => {
+    const mismatch: TopicMismatch = {
+      topic: '/scan',
+      publisher: '/world',
+      subscriber: '/bt_application',
+      reason: 'type',
+      message: 'Nothing arrives.',
+      hint: '',
+      code: 'type',
+      values: { published: 'a', wanted: 'b' },
+      resolved: false,
+    };
+    const [row] = listed({ mismatches: [mismatch], files: { [GO]: { text: '\nsub(Scan, "scan")' } } });
+    expect(row).toMatchObject({ severity: 'error', code: 'type', topic: '/scan', file: GO, line: 2 });
+    expect(row?.problem).toMatchObject({
+      source: 'topic',
+      values: { topic: '/scan', publisher: '/world', wanted: 'b' },
+    });
+    expect(shown({ mismatches: [mismatch] })).toEqual([['error', 'type', null, null]]);
   });
 
   it('has a finding of a save once: in the newer version of the editor, the language server or ruff', () => {

@@ -1,5 +1,5 @@
 import type { Diagnostic, Severity } from '@/api/types';
-import type { Fault } from '@/generated/messages';
+import type { Fault, LaunchNode, TopicMismatch } from '@/generated/messages';
 import type { Diagram, NodeId } from '@/model/diagram';
 import { CODES } from '@/model/problems';
 import type { Vocabulary } from '@/model/vocabulary';
@@ -7,6 +7,7 @@ import type { CodeFinding } from '@/store/language';
 import { problemsOf, type ShownProblem } from '@/store/project/problems';
 import { isSuperseded, lintFindings } from './syntax';
 import type { Linted, TextErrors } from './texts';
+import { placeOfTopic } from './topicPlace';
 
 /** One row of the list: a finding with its place. */
 export interface ListedProblem {
@@ -19,13 +20,15 @@ export interface ListedProblem {
   readonly port: string;
   readonly file: string | null;
   readonly line: number | null;
+  /** The topic that it is about. */
+  readonly topic: string | null;
 }
 
 type ByPath<T> = Readonly<Record<string, T>>;
 
 /** The data from which the list is made. */
 export interface ProblemSources {
-  readonly files: ByPath<unknown>;
+  readonly files: ByPath<{ readonly text?: string | null }>;
   readonly diagrams: ByPath<Diagram>;
   readonly vocabulary: Vocabulary;
   readonly diagnostics: readonly Diagnostic[];
@@ -33,11 +36,21 @@ export interface ProblemSources {
   readonly linted: ByPath<Linted>;
   readonly errors: ByPath<TextErrors>;
   readonly faults: readonly Fault[];
+  readonly mismatches: readonly TopicMismatch[];
+  readonly launchNodes: readonly LaunchNode[];
 }
 
 const RANK: Record<Severity, number> = { error: 0, warning: 1, note: 2 };
 
-const NOWHERE = { isFault: false, tree: null, node: null, port: '', file: null, line: null } as const;
+const NOWHERE = {
+  isFault: false,
+  tree: null,
+  node: null,
+  port: '',
+  file: null,
+  line: null,
+  topic: null,
+} as const;
 
 interface Words {
   readonly severity: Severity;
@@ -76,6 +89,18 @@ function faultRow(fault: Fault, { files }: ProblemSources): ListedProblem {
       ...(isOurs ? { file: fault.file, line: fault.line } : {}),
     },
   );
+}
+
+function topicRow(mismatch: TopicMismatch, sources: ProblemSources): ListedProblem {
+  const { topic, publisher, subscriber, code, values } = mismatch;
+  const problem: ShownProblem = {
+    source: 'topic',
+    severity: 'error',
+    node: null,
+    code,
+    values: { ...values, topic, publisher, subscriber },
+  };
+  return { ...NOWHERE, problem, severity: 'error', code, topic, ...placeOfTopic(mismatch, sources) };
 }
 
 function treeRows(diagram: Diagram, { vocabulary, diagnostics }: ProblemSources): ListedProblem[] {
@@ -138,6 +163,7 @@ export function listProblems(sources: ProblemSources): readonly ListedProblem[] 
   const texts = new Set([served, linted, errors].flatMap((found) => Object.keys(found)));
   const rows = [
     ...faults.map((fault) => faultRow(fault, sources)),
+    ...sources.mismatches.map((mismatch) => topicRow(mismatch, sources)),
     ...Object.values(diagrams).flatMap((diagram) => treeRows(diagram, sources)),
     ...savedRows(sources),
     ...[...texts].filter((path) => path in files).flatMap((path) => fileRows(path, sources)),

@@ -32,6 +32,8 @@ export function useProblems(): readonly ListedProblem[] {
   );
   const served = useLanguageStore((state) => state.findings);
   const { linted, errors } = useTextFindings();
-  const faults = useSessionStore((state) => state.faults);
-  return rowsOf({ ...project, served, linted, errors, faults });
+  const run = useSessionStore(
+    useShallow(({ faults, mismatches, launchNodes }) => ({ faults, mismatches, launchNodes })),
+  );
+  return rowsOf({ ...project, served, linted, errors, ...run });
 }

@@ -9,6 +9,7 @@ import { whileEditing } from './problems';
 import { refusingViewers } from './readOnly';
 import { readSettings } from './settings';
 import { withActionRenamed } from './edits/renameAction';
+import { withFilesOfStep } from './writtenFiles';
 import { actionPath, treeIdOf, type ProjectData, type ProjectState } from './state';
 import {
   actionsAfter,
@@ -57,9 +58,14 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       const chosen =
         owner !== state.activeTree ? state.selection : go === undo ? moved.entry.before : moved.entry.after;
       const diagram = moved.document[state.activeTree ?? owner];
+      const data = withFilesOfStep(
+        { ...(files ?? state), diagrams: moved.document },
+        moved.entry,
+        go === undo ? 'undo' : 'redo',
+      );
       return {
-        ...knowing({ ...(files ?? state), diagrams: moved.document }),
-        histories: { ...state.histories, [owner]: moved.undoStack },
+        ...knowing(data),
+        histories: { ...data.histories, [owner]: moved.undoStack },
         selection: chosen.filter((id) => diagram !== undefined && id in diagram.nodes),
         changeCounter: state.changeCounter + 1,
       };

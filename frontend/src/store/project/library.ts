@@ -1,10 +1,14 @@
-import { setPort } from '@/model/edits';
+import { freshId } from '@/model/diagram';
+import { addNode, setPort } from '@/model/edits';
 import type { PortSpec } from '@/model/ports';
 import { parseDiagram } from '@/model/serialize';
 import { treeFacts } from '@/model/treeFacts';
-import { atPlaces, closureOf, planInsertion, type Sources } from '@/model/reuse';
-import { addHere, change } from './edits/blocks';
+import { atPlaces, closureOf, nameIn, type Insertion, type Sources } from '@/model/reuse';
+import { bestPlacement } from '@/model/rules';
+import { planHere, type Delivery } from './bringing';
+import { activeDiagram, change } from './edits/blocks';
 import { useProjectStore } from './index';
+import { treePath } from './state';
 
 /** A behaviour that can be reused: from the built-in library, or a tree of another project. */
 export interface Reusable {
@@ -51,10 +55,11 @@ export function takenNow(): Readonly<Record<string, Taken>> {
   return takenIn(useProjectStore.getState().currentText(RECORD));
 }
 
-function remember(behaviour: Reusable, places: Taken['places']): void {
+/** Returns the text of the record with one more behaviour. */
+function recordWith(behaviour: Reusable, places: Taken['places']): string {
   const { source, version } = behaviour;
   const behaviours = { ...takenNow(), [keyOf(behaviour)]: { source, version, places } };
-  write(RECORD, `${JSON.stringify({ format: FORMAT, version: 1, behaviours }, null, 2)}\n`);
+  return `${JSON.stringify({ format: FORMAT, version: 1, behaviours }, null, 2)}\n`;
 }
 
 function write(path: string, text: string): void {
@@ -68,24 +73,31 @@ function portsOf(text: string | undefined): readonly PortSpec[] {
   return text === undefined ? [] : treeFacts(parseDiagram(text)).ports;
 }
 
-/** Adds a behaviour to the project and to the active tree; returns its name in the project. */
-export function insertBehaviour(behaviour: Reusable): string {
-  const { currentText, diagrams, vocabulary } = useProjectStore.getState();
-  const plan = planInsertion(
-    behaviour.id,
-    behaviour.files,
-    currentText,
-    (name) => name in diagrams || vocabulary.specs.has(name),
-  );
-  for (const [path, text] of Object.entries(plan.files)) write(path, text);
-  remember(behaviour, plan.places);
-  const node = addHere({ type: 'SubTree', tree: plan.tree });
-  if (node === null) return plan.tree;
-  const values = portsOf(behaviour.files[`trees/${behaviour.id}.json`]).map((port) =>
+/** Returns what a behaviour brings to a project. */
+export const deliveryOf = ({ id, files }: Reusable): Delivery => ({ needs: [treePath(id)], sources: files });
+
+/**
+ * Adds a behaviour to the project and to the active tree, as one step of undo; returns its name in the project.
+ */
+export function insertBehaviour(
+  behaviour: Reusable,
+  plan: Insertion = planHere(deliveryOf(behaviour)),
+): string {
+  const { selection, vocabulary } = useProjectStore.getState();
+  const tree = nameIn(plan.places[treePath(behaviour.id)] ?? treePath(behaviour.id));
+  const files = { ...plan.files, [RECORD]: recordWith(behaviour, plan.places) };
+  const diagram = activeDiagram();
+  if (!diagram) {
+    for (const [path, text] of Object.entries(files)) write(path, text);
+    return tree;
+  }
+  const node = freshId(diagram.nodes);
+  const place = bestPlacement(diagram, selection[0], vocabulary);
+  const values = portsOf(behaviour.files[treePath(behaviour.id)]).map((port) =>
     setPort(node, port.name, port.direction === 'output' ? `{${port.name}}` : (port.default ?? '')),
   );
-  if (values.length > 0) change('add', values, { select: [node] });
-  return plan.tree;
+  change('add', [addNode(node, { type: 'SubTree', tree }, place), ...values], { select: [node], files });
+  return tree;
 }
 
 /** A file of a behaviour: its text in the project, and in the newest version. */
@@ -110,7 +122,7 @@ export function differencesOf(behaviour: Reusable): readonly Difference[] {
  */
 export function updateBehaviour(behaviour: Reusable): void {
   for (const { path, theirs } of differencesOf(behaviour)) write(path, theirs);
-  remember(behaviour, takenNow()[keyOf(behaviour)]?.places ?? {});
+  write(RECORD, recordWith(behaviour, takenNow()[keyOf(behaviour)]?.places ?? {}));
 }
 
 /** Returns the trees of a project as reusable behaviours, its main tree included. */
@@ -120,7 +132,7 @@ export function reusablesOf(project: string, revision: number, files: Sources): 
     .filter((id): id is string => id !== undefined)
     .flatMap((id) => {
       try {
-        return [{ id, source: project, version: `r${revision}`, files: closureOf(id, files) }];
+        return [{ id, source: project, version: `r${revision}`, files: closureOf([treePath(id)], files) }];
       } catch {
         // An unreadable tree cannot be reused.
         return [];

@@ -4,6 +4,8 @@ import { actionPath } from './state';
 export interface Navigator {
   openTree(id: string): void;
   openFile(path: string, line?: number): void;
+  /** Shows the topics of the session. */
+  openTopics(): void;
   /** Renames the tab of a tree or file. */
   renamed(kind: 'tree' | 'file', from: string, to: string): void;
   /** Moves the cursor of the editor that shows a file to a line. */
@@ -27,6 +29,10 @@ export function openAction(name: string): void {
 
 export function openFile(path: string, line?: number): void {
   navigator?.openFile(path, line);
+}
+
+export function openTopics(): void {
+  navigator?.openTopics();
 }
 
 export function renamed(kind: 'tree' | 'file', from: string, to: string): void {

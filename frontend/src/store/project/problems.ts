@@ -1,10 +1,22 @@
 import type { Diagnostic } from '@/api/types';
+import type { TopicMismatch } from '@/generated/messages';
 import type { Diagram, NodeId } from '@/model/diagram';
 import { CODES, findProblems, type Problem, type Severity } from '@/model/problems';
 import type { Vocabulary } from '@/model/vocabulary';
 
-/** A finding of the editor's own checks, shown at once, or of the server's, shown after a save. */
+/** Two ends of a topic that do not match. */
+export interface TopicProblem {
+  readonly source: 'topic';
+  readonly severity: Severity;
+  readonly node: null;
+  readonly port?: undefined;
+  readonly code: TopicMismatch['code'];
+  readonly values: Readonly<Record<string, string>>;
+}
+
+/** A finding of the editor's own checks, shown at once, of the server's, shown after a save, or of the run. */
 export type ShownProblem =
+  | TopicProblem
   | ({ readonly source: 'editor' } & Problem)
   | {
       readonly source: 'server';

@@ -56,6 +56,8 @@ export interface EditOptions {
   readonly select?: readonly NodeId[];
   /** Other trees that change in the same step; null deletes one. */
   readonly also?: Readonly<Record<string, Diagram | null>>;
+  /** Texts of files by path that the same step writes: new files and replaced ones, other trees among them. */
+  readonly files?: Readonly<Record<string, string>>;
 }
 
 export interface ProjectActions {

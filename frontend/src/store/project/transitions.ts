@@ -6,8 +6,9 @@ import { sameFacts, treeFacts } from '@/model/treeFacts';
 import { makeVocabulary, type Vocabulary } from '@/model/vocabulary';
 import { catalog } from './catalog';
 import { withLastDeclarations } from './declarations';
-import { syncTrees } from './files';
-import { actionPath, treePath, type ProjectData } from './state';
+import { currentText, syncTrees } from './files';
+import { actionPath, treePath, type EditOptions, type ProjectData } from './state';
+import { withTexts } from './writtenFiles';
 
 enablePatches();
 
@@ -99,38 +100,45 @@ export interface ChangeOptions {
   readonly mergeKey?: string | undefined;
   readonly select?: readonly string[] | undefined;
   readonly renamed?: Renaming;
+  readonly files?: EditOptions['files'];
 }
 
 /** Changes trees as one step on a tree's undo stack. */
 export function changeDiagrams(
-  data: ProjectData,
+  before: ProjectData,
   owner: string,
   label: string,
   change: Change,
   options: ChangeOptions,
 ): Partial<ProjectData> {
+  const data = options.files ? knowing(withTexts(before, options.files)) : before;
+  const files = Object.keys(options.files ?? {})
+    .map((path) => ({ path, before: currentText(before, path), after: currentText(data, path) }))
+    .filter((written) => written.before !== written.after);
   const [diagrams, patches, inverse] = produceWithPatches(data.diagrams, (draft) => {
     change(draft as Record<string, Draft<Diagram>>);
   });
   const diagram = diagrams[owner];
   const mine = data.activeTree === owner ? data.selection : [];
   const after = (options.select ?? mine).filter((id) => diagram !== undefined && id in diagram.nodes);
-  if (patches.length === 0) return data.activeTree === owner ? { selection: after } : {};
+  if (patches.length === 0 && files.length === 0)
+    return data.activeTree === owner ? { selection: after } : {};
   const undoStack = record(data.histories[owner] ?? emptyUndo, {
     label,
     mergeKey: options.mergeKey ?? null,
     patches,
     inverse,
     renamed: options.renamed,
+    ...(files.length === 0 ? {} : { files }),
     before: mine,
     after,
   });
   const entry = data.files[treePath(owner)];
   // An edit of a tree replaces the text that could not be parsed.
   const isText = entry?.kind === 'tree' && entry.text !== null;
-  const files = isText ? { ...data.files, [treePath(owner)]: { ...entry, text: null } } : data.files;
+  const entries = isText ? { ...data.files, [treePath(owner)]: { ...entry, text: null } } : data.files;
   return {
-    ...knowing({ ...data, files, diagrams }),
+    ...knowing({ ...data, files: entries, diagrams }),
     histories: { ...data.histories, [owner]: undoStack },
     ...(data.activeTree === owner ? { selection: after } : {}),
     changeCounter: data.changeCounter + 1,

@@ -8,6 +8,7 @@ import { saveNow } from '@/store/saving/autosave';
 import { abandonStart, ensureConnected, send } from '@/store/session/connection';
 import { CommandError, isUnconnected } from '@/store/session/control';
 import { useSessionStore } from '@/store/session/store';
+import { beginProgram } from './livePorts';
 import { useRunStore, type LaunchFailure, type LaunchStage } from './store';
 import { chosenUniverse, useUniverseChoice } from './universeChoice';
 
@@ -31,7 +32,9 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
   });
   try {
     await saveNow();
-    useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter });
+    const { changeCounter, diagrams } = useProjectStore.getState();
+    useRunStore.setState({ ranAt: changeCounter });
+    beginProgram(diagrams);
     enter('checking');
     const errors = errorsOf(useProjectStore.getState().diagnostics);
     if (errors.length > 0) throw new UnsoundError(errors);

@@ -6,6 +6,8 @@ import type {
   Log,
   ServerMessage,
   Snapshot,
+  PortSet,
+  TopicMismatch,
 } from '@/generated/messages';
 import { appendLogs, blackboardId, initialSession, MAX_LOG_LINES, reduce, reduceAll } from './reduce';
 import type { SessionData } from './types';
@@ -52,6 +54,7 @@ const snapshot = (more: Partial<Snapshot> = {}): Snapshot => ({
   mismatches: [],
   past: [],
   finished: null,
+  ports: [],
   ...more,
 });
 
@@ -74,22 +77,56 @@ describe('reduce', () => {
     expect(state).toMatchObject({ executor: 'paused', executorReason: 'asked' });
   });
 
-  it('shows topic mismatches in the console, also to pages that join later', () => {
-    const mismatch = {
-      topic: '/scan',
-      publisher: '/world',
-      subscriber: '/bt_application',
-      reason: 'qos',
-      message: 'Nothing arrives: they differ.',
-      hint: 'Do this.',
-    } as const;
+  const mismatch: TopicMismatch = {
+    topic: '/scan',
+    publisher: '/world',
+    subscriber: '/bt_application',
+    reason: 'qos',
+    message: 'Nothing arrives: they differ.',
+    hint: 'Do this.',
+    code: 'qos',
+    values: { problem: 'deadline' },
+    resolved: false,
+  };
+
+  it('knows topics whose ends do not match, and has a line about each, also for those who come later', () => {
     const told = reduce(initialSession, message('topic_mismatch', mismatch));
     const late = reduce(initialSession, message('snapshot', snapshot({ mismatches: [mismatch] })));
     for (const state of [told, late]) {
+      expect(state.mismatches).toEqual([mismatch]);
       expect(state.logs).toMatchObject([
         { level: 'warning', source: 'world', text: '/scan: Nothing arrives: they differ. Do this.' },
       ]);
     }
+  });
+
+  it('forgets a mismatch that is resolved, or whose world has ended', () => {
+    const told = reduce(initialSession, message('topic_mismatch', mismatch));
+    const resolved = reduce(told, message('topic_mismatch', { ...mismatch, resolved: true }));
+    expect(resolved.mismatches).toEqual([]);
+    expect(resolved.logs).toEqual(told.logs);
+    const stopped = reduce(told, message('state-changed', { state: 'visualization_ready', reason: '' }));
+    expect(stopped.mismatches).toEqual([mismatch]);
+    const ended = reduce(told, message('state-changed', { state: 'connected', reason: '' }));
+    expect(ended.mismatches).toEqual([]);
+  });
+
+  it('knows the ports that were changed since the program was started', () => {
+    const set: PortSet = {
+      node_id: 'n1',
+      tree_id: 'Main',
+      path: 'Go',
+      port: 'speed',
+      value: '0.5',
+      saved: '0.3',
+      effect: 'next_tick',
+    };
+    const again = { ...set, value: '0.7' };
+    const state = reduce(reduce(initialSession, message('port_set', set)), message('port_set', again));
+    expect(Object.values(state.ports)).toEqual([again]);
+    const late = reduce(initialSession, message('snapshot', snapshot({ ports: [again] })));
+    expect(late.ports).toEqual(state.ports);
+    expect(reduce(state, message('tree', { nodes: [] })).ports).toEqual({});
   });
 
   it('remembers that another page took over, until this one controls again', () => {

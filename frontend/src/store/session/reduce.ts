@@ -4,6 +4,7 @@ import type {
   Fault,
   LaunchNode,
   Log,
+  PortSet,
   ServerMessage,
   TopicMismatch,
 } from '@/generated/messages';
@@ -33,6 +34,8 @@ export const initialSession: SessionData = {
   faults: [],
   launchNodes: [],
   finished: null,
+  ports: {},
+  mismatches: [],
   sim: null,
   simTime: 0,
   tick: 0,
@@ -59,9 +62,8 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     executorReason: data.reason,
     isHanging: false,
     ...(data.state === 'application_running' || data.state === 'paused' ? {} : { progress: state.progress }),
-    ...(data.state === 'idle' || data.state === 'connected' ? { sim: null } : {}),
-    // The world is paused in every state below a running application. Its next report may come up to 1 s
-    // later, so the state is set here.
+    ...(data.state === 'idle' || data.state === 'connected' ? { sim: null, mismatches: [] } : {}),
+    // Every rung below a running application pauses the world; the next report of the world is up to 1 s away.
     ...(data.state === 'visualization_ready' && state.sim ? { sim: { ...state.sim, paused: true } } : {}),
   }),
   progress: (state, data) => ({
@@ -80,6 +82,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
       ),
     ),
     finished: null,
+    ports: {},
     tick: 0,
   }),
   tick: (_, data) => ({ tick: data.n, isHanging: false }),
@@ -92,7 +95,12 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     isHanging: data.kind === 'timeout' && state.executor === 'application_running',
     ...appendLogs(state, [logOf(data, t)]),
   }),
-  topic_mismatch: (state, data, { t }) => appendLogs(state, [mismatchLog(data, t)]),
+  port_set: ({ ports }, data) => ({ ports: withPort(ports, data) }),
+  topic_mismatch: (state, data, { t }) => {
+    const others = state.mismatches.filter((each) => !isSameMismatch(each, data));
+    if (data.resolved) return { mismatches: others };
+    return { mismatches: [...others, data], ...appendLogs(state, [mismatchLog(data, t)]) };
+  },
   // A node that runs again has no fault any more.
   launch_nodes: ({ faults }, data) => ({
     launchNodes: data.nodes,
@@ -118,6 +126,8 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
       : { tickHz: data.tick_hz, speed: data.speed }),
     universe: data.universe,
     finished: data.finished,
+    ports: data.ports.reduce(withPort, {}),
+    mismatches: data.mismatches,
     ...appendLogs({ ...state, logs: [] }, [
       ...data.logs,
       ...data.mismatches.map((mismatch) => mismatchLog(mismatch, t)),
@@ -155,7 +165,15 @@ function mergeBlackboard(
   return next;
 }
 
-/** Returns whether a fault belongs to one of these launch nodes, by its place in the launch file. */
+const withPort = (ports: Record<string, PortSet>, set: PortSet): Record<string, PortSet> => ({
+  ...ports,
+  [JSON.stringify([set.path, set.node_id, set.port])]: set,
+});
+
+const isSameMismatch = (a: TopicMismatch, b: TopicMismatch): boolean =>
+  a.topic === b.topic && a.publisher === b.publisher && a.subscriber === b.subscriber && a.code === b.code;
+
+/** Whether a fault is that of one of these launch nodes, by its place in the launch file. */
 export const isOfLaunchNode = (fault: Fault, nodes: readonly LaunchNode[]): boolean =>
   fault.kind === 'process' &&
   nodes.some(({ file, line }) => file !== '' && file === fault.file && line === fault.line);

@@ -5,9 +5,11 @@ import type {
   Introspection,
   LaunchNode,
   Log,
+  PortSet,
   Progress,
   Sim,
   State,
+  TopicMismatch,
   TreeNode,
 } from '@/generated/messages';
 import type { Connection } from './connectionStates';
@@ -52,6 +54,10 @@ export interface SessionData {
   /** The processes of the project's launch files. */
   launchNodes: LaunchNode[];
   finished: Finished | null;
+  /** The ports that were changed since the program was started, by node and port. */
+  ports: Record<string, PortSet>;
+  /** Topics whose ends do not match now. */
+  mismatches: TopicMismatch[];
   sim: Sim | null;
   simTime: number;
   tick: number;

@@ -7,6 +7,7 @@ import { change } from '@/store/project/edits/blocks';
 import { setEditor, toggleExpanded, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
 import { liveKey, pastOf, useLiveStore } from '@/store/project/live';
+import { usePortMarks } from '@/store/run/portMarks';
 import { NodeSymbol } from '@/ui/NodeSymbol';
 import type { BlockNode } from '../flow';
 import { openQuickAddBelow } from '../quickAdd/open';
@@ -25,6 +26,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
   const past = useLiveStore((state) => pastOf(state, key));
   const flash = useLiveStore((state) => state.flashes.get(key));
   const fault = useLiveStore((state) => state.faults.get(key));
+  const marks = usePortMarks(inside?.tree ?? tree, inside?.node ?? id, node.ports);
   const isTarget = useEditorStore((state) => state.slot?.kind === 'onto' && state.slot.parent === id);
   const family = spec?.family ?? null;
   const color: CSSProperties = node.color ? { ['--family' as string]: node.color } : {};
@@ -56,7 +58,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
         <NodeSymbol type={node.type} family={family} size={22} />
       </span>
       <BlockTitle id={id} node={node} t={t} />
-      <BlockPorts node={node} spec={spec} t={t} />
+      <BlockPorts node={node} spec={spec} marks={marks} t={t} />
       <StatusMark status={fault === undefined ? status : 'FAILURE'} past={past} flash={flash} />
       {fault !== undefined && (
         <ProblemMark

@@ -4,6 +4,7 @@ import { describe, expect, it } from 'vitest';
 import type { PortSpec } from '@/model/ports';
 import { vocabulary } from '@/model/testing';
 import type { NodeSpec } from '@/model/vocabulary';
+import type { PortMark } from '@/store/run/portMarks';
 import { port, show } from '../../../../harness/testing';
 import { BlockPorts } from './BlockPorts';
 
@@ -12,8 +13,14 @@ const specOf = (...ports: ReturnType<typeof port>[]): NodeSpec => ({
   ports: ports as PortSpec[],
 });
 
-function open(spec: NodeSpec | undefined, ports: Record<string, string> = {}) {
-  show(<BlockPorts node={{ type: 'Turn', ports }} spec={spec} t={i18next.getFixedT('en', 'canvas')} />);
+function open(
+  spec: NodeSpec | undefined,
+  ports: Record<string, string> = {},
+  marks: Record<string, PortMark> = {},
+) {
+  const t = i18next.getFixedT('en', 'canvas');
+  const node = { type: 'Turn', ports };
+  show(<BlockPorts node={node} spec={spec} marks={new Map(Object.entries(marks))} t={t} />);
   return screen.queryAllByRole('listitem').map(({ textContent }) => textContent);
 }
 
@@ -24,6 +31,19 @@ describe('BlockPorts', () => {
   it('is absent for a block without ports', () => {
     expect(open(specOf())).toEqual([]);
     expect(screen.queryByRole('list')).toBeNull();
+  });
+
+  it('marks a value that differs from the saved one, and says both', () => {
+    const mark: PortMark = { state: 'taken', saved: null, message: '' };
+    open(
+      specOf(port('a', 'double', { default: '0.3' }), port('b', 'int')),
+      { a: '0.5', b: '1' },
+      { a: mark },
+    );
+    const value = screen.getByText('0.5');
+    expect(value).toHaveAttribute('data-live', 'taken');
+    expect(value).toHaveAttribute('title', '0.5 – changed while the program runs; saved: 0.3');
+    expect(screen.getByText('1')).not.toHaveAttribute('data-live');
   });
 
   it('shows values, defaults, and missing values', () => {

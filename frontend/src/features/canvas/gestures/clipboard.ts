@@ -4,9 +4,12 @@ import { clipboardText, copiedText, pasteText } from '@/store/project/edits/clip
 import { deleteSelection } from '@/store/project/edits/blocks';
 import { isOnCanvas, isTreeInFront } from '../inFront';
 
-/** Pastes copied blocks; notifies the user if the text contains none. */
+const COMPLAINTS = { nothing: 'canvas:pastesNothing', damaged: 'canvas:pastesBlocksOnly' } as const;
+
+/** Pastes blocks that were copied here or elsewhere; notifies the user of what cannot be pasted. */
 function pasteOrTell(text: string): void {
-  if (!pasteText(text)) notifications.show({ color: 'yellow', message: t('canvas:pastesNothing') });
+  const pasted = pasteText(text);
+  if (pasted !== 'blocks') notifications.show({ color: 'yellow', message: t(COMPLAINTS[pasted]) });
 }
 
 /** Pastes from a menu, where no event contains the text. */

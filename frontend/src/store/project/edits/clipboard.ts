@@ -1,30 +1,62 @@
-import { freshId } from '@/model/diagram';
-import { fragmentOf, insertFragment, withFreshIds } from '@/model/edits';
+import { readCopied, writeCopied, type Copied } from '@/model/copied';
+import { freshId, type DiagramNode } from '@/model/diagram';
+import { fragmentOf, insertFragment, withFreshIds, type Fragment } from '@/model/edits';
+import { closureOf, nameIn, pathOf, type Insertion } from '@/model/reuse';
 import { acceptsChild, bestPlacement, type Placement } from '@/model/rules';
-import { fragmentToXml, xmlToFragment } from '@/model/xml';
+import { bring } from '@/store/dialogs/arrivals';
 import { activeDiagram, change, deleteSelection, placeAfter } from './blocks';
 import { useProjectStore } from '../index';
+import { treeIdOf } from '../state';
 
 /** The last copied text, for browsers that do not allow reading the clipboard. */
 let remembered = '';
 
-/** Returns the selected blocks as XML; null if there are none. */
+/** Returns the trees and actions of the project that blocks use, by path. */
+function filesOf(fragment: Fragment): Record<string, string> {
+  const { files, diagrams, currentText } = useProjectStore.getState();
+  const sources: Record<string, string> = {};
+  for (const path of Object.keys(files)) {
+    const tree = treeIdOf(path);
+    // A tree that cannot be read cannot come along.
+    if (tree === null ? !/^actions\/[^/]+\.py$/.test(path) : !(tree in diagrams)) continue;
+    const text = currentText(path);
+    if (text !== null) sources[path] = text;
+  }
+  return closureOf(Object.values(fragment.nodes).map(pathOf), sources);
+}
+
+function textOf(fragment: Fragment): string {
+  const { projectId, name } = useProjectStore.getState();
+  remembered = writeCopied(fragment, { project: projectId ?? '', name, files: filesOf(fragment) });
+  return remembered;
+}
+
+/** Returns the selected blocks as text, with the files that they use; null if there are none. */
 export function copiedText(): string | null {
   const diagram = activeDiagram();
   const { selection } = useProjectStore.getState();
   if (!diagram || selection.length === 0) return null;
-  remembered = fragmentToXml(fragmentOf(diagram, selection));
-  return remembered;
+  return textOf(fragmentOf(diagram, selection));
 }
 
-export async function copySelection(): Promise<boolean> {
-  if (copiedText() === null) return false;
+async function toClipboard(text: string): Promise<void> {
   try {
-    await navigator.clipboard.writeText(remembered);
+    await navigator.clipboard.writeText(text);
   } catch {
     // The browser refused. Pasting in this tab uses the remembered text.
   }
+}
+
+export async function copySelection(): Promise<boolean> {
+  const text = copiedText();
+  if (text === null) return false;
+  await toClipboard(text);
   return true;
+}
+
+/** Copies a tree: pasting it adds a block that calls it, in another project with all that it uses. */
+export function copyTree(tree: string): Promise<void> {
+  return toClipboard(textOf({ tops: ['tree'], nodes: { tree: { type: 'SubTree', tree } } }));
 }
 
 export async function cutSelection(): Promise<void> {
@@ -40,11 +72,21 @@ export async function clipboardText(): Promise<string> {
   }
 }
 
-/** Pastes under the selected block if it accepts children, otherwise after it, otherwise as a draft. */
-export function pasteText(text: string): boolean {
-  const fragment = xmlToFragment(text);
+/** Returns the blocks with the names that their trees and actions have in this project. */
+function withPlaces(fragment: Fragment, places: Insertion['places']): Fragment {
+  const renamed = (node: DiagramNode): DiagramNode => {
+    const place = places[pathOf(node)];
+    if (place === undefined) return node;
+    return node.type === 'SubTree' ? { ...node, tree: nameIn(place) } : { ...node, type: nameIn(place) };
+  };
+  const nodes = Object.entries(fragment.nodes).map(([id, node]) => [id, renamed(node)] as const);
+  return { ...fragment, nodes: Object.fromEntries(nodes) };
+}
+
+/** Pastes under the selected block if it accepts children, else after it, else as a draft. */
+function paste(fragment: Fragment, files?: Insertion['files']): void {
   const diagram = activeDiagram();
-  if (!fragment || !diagram) return false;
+  if (!diagram) return;
   const { vocabulary, selection } = useProjectStore.getState();
   const [id] = selection;
   const copy = withFreshIds(fragment, (taken) => freshId({ ...diagram.nodes, ...taken }));
@@ -59,6 +101,33 @@ export function pasteText(text: string): boolean {
     const room = (spec?.maxChildren ?? 0) - (diagram.nodes[place.parent]?.children?.length ?? 0);
     if (copy.tops.length > room) place = { at: 'draft' };
   }
-  change('paste', [insertFragment(copy, place)], { select: copy.tops });
-  return true;
+  change('paste', [insertFragment(copy, place)], { select: copy.tops, ...(files ? { files } : {}) });
+}
+
+/** Returns whether the blocks come with files from another project that this user may add to. */
+function isDelivery({ origin }: Copied): boolean {
+  const { projectId, role } = useProjectStore.getState();
+  return origin !== null && origin.project !== projectId && role !== 'viewer';
+}
+
+/**
+ * Pastes blocks; those from another project bring the trees and actions that they use, after a look at them.
+ * Answers what the text was: blocks, blocks whose files cannot be read, or nothing that can be pasted.
+ */
+export function pasteText(text: string): 'blocks' | 'damaged' | 'nothing' {
+  const copied = readCopied(text);
+  if (!copied || !activeDiagram()) return 'nothing';
+  const { fragment, origin, isDamaged } = copied;
+  if (origin === null || !isDelivery(copied)) {
+    paste(fragment);
+    return isDamaged ? 'damaged' : 'blocks';
+  }
+  bring({
+    act: 'paste',
+    name: origin.name,
+    needs: [...new Set(Object.values(fragment.nodes).map(pathOf))].filter((path) => path in origin.files),
+    sources: origin.files,
+    take: ({ places, files }) => paste(withPlaces(fragment, places), files),
+  });
+  return 'blocks';
 }

@@ -1,0 +1,54 @@
+import { Button } from '@mantine/core';
+import { useTranslation } from 'react-i18next';
+import type { PortSpec } from '@/model/ports';
+import type { PortMark } from '@/store/run/portMarks';
+import { useSessionStore } from '@/store/session/store';
+import classes from './LivePort.module.css';
+
+interface LivePortProps {
+  readonly port: PortSpec;
+  readonly mark: PortMark | undefined;
+  readonly isTyping: boolean;
+  readonly onKeep: () => void;
+  readonly onBack: (saved: string | null) => void;
+}
+
+/** What the running program makes of a changed port, and the two ways on: keep the value, or go back. */
+export function LivePort({ port, mark, isTyping, onKeep, onBack }: LivePortProps) {
+  const { t } = useTranslation('inspector');
+  const isRunning = useSessionStore(
+    ({ executor, introspection }) =>
+      (executor === 'application_running' || executor === 'paused') && introspection?.role === 'driver',
+  );
+  if (isTyping && isRunning) {
+    return (
+      <p className={classes['typing']} role="status">
+        {t('live.typing')}
+      </p>
+    );
+  }
+  if (!mark) return null;
+  const saved =
+    mark.saved ?? (port.default === null ? t('live.noValue') : t('live.default', { value: port.default }));
+  return (
+    <div className={classes['live']} data-state={mark.state} data-testid={`live-${port.name}`}>
+      <p className={classes['text']} role="status">
+        {t(`live.${mark.state}`, { saved })} {mark.message}
+      </p>
+      <div className={classes['buttons']}>
+        <Button size="compact-sm" variant="default" onClick={onKeep}>
+          {t('live.keep')}
+        </Button>
+        <Button
+          size="compact-sm"
+          variant="default"
+          onClick={() => {
+            onBack(mark.saved);
+          }}
+        >
+          {t('live.back')}
+        </Button>
+      </div>
+    </div>
+  );
+}

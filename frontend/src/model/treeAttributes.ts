@@ -1,0 +1,24 @@
+import type { Diagram } from './diagram';
+
+/**
+ * What a tree says of itself: attributes of its `<BehaviorTree>`, which other programs ignore and which come
+ * back from XML.
+ */
+export const DESCRIPTION = '_description';
+export const OFFERED = '_bts_offered';
+
+/** Returns the attributes of a tree; what is not a text is left out, since files are not checked. */
+export function attributesOf({ attributes }: Pick<Diagram, 'attributes'>): Record<string, string> {
+  if (typeof attributes !== 'object' || attributes === null || Array.isArray(attributes)) return {};
+  return Object.fromEntries(
+    Object.entries(attributes).filter((row): row is [string, string] => typeof row[1] === 'string'),
+  );
+}
+
+/** Returns what the tree is for, in the words of its author; empty if nobody wrote it. */
+export const descriptionOf = (diagram: Pick<Diagram, 'attributes'>): string =>
+  attributesOf(diagram)[DESCRIPTION] ?? '';
+
+/** Returns whether the tree is offered to other projects in their library. */
+export const isOffered = (diagram: Pick<Diagram, 'attributes'>): boolean =>
+  attributesOf(diagram)[OFFERED] === '1';

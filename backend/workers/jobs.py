@@ -121,13 +121,17 @@ def package_preview(files: Files, *, name: str | None) -> Answer:
 
 
 def opened(files: Files, *, name: str, repair: bool) -> Answer:
-    """Returns the files of a new project, made from a project of JdeRobot or Groot2, or from BT.CPP XML.
+    """Returns a new project, made from a project of JdeRobot or Groot2, or from BT.CPP XML.
 
-    `repair` escapes bare `&` and `<` in attributes of XML. The client offers it if the XML cannot be read.
+    `proposal` names the universe that the project got, and the topics that ask for it; without such topics it
+    is null. `repair` escapes bare `&` and `<` in attributes of XML; the client offers it if the XML cannot be
+    read.
     """
     import translator  # noqa: PLC0415
 
-    return {"files": dict(translator.open_files(files, name=name, repair=repair).files)}
+    project = translator.open_files(files, name=name, repair=repair)
+    proposals = (dict(found.values) for found in project.diagnostics if found.code == "BT0742")
+    return {"files": dict(project.files), "proposal": next(proposals, None)}
 
 
 def inspect(source: str, *, filename: str) -> Answer:

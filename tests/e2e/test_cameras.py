@@ -55,5 +55,6 @@ def a_second_camera_is_added(studio: Studio) -> None:
     studio.at("new-robot-ok").click()
     expect(studio.at("thing-sensor camera")).to_be_visible()
     studio.at("add-camera").click()
+    studio.page.keyboard.press("Enter")
     expect(studio.at("thing-sensor camera_2")).to_have_attribute("aria-selected", "true")
     studio.saved()

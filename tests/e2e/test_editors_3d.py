@@ -64,9 +64,17 @@ def new(studio: Studio, kind: str, base: str, name: str) -> None:
     expect(studio.at(f"{kind}-view").locator("canvas")).to_be_visible()
 
 
+def place(studio: Studio, button: str) -> None:
+    """Chooses a thing, and places it where its ghost is at first."""
+    studio.at(button).click()
+    expect(studio.at(button)).to_have_attribute("aria-pressed", "true")
+    studio.page.keyboard.press("Enter")
+    expect(studio.at(button)).to_have_attribute("aria-pressed", "false")
+
+
 def change_a_universe(studio: Studio) -> None:
     new(studio, "universe", "empty", "yard")
-    studio.at("place-crate").click()
+    place(studio, "place-crate")
     field(studio.at("thing-fields"), "field-x", "2")
     studio.at("universe-view").focus()
     studio.page.keyboard.press("ArrowUp")
@@ -81,8 +89,10 @@ def change_a_universe(studio: Studio) -> None:
     studio.at("mesh-file").set_input_files(
         files=FilePayload(name="rock.obj", mimeType="text/plain", buffer=CRATE)
     )
+    expect(studio.at("placing")).to_contain_text("rock.obj")
+    studio.page.keyboard.press("Enter")
     expect(studio.at("thing-rock")).to_be_visible()
-    studio.at("place-floor").click()
+    place(studio, "place-floor")
     studio.page.get_by_role("combobox", name="Texture").click()
     studio.page.get_by_role("option", name="Wood").click()
     things_are_placed_by_mouse(studio)
@@ -157,10 +167,11 @@ def things_are_placed_by_mouse(studio: Studio) -> None:
     field(studio.at("thing-fields"), "field-size-0", "0.8")
     studio.at("thing-fields").get_by_role("textbox", name="Colour").fill("#ff8800")
     keys.press("Enter")
-    studio.at("place-person").click()
+    place(studio, "place-person")
     studio.at("add-waypoint").click()
     studio.at("place-robot").click()
     studio.page.get_by_role("menuitem").first.click()
+    keys.press("Enter")
     expect(studio.at("thing-robot_2")).to_be_visible()
     view.focus()
     keys.press("Control+z")
@@ -242,7 +253,7 @@ def change_a_robot(studio: Studio) -> None:
     drag(studio, arrow, (arrow[0], arrow[1] - 30))
     ahead = float(studio.at("part-fields").get_by_test_id("field-x").input_value())
     assert 0.01 < ahead < 0.1, "the arrow of its x was drawn"
-    studio.at("add-imu").click()
+    place(studio, "add-imu")
     expect(studio.at("thing-sensor imu")).to_have_attribute("aria-selected", "true")
     studio.at("undo").click()
     expect(studio.at("thing-sensor imu")).to_have_count(0)
@@ -260,6 +271,8 @@ def let_a_mesh_turn(studio: Studio) -> None:
     studio.at("part-mesh-file").set_input_files(
         files=FilePayload(name="cup.stl", mimeType="model/stl", buffer=MESH_MM)
     )
+    expect(studio.at("placing")).to_contain_text("cup.stl")
+    studio.page.keyboard.press("Enter")
     expect(studio.at("thing-link cup_link")).to_have_attribute("aria-selected", "true")
     field(fields, "part-name", "holder")
     field(fields, "part-friction", "0.3")

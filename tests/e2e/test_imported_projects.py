@@ -30,6 +30,7 @@ def test_an_imported_project_drives_in_the_universe_that_its_topics_ask_for(
     folder = write(tmp_path / write.__name__)
     files = {str(path.relative_to(tmp_path)): path.read_bytes() for path in folder.rglob("*.*")}
     drop(studio, f"{folder.name}.zip", zipped(files))
+    expect(studio.at("import-reason")).to_contain_text("It is proposed because the actions")
     report(studio, f"{folder.name}.zip")
     expect(studio.at("canvas")).to_be_visible()
     studio.run()

@@ -195,6 +195,21 @@ class ProjectDetailSerializer(ProjectSummarySerializer):
     checked = serializers.BooleanField(help_text=CHECKED)
 
 
+class ProposalSerializer(serializers.Serializer[Any]):
+    """A universe for an imported project, and the topics of its actions that ask for it."""
+
+    universe = serializers.CharField()
+    topics = serializers.CharField(help_text="Separated by a comma and a space.")
+
+
+class ImportedProjectSerializer(ProjectDetailSerializer):
+    """An imported project."""
+
+    proposal = ProposalSerializer(
+        allow_null=True, help_text="null: the file names its universe, or its actions ask for none."
+    )
+
+
 class ProjectListQuerySerializer(serializers.Serializer[Any]):
     """The query of a list."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 from uuid import UUID
 
 from django.db import transaction
@@ -23,7 +23,7 @@ from backend.projects.storage import names, queries, writes
 from backend.projects.storage.access import Need
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from django.http.response import HttpResponseBase
     from rest_framework.request import Request
@@ -32,12 +32,17 @@ if TYPE_CHECKING:
 
 
 def opened(
-    view: APIView, request: Request, write: Callable[[], Project], *, status: int = 200
+    view: APIView,
+    request: Request,
+    write: Callable[[], Project],
+    *,
+    status: int = 200,
+    more: Mapping[str, Any] | None = None,
 ) -> HttpResponseBase:
     """Writes a project once for each `Idempotency-Key`, and answers with the project and its problems.
 
     The data of the answer are read in the same transaction. Otherwise an error after the commit would make a
-    stored write look like a failed one.
+    stored write look like a failed one. `more` is added to the answer.
     """
     contents: dict[str, bytes] = {}
 
@@ -46,7 +51,7 @@ def opened(
             project = write()
             found = presentation.opened(project)
         contents.update(found.contents)
-        return Response(found.rows, status=status, headers={"ETag": queries.etag(project)})
+        return Response(found.rows | dict(more or {}), status=status, headers={"ETag": queries.etag(project)})
 
     response = once(request, user_of(request), effect)
     return checking.reported(

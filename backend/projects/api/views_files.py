@@ -210,7 +210,7 @@ class ProjectFiles(ResourceViewSet):
             OpenApiParameter("repair", bool, description="Escape bare & and < in attributes of XML."),
         ],
         request={"application/octet-stream": OpenApiTypes.BINARY, "multipart/form-data": UploadSerializer},
-        responses={201: OpenApiResponse(s.ProjectDetailSerializer)} | NOT_SOUND,
+        responses={201: OpenApiResponse(s.ImportedProjectSerializer)} | NOT_SOUND,
         tags=["files"],
     )
     @action(
@@ -237,12 +237,13 @@ class ProjectFiles(ResourceViewSet):
                 request,
                 lambda: writes.create_project(files, acting_user=user, message="Import"),
                 status=201,
+                more={"proposal": made["proposal"]},
             )
 
         def unpacked(done: Future[Upload]) -> HttpResponseBase:
             upload = done.result()
             if upload.is_ours:
-                return create({"files": upload.files})
+                return create({"files": upload.files, "proposal": None})
             return checking.answered(
                 self, request, "opened", create, files=upload.files, name=upload.name, repair=wants_repair
             )

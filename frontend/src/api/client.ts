@@ -6,6 +6,7 @@ import type {
   CheckResult,
   FileChange,
   PackagePreview,
+  ImportedProject,
   ProjectDetail,
   ProjectSettings,
   ProjectSummary,
@@ -55,8 +56,8 @@ export const api = {
     dataOf(rest.POST('/api/v1/projects/{project_id}/unarchive', { params: inProject(id) })),
   duplicateProject: (id: string): Promise<ProjectDetail> =>
     dataOf(rest.POST('/api/v1/projects/{project_id}/duplicate', { params: inProject(id), body: {} })),
-  // The file is the body itself, so it may be larger than any other request.
-  importProject: ({ file, repair }: { file: File; repair: boolean }): Promise<ProjectDetail> => {
+  // The file is the body itself: it may then be larger than any other request.
+  importProject: ({ file, repair }: { file: File; repair: boolean }): Promise<ImportedProject> => {
     const query = { filename: file.name, ...(repair ? { repair } : {}) };
     return dataOf(
       rest.POST('/api/v1/projects/import', {

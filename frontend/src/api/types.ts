@@ -49,6 +49,7 @@ export type ProjectRole = Server['ProjectRole'];
 type Kept = 'role' | 'owner' | 'size' | 'archived_at' | 'deleted_at';
 export type ProjectSummary = Needs<Server['ProjectSummary'], Exclude<keyof Server['ProjectSummary'], Kept>>;
 export type ProjectFile = Needs<Server['File'], keyof Server['FileInfo'] | 'content'>;
+export type ImportedProject = ProjectDetail & Pick<Server['ImportedProject'], 'proposal'>;
 export type ProjectDetail = ProjectSummary &
   Checked<Server['Report']> & { settings: Server['ProjectDetail']['settings']; files: ProjectFile[] };
 

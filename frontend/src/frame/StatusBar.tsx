@@ -8,6 +8,7 @@ import {
 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { Hint } from '@/features/onboarding/Hint';
+import { titleOf } from '@/model/document/glance';
 import { openUniverseChooser } from '@/store/dialogs/universeChooser';
 import { countProblems } from '@/store/problems/list';
 import { useProblems } from '@/store/problems/useProblems';
@@ -46,13 +47,7 @@ function ConnectionStatus() {
   );
 }
 
-/** Returns an id such as `walled_room` in readable form. */
-function titleOf(universe: string): string {
-  const words = universe.replaceAll('_', ' ');
-  return words.charAt(0).toUpperCase() + words.slice(1);
-}
-
-/** The button with the universe of the next run; it opens the chooser. */
+/** The universe of the next run; a click opens the chooser. */
 function UniverseButton() {
   const { t } = useTranslation('frame');
   const own = useProjectStore((state) => state.settings?.universe ?? '');

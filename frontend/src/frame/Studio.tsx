@@ -43,6 +43,7 @@ import {
   aimAt,
   closeGone,
   followFront,
+  followNames,
   followRename,
   openTab,
   reopen,
@@ -115,8 +116,9 @@ function Workbench({ projectId }: StudioProps) {
       aimAt,
     });
     window.addEventListener('keydown', leaveInspector);
-    const unwatch = useProjectStore.subscribe(({ projectId: id, diagrams }, before) => {
+    const unwatch = useProjectStore.subscribe(({ projectId: id, diagrams, files }, before) => {
       if (id === before.projectId && diagrams !== before.diagrams) closeGone();
+      if (id === before.projectId && files !== before.files) followNames();
     });
     return () => {
       unwatch();

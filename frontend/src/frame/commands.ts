@@ -34,6 +34,7 @@ import { openNewRobot } from '@/store/dialogs/newRobot';
 import { openNewUniverse } from '@/store/dialogs/newUniverse';
 import { resetLayout } from './Dock';
 import { fileCommands } from '@/features/explorer/fileCommands';
+import { usedCommands } from '@/features/explorer/used/commands';
 import { focusInspector } from '@/workspace/focus';
 import { openAnotherCamera } from '@/workspace/cameraViews';
 import { WINDOWED, type PanelId } from '@/workspace/layoutModel';
@@ -259,4 +260,4 @@ const windows = WINDOWED.map((id): UserCommand => ({
 }));
 
 export const registerFrameCommands = () =>
-  registerCommands([...everywhere, ...rows, ...fileCommands, ...panels, ...windows]);
+  registerCommands([...everywhere, ...rows, ...fileCommands, ...usedCommands, ...panels, ...windows]);

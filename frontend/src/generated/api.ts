@@ -1216,6 +1216,43 @@ export interface components {
         GroupList: {
             items: components["schemas"]["Group"][];
         };
+        /** @description An imported project. */
+        ImportedProject: {
+            /** Format: uuid */
+            id: string;
+            name: string;
+            description: string;
+            main_tree: string;
+            universe: string;
+            revision: number;
+            size: number;
+            /** Format: date-time */
+            created_at: string;
+            /** Format: date-time */
+            updated_at: string;
+            /** Format: date-time */
+            archived_at: string | null;
+            /** Format: date-time */
+            deleted_at: string | null;
+            /** @description What the user who asked may do with it. */
+            role: components["schemas"]["ProjectRole"];
+            owner: string;
+            root_diagram: {
+                [key: string]: unknown;
+            } | null;
+            /** @description Types of the tree that are conditions. */
+            conditions: string[];
+            settings: {
+                [key: string]: unknown;
+            };
+            files: components["schemas"]["File"][];
+            actions: components["schemas"]["Action"][];
+            diagnostics: components["schemas"]["Diagnostic"][];
+            /** @description false: the project could not be checked, so that its actions are not known. */
+            checked: boolean;
+            /** @description null: the file names its universe, or its actions ask for none. */
+            proposal: components["schemas"]["Proposal"] | null;
+        };
         /** @description The source of an action. */
         InspectActionRequest: {
             source: string;
@@ -1429,6 +1466,12 @@ export interface components {
             } | null;
             /** @description Types of the tree that are conditions. */
             conditions: string[];
+        };
+        /** @description A universe for an imported project, and the topics of its actions that ask for it. */
+        Proposal: {
+            universe: string;
+            /** @description Separated by a comma and a space. */
+            topics: string;
         };
         /** @description The tree that was read from a text. */
         ReadTreeDone: {
@@ -3605,7 +3648,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ProjectDetail"];
+                    "application/json": components["schemas"]["ImportedProject"];
                 };
             };
             /** @description The project has errors. */

@@ -16,6 +16,7 @@ export function undoNotification({ message, undoLabel, undo }: UndoNotification)
         <Text size="sm">{message}</Text>
         <Button
           size="compact-sm"
+          style={{ flex: 'none' }}
           variant="light"
           onClick={() => {
             notifications.hide(id);

@@ -1,5 +1,9 @@
 import { expect, it } from 'vitest';
-import { folderOf } from './tabs';
+import { TabNode } from 'flexlayout-react';
+import { useProjectStore } from '@/store/project';
+import { openProject } from '../../harness/testing';
+import { watchTabs } from '../../harness/tabs';
+import { folderOf, followNames, openTab, useTabs } from './tabs';
 
 const file = (path: string) => ({ kind: 'file', path }) as const;
 
@@ -12,4 +16,39 @@ it('shows no folder for a unique name, also beside a tree', () => {
   const tree = { kind: 'tree', id: 'Main' } as const;
   expect(folderOf(file('actions/Go.py'), [file('actions/Go.py'), tree])).toBeNull();
   expect(folderOf(tree, [tree, file('Main')])).toBeNull();
+});
+
+it('gives universes and robots the names of their documents, also after these change', () => {
+  watchTabs();
+  openProject({
+    texts: {
+      'universes/hall.yaml': 'name: Hall',
+      'robots/mine/robot.yaml': 'a: 1',
+      'notes/hall.yaml': 'name: x',
+    },
+  });
+  for (const path of ['universes/hall.yaml', 'robots/mine/robot.yaml', 'notes/hall.yaml'])
+    openTab(file(path));
+  const names = () => {
+    const found: string[] = [];
+    useTabs.getState().model?.visitNodes((node) => {
+      if (node instanceof TabNode) found.push(node.getName());
+    });
+    return found;
+  };
+  expect(names()).toEqual(['Hall', 'mine', 'hall.yaml']);
+  const before = useTabs.getState().renames;
+  useProjectStore.getState().setFileText('universes/hall.yaml', 'name: Great hall');
+  useProjectStore.getState().setFileText('robots/mine/robot.yaml', 'name: Rover');
+  followNames();
+  expect(names()).toEqual(['Great hall', 'Rover', 'hall.yaml']);
+  expect(useTabs.getState().renames).toBe(before + 1);
+  followNames();
+  expect(useTabs.getState().renames).toBe(before + 1);
+});
+
+it('tells universes of one name apart by their ids', () => {
+  openProject({ texts: { 'universes/a.yaml': 'name: Hall', 'universes/b.yaml': 'name: Hall' } });
+  const open = [file('universes/a.yaml'), file('universes/b.yaml')];
+  expect(open.map((tab) => folderOf(tab, open))).toEqual(['a', 'b']);
 });

@@ -1,6 +1,8 @@
 import { Actions, DockLocation, Model, TabNode, TabSetNode, type IJsonTabNode } from 'flexlayout-react';
 import { create } from 'zustand';
+import { nameIn } from '@/model/document/glance';
 import { useProjectStore } from '@/store/project';
+import { documentName, kindOf } from '@/store/project/moving';
 import type { DocumentTab } from './documents';
 import { focusDocument } from './focus';
 import { EDITORS, toggleBeside, type FrameWidth, type PanelId } from './layoutModel';
@@ -47,16 +49,20 @@ function nameOf(tab: DocumentTab): string {
   // The frame translates this name, like those of its panels.
   if (tab.kind === 'compare') return 'panel.compare';
   if (tab.kind === 'tree') return tab.id;
-  // All robots have a file of the same name, so the tab shows the name of the folder.
-  const robot = /^robots\/([^/]+)\/robot\.yaml$/.exec(tab.path)?.[1];
-  return robot ?? tab.path.split('/').at(-1) ?? tab.path;
+  if (!isNamed(tab)) return tab.path.split('/').at(-1) ?? tab.path;
+  return nameIn(useProjectStore.getState().currentText(tab.path) ?? '') ?? documentName(tab.path);
 }
 
-/** Returns the folder of a file if another open tab has the same name; otherwise null. */
+/** Whether a document gives itself a name, as universes and robots do. */
+const isNamed = (tab: DocumentTab): boolean =>
+  tab.kind === 'file' && ['universe', 'robot'].includes(kindOf(tab.path));
+
+/** The folder, or of a universe or robot the id, of a file whose tab has the name of another open tab; null if its name says enough. */
 export function folderOf(tab: DocumentTab, open: readonly DocumentTab[]): string | null {
   if (tab.kind !== 'file') return null;
   const name = nameOf(tab);
   const isAlone = open.every((other) => tabId(other) === tabId(tab) || nameOf(other) !== name);
+  if (!isAlone && isNamed(tab)) return documentName(tab.path);
   return isAlone ? null : tab.path.split('/').slice(0, -1).join('/') || '/';
 }
 
@@ -113,6 +119,21 @@ export function followRename(from: DocumentTab, to: DocumentTab): void {
   if (!open || nodeOf(model, to)) return;
   model?.doAction(Actions.updateNodeAttributes(open.getId(), faceOf(to)));
   useTabs.setState(({ renames }) => ({ renames: renames + 1 }));
+}
+
+/** Gives the tabs of universes and robots the names that their documents have now. */
+export function followNames(): void {
+  const { model } = useTabs.getState();
+  let isNew = false;
+  model?.visitNodes((node) => {
+    const tab = node instanceof TabNode ? documentOf(node) : undefined;
+    if (!tab || !isNamed(tab) || !exists(tab)) return;
+    const name = nameOf(tab);
+    if ((node as TabNode).getName() === name) return;
+    model.doAction(Actions.updateNodeAttributes(node.getId(), { name }));
+    isNew = true;
+  });
+  if (isNew) useTabs.setState(({ renames }) => ({ renames: renames + 1 }));
 }
 
 function exists(tab: DocumentTab): boolean {

@@ -34,6 +34,16 @@ def test_an_app_is_a_zip_with_its_universe() -> None:
     assert JOBS["app"](files=FILES, universe="empty", built_in=None)["universe"] == "empty"
 
 
+def test_an_import_proposes_a_universe_and_says_by_which_topics() -> None:
+    tree = b'<root BTCPP_format="4"><BehaviorTree ID="Main"><Look/></BehaviorTree></root>'
+    source = b'node.create_subscription(Image, "/eye", f, 10)'
+    opened = JOBS["opened"]
+    seen = opened(files={"t.xml": tree, "actions/Look.py": source}, name="t", repair=False)
+    assert seen["proposal"] == {"universe": "person_in_green", "topics": "/eye"}
+    assert json.loads(seen["files"]["project.json"])["universe"] == "person_in_green"
+    assert opened(files={"t.xml": tree}, name="t", repair=False)["proposal"] is None
+
+
 def test_a_text_that_is_half_typed_has_findings_and_no_diagram() -> None:
     written = JOBS["write_tree"](diagram=TREE, base="", ids=[])
     assert JOBS["read_tree"](xml=written["xml"], diagram=TREE)["diagram"]

@@ -37,13 +37,22 @@ describe('renameDocument', () => {
   it('renames a universe, also in the settings of the project', async () => {
     store().setSettings({ universe: 'yard' });
     await renameDocument('universes/yard.yaml', 'garden');
-    expect(store().currentText('universes/garden.yaml')).toBe('name: yard');
+    expect(store().currentText('universes/garden.yaml')).toBe('name: garden');
     expect(paths()).not.toContain('universes/yard.yaml');
     expect(store().settings?.universe).toBe('garden');
     expect(useUniverseChoice.getState()).toMatchObject({ universe: null, robot: null });
   });
 
-  it('renames a robot with all its files, and leaves other robots', async () => {
+  it.each([
+    ['name: Yard # green', 'name: "Big garden" # green'],
+    ['name: Our yard', 'name: Our yard'],
+  ])('lets a title follow that was made from the old name: %s', async (before, after) => {
+    store().setFileText('universes/yard.yaml', before);
+    await renameDocument('universes/yard.yaml', 'big_garden');
+    expect(store().currentText('universes/big_garden.yaml')).toBe(after);
+  });
+
+  it('gives a robot another name with all its files, and leaves other robots', async () => {
     await renameDocument('robots/mine/robot.yaml', 'yours');
     expect(paths().filter((path) => path.startsWith('robots/'))).toEqual([
       'robots/minor/robot.yaml',

@@ -1,5 +1,6 @@
+import { nameIn, titleOf } from '@/model/document/glance';
 import { useProjectStore } from '@/store/project';
-import { filesOf, followDocument, kindOf, pathNamed } from '@/store/project/moving';
+import { documentName, filesOf, followDocument, kindOf, pathNamed } from '@/store/project/moving';
 import { openFile, renamed } from '@/store/project/navigation';
 import { useUniverseChoice } from '@/store/run/universeChoice';
 import { fetchBinaries, putBinaries } from '@/store/saving/binary';
@@ -11,10 +12,11 @@ export async function renameDocument(path: string, name: string): Promise<void> 
   const moved = (file: string) =>
     kindOf(path) === 'robot' ? file.replace(/^robots\/[^/]+/, `robots/${name}`) : to;
   const files = filesOf(path);
+  const named = await withName(path, name);
   const binaries = await fetchBinaries(files.filter((file) => project.files[file]?.kind === 'binary'));
   for (const file of files) {
     const text = project.currentText(file);
-    if (text !== null) project.addFile(moved(file), text);
+    if (text !== null) project.addFile(moved(file), file === path ? (named ?? text) : text);
   }
   followDocument(path, name);
   if (kindOf(path) === 'universe' || kindOf(path) === 'robot')
@@ -26,4 +28,15 @@ export async function renameDocument(path: string, name: string): Promise<void> 
     project.deleteFile(file);
   }
   openFile(to);
+}
+
+/** The text of a universe or a robot whose title was that of its old name, with the title of the new one. */
+async function withName(path: string, name: string): Promise<string | null> {
+  const text = useProjectStore.getState().currentText(path);
+  if (text === null || !['universe', 'robot'].includes(kindOf(path))) return null;
+  const title = nameIn(text);
+  const old = documentName(path);
+  if (title !== old && title !== titleOf(old)) return null;
+  const { rewrite } = await import('@/model/document/rewrite');
+  return rewrite(text, [{ kind: 'set', path: ['name'], value: title === old ? name : titleOf(name) }]);
 }

@@ -3,6 +3,7 @@ import { useEffect, useRef, useState, type FormEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { UniverseInfo } from '@/api/types';
 import { ChoiceCards } from '@/features/universe/ChoiceCards';
+import { freeName } from '@/features/universe/freeNames';
 import universe from '@/features/universe/universe.module.css';
 
 const ID = /^[A-Za-z_][A-Za-z0-9_-]*$/;
@@ -27,14 +28,7 @@ interface CopyFormProps {
   readonly onCancel: () => void;
 }
 
-function freeName(wish: string, taken: ReadonlySet<string>): string {
-  for (let count = 1; ; count += 1) {
-    const name = count === 1 ? wish : `${wish}_${count}`;
-    if (!taken.has(name.toLowerCase())) return name;
-  }
-}
-
-/** A form that copies a built-in universe or robot into the project. */
+/** Copies one of our universes or robots into the project. */
 export function CopyForm({ items, first, taken, words, testId, onCreate, onCancel }: CopyFormProps) {
   const { t } = useTranslation('editor3d');
   const [base, setBase] = useState(first);

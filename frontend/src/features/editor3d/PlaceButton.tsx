@@ -1,10 +1,11 @@
 import { ActionIcon, Menu, Tooltip } from '@mantine/core';
 import type { IconCube } from '@tabler/icons-react';
-import type { ReactNode } from 'react';
+import type { PointerEvent, ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
+import { useStore } from 'zustand';
 import classes from './editor3d.module.css';
-
-export const DRAGGED = 'application/x-bts-thing';
+import type { Editor } from './editing';
+import { choose, dragFrom } from './placing';
 
 type Icon = typeof IconCube;
 
@@ -23,29 +24,40 @@ export function PaletteBar({ label, children }: PaletteBarProps) {
 }
 
 interface PlaceButtonProps {
+  readonly editor: Editor;
   readonly icon: Icon;
   readonly label: string;
   readonly testId: string;
-  /** The data that the view receives when the button is dropped on it. */
+  /** The value that the view places. */
   readonly what: object;
+  /** Places it without a ghost. */
   readonly onPlace: () => void;
+  /** The thing has no place of its own, and so no ghost. */
+  readonly isPlaceless?: boolean;
 }
 
-/** A button for a thing: a click places it in the middle of the view, a drag places it under the pointer. */
-export function PlaceButton({ icon: Icon, label, testId, what, onPlace }: PlaceButtonProps) {
+/** A button for a thing: after a click its ghost follows the pointer; a drag puts it where it is let go. */
+export function PlaceButton(props: PlaceButtonProps) {
+  const { editor, icon: Icon, label, testId, what, onPlace, isPlaceless = false } = props;
   const { t } = useTranslation('editor3d');
+  const isChosen = useStore(editor.store, (state) => state.placing?.name === label);
+  const choice = { name: label, what, place: onPlace };
   return (
     <Tooltip label={label} position="right">
       <ActionIcon
         size="lg"
         aria-label={t('place', { what: label })}
         data-testid={testId}
-        draggable
-        onDragStart={(event) => {
-          event.dataTransfer.setData(DRAGGED, JSON.stringify(what));
-          event.dataTransfer.effectAllowed = 'copy';
-        }}
-        onClick={onPlace}
+        {...(isPlaceless
+          ? { onClick: onPlace }
+          : {
+              'aria-pressed': isChosen,
+              variant: isChosen ? 'light' : 'subtle',
+              color: isChosen ? 'indigo' : 'gray',
+              onPointerDown: (event: PointerEvent<HTMLButtonElement>) =>
+                dragFrom(event.currentTarget, event.nativeEvent, editor, choice),
+              onClick: () => choose(editor, choice),
+            })}
       >
         <Icon size={20} stroke={1.6} />
       </ActionIcon>
@@ -54,6 +66,7 @@ export function PlaceButton({ icon: Icon, label, testId, what, onPlace }: PlaceB
 }
 
 interface PlaceMenuProps {
+  readonly editor: Editor;
   readonly icon: Icon;
   readonly label: string;
   readonly testId: string;
@@ -61,10 +74,12 @@ interface PlaceMenuProps {
   readonly children: ReactNode;
 }
 
-/** A button with a menu of several things that can be placed. */
-export function PlaceMenu({ icon: Icon, label, testId, position, children }: PlaceMenuProps) {
+/** One button for several things that can be placed. */
+export function PlaceMenu({ editor, icon: Icon, label, testId, position, children }: PlaceMenuProps) {
+  const isPlacing = useStore(editor.store, ({ placing }) => placing !== null);
   return (
-    <Menu position={position}>
+    // The view needs the focus for the keys that place.
+    <Menu position={position} returnFocus={!isPlacing}>
       <Tooltip label={label} position="right">
         <Menu.Target>
           <ActionIcon size="lg" aria-label={label} data-testid={testId}>

@@ -21,6 +21,27 @@ export interface ViewHandle {
   cancel(): boolean;
 }
 
+/** Something of the palette that is to be placed next. */
+export interface Placing {
+  /** Its name, for the user. */
+  readonly name: string;
+  readonly what: object;
+}
+
+type Pixel = Pick<MouseEvent, 'clientX' | 'clientY'>;
+
+/** Operations of a view on the ghost of what is being placed. */
+export interface Placer {
+  /** Moves the ghost under the pointer; returns whether the pointer is over the view. */
+  aim(at: Pixel): boolean;
+  /** Moves the ghost by an offset in m. */
+  shift(by: Point): void;
+  /** Places the thing where its ghost is; the ghost stays for the next one if `isMore`. */
+  put(isMore: boolean): void;
+  /** Takes the keyboard's focus. */
+  focus(): void;
+}
+
 export interface EditorData {
   readonly undoStack: TextUndo;
   readonly selection: readonly string[];
@@ -28,6 +49,8 @@ export interface EditorData {
   readonly waypoint: number | null;
   readonly mode: Mode;
   readonly tool: Tool;
+  /** Null: nothing is being placed. */
+  readonly placing: Placing | null;
   readonly grid: number;
   /** A request to move the camera; a new object moves it even to the same place. */
   readonly viewpoint: { readonly kind: 'default' | 'top' | 'selection' };
@@ -52,6 +75,8 @@ export interface Editor {
   readonly kind: Kind;
   readonly store: StoreApi<EditorData>;
   view: ViewHandle | null;
+  /** Null: without a view in 3D, things are placed at once. */
+  placer: Placer | null;
 }
 
 const known = new Map<string, Editor>();
@@ -72,12 +97,13 @@ export function editorFor(path: string, kind: Kind): Editor {
       waypoint: null,
       mode: 'move',
       tool: 'select',
+      placing: null,
       grid: kind.grid,
       viewpoint: { kind: 'default' },
       isTextShown: !hasWebGl(),
       shownText: 0,
     }));
-    editor = { path, kind, store, view: null };
+    editor = { path, kind, store, view: null, placer: null };
     known.set(key, editor);
   }
   return editor;
@@ -94,9 +120,11 @@ export const textsOf = ({ path, kind }: Editor): readonly string[] => textsAt(pa
 
 export const isReadOnly = (): boolean => useProjectStore.getState().role === 'viewer';
 
-/** Sets the view that shows the editor's document, or null. */
-export function showIn(editor: Editor, view: ViewHandle | null): void {
+/** Sets the view that shows the editor's document, or null; nothing is being placed without one. */
+export function showIn(editor: Editor, view: ViewHandle | null, placer: Placer | null = null): void {
   editor.view = view;
+  editor.placer = placer;
+  if (editor.store.getState().placing && !placer) editor.store.setState({ placing: null });
 }
 
 /** Records changes from the text editor or from elsewhere as undo steps. */

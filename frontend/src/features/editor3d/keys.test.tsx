@@ -99,6 +99,25 @@ describe('the keys of a view', () => {
     expect(state()).toMatchObject({ tool: 'select', selection: [] });
   });
 
+  it('place the thing whose ghost is shown, and move the ghost', () => {
+    const placer = { aim: vi.fn(), shift: vi.fn(), put: vi.fn(), focus: vi.fn() };
+    showIn(editor, { center: () => [0, 0], forward: () => [0, 1], cancel: () => false }, placer);
+    press('Enter');
+    expect(placer.put).not.toHaveBeenCalled();
+    editor.store.setState({ grid: 0.5, placing: { name: 'Box', what: {} } });
+    press('ArrowUp');
+    press('ArrowLeft', { shiftKey: true });
+    const steps = placer.shift.mock.calls.map(([by]: number[][]) => by!.map((part) => part + 0));
+    expect(steps).toEqual([
+      [0, 0.5],
+      [-2.5, 0],
+    ]);
+    expect(acts.nudge).not.toHaveBeenCalled();
+    press('Enter');
+    press('Enter', { shiftKey: true });
+    expect(placer.put.mock.calls).toEqual([[false], [true]]);
+  });
+
   it('copy, select all, undo and redo with Control', () => {
     change(editor, 'one', () => ({ texts: ['a: 2\n'] }));
     press('d', { ctrlKey: true });

@@ -3,6 +3,9 @@ import { select, travel, type Editor, type Mode } from './editing';
 
 const MODES: Readonly<Record<string, Mode>> = { m: 'move', r: 'turn', s: 'size' };
 
+/** The step of the ghost where there is no grid. */
+const SMALLEST_STEP_M = 0.01;
+
 export type Act = (editor: Editor, event: KeyboardEvent) => void;
 
 /** The functions that an editor provides for the keys that all editors share. */
@@ -22,25 +25,44 @@ export function onEditorKey(editor: Editor, event: KeyboardEvent, acts: KeyActs)
   if (event.altKey) return;
   const isControl = event.ctrlKey || event.metaKey;
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-  const act = isControl ? withControl(key, acts) : plain(key, acts);
+  const act = isControl ? withControl(key, acts) : (whilePlacing(editor, key) ?? plain(key, acts));
   if (!act) return;
   event.preventDefault();
   event.stopPropagation();
   act(editor, event);
 }
 
+type Step = readonly [number, number, number];
+
+/** Steps ahead, to the left and up, by key. */
+const STEPS: Readonly<Record<string, Step>> = {
+  ArrowUp: [1, 0, 0],
+  ArrowDown: [-1, 0, 0],
+  ArrowLeft: [0, 1, 0],
+  ArrowRight: [0, -1, 0],
+  PageUp: [0, 0, 1],
+  PageDown: [0, 0, -1],
+};
+
+/** Enter places the thing whose ghost is shown, and arrow keys move the ghost over the floor. */
+function whilePlacing(editor: Editor, key: string): Act | undefined {
+  const { placer, view, store } = editor;
+  const { placing, grid } = store.getState();
+  if (!placing || !placer || !view) return undefined;
+  if (key === 'Enter') return (_, { shiftKey }) => placer.put(shiftKey);
+  const [along, aside, up] = STEPS[key] ?? [0, 0, 1];
+  if (up !== 0) return undefined;
+  return (_, { shiftKey }) => {
+    const size = (grid || SMALLEST_STEP_M) * (shiftKey ? 5 : 1);
+    const [fx, fy] = view.forward();
+    placer.shift([(fx * along - fy * aside) * size, (fy * along + fx * aside) * size]);
+  };
+}
+
 function plain(key: string, acts: KeyActs): Act | undefined {
   const mode = MODES[key];
   if (mode && acts.modes.includes(mode)) return ({ store }) => store.setState({ mode });
-  const moves: Readonly<Record<string, readonly [number, number, number]>> = {
-    ArrowUp: [1, 0, 0],
-    ArrowDown: [-1, 0, 0],
-    ArrowLeft: [0, 1, 0],
-    ArrowRight: [0, -1, 0],
-    PageUp: [0, 0, 1],
-    PageDown: [0, 0, -1],
-  };
-  const step = moves[key];
+  const step = STEPS[key];
   if (step) return (_, { shiftKey }) => acts.nudge(...step, shiftKey ? 5 : 1);
   const table: Readonly<Record<string, Act>> = {
     q: () => acts.turn(1),

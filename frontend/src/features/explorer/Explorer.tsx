@@ -11,6 +11,7 @@ import { useProblems } from '@/store/problems/useProblems';
 import { useProjectStore } from '@/store/project';
 import { ExplorerItem } from './ExplorerItem';
 import classes from './explorer.module.css';
+import { UsedSection } from './used/UsedSection';
 
 type Section = 'trees' | 'actions' | 'universes' | 'robots' | 'others';
 
@@ -58,6 +59,7 @@ export function Explorer() {
   return (
     <ScrollArea h="100%" type="auto" scrollbarSize={8}>
       <nav className={classes['explorer']} aria-label={t('panel.explorer')}>
+        <UsedSection />
         {(Object.keys(sections) as Section[]).map((section) => {
           const kind = NEW_KIND[section];
           return (

@@ -4,8 +4,8 @@ import { announceImport, closeImportReport } from '@/store/dialogs/importReport'
 import { show } from '../../../harness/testing';
 import { ImportReport } from './ImportReport';
 
-it('is shown for the imported project, once', () => {
-  announceImport('p1', 'patrol.xml');
+it('belongs to the project that was imported, once', () => {
+  announceImport('p1', 'patrol.xml', null);
   const { rerender } = show(<ImportReport projectId="p2" />);
   expect(screen.queryByRole('dialog')).toBeNull();
   rerender(<ImportReport projectId="p1" />);

@@ -1,8 +1,10 @@
-import { screen } from '@testing-library/react';
+import { act, screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it } from 'vitest';
-import { announceImport, useImportReport } from '@/store/dialogs/importReport';
+import { announceImport, useImportReport, type Proposal } from '@/store/dialogs/importReport';
 import { useUniverseChooser } from '@/store/dialogs/universeChooser';
 import type { Diagnostic } from '@/api/types';
+import { translates } from '@/i18n';
+import { useProjectStore } from '@/store/project';
 import { action, openProject, show, user, watchNavigation } from '../../../harness/testing';
 import { ReportContents } from './ReportContents';
 import { ImportReport } from './ImportReport';
@@ -19,18 +21,18 @@ const stub: Diagnostic = {
 };
 const nodes = { a: { type: 'Sequence', children: ['b'] }, b: { type: 'AlwaysSuccess' } };
 
-function open(diagnostics: readonly Diagnostic[] = []) {
+function open(diagnostics: readonly Diagnostic[] = [], proposal: Proposal = null) {
   openProject({
     trees: { Main: nodes },
     actions: [action('Grab', { kind: 'condition' })],
     texts: { 'actions/Grab.py': 'class Grab: pass\n', 'imports/patrol.xml': '<root/>' },
     diagnostics,
   });
-  announceImport('p1', 'patrol.xml');
+  announceImport('p1', 'patrol.xml', proposal);
   show(<ImportReport projectId="p1" />);
 }
 
-beforeEach(() => useImportReport.setState({ projectId: null, file: '' }));
+beforeEach(() => useImportReport.setState({ projectId: null, file: '', proposal: null }));
 
 describe('ReportContents', () => {
   it('says what was imported, and that nothing is missing', async () => {
@@ -64,6 +66,19 @@ describe('ReportContents', () => {
     open([stub, { ...missing, node: 'b' }]);
     await user.click(screen.getByRole('button', { name: 'No such tree. Make it.' }));
     expect(openTree).toHaveBeenCalledWith('Main');
+  });
+
+  it('says why it proposes this universe, as long as it is this one', () => {
+    open([], { universe: 'line', topics: '/camera/image_raw' });
+    expect(screen.queryByTestId('import-reason')).toBeNull();
+    act(() => useProjectStore.getState().setSettings({ universe: 'line' }));
+    expect(screen.getByTestId('import-reason')).toHaveTextContent(
+      /because the actions look with \/camera\/image_raw/,
+    );
+  });
+
+  it.each(['walled_room', 'person_in_green', 'line', 'warehouse'])('has a reason for %s', (universe) => {
+    expect(translates(`importReport:reason.${universe}`)).toBe(true);
   });
 
   it('offers another universe', async () => {

@@ -1,7 +1,7 @@
 import { Badge, Button, Group, ScrollArea, Stack, Text, UnstyledButton } from '@mantine/core';
 import { IconAlertTriangle, IconCircleCheck, IconPencil, IconWorld } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
-import { closeImportReport } from '@/store/dialogs/importReport';
+import { closeImportReport, useImportReport } from '@/store/dialogs/importReport';
 import { openUniverseChooser } from '@/store/dialogs/universeChooser';
 import { useProjectStore } from '@/store/project';
 import { openAction } from '@/store/project/navigation';
@@ -36,6 +36,7 @@ export function ReportContents() {
   const { t } = useTranslation('importReport');
   const files = useProjectStore((state) => state.files);
   const universe = useProjectStore((state) => state.settings?.universe ?? '');
+  const proposal = useImportReport((state) => state.proposal);
   const problems = useProblems().filter(({ severity }) => severity !== 'note');
   const stubs = problems.filter(({ code }) => code === STUB);
   const others = problems.filter(({ code }) => code !== STUB);
@@ -70,10 +71,13 @@ export function ReportContents() {
         <Rows heading={t('problems', { count: others.length })} rows={others} />
         <Rows heading={t('stubs')} rows={stubs} />
       </ScrollArea.Autosize>
-      <Group gap="sm">
-        <IconWorld size={18} aria-hidden="true" />
-        <Text size="sm">
-          {t('universe', { name: t(`worlds:universe.${universe}.name`, { defaultValue: universe }) })}
+      <Group gap="sm" wrap="nowrap">
+        <IconWorld size={18} className={classes['icon'] ?? ''} aria-hidden="true" />
+        <Text size="sm" className={classes['universe'] ?? ''}>
+          {t('universe', { name: t(`worlds:universe.${universe}.name`, { defaultValue: universe }) })}{' '}
+          {proposal?.universe === universe ? (
+            <span data-testid="import-reason">{t(`reason.${universe}`, { topics: proposal.topics })}</span>
+          ) : null}
         </Text>
         <Button size="compact-sm" variant="default" onClick={choose}>
           {t('choose')}

@@ -1,6 +1,7 @@
 import { screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { Diagnostic } from '@/api/types';
+import { useImportReport } from '@/store/dialogs/importReport';
 import { projectDetail } from '@/store/testing';
 import { refusal } from '../../../harness/requests';
 import { fakeServer, show, user } from '../../../harness/testing';
@@ -37,10 +38,11 @@ beforeEach(() => {
 
 describe('useImport', () => {
   it('imports a file, and opens the project', async () => {
-    answers[IMPORT] = projectDetail(1, []);
+    answers[IMPORT] = { ...projectDetail(1, []), proposal: { universe: 'line', topics: '/image' } };
     await click('import');
     await expect.poll(() => window.location.pathname).toBe('/projects/p1');
     expect(requests[0]?.body).toBe(file);
+    expect(useImportReport.getState()).toMatchObject({ file: 'tree.xml', proposal: { universe: 'line' } });
     expect(screen.getByText('no offer')).toBeInTheDocument();
     expect(screen.getByText('idle')).toBeInTheDocument();
   });

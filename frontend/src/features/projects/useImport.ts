@@ -30,7 +30,7 @@ export function useImport() {
   const { mutate, isPending } = useMutation({
     mutationFn: api.importProject,
     onSuccess: (project, { file }) => {
-      announceImport(project.id, file.name);
+      announceImport(project.id, file.name, project.proposal);
       navigate(projectPath(project.id));
     },
     onError: (error, { file }) => {

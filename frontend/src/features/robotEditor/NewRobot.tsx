@@ -4,10 +4,11 @@ import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import { CopyDialog } from '@/features/editor3d/CopyDialog';
 import { CopyForm } from '@/features/editor3d/CopyForm';
+import { takenRobots } from '@/features/universe/freeNames';
 import { titled } from '@/features/universe/titles';
 import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
-import { closeNewRobot, ownRobots, TEMPLATE, useNewRobot } from '@/store/dialogs/newRobot';
+import { closeNewRobot, TEMPLATE, useNewRobot } from '@/store/dialogs/newRobot';
 
 /** The dialogue that adds a robot to the project: a copy of the template or of a built-in robot. */
 export function NewRobot() {
@@ -21,13 +22,9 @@ export function NewRobot() {
 }
 
 async function create(base: string, name: string, isUsed: boolean): Promise<void> {
-  const { textsOfRobot } = await import('./textsOfRobot');
-  const { yaml, urdf, urdfName } = await textsOfRobot(base, name);
-  const project = useProjectStore.getState();
-  const path = `robots/${name}/robot.yaml`;
-  project.addFile(`robots/${name}/${urdfName}`, urdf);
-  project.addFile(path, yaml);
-  if (isUsed) project.setSettings({ robot: name });
+  const { copyRobot } = await import('@/features/universe/copying');
+  const path = await copyRobot(base, name);
+  if (isUsed) useProjectStore.getState().setSettings({ robot: name });
   closeNewRobot();
   openFile(path);
 }
@@ -37,7 +34,7 @@ function Form({ first }: { readonly first: string }) {
   const { t: title } = useTranslation('worlds');
   const files = useProjectStore((state) => state.files);
   const robots = useQuery({ queryKey: ['robots'], queryFn: api.robots, staleTime: Infinity });
-  const taken = new Set(ownRobots(Object.keys(files)).map((id) => id.toLowerCase()));
+  const taken = takenRobots(Object.keys(files));
   if (robots.isPending) return <Loader size="sm" aria-label={t('new.loading')} />;
   return (
     <CopyForm

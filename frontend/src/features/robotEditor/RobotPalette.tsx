@@ -13,10 +13,12 @@ import {
   IconUpload,
 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
+import { choose } from '@/features/editor3d/placing';
 import { PaletteBar, PlaceButton, PlaceMenu } from '@/features/editor3d/PlaceButton';
+import type { MeshFile } from '@/model/robot/bodies';
 import { ADDABLE, type Addable } from '@/model/robot/parts';
 import { useProjectStore } from '@/store/project';
-import { placeMesh, placePart } from './commands';
+import { placePart, type Placeable } from './commands';
 import type { RobotEditor } from './editor';
 import { meshesOf } from './meshes';
 import { useBringMesh } from './useBringMesh';
@@ -33,7 +35,10 @@ const ICONS: Readonly<Record<Addable, typeof IconCube>> = {
   cylinder: IconCylinder,
 };
 
-/** The palette with the parts that can be added to a robot. */
+const chooseMesh = (editor: RobotEditor, mesh: MeshFile) =>
+  choose(editor, { name: mesh.file, what: { mesh }, place: () => placePart(editor, { mesh }) });
+
+/** The parts that can be added to a robot. */
 export function RobotPalette({ editor }: { readonly editor: RobotEditor }) {
   const { t } = useTranslation('robotEditor');
   return (
@@ -41,11 +46,13 @@ export function RobotPalette({ editor }: { readonly editor: RobotEditor }) {
       {ADDABLE.map((kind) => (
         <PlaceButton
           key={kind}
+          editor={editor}
+          isPlaceless={kind === 'battery'}
           icon={ICONS[kind]}
           label={t(`kind.${kind}`)}
           testId={`add-${kind}`}
-          what={{ kind }}
-          onPlace={() => placePart(editor, kind)}
+          what={{ kind } satisfies Placeable}
+          onPlace={() => placePart(editor, { kind })}
         />
       ))}
       <MeshMenu editor={editor} />
@@ -60,13 +67,19 @@ function MeshMenu({ editor }: { readonly editor: RobotEditor }) {
   const { t } = useTranslation('robotEditor');
   const paths = useProjectStore((state) => state.files);
   const meshes = meshesOf(editor, Object.keys(paths));
-  const { ask, input } = useBringMesh(editor, 'part-mesh-file', (mesh) => placeMesh(editor, mesh));
+  const { ask, input } = useBringMesh(editor, 'part-mesh-file', (mesh) => chooseMesh(editor, mesh));
   return (
     <>
-      <PlaceMenu icon={IconPuzzle} label={t('kind.mesh')} testId="add-mesh" position="right-end">
+      <PlaceMenu
+        editor={editor}
+        icon={IconPuzzle}
+        label={t('kind.mesh')}
+        testId="add-mesh"
+        position="right-end"
+      >
         <Menu.Label>{t(meshes.length > 0 ? 'meshesHere' : 'noMeshes')}</Menu.Label>
         {meshes.map((file) => (
-          <Menu.Item key={file} onClick={() => placeMesh(editor, { file, scale: 1 })}>
+          <Menu.Item key={file} onClick={() => chooseMesh(editor, { file, scale: 1 })}>
             {file}
           </Menu.Item>
         ))}

@@ -31,13 +31,15 @@ export class RobotScene extends ThingScene<Part> {
     isSimple: boolean,
     onArrival: () => void,
     private readonly folder: string,
+    opacity = 1,
   ) {
-    super(isSimple, onArrival);
+    super(isSimple, onArrival, null, opacity);
   }
 
-  showRobot(robot: Robot): void {
+  /** Draws a robot, or only some of its parts. */
+  showRobot(robot: Robot | null, parts: readonly Part[] = robot?.parts ?? []): void {
     this.robot = robot;
-    this.show(robot.parts);
+    this.show(parts);
   }
 
   /** Returns the objects that a gesture moves: the given parts and all parts attached to them. */

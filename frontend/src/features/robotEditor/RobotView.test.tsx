@@ -18,7 +18,7 @@ function view(prepare: () => void = () => undefined) {
 describe('the view of a robot', () => {
   it('is one control, with a description if there is no WebGL', () => {
     view();
-    expect(screen.getByRole('application', { name: /^The robot in 3D\./ })).toHaveAttribute(
+    expect(screen.getByRole('application', { name: /\. The robot in 3D\./ })).toHaveAttribute(
       'data-things',
       '6',
     );

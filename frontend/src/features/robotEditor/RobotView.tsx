@@ -3,18 +3,20 @@ import { useEffect, useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useStore } from 'zustand';
 import { EditorCanvas } from '@/features/editor3d/scene/EditorCanvas';
+import { PlacingHint } from '@/features/editor3d/PlacingHint';
+import { GHOST_OPACITY } from '@/features/editor3d/scene/PlacingTool';
 import { EditorStage } from '@/features/editor3d/scene/EditorStage';
 import { onEditorKey, type KeyActs } from '@/features/editor3d/keys';
 import { isReadOnly, TURN_STEP } from '@/features/editor3d/editing';
 import { useThrottledInvalidate } from '@/features/viewer/useThrottledInvalidate';
 import { isSoftwareWebGl } from '@/features/viewer/webgl';
 import { readable } from '@/model/document/readable';
-import type { Addable } from '@/model/robot/parts';
 import { partOf, type Robot } from '@/model/robot/types';
-import { duplicateSelected, nudge, placePart, removeSelected, turnSelected } from './commands';
+import { duplicateSelected, nudge, removeSelected, turnSelected } from './commands';
 import { readingOf, type RobotEditor } from './editor';
 import { dragHandlerOf, handlesOf } from './gestures';
 import { urdfFolder } from './meshes';
+import { placementOf } from './placement';
 import { RobotPalette } from './RobotPalette';
 import { RobotScene } from './RobotScene';
 
@@ -41,16 +43,16 @@ export function RobotView({ editor, robot }: RobotViewProps) {
   const [x, y, z] = part?.pose ?? [0, 0, 0];
   return (
     <EditorCanvas
-      label={t('view')}
+      label={`${robot.name}. ${t('view')}`}
       noWebGl={t('noWebGl')}
       testId="robot-view"
       count={robot.parts.length}
       near={0.01}
       onKey={(event) => onEditorKey(editor, event, keysOf(editor))}
-      onDropped={(what, at) => placePart(editor, (what as { kind: Addable }).kind, at)}
       stage={(isDark) => <RobotStage editor={editor} robot={robot} isDark={isDark} />}
     >
       {isReadOnly() ? null : <RobotPalette editor={editor} />}
+      <PlacingHint editor={editor} />
       <VisuallyHidden role="status">
         {selection.length > 1 ? t('manySelected', { count: selection.length }) : null}
         {selection.length === 1 && part
@@ -69,11 +71,26 @@ function RobotStage({ editor, robot, isDark }: RobotViewProps & { readonly isDar
   const redraw = useThrottledInvalidate();
   const folder = urdfFolder(editor);
   const scene = useMemo(() => new RobotScene(isSimple, redraw, folder), [isSimple, redraw, folder]);
-  const staged = useMemo(
-    () => ({ scene, handles: handlesOf(editor, scene), dragHandler: dragHandlerOf(editor, scene) }),
-    [editor, scene],
+  const ghost = useMemo(
+    () => new RobotScene(isSimple, redraw, folder, GHOST_OPACITY),
+    [isSimple, redraw, folder],
   );
-  useEffect(() => () => scene.dispose(), [scene]);
+  const staged = useMemo(
+    () => ({
+      scene,
+      handles: handlesOf(editor, scene),
+      dragHandler: dragHandlerOf(editor, scene),
+      placement: placementOf(editor, ghost),
+    }),
+    [editor, scene, ghost],
+  );
+  useEffect(
+    () => () => {
+      scene.dispose();
+      ghost.dispose();
+    },
+    [scene, ghost],
+  );
   return (
     <EditorStage
       editor={editor}

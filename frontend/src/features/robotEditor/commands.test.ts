@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { select, travel } from '@/features/editor3d/editing';
 import { openRobot } from '../../../harness/documents';
-import { duplicateSelected, nudge, placeMesh, placePart, removeSelected, turnSelected } from './commands';
+import { duplicateSelected, nudge, placePart, removeSelected, turnSelected } from './commands';
 import { readingOf, type RobotEditor } from './editor';
 
 const robot = (editor: RobotEditor) => readingOf(editor).robot!;
@@ -18,7 +18,7 @@ const looksAlong = (forward: readonly [number, number]) => ({
 describe('placePart', () => {
   it('puts a part where it is dropped, on the grid, and selects it', () => {
     const editor = openRobot();
-    placePart(editor, 'box', [0.1013, -0.0487]);
+    placePart(editor, { kind: 'box' }, [0.1013, -0.0487]);
     const [key] = selected(editor);
     expect(part(editor, key!)).toMatchObject({ kind: 'link', name: 'part_link' });
     expect(pose(editor, key!).slice(0, 2)).toEqual([0.1, -0.05]);
@@ -26,17 +26,17 @@ describe('placePart', () => {
 
   it('puts it at the usual place of its kind otherwise', () => {
     const editor = openRobot();
-    placePart(editor, 'imu');
+    placePart(editor, { kind: 'imu' });
     expect(part(editor, selected(editor)[0]!)).toMatchObject({ kind: 'imu', name: 'imu' });
-    placePart(editor, 'battery');
+    placePart(editor, { kind: 'battery' });
     expect(part(editor, selected(editor)[0]!)).toMatchObject({ kind: 'battery', link: null });
   });
 });
 
-describe('placeMesh', () => {
-  it('adds a body part that is drawn with the mesh', () => {
+describe('placePart with a mesh', () => {
+  it('adds a piece of body that looks like it', () => {
     const editor = openRobot();
-    placeMesh(editor, { file: 'meshes/arm.stl', scale: 0.001 });
+    placePart(editor, { mesh: { file: 'meshes/arm.stl', scale: 0.001 } });
     const { name } = part(editor, selected(editor)[0]!)!;
     expect(robot(editor).urdf.links.get(name)?.visuals).toMatchObject([
       { shape: 'mesh', file: 'meshes/arm.stl', size: [0.001, 0.001, 0.001] },

@@ -1,23 +1,45 @@
 import { snapped } from '@/model/universe/geometry';
 import type { Point } from '@/model/document/values';
-import { move, turn } from '@/model/robot/edits';
+import { textsOf } from '@/features/editor3d/editing';
+import { edited, move, turn, type RobotEdit } from '@/model/robot/edits';
 import { addMeshPart, addPart, duplicateParts, type Addable } from '@/model/robot/parts';
 import type { MeshFile } from '@/model/robot/bodies';
 import { removeParts } from '@/model/robot/removal';
-import { edit, type RobotEditor } from './editor';
+import { readRobot } from '@/model/robot/read';
+import type { Robot } from '@/model/robot/types';
+import { edit, readingOf, type RobotEditor } from './editor';
 
 const selected = (editor: RobotEditor) => editor.store.getState().selection;
 
-/** Adds a part at a place, or at the usual place for its kind. */
-export function placePart(editor: RobotEditor, kind: Addable, at?: Point): void {
+/** What can be placed: a part of a kind, or one that is drawn with a mesh. */
+export type Placeable = { readonly kind: Addable } | { readonly mesh: MeshFile };
+
+function adding(editor: RobotEditor, robot: Robot, what: Placeable, at?: Point): RobotEdit {
   const { grid } = editor.store.getState();
   const point = at ? ([snapped(at[0], grid), snapped(at[1], grid)] as const) : undefined;
-  edit(editor, 'add', (robot) => addPart(robot, kind, point));
+  return 'mesh' in what ? addMeshPart(robot, what.mesh, point) : addPart(robot, what.kind, point);
 }
 
-/** Adds a part that is drawn with a mesh. */
-export function placeMesh(editor: RobotEditor, mesh: MeshFile): void {
-  edit(editor, 'add', (robot) => addMeshPart(robot, mesh));
+/** Adds a part at a point, or at the usual place for its kind. */
+export function placePart(editor: RobotEditor, what: Placeable, at?: Point): void {
+  edit(editor, 'add', (robot) => adding(editor, robot, what, at));
+}
+
+/** The robot with a part at its usual place, and the part's key; null if the texts do not allow it. */
+export function robotWith(
+  editor: RobotEditor,
+  what: Placeable,
+): { readonly robot: Robot; readonly key: string } | null {
+  const now = readingOf(editor).robot;
+  if (!now) return null;
+  try {
+    const made = adding(editor, now, what);
+    const [yaml = '', urdf = null] = edited(textsOf(editor), made);
+    const { robot } = readRobot(yaml, urdf);
+    return robot ? { robot, key: made.select?.[0] ?? '' } : null;
+  } catch {
+    return null;
+  }
 }
 
 export function removeSelected(editor: RobotEditor): void {

@@ -18,10 +18,10 @@ function movable(editor: RobotEditor): Part[] {
 export function handlesOf(editor: RobotEditor, scene: RobotScene): Handles {
   return {
     stand: () => {
-      const { mode, grid } = editor.store.getState();
+      const { mode, grid, placing } = editor.store.getState();
       const parts = movable(editor);
       const [only] = parts;
-      if (!only) return null;
+      if (!only || placing) return null;
       const isOne = parts.length === 1;
       return {
         pose: only.pose,

@@ -12,7 +12,7 @@ import { useUniverseChoice } from '@/store/run/universeChoice';
 import { ChoiceCards } from './ChoiceCards';
 import { OUTSIDE, titled } from './titles';
 import classes from './universe.module.css';
-import { closeUniverseChooser } from '@/store/dialogs/universeChooser';
+import { closeUniverseChooser, useUniverseChooser } from '@/store/dialogs/universeChooser';
 
 const OWN = /^universes\/([^/]+)\.yaml$/;
 /** The value for the robot that the universe names. */
@@ -34,12 +34,17 @@ export function UniverseChooser() {
   const [robot, setRobot] = useState(once.robot ?? settings?.robot ?? OF_UNIVERSE);
   const [seed, setSeed] = useState(once.seed);
   const root = useRef<HTMLDivElement>(null);
+  const first = useUniverseChooser((state) => state.first);
   const isReady = !universes.isPending && !robots.isPending;
   useEffect(() => {
-    // The dialogue first focuses its first button; then the cards get the focus, for the arrow keys.
-    const timer = setTimeout(() => root.current?.querySelector<HTMLElement>('input:checked')?.focus());
+    // Waits until the dialogue has focused its first button, then moves the focus to the cards for the arrow
+    // keys.
+    const timer = setTimeout(() => {
+      const checked = root.current?.querySelectorAll<HTMLElement>('input[type="radio"]:checked');
+      checked?.[first === 'robot' ? 1 : 0]?.focus();
+    });
     return () => clearTimeout(timer);
-  }, [isReady]);
+  }, [isReady, first]);
 
   const own = Object.keys(paths)
     .map((path) => OWN.exec(path)?.[1])

@@ -47,7 +47,7 @@ describe('the dialogue for a new universe', () => {
     await user.click(screen.getByTestId('new-universe-ok'));
     await waitFor(() => expect(openFile).toHaveBeenCalledWith('universes/my_own_room.yaml', undefined));
     const project = useProjectStore.getState();
-    expect(project.currentText('universes/my_own_room.yaml')).toBe('name: Room\n');
+    expect(project.currentText('universes/my_own_room.yaml')).toBe('name: "My own room"\n');
     expect(project.settings?.universe).toBe('my_own_room');
     expect(useNewUniverse.getState().base).toBeNull();
   });

@@ -4,6 +4,7 @@ import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import { CopyDialog } from '@/features/editor3d/CopyDialog';
 import { CopyForm } from '@/features/editor3d/CopyForm';
+import { takenUniverses } from '@/features/universe/freeNames';
 import { OUTSIDE, titled } from '@/features/universe/titles';
 import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
@@ -21,11 +22,9 @@ export function NewUniverse() {
 }
 
 async function create(base: string, name: string, isUsed: boolean): Promise<void> {
-  const text = await api.universeText(base);
-  const project = useProjectStore.getState();
-  const path = `universes/${name}.yaml`;
-  project.addFile(path, text);
-  if (isUsed) project.setSettings({ universe: name });
+  const { copyUniverse } = await import('@/features/universe/copying');
+  const path = await copyUniverse(base, name);
+  if (isUsed) useProjectStore.getState().setSettings({ universe: name });
   closeNewUniverse();
   openFile(path);
 }
@@ -35,9 +34,7 @@ function Form({ first }: { readonly first: string }) {
   const { t: title } = useTranslation('worlds');
   const files = useProjectStore((state) => state.files);
   const universes = useQuery({ queryKey: ['universes'], queryFn: api.universes, staleTime: Infinity });
-  const names = Object.keys(files).map((path) => /^universes\/([^/]+)\.yaml$/.exec(path)?.[1] ?? '');
-  // This name is reserved: it means no simulated world.
-  const taken = new Set([...names.map((name) => name.toLowerCase()), OUTSIDE]);
+  const taken = takenUniverses(Object.keys(files));
   const shipped = (universes.data ?? []).filter(({ id }) => id !== OUTSIDE);
   if (universes.isPending) return <Loader size="sm" aria-label={t('new.loading')} />;
   return (

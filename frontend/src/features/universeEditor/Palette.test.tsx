@@ -1,6 +1,6 @@
-import { fireEvent, screen, waitFor } from '@testing-library/react';
+import { act, screen, waitFor } from '@testing-library/react';
 import { describe, expect, it, vi } from 'vitest';
-import { DRAGGED } from '@/features/editor3d/PlaceButton';
+import { showIn } from '@/features/editor3d/editing';
 import { EMPTY_STL, openUniverse, showUniverse, stl, takesFile } from '../../../harness/documents';
 import { fakeServer, user } from '../../../harness/testing';
 import { KINDS } from './commands';
@@ -31,12 +31,21 @@ describe('the palette of a universe', () => {
     );
   });
 
-  it('can be dragged to the view', () => {
-    palette();
-    const data = { setData: vi.fn(), effectAllowed: '' };
-    fireEvent.dragStart(screen.getByTestId('place-wall'), { dataTransfer: data });
-    expect(data.setData).toHaveBeenCalledWith(DRAGGED, '{"kind":"wall"}');
-    expect(data.effectAllowed).toBe('copy');
+  it('shows the ghost of what is chosen where there is a view in 3D', async () => {
+    const { editor, universe } = palette({ 'models/b.sdf': '' });
+    const before = universe().things.length;
+    const placer = { aim: () => true, shift: vi.fn(), put: vi.fn(), focus: vi.fn() };
+    act(() => showIn(editor, { center: () => [0, 0], forward: () => [1, 0], cancel: () => false }, placer));
+    await user.click(screen.getByTestId('place-wall'));
+    expect(editor.store.getState().placing).toEqual({ name: 'Wall', what: { kind: 'wall' } });
+    await user.click(screen.getByTestId('place-file'));
+    await user.click(await screen.findByRole('menuitem', { name: 'models/b.sdf' }));
+    expect(editor.store.getState().placing?.what).toEqual({
+      kind: 'file',
+      shape: 'sdf',
+      file: 'models/b.sdf',
+    });
+    expect(universe().things).toHaveLength(before);
   });
 
   it('offers robots of the project first, each id once', async () => {

@@ -18,6 +18,7 @@ import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import { FILES } from '@/model/universe/types';
 import { bringMesh, MESH_KINDS } from '@/features/editor3d/upload';
+import { choose } from '@/features/editor3d/placing';
 import { PaletteBar, PlaceButton, PlaceMenu } from '@/features/editor3d/PlaceButton';
 import { ownRobots } from '@/store/dialogs/newRobot';
 import { useProjectStore } from '@/store/project';
@@ -35,10 +36,10 @@ const KIND_ICONS: Readonly<Record<Kind, typeof IconCube>> = {
   person: IconUser,
 };
 
-/**
- * The palette with the things that can be placed: a click places a thing in the middle of the view, a drag
- * places it where it is dropped.
- */
+const chooseThing = (editor: UniverseEditor, name: string, what: Placeable) =>
+  choose(editor, { name, what, place: () => placeThing(editor, what) });
+
+/** The things that can be placed: after a click a ghost follows the pointer, a drag puts it where it is let go. */
 export function Palette({ editor }: { readonly editor: UniverseEditor }) {
   const { t } = useTranslation('universeEditor');
   return (
@@ -47,6 +48,7 @@ export function Palette({ editor }: { readonly editor: UniverseEditor }) {
         return (
           <PlaceButton
             key={kind}
+            editor={editor}
             icon={KIND_ICONS[kind]}
             label={t(`kind.${kind}`)}
             testId={`place-${kind}`}
@@ -66,9 +68,15 @@ function RobotMenu({ editor }: { readonly editor: UniverseEditor }) {
   const { t } = useTranslation('universeEditor');
   const robots = useRobots();
   return (
-    <PlaceMenu icon={IconRobot} label={t('robots')} testId="place-robot" position="right-start">
+    <PlaceMenu
+      editor={editor}
+      icon={IconRobot}
+      label={t('robots')}
+      testId="place-robot"
+      position="right-start"
+    >
       {robots.map(({ id, name }) => (
-        <Menu.Item key={id} onClick={() => placeThing(editor, { kind: 'robot', model: id })}>
+        <Menu.Item key={id} onClick={() => chooseThing(editor, name, { kind: 'robot', model: id })}>
           {name}
         </Menu.Item>
       ))}
@@ -102,10 +110,16 @@ function FileMenu({ editor }: { readonly editor: UniverseEditor }) {
     .sort((a, b) => a.file.localeCompare(b.file));
   return (
     <>
-      <PlaceMenu icon={IconPuzzle} label={t('files')} testId="place-file" position="right-end">
+      <PlaceMenu
+        editor={editor}
+        icon={IconPuzzle}
+        label={t('files')}
+        testId="place-file"
+        position="right-end"
+      >
         <Menu.Label>{t(found.length > 0 ? 'filesHere' : 'noFiles')}</Menu.Label>
         {found.map(({ file, shape }) => (
-          <Menu.Item key={file} onClick={() => placeThing(editor, { kind: 'file', shape, file })}>
+          <Menu.Item key={file} onClick={() => chooseThing(editor, file, { kind: 'file', shape, file })}>
             {file}
           </Menu.Item>
         ))}
@@ -125,7 +139,7 @@ function FileMenu({ editor }: { readonly editor: UniverseEditor }) {
           event.currentTarget.value = '';
           if (!file) return;
           void bringMesh(file, 'assets').then((mesh) => {
-            if (mesh) placeThing(editor, { kind: 'file', shape: 'mesh', file: mesh.path });
+            if (mesh) chooseThing(editor, mesh.path, { kind: 'file', shape: 'mesh', file: mesh.path });
           });
         }}
       />

@@ -15,9 +15,10 @@ export class UniverseScene extends ThingScene<Thing> {
     isSimple: boolean,
     onArrival: () => void,
     private readonly textures: EditorTextures,
+    opacity = 1,
   ) {
-    super(isSimple, onArrival, textures);
-    // A textured thing is drawn again when the size of its picture is known.
+    super(isSimple, onArrival, textures, opacity);
+    // A textured thing is built again once the size of its picture is known.
     textures.onArrival = () => this.again();
   }
 

@@ -1,5 +1,6 @@
 import { useEffect, useMemo } from 'react';
 import { EditorStage } from '@/features/editor3d/scene/EditorStage';
+import { GHOST_OPACITY } from '@/features/editor3d/scene/PlacingTool';
 import { rgba } from '@/features/editor3d/scene/ThingScene';
 import { useThrottledInvalidate } from '@/features/viewer/useThrottledInvalidate';
 import { isSoftwareWebGl } from '@/features/viewer/webgl';
@@ -7,6 +8,7 @@ import type { Universe } from '@/model/universe/types';
 import { dragHandlerOf, wallDrawing } from './dragging';
 import type { UniverseEditor } from './editor';
 import { handlesOf } from './handles';
+import { placementOf } from './placement';
 import { EditorTextures, pictureName } from './textures';
 import { UniverseScene } from './UniverseScene';
 import { WallLine } from './WallLine';
@@ -23,22 +25,28 @@ export function UniverseStage({ editor, universe, isDark }: UniverseStageProps) 
   const redraw = useThrottledInvalidate();
   const textures = useMemo(() => new EditorTextures(redraw, isSimple ? 1 : 8), [redraw, isSimple]);
   const scene = useMemo(() => new UniverseScene(isSimple, redraw, textures), [isSimple, redraw, textures]);
+  const ghost = useMemo(
+    () => new UniverseScene(isSimple, redraw, new EditorTextures(redraw, 1), GHOST_OPACITY),
+    [isSimple, redraw],
+  );
   const wall = useMemo(() => new WallLine(), []);
   const staged = useMemo(
     () => ({
       scene,
       handles: handlesOf(editor, scene),
       dragHandler: dragHandlerOf(editor, scene),
+      placement: placementOf(editor, ghost),
       drawing: wallDrawing(editor, wall),
     }),
-    [editor, scene, wall],
+    [editor, scene, ghost, wall],
   );
   useEffect(
     () => () => {
       scene.dispose();
+      ghost.dispose();
       wall.dispose();
     },
-    [scene, wall],
+    [scene, ghost, wall],
   );
   const lights = useMemo(
     () => universe.lights.map(({ direction, intensity }) => ({ direction: [...direction], intensity })),

@@ -31,7 +31,7 @@ export function UniverseToolbar({ editor }: { readonly editor: UniverseEditor })
         label={`${t('drawWalls')} (W)`}
         isPressed={tool === 'wall'}
         testId="draw-walls"
-        onClick={() => editor.store.setState({ tool: tool === 'wall' ? 'select' : 'wall' })}
+        onClick={() => editor.store.setState({ tool: tool === 'wall' ? 'select' : 'wall', placing: null })}
       >
         <IconWall size={18} />
       </Tool>

@@ -4,11 +4,11 @@ import { useStore } from 'zustand';
 import classes from '@/features/editor3d/editor3d.module.css';
 import { EditorCanvas } from '@/features/editor3d/scene/EditorCanvas';
 import { onEditorKey } from '@/features/editor3d/keys';
+import { PlacingHint } from '@/features/editor3d/PlacingHint';
 import { isReadOnly } from '@/features/editor3d/editing';
 import { readable } from '@/model/document/readable';
 import { positionOf } from '@/model/universe/geometry';
 import { thingOf, type Universe } from '@/model/universe/types';
-import { placeThing, type Placeable } from './commands';
 import type { UniverseEditor } from './editor';
 import { keysOf } from './keyboard';
 import { Palette } from './Palette';
@@ -23,19 +23,20 @@ interface UniverseViewProps {
 export function UniverseView({ editor, universe }: UniverseViewProps) {
   const { t } = useTranslation('universeEditor');
   const tool = useStore(editor.store, (state) => state.tool);
+  const isPlacing = useStore(editor.store, ({ placing }) => placing !== null);
   return (
     <EditorCanvas
-      label={t('view')}
+      label={`${universe.name}. ${t('view')}`}
       noWebGl={t('noWebGl')}
       testId="universe-view"
       count={universe.things.length}
       near={0.05}
       onKey={(event) => onEditorKey(editor, event, keysOf(editor))}
-      onDropped={(what, at) => placeThing(editor, what as Placeable, at)}
       stage={(isDark) => <UniverseStage editor={editor} universe={universe} isDark={isDark} />}
     >
       {isReadOnly() ? null : <Palette editor={editor} />}
-      {universe.things.length === 0 ? <p className={classes['hint']}>{t('empty')}</p> : null}
+      {universe.things.length === 0 && !isPlacing ? <p className={classes['hint']}>{t('empty')}</p> : null}
+      <PlacingHint editor={editor} />
       {tool === 'wall' ? <p className={classes['hint']}>{t('wallHint')}</p> : null}
       <Announcement editor={editor} universe={universe} />
     </EditorCanvas>

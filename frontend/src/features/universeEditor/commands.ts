@@ -1,3 +1,4 @@
+import { rewrite } from '@/model/document/rewrite';
 import {
   add,
   addWaypoint,
@@ -9,11 +10,13 @@ import {
   setField,
   setWaypoint,
   turn,
+  type Edit,
 } from '@/model/universe/edits';
+import { readUniverse } from '@/model/universe/read';
 import { middleOf, rounded, snapped, standingHeight, wallBetween } from '@/model/universe/geometry';
 import { type JsonObject, type Point } from '@/model/document/values';
-import { thingOf, type Section, type Shape, type Universe } from '@/model/universe/types';
-import { select } from '@/features/editor3d/editing';
+import { thingOf, type Section, type Shape, type Thing, type Universe } from '@/model/universe/types';
+import { select, textsOf } from '@/features/editor3d/editing';
 import { edit, readingOf, type UniverseEditor } from './editor';
 
 /** The kinds of things in the palette. */
@@ -73,16 +76,32 @@ function itemOf(universe: Universe, what: Placeable, [x, y]: Point): { section: 
   };
 }
 
-/** Places a thing on the floor, at a point or in the middle of the view. */
-export function placeThing(editor: UniverseEditor, what: Placeable, at?: Point): void {
+function adding(editor: UniverseEditor, universe: Universe, what: Placeable, at?: Point): Edit {
   const { grid } = editor.store.getState();
   const [x, y] = at ?? free(editor);
-  // Placing a thing ends the wall tool, so that the next click selects.
+  const { section, item } = itemOf(universe, what, [snapped(x, grid), snapped(y, grid)]);
+  return add(universe, section, [item]);
+}
+
+/** Places a thing on the floor: at a point, or in the middle of the view. */
+export function placeThing(editor: UniverseEditor, what: Placeable, at?: Point): void {
+  // The next click selects: placing a thing leaves the tool that draws walls.
   editor.store.setState({ tool: 'select' });
-  edit(editor, 'add', (universe) => {
-    const { section, item } = itemOf(universe, what, [snapped(x, grid), snapped(y, grid)]);
-    return add(universe, section, [item]);
-  });
+  edit(editor, 'add', (universe) => adding(editor, universe, what, at));
+}
+
+/** The thing that would be placed in the middle of the view; undefined if the text does not allow it. */
+export function thingToPlace(editor: UniverseEditor, what: Placeable): Thing | undefined {
+  const { universe } = readingOf(editor);
+  if (!universe) return undefined;
+  const { ops, select: [key = ''] = [] } = adding(editor, universe, what);
+  try {
+    const [text = ''] = textsOf(editor);
+    const placed = readUniverse(rewrite(text, ops)).universe;
+    return placed ? thingOf(placed, key) : undefined;
+  } catch {
+    return undefined;
+  }
 }
 
 /** Returns the middle of the view, or a place beside it if the middle is occupied. */

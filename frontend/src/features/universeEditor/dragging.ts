@@ -51,6 +51,7 @@ export function wallDrawing(editor: UniverseEditor, wall: WallLine): Drawing {
   let from: Point | null = null;
   return {
     isOn: () => editor.store.getState().tool === 'wall',
+    height: () => 0,
     move: (point) => wall.show(from, point),
     click: (point) => {
       if (point && from) placeWall(editor, from, point);

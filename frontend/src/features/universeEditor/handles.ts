@@ -46,11 +46,11 @@ export function handlesOf(editor: UniverseEditor, scene: UniverseScene): Handles
 }
 
 function standOf(editor: UniverseEditor): Stand | null {
-  const { selection, waypoint, mode, grid, tool } = editor.store.getState();
+  const { selection, waypoint, mode, grid, tool, placing } = editor.store.getState();
   const { universe } = readingOf(editor);
   const things = universe?.things.filter(({ key }) => selection.includes(key)) ?? [];
   const [only] = things;
-  if (!only || tool !== 'select') return null;
+  if (!only || tool !== 'select' || placing) return null;
   const isOne = things.length === 1;
   const isPoint = isOne && only.section === 'actors' && waypoint !== null;
   const canSize = isOne && only.section === 'models' && only.shape !== 'urdf' && only.shape !== 'sdf';

@@ -12,6 +12,7 @@ export const keysOf = (editor: UniverseEditor): KeyActs => ({
   duplicate: () => duplicateSelected(editor),
   all: () => readingOf(editor).universe?.things.map(({ key }) => key) ?? [],
   others: {
-    w: ({ store }) => store.setState(({ tool }) => ({ tool: tool === 'wall' ? 'select' : 'wall' })),
+    w: ({ store }) =>
+      store.setState(({ tool }) => ({ tool: tool === 'wall' ? 'select' : 'wall', placing: null })),
   },
 });

@@ -1,7 +1,14 @@
 import { create } from 'zustand';
 
-/** The state of the chooser of universe and robot; any feature may open it. */
-export const useUniverseChooser = create<{ isOpen: boolean }>(() => ({ isOpen: false }));
+interface UniverseChooser {
+  readonly isOpen: boolean;
+  /** What the user came for: its cards get the focus. */
+  readonly first: 'universe' | 'robot';
+}
 
-export const openUniverseChooser = () => useUniverseChooser.setState({ isOpen: true });
+/** Whether the chooser of universe and robot is open; any feature may open it. */
+export const useUniverseChooser = create<UniverseChooser>(() => ({ isOpen: false, first: 'universe' }));
+
+export const openUniverseChooser = () => useUniverseChooser.setState({ isOpen: true, first: 'universe' });
+export const openRobotChooser = () => useUniverseChooser.setState({ isOpen: true, first: 'robot' });
 export const closeUniverseChooser = () => useUniverseChooser.setState({ isOpen: false });

@@ -1,12 +1,10 @@
 import { fireEvent, screen } from '@testing-library/react';
 import { describe, expect, it, vi } from 'vitest';
 import { show } from '../../../../harness/testing';
-import { DRAGGED } from '../PlaceButton';
 import { EditorCanvas } from './EditorCanvas';
 
 function canvas() {
   const onKey = vi.fn();
-  const onDropped = vi.fn();
   const stage = vi.fn(() => null);
   show(
     <EditorCanvas
@@ -16,13 +14,12 @@ function canvas() {
       count={3}
       near={0.1}
       onKey={onKey}
-      onDropped={onDropped}
       stage={stage}
     >
       <button>inside</button>
     </EditorCanvas>,
   );
-  return { view: screen.getByTestId('view'), onKey, onDropped, stage };
+  return { view: screen.getByTestId('view'), onKey, stage };
 }
 
 describe('the view of an editor without WebGL', () => {
@@ -43,18 +40,5 @@ describe('the view of an editor without WebGL', () => {
     expect(onKey).toHaveBeenCalledOnce();
     fireEvent.keyDown(screen.getByRole('button'), { key: 'q' });
     expect(onKey).toHaveBeenCalledOnce();
-  });
-
-  it('accepts only things of the palette', () => {
-    const { view } = canvas();
-    const over = (type: string) => !fireEvent.dragOver(view, { dataTransfer: { types: [type] } });
-    expect(over(DRAGGED)).toBe(true);
-    expect(over('text/plain')).toBe(false);
-  });
-
-  it('has no floor where something could be dropped', () => {
-    const { view, onDropped } = canvas();
-    fireEvent.drop(view, { dataTransfer: { getData: () => '{"kind":"box"}' } });
-    expect(onDropped).not.toHaveBeenCalled();
   });
 });

@@ -7,6 +7,7 @@ import type { Shape } from '@/generated/messages';
 import { select } from '../editing';
 import { EditorStage } from './EditorStage';
 import type { Stand } from './Gizmo';
+import type { Placement } from './PlacingTool';
 import { frameOf } from './marks';
 import { ThingScene } from './ThingScene';
 
@@ -38,8 +39,20 @@ function stage(prepare: () => void = () => undefined) {
     show: vi.fn(() => scene.show([{ key: 'near' }, { key: 'far' }])),
   };
   const dragHandler = { take: vi.fn(() => null), drop: vi.fn(), click: vi.fn() };
-  const drawing = { isOn: () => false, move: vi.fn(), click: vi.fn(), end: vi.fn(() => false) };
-  const staged = { scene, handles, dragHandler, drawing };
+  const drawing = {
+    isOn: () => false,
+    height: () => 0,
+    move: vi.fn(),
+    click: vi.fn(),
+    end: vi.fn(() => false),
+  };
+  const ghost = new Boxes(true, () => undefined);
+  const placement = {
+    scene: ghost,
+    draw: vi.fn<Placement['draw']>((what) => (what ? { at: [0, 0], height: 0 } : null)),
+    place: vi.fn<Placement['place']>(),
+  };
+  const staged = { scene, handles, dragHandler, placement, drawing };
   const element = (content: object) => (
     <EditorStage
       editor={editor}
@@ -60,6 +73,7 @@ function stage(prepare: () => void = () => undefined) {
     things: scene,
     handles,
     dragHandler,
+    placement,
     drawing,
     update: () => shown.rerender(element({})),
   };
@@ -142,7 +156,22 @@ describe('the stage of an editor', () => {
     expect(drawing.end).toHaveBeenCalledOnce();
   });
 
-  it('requests a frame after a change', async () => {
+  it('places by a click what was chosen', () => {
+    const { editor, canvas, camera, placement } = stage();
+    act(() => editor.store.setState({ placing: { name: 'Box', what: { kind: 'box' } } }));
+    expect(placement.draw).toHaveBeenLastCalledWith({ kind: 'box' });
+    const at = { button: 0, pointerId: 1, ...pixelOf(camera, 2, 1) };
+    fireEvent.pointerMove(canvas, at);
+    const [x, y] = placement.scene.group.position.toArray();
+    expect([x, y]).toEqual([2, 1]);
+    fireEvent.pointerDown(canvas, at);
+    fireEvent.pointerUp(canvas, at);
+    expect(placement.place).toHaveBeenCalledExactlyOnceWith({ kind: 'box' }, [2, 1]);
+    expect(editor.store.getState().placing).toBeNull();
+    expect(placement.draw).toHaveBeenLastCalledWith(null);
+  });
+
+  it('asks for a picture when something changed', async () => {
     const { editor, frames } = stage();
     await vi.waitFor(() => expect(frames()).toBeGreaterThan(0));
     const before = frames();

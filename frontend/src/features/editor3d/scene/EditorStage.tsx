@@ -7,7 +7,9 @@ import { Surroundings, useSight, type Orbit } from '@/features/viewer/scene/Surr
 import type { Pictures } from '@/features/viewer/scene/TextureCache';
 import { useThrottledInvalidate } from '@/features/viewer/useThrottledInvalidate';
 import { forwardOf } from './aiming';
+import type { Point } from '@/model/document/values';
 import { Gizmo, type Handles } from './Gizmo';
+import { PlacingTool, type Placement } from './PlacingTool';
 import { PointerTool, type DragHandler, type Drawing } from './PointerTool';
 import { isReadOnly, showIn, type Editor } from '../editing';
 import type { ThingScene } from './ThingScene';
@@ -20,6 +22,7 @@ export interface Staged {
   readonly scene: ThingScene<{ readonly key: string }>;
   readonly handles: Handles;
   readonly dragHandler: DragHandler;
+  readonly placement: Placement;
   readonly drawing?: Drawing;
 }
 
@@ -41,14 +44,15 @@ interface EditorStageProps {
 /** The 3D content of a document, with the tools that move its things. */
 export function EditorStage(props: EditorStageProps) {
   const { editor, staged, content, isDark, lights, ground, textures, reach, extent } = props;
-  const { scene, handles, dragHandler, drawing } = staged;
+  const { scene, handles, dragHandler, placement, drawing } = staged;
   const redraw = useThrottledInvalidate();
   const controls = useRef<Orbit | null>(null);
   const gizmo = useRef<Gizmo | null>(null);
+  const placer = useRef<PlacingTool | null>(null);
   const camera = useThree((state) => state.camera);
   const canvas = useThree((state) => state.gl.domElement);
   const root = useThree((state) => state.scene);
-  const { selection, waypoint, mode, tool, grid, viewpoint } = useStore(editor.store);
+  const { selection, waypoint, mode, tool, placing, grid, viewpoint } = useStore(editor.store);
 
   useEffect(() => {
     const hold = (isHeld: boolean) => {
@@ -59,23 +63,30 @@ export function EditorStage(props: EditorStageProps) {
     gizmo.current = made;
     root.add(made.root);
     const isTaken = () => made.controls.enabled && made.controls.axis !== null;
-    const gestures = drawing ? { dragHandler, drawing } : { dragHandler };
-    const pointer = new PointerTool({ editor, scene, ...gestures, camera, canvas, isTaken, hold, redraw });
-    showIn(editor, {
-      center: () => {
+    const placingTool = new PlacingTool({ editor, placement, camera, canvas, redraw });
+    placer.current = placingTool;
+    const drawings = drawing ? [placingTool, drawing] : [placingTool];
+    const view = { camera, canvas, isTaken, hold, redraw };
+    const pointer = new PointerTool({ editor, scene, dragHandler, drawings, ...view });
+    const handle = {
+      center: (): Point => {
         const target = controls.current?.target ?? new THREE.Vector3();
         return [target.x, target.y];
       },
       forward: () => forwardOf(camera),
       cancel: () => made.cancel() || pointer.cancel(),
-    });
+    };
+    showIn(editor, handle, placingTool);
+    // It was chosen while the view was still loading.
+    if (editor.store.getState().placing) placingTool.focus();
     return () => {
       showIn(editor, null);
       gizmo.current = null;
+      placer.current = null;
       pointer.dispose();
       made.dispose();
     };
-  }, [editor, scene, handles, dragHandler, drawing, camera, canvas, root, redraw]);
+  }, [editor, scene, handles, dragHandler, placement, drawing, camera, canvas, root, redraw]);
 
   useEffect(() => {
     handles.show();
@@ -83,11 +94,14 @@ export function EditorStage(props: EditorStageProps) {
     redraw();
   }, [handles, content, redraw]);
   useEffect(() => {
+    placer.current?.show();
+  }, [placing]);
+  useEffect(() => {
     scene.mark(selection);
     if (tool !== 'wall') drawing?.end();
     gizmo.current?.update();
     redraw();
-  }, [scene, drawing, content, selection, waypoint, mode, tool, grid, redraw]);
+  }, [scene, drawing, content, selection, waypoint, mode, tool, placing, grid, redraw]);
   useSight(controls, viewpoint, () => {
     const { kind } = viewpoint;
     const isSelection = kind === 'selection' && editor.store.getState().selection.length > 0;
@@ -108,6 +122,7 @@ export function EditorStage(props: EditorStageProps) {
       reach={reach}
     >
       <primitive object={scene.group} />
+      <primitive object={placement.scene.group} />
       {props.children}
     </Surroundings>
   );

@@ -1,3 +1,4 @@
+import { fireEvent } from '@testing-library/react';
 import fc from 'fast-check';
 import * as THREE from 'three';
 import { describe, expect, it, vi } from 'vitest';
@@ -134,7 +135,26 @@ describe('a gesture of the gizmo', () => {
     expect(handles.show).toHaveBeenCalledOnce();
   });
 
-  it('requests a frame after each change', () => {
+  it.each([
+    ['Escape', () => fireEvent.keyDown(window, { key: 'Escape' })],
+    ['the right button', () => fireEvent.mouseDown(window, { button: 2 })],
+    ['a window that loses the focus', () => fireEvent.blur(window)],
+  ])('is cancelled by %s, and by nothing after its end', (_, give) => {
+    const { gizmo: made, controls, handles, drag, letGo } = gizmo();
+    drag('X', [1, 2], [3, 2]);
+    give();
+    expect(controls.dragging).toBe(false);
+    expect(controls.object?.position.toArray()).toEqual([1, 2, 0]);
+    expect(handles.commit).not.toHaveBeenCalled();
+    drag('X', [1, 2], [3, 2]);
+    letGo();
+    expect(handles.commit).toHaveBeenCalledOnce();
+    const cancel = vi.spyOn(made, 'cancel');
+    give();
+    expect(cancel).not.toHaveBeenCalled();
+  });
+
+  it('asks for another picture whenever it changes', () => {
     const { on, controls } = gizmo();
     on.change.mockClear();
     controls.axis = 'X' as typeof controls.axis;

@@ -1,6 +1,7 @@
 import * as THREE from 'three';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
 import type { Pose } from '@/model/document/values';
+import { cancellable } from '@/ui/cancellable';
 import { TURN_STEP, type Mode } from '../editing';
 
 const MODES = { move: 'translate', turn: 'rotate', size: 'scale' } as const;
@@ -53,12 +54,13 @@ export class Gizmo {
   readonly root: THREE.Object3D;
   private readonly pivot = new THREE.Object3D();
   private readonly start = new THREE.Matrix4();
+  private unfollow: (() => void) | null = null;
   private held: { node: THREE.Object3D; start: THREE.Matrix4 }[] = [];
 
   constructor(
     private readonly handles: Handles,
     camera: THREE.Camera,
-    canvas: HTMLElement,
+    private readonly canvas: HTMLElement,
     private readonly on: On,
   ) {
     this.controls = new TransformControls(camera, canvas);
@@ -109,12 +111,20 @@ export class Gizmo {
   }
 
   dispose(): void {
+    this.letGo();
     this.controls.detach();
     this.controls.dispose();
     this.root.removeFromParent();
   }
 
+  private letGo(): void {
+    this.unfollow?.();
+    this.unfollow = null;
+  }
+
   private take(): void {
+    this.letGo();
+    this.unfollow = cancellable(this.canvas, null, { onCancel: () => this.cancel() });
     this.pivot.updateMatrixWorld(true);
     this.start.copy(this.pivot.matrixWorld);
     this.held = this.handles.held().map((node) => {
@@ -133,6 +143,7 @@ export class Gizmo {
   }
 
   private commit(): void {
+    this.letGo();
     const held = this.held.length;
     this.held = [];
     if (held === 0) return;

@@ -33,10 +33,19 @@ function begin() {
     drop: vi.fn<DragHandler['drop']>(),
     click: vi.fn<DragHandler['click']>(),
   };
-  const drawing = { isOn, move: vi.fn(), click: vi.fn(), end };
+  const drawing = { isOn, height: () => 0, move: vi.fn(), click: vi.fn(), end };
   const on = { hold: vi.fn(), redraw: vi.fn() };
   const scene = { group, keyOf: (part: THREE.Object3D) => (part === plate ? 'plate' : null) };
-  const tool = new PointerTool({ editor, scene, dragHandler, drawing, camera, canvas, isTaken, ...on });
+  const tool = new PointerTool({
+    editor,
+    scene,
+    dragHandler,
+    drawings: [drawing],
+    camera,
+    canvas,
+    isTaken,
+    ...on,
+  });
   const at = (x: number, y: number, more: object = {}) => ({
     button: 0,
     pointerId: 1,
@@ -99,18 +108,33 @@ describe('dragging', () => {
   });
 
   it('is cancelled by the right button', () => {
-    const { editor, tool, plate, dragHandler, down, move, up } = begin();
-    editor.view = { center: () => [0, 0], forward: () => [1, 0], cancel: () => tool.cancel() };
+    const { plate, dragHandler, down, move, up } = begin();
     down(2, 0);
     move(3, 0);
-    move(3, 0.2, { buttons: 3 });
+    fireEvent.mouseDown(window, { button: 2 });
+    move(3, 0.2);
     expect(plate.position.toArray()).toEqual([2, 0, 1]);
     up(3, 0.2);
     expect(dragHandler.drop).not.toHaveBeenCalled();
     expect(dragHandler.click).not.toHaveBeenCalled();
   });
 
-  it('puts the thing under the pointer on the grid, wherever it was', () => {
+  it.each([
+    ['Escape', () => fireEvent.keyDown(window, { key: 'Escape' })],
+    ['a window that loses the focus', () => fireEvent.blur(window)],
+  ])('is cancelled by %s', (_, give) => {
+    const { plate, canvas, dragHandler, hold, down, move, up } = begin();
+    down(2, 0);
+    move(3, 0);
+    give();
+    expect(plate.position.toArray()).toEqual([2, 0, 1]);
+    expect(canvas.style.cursor).toBe('');
+    expect(hold).toHaveBeenLastCalledWith(false);
+    up(3, 0);
+    expect(dragHandler.drop).not.toHaveBeenCalled();
+  });
+
+  it('puts the thing under the pointer on the grid, wherever it stood', () => {
     const { dragHandler, plate, down, move } = begin();
     dragHandler.take.mockReturnValue({ keys: ['plate'], anchor: [2.03, 0.04], nodes: [plate] });
     down(2, 0);
@@ -154,7 +178,7 @@ describe('dragging', () => {
     const { canvas, plate, down, move } = begin();
     down(2, 0);
     move(4, 1);
-    fireEvent.pointerCancel(canvas);
+    fireEvent.pointerCancel(canvas, { pointerId: 1 });
     expect(plate.position.toArray()).toEqual([2, 0, 1]);
   });
 
@@ -246,13 +270,26 @@ describe('drawing', () => {
     expect(redraw).toHaveBeenCalledOnce();
     fireEvent.pointerDown(canvas, pixel);
     fireEvent.pointerUp(canvas, pixel);
-    expect(drawing.click).toHaveBeenCalledExactlyOnceWith([1.2, -1]);
+    expect(drawing.click).toHaveBeenCalledExactlyOnceWith([1.2, -1], false);
     expect(redraw).toHaveBeenCalledTimes(2);
     expect(dragHandler.take).not.toHaveBeenCalled();
     expect(dragHandler.click).not.toHaveBeenCalled();
     editor.store.setState({ grid: 0 });
     fireEvent.pointerMove(canvas, pixel);
     expect(drawing.move).toHaveBeenLastCalledWith([1.23, -0.98]);
+  });
+
+  it('is ended by the right button, which moves the view otherwise', () => {
+    isOn.mockReturnValue(true);
+    const { canvas, drawing, down } = begin();
+    const later = vi.fn();
+    canvas.addEventListener('pointerdown', later);
+    end.mockReturnValueOnce(true);
+    down(2, 0, { button: 2 });
+    expect(drawing.end).toHaveBeenCalledOnce();
+    expect(later).not.toHaveBeenCalled();
+    down(2, 0, { button: 2 });
+    expect(later).toHaveBeenCalledOnce();
   });
 
   it('is ended with the gesture', () => {

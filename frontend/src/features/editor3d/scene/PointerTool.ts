@@ -1,13 +1,12 @@
 import type * as THREE from 'three';
 import { snapped } from '@/model/universe/geometry';
 import type { Point } from '@/model/document/values';
+import { cancellable } from '@/ui/cancellable';
 import { pointAt, thingAt, type Aimed } from './aiming';
 import { isReadOnly, type Editor } from '../editing';
 import type { ThingScene } from './ThingScene';
 
 const CLICK_PX = 4;
-/** The bit mask of the left and the right button of the mouse. */
-const BOTH = 3;
 
 /** The things that a drag moves over the floor. */
 interface Load {
@@ -31,9 +30,11 @@ export interface DragHandler {
 /** A tool that draws something point by point, in place of selecting. */
 export interface Drawing {
   isOn(): boolean;
+  /** The height in m at which the pointer draws. */
+  height(): number;
   move(point: Point): void;
-  click(point: Point | null): void;
-  /** Ends the drawing; returns whether there was one. */
+  click(point: Point | null, isAdding: boolean): void;
+  /** Returns whether there was a gesture to end. */
   end(): boolean;
 }
 
@@ -41,7 +42,7 @@ interface Parts {
   readonly editor: Editor;
   readonly scene: Pick<ThingScene<{ key: string }>, 'group' | 'keyOf'>;
   readonly dragHandler: DragHandler;
-  readonly drawing?: Drawing;
+  readonly drawings: readonly Drawing[];
   readonly camera: THREE.Camera;
   readonly canvas: HTMLElement;
   /** Returns whether the gizmo handles the pointer now. */
@@ -61,6 +62,7 @@ interface Dragging extends Load {
 export class PointerTool {
   private pressed: { x: number; y: number; isFree: boolean } | null = null;
   private dragging: Dragging | null = null;
+  private unfollow: (() => void) | null = null;
   private readonly listening = new AbortController();
 
   constructor(private readonly parts: Parts) {
@@ -69,28 +71,41 @@ export class PointerTool {
     canvas.addEventListener('pointerdown', this.onDown, { capture: true, signal });
     canvas.addEventListener('pointermove', this.onMove, { signal });
     canvas.addEventListener('pointerup', this.onUp, { signal });
-    canvas.addEventListener('pointercancel', () => this.cancel(), { signal });
   }
 
   /** Cancels the current gesture; returns whether there was one. */
   cancel(): boolean {
     const wasBusy = this.dragging !== null;
     for (const { node, at } of this.dragging?.starts ?? []) node.position.copy(at);
-    this.dragging = null;
-    this.pressed = null;
-    const wasDrawing = this.parts.drawing?.end() ?? false;
+    this.letGo();
     this.parts.hold(false);
+    this.parts.canvas.style.cursor = '';
+    const ended = this.parts.drawings.filter((drawing) => drawing.end());
     this.parts.redraw();
-    return wasBusy || wasDrawing;
+    return wasBusy || ended.length > 0;
   }
 
   dispose(): void {
+    this.letGo();
     this.listening.abort();
   }
 
+  private letGo(): void {
+    this.unfollow?.();
+    this.unfollow = null;
+    this.dragging = null;
+    this.pressed = null;
+  }
+
+  private drawing(): Drawing | undefined {
+    return this.parts.drawings.find((each) => each.isOn());
+  }
+
   private readonly onDown = (event: PointerEvent): void => {
+    const isDrawing = this.drawing() !== undefined;
+    // Else the view would be moved by the press that gives up.
+    if (event.button === 2 && isDrawing && this.cancel()) event.stopImmediatePropagation();
     if (event.button !== 0) return;
-    const isDrawing = this.parts.drawing?.isOn() ?? false;
     if (this.parts.isTaken() && (isDrawing || !this.isOnAnother(event))) return;
     this.pressed = { x: event.clientX, y: event.clientY, isFree: true };
     if (isDrawing || isReadOnly()) return;
@@ -118,33 +133,36 @@ export class PointerTool {
     this.dragging = { ...load, from, height: hit.height, starts, offset: [0, 0] };
     hold(true);
     canvas.setPointerCapture(event.pointerId);
+    this.unfollow = cancellable(canvas, event.pointerId, {
+      onMove: this.onDrag,
+      onEnd: this.onUp,
+      onCancel: () => this.cancel(),
+    });
     event.stopImmediatePropagation();
     canvas.focus();
   }
 
   private readonly onMove = (event: PointerEvent): void => {
-    const { scene, camera, canvas, drawing, redraw, editor } = this.parts;
-    const { grid } = editor.store.getState();
-    // Pressing the right button during a drag with the left one cancels the gesture.
-    if ((event.buttons & BOTH) === BOTH && editor.view?.cancel()) {
-      canvas.style.cursor = '';
-      return;
-    }
-    if (drawing?.isOn()) {
-      const point = this.floorPoint(event);
+    if (this.dragging) return;
+    const { scene, camera, canvas, redraw } = this.parts;
+    const drawing = this.drawing();
+    if (drawing) {
+      const point = this.floorPoint(event, drawing);
       if (point) drawing.move(point);
       redraw();
-      return;
+    } else if (event.buttons === 0) {
+      canvas.style.cursor = thingAt(event, canvas, camera, scene) ? 'pointer' : '';
     }
+  };
+
+  private readonly onDrag = (event: PointerEvent): void => {
+    const { camera, canvas, redraw, editor } = this.parts;
     const { dragging } = this;
-    if (!dragging) {
-      if (event.buttons === 0) canvas.style.cursor = thingAt(event, canvas, camera, scene) ? 'pointer' : '';
-      return;
-    }
-    if (!this.isDragged(event)) return;
+    if (!dragging || !this.isDragged(event)) return;
     const at = pointAt(event, canvas, camera, dragging.height);
     if (!at) return;
     canvas.style.cursor = 'grabbing';
+    const { grid } = editor.store.getState();
     const along = (axis: 0 | 1) =>
       snapped(dragging.anchor[axis] + at[axis] - dragging.from[axis], grid) - dragging.anchor[axis];
     dragging.offset = [along(0), along(1)];
@@ -165,8 +183,7 @@ export class PointerTool {
     const { dragging, pressed } = this;
     const { canvas, hold, dragHandler } = this.parts;
     const isClick = pressed !== null && !this.isDragged(event);
-    this.dragging = null;
-    this.pressed = null;
+    this.letGo();
     if (dragging) hold(false);
     if (dragging && !isClick) {
       canvas.style.cursor = '';
@@ -177,19 +194,20 @@ export class PointerTool {
   };
 
   private click(event: PointerEvent): void {
-    const { scene, camera, canvas, redraw, drawing, dragHandler } = this.parts;
-    if (!drawing?.isOn()) {
+    const { scene, camera, canvas, redraw, dragHandler } = this.parts;
+    const drawing = this.drawing();
+    if (!drawing) {
       dragHandler.click(thingAt(event, canvas, camera, scene), isAdding(event));
       return;
     }
-    drawing.click(this.floorPoint(event));
+    drawing.click(this.floorPoint(event, drawing), isAdding(event));
     redraw();
   }
 
-  private floorPoint(event: PointerEvent): Point | null {
+  private floorPoint(event: PointerEvent, drawing: Drawing): Point | null {
     const { camera, canvas, editor } = this.parts;
     const { grid } = editor.store.getState();
-    const point = pointAt(event, canvas, camera);
+    const point = pointAt(event, canvas, camera, drawing.height());
     return point ? [snapped(point[0], grid), snapped(point[1], grid)] : null;
   }
 }

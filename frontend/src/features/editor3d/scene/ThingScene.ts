@@ -32,8 +32,8 @@ export abstract class ThingScene<T extends { readonly key: string }> {
   private selected: readonly string[] = [];
   private things: readonly T[] = [];
 
-  constructor(isSimple: boolean, onArrival: () => void, textures: Pictures | null = null) {
-    this.materials = new MaterialCache(isSimple, textures);
+  constructor(isSimple: boolean, onArrival: () => void, textures: Pictures | null = null, opacity = 1) {
+    this.materials = new MaterialCache(isSimple, textures, opacity);
     this.assets = new Assets(() => {
       this.again();
       onArrival();

@@ -42,7 +42,10 @@ describe('MaterialCache', () => {
     expect((cache.get([]) as THREE.MeshLambertMaterial).color.getHexString()).toBe('b3b3b3');
   });
 
-  it('is transparent if the colour is', () => {
+  it('lets one see through where the colour does', () => {
+    const ghost = new MaterialCache(true, null, 0.5);
+    expect(ghost.get([1, 1, 1, 1])).toMatchObject({ transparent: true, opacity: 0.5 });
+    expect(ghost.get([1, 1, 1, 0.4]).opacity).toBeCloseTo(0.2);
     const material = new MaterialCache(true).get([1, 1, 1, 0.4]);
     expect([material.transparent, material.opacity]).toEqual([true, 0.4]);
   });

@@ -16,6 +16,8 @@ export class MaterialCache {
   constructor(
     private readonly isSimple: boolean,
     readonly textures: Pictures | null = null,
+    /** The factor of all opacities. */
+    private readonly opacity = 1,
   ) {}
 
   get([r = 0.7, g = 0.7, b = 0.7, a = 1]: readonly number[], picture = ''): THREE.Material {
@@ -23,7 +25,8 @@ export class MaterialCache {
     let material = this.known.get(key);
     if (!material) {
       const color = new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace);
-      const look = { color, transparent: a < 1, opacity: a };
+      const opacity = a * this.opacity;
+      const look = { color, transparent: opacity < 1, opacity };
       const made = this.isSimple
         ? new THREE.MeshLambertMaterial(look)
         : new THREE.MeshStandardMaterial({ ...look, roughness: 0.72, metalness: 0.04 });

@@ -1,4 +1,5 @@
 import { api } from '@/api/client';
+import { titleOf } from '@/model/document/glance';
 import { rewrite } from '@/model/document/rewrite';
 import { urdfNameOf } from '@/model/robot/read';
 import templateUrdf from '@/model/robot/template/robot.urdf?raw';
@@ -20,10 +21,8 @@ export async function textsOfRobot(base: string, name: string): Promise<RobotTex
     base === TEMPLATE
       ? [templateYaml, templateUrdf]
       : await Promise.all([api.robotConfig(base), api.robotUrdf(base)]);
-  const words = name.replaceAll('_', ' ');
-  const title = `${words.charAt(0).toUpperCase()}${words.slice(1)}`;
   return {
-    yaml: rewrite(yaml, [{ kind: 'set', path: ['name'], value: title }]),
+    yaml: rewrite(yaml, [{ kind: 'set', path: ['name'], value: titleOf(name) }]),
     urdf,
     urdfName: urdfNameOf(yaml) || 'robot.urdf',
   };

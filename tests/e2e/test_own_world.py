@@ -1,4 +1,4 @@
-"""A robot of one's own drives in a room of one's own, both made by fields in a browser without WebGL."""
+"""A custom robot drives in a custom room, both made by fields in a browser without WebGL."""
 
 from __future__ import annotations
 

@@ -63,7 +63,7 @@ def choose(studio: Studio, form: Locator, label: str, option: str) -> None:
 
 
 def it_begins_again(studio: Studio) -> None:
-    """The tree is done after 0.2 s, and its run goes on, ten times a second."""
+    """The tree is done after 0.2 s, and its run continues, ten times a second."""
     form = settings(studio)
     form.get_by_role("textbox", name="Description").fill("Waits, and waits again.")
     form.get_by_role("radio", name="Begin again").check()

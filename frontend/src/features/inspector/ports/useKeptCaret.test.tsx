@@ -27,7 +27,7 @@ function Field() {
 }
 
 describe('useKeptCaret', () => {
-  it('goes on where the text was typed that replaced the widget', async () => {
+  it('continues where the text was typed that replaced the widget', async () => {
     render(<Field />);
     await user.type(screen.getByRole('textbox', { name: 'quiet' }), '!x', { initialSelectionStart: 1 });
     const loud = screen.getByRole<HTMLInputElement>('textbox', { name: 'loud' });

@@ -21,6 +21,7 @@ import { Explorer } from '@/features/explorer/Explorer';
 import { cameraOf, chooseCamera, openCameraBelow } from '@/workspace/cameraViews';
 import type { PanelId } from '@/workspace/layoutModel';
 import { InItsWindow } from './popouts';
+import { Presented } from './presentation/Presented';
 import { documentOf, useTabs } from '@/workspace/tabs';
 import { Waiting } from './Waiting';
 
@@ -100,7 +101,9 @@ export function renderTab(node: TabNode): ReactNode {
   const content = documentOf(node) ? <Document node={node} /> : panels[node.getComponent() as PanelId](node);
   return (
     <InItsWindow node={node}>
-      <ErrorBoundary>{content}</ErrorBoundary>
+      <Presented node={node}>
+        <ErrorBoundary>{content}</ErrorBoundary>
+      </Presented>
     </InItsWindow>
   );
 }

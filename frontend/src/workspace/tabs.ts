@@ -197,6 +197,12 @@ export function frontDocument(model: Model): DocumentTab | null {
 
 const isSame = (a: DocumentTab, b: DocumentTab | null) => b !== null && tabId(a) === tabId(b);
 
+/** Whether a tab shows the document that is in front. */
+export function isInFront(node: TabNode): boolean {
+  const tab = documentOf(node);
+  return tab !== undefined && isSame(tab, useTabs.getState().front);
+}
+
 /** Makes the tree in front the active one for canvas, inspector and undo. */
 export function followFront(model: Model): void {
   const front = frontDocument(model);

@@ -6,6 +6,7 @@ const STORAGE_KEYS = [
   "'bts.compactTrees'",
   "'bts.followRunning'",
   "'bts.formatOnSave'",
+  "'bts.guide'",
   "'bts.hints'",
   "'bts.keep3d'",
   "'bts.language'",
@@ -19,6 +20,7 @@ const STORAGE_KEYS = [
   '`bts.draft.${projectId}`',
   '`bts.layout.${VERSION}.${width}`',
   '`bts.open.${projectId}`',
+  '`bts.values.${projectId}`',
   '`bts.xml.${projectId}.${treeId}`',
 ];
 const PANELS = [

@@ -1,4 +1,4 @@
-import { screen } from '@testing-library/react';
+import { cleanup, screen } from '@testing-library/react';
 import { useState } from 'react';
 import { describe, expect, it, vi } from 'vitest';
 import type { PortSpec } from '@/model/ports';
@@ -23,6 +23,7 @@ function Field({ spec, start = null, onChange }: FieldProps) {
       value={value}
       keys={['goal', 'pose']}
       error={null}
+      shown={`Main/a/${spec.name}`}
       taken={[]}
       onRenameKey={onRenameKey}
       onChange={change}
@@ -164,5 +165,17 @@ describe('PortField', () => {
   it('has no reset for a required port', () => {
     field({ required: true }, '2');
     expect(screen.queryByRole('button', { name: 'Back to the default' })).toBeNull();
+  });
+
+  it('offers to show its value in the block where it names a key', () => {
+    const name = 'Show the value of x in the block';
+    field({}, '{goal}');
+    expect(screen.getByRole('button', { name })).toHaveAttribute('aria-pressed', 'false');
+    cleanup();
+    field({ default: '{=}' });
+    expect(screen.getByRole('button', { name })).toBeInTheDocument();
+    cleanup();
+    field({}, '2');
+    expect(screen.queryByRole('button', { name })).toBeNull();
   });
 });

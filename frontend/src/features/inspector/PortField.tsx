@@ -2,12 +2,15 @@ import { ActionIcon, Tooltip } from '@mantine/core';
 import { IconArrowBackUp, IconBraces, IconCursorText, IconPencil, IconTrash } from '@tabler/icons-react';
 import { useEffect, useId, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { keyIn } from '@/model/keys/entry';
 import { readPortText, type PortSpec } from '@/model/ports';
+import type { ShownPort } from '@/store/session/values/shown';
 import type { PortMark } from '@/store/run/portMarks';
 import { LivePort } from './ports/LivePort';
 import { useTyping } from './ports/useTyping';
 import { KeyInput } from './KeyInput';
 import { PortNameInput } from './PortNameInput';
+import { ShowValue } from './ports/ShowValue';
 import { useKeptCaret } from './ports/useKeptCaret';
 import { ValueInput } from './ValueInput';
 import classes from './Inspector.module.css';
@@ -21,6 +24,8 @@ interface PortFieldProps {
   readonly onChange: (value: string | null) => void;
   /** Whether the port was just added: then its value gets the caret. */
   readonly isNew?: boolean;
+  /** The key of the choice to show the port's live value in the block. */
+  readonly shown: ShownPort;
   /** Called when the focus leaves the field. */
   readonly onLeave?: () => void;
   /** Present only for a port that is set but not declared. */
@@ -110,6 +115,9 @@ export function PortField(props: PortFieldProps) {
               <IconBraces size={14} aria-hidden="true" />
             </ActionIcon>
           </Tooltip>
+        )}
+        {keyIn(value ?? port.default ?? '', port.name) !== null && (
+          <ShowValue port={props.shown} name={port.name} />
         )}
         {(kind === 'key' || kind === 'same-name') && (
           <Tooltip label={t('keys:here')}>

@@ -132,6 +132,24 @@ describe('PortField', () => {
     expect(last()).toBe('{goal}');
   });
 
+  it('keeps the caret while a typed brace makes a value a key, and back', async () => {
+    const { input, last } = field({ default: '0.3' });
+    await user.type(input(), '{{goal}');
+    expect(input()).toHaveFocus();
+    expect(last()).toBe('{goal}');
+    await user.keyboard('{Backspace>6/}');
+    expect(input()).toHaveFocus();
+    await user.keyboard('7');
+    expect(last()).toBe('7');
+  });
+
+  it('keeps the caret in an output whose key has no braces yet', async () => {
+    const { input, last } = field({ direction: 'output', type: 'string' });
+    await user.type(input(), 'side');
+    expect(input()).toHaveFocus();
+    expect(last()).toBe('side');
+  });
+
   it('accepts only a key for an output', () => {
     const { input } = field({ direction: 'output' });
     expect(input()).toHaveAttribute('placeholder', '{x}');

@@ -11,6 +11,7 @@ import { useTyping } from './ports/useTyping';
 import { KeyInput } from './KeyInput';
 import { PortNameInput } from './PortNameInput';
 import { ShowValue } from './ports/ShowValue';
+import { useKeptCaret } from './ports/useKeptCaret';
 import { ValueInput } from './ValueInput';
 import classes from './Inspector.module.css';
 
@@ -75,13 +76,11 @@ export function PortField(props: PortFieldProps) {
   const read = readPortText(value ?? '');
   const { kind } = read;
   const key = read.kind === 'key' ? `${read.global ? '@' : ''}${read.key}` : port.name;
-  const isKey =
-    kind === 'key' ||
-    kind === 'same-name' ||
-    kind === 'broken' ||
-    (port.direction === 'output' && kind !== 'literal');
+  // An output is written to a key, also while its name is still without braces.
+  const isKey = kind === 'key' || kind === 'same-name' || kind === 'broken' || port.direction === 'output';
+  const kept = useKeptCaret(field, isKey ? 'key' : 'value');
   return (
-    <div ref={field} className={classes['portField']} {...handlers}>
+    <div ref={field} className={classes['portField']} {...handlers} {...kept}>
       <div className={classes['portHead']}>
         {isRenaming ? (
           <PortNameInput

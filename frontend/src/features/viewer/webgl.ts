@@ -4,7 +4,7 @@ function probe(): { isAvailable: boolean; isSoftware: boolean } {
   // A worker has no document.
   const canvas =
     typeof document === 'undefined' ? new OffscreenCanvas(1, 1) : document.createElement('canvas');
-  const gl = canvas.getContext('webgl2');
+  const gl = canvas.getContext('webgl2') as WebGL2RenderingContext | null;
   if (!gl) return { isAvailable: false, isSoftware: false };
   const info = gl.getExtension('WEBGL_debug_renderer_info');
   const renderer = String(

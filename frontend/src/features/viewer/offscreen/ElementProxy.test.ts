@@ -1,5 +1,5 @@
 import { describe, expect, it, vi } from 'vitest';
-import { OrbitControls } from 'three-stdlib';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import * as THREE from 'three';
 import { ElementProxy } from './ElementProxy';
 

@@ -392,6 +392,12 @@ class Snapshot(Struct):
     past: list[tuple[int, NodeStatus]] = []
     finished: Finished | None = None
     ports: list[PortSet] = []
+    runs: int = 0
+    """The number of runs since the session began."""
+    run_starts: list[tuple[int, int]] = []
+    """The runs that began within `logs`: the index of the first line after it, and the run's number."""
+    hanging_s: float = 0.0
+    """How long the present tick has hung, s; 0 while none does."""
 
 
 EVENTS: Final[dict[str, type[Struct]]] = {

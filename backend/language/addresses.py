@@ -1,25 +1,28 @@
 """Translates addresses of files in messages: `file:///project/…` for the page, real paths for the server.
 
 The page must neither learn where its files are on this machine nor name any other file: addresses that leave
-the project are refused. Addresses of the server outside the project (a library's source) become
-`file:///library/…`, which the page shows but cannot open.
+the project are refused. Sources that may be read (`sources.py`) become `file:///library/<label>/…`; the page
+opens them read-only. All other addresses of the server become `file:///elsewhere/<name>`, only to be shown.
 """
 
 from __future__ import annotations
 
 from pathlib import PurePosixPath
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 from urllib.parse import quote, unquote
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 PROJECT: Final = "file:///project"
 LIBRARY: Final = "file:///library"
+ELSEWHERE: Final = "file:///elsewhere"
 _KEYS: Final = frozenset({"uri", "targetUri", "rootUri", "oldUri", "newUri", "baseUri"})
 _MAX_DEPTH: Final = 64
-_MARKERS: Final = ("site-packages/", "typeshed/", "library/", "lib/python3.11/")
 
 
 class ForeignAddressError(ValueError):
-    """The page named a file outside of its project."""
+    """The page named a file that is neither of its project nor a readable source."""
 
 
 class Addresses:
@@ -27,11 +30,15 @@ class Addresses:
 
     Args:
         root: the absolute path of the folder that holds the project's files.
+        sources: the folders of sources that may be read, by label.
     """
 
-    def __init__(self, root: str) -> None:
+    def __init__(self, root: str, sources: Mapping[str, str]) -> None:
         self._root = "file://" + quote(root.rstrip("/"))
         self._plain = root.rstrip("/")
+        # The longest first: one folder can be inside another.
+        self._folders = sorted(((folder, label) for label, folder in sources.items()), key=_longest_first)
+        self._labels = sorted(sources.items(), key=_longest_first)
 
     def inward(self, message: Any) -> Any:
         """Translates a message of the page for the server.
@@ -45,29 +52,45 @@ class Addresses:
         """Translates a message of the server for the page."""
         return _mapped(message, self._shown, 0)
 
-    def hidden(self, text: str) -> str:
-        """Returns a text for the user without the path of the folder."""
-        return text.replace(self._plain + "/", "")
-
     def _real(self, uri: str) -> str:
         if uri == PROJECT:
             return self._root
-        path = unquote(uri.removeprefix(PROJECT + "/"))
-        parts = PurePosixPath(path).parts
-        is_inside = parts and ".." not in parts and not path.startswith("/") and "\0" not in path
-        if not uri.startswith(PROJECT + "/") or not is_inside:
-            raise ForeignAddressError(f"“{uri[:200]}” is not a file of this project.")
-        return f"{self._root}/{quote(path)}"
+        for shown, real in (
+            (PROJECT, self._plain),
+            *((f"{LIBRARY}/{label}", at) for label, at in self._labels),
+        ):
+            if uri.startswith(shown + "/"):
+                return f"file://{quote(real)}/{quote(_inside(uri, unquote(uri[len(shown) + 1 :])))}"
+        raise _foreign(uri)
 
     def _shown(self, uri: str) -> str:
         if uri == self._root or uri.startswith(self._root + "/"):
             return PROJECT + uri[len(self._root) :]
-        path = unquote(uri)
-        for marker in _MARKERS:
-            before, found, after = path.rpartition(marker)
-            if found and before:
-                return f"{LIBRARY}/{quote(after)}"
-        return f"{LIBRARY}/{quote(PurePosixPath(path).name)}"
+        path = unquote(uri.removeprefix("file://"))
+        for folder, label in self._folders:
+            if path.startswith(folder + "/"):
+                return f"{LIBRARY}/{label}{quote(path[len(folder) :])}"
+        return f"{ELSEWHERE}/{quote(PurePosixPath(path).name)}"
+
+
+def path_of(uri: str) -> str:
+    """Returns the path in an address that `inward` has translated."""
+    return unquote(uri.removeprefix("file://"))
+
+
+def _inside(uri: str, path: str) -> str:
+    parts = PurePosixPath(path).parts
+    if not parts or ".." in parts or path.startswith("/") or "\0" in path:
+        raise _foreign(uri)
+    return path
+
+
+def _foreign(uri: str) -> ForeignAddressError:
+    return ForeignAddressError(f"“{uri[:200]}” is not a file of this project.")
+
+
+def _longest_first(pair: tuple[str, str]) -> int:
+    return -len(pair[0])
 
 
 def _mapped(value: Any, uri: Any, depth: int) -> Any:

@@ -26,10 +26,10 @@ from backend.config.environment import environment
 from backend.core.problems import NotFoundError
 from backend.core.processes.siblings import siblings
 from backend.ingress.sockets import ID, Call, Closed
-from backend.language.addresses import PROJECT, Addresses, ForeignAddressError
+from backend.language.addresses import PROJECT, Addresses, ForeignAddressError, path_of
 from backend.language.errors import UnavailableError
 from backend.language.framing import FramingError, Unframer, framed
-from backend.language.messages import for_page, for_server
+from backend.language.messages import for_page, for_server, source_asked
 from backend.language.places import launcher
 from backend.projects.api.notices import notices_of
 from backend.projects.storage import queries
@@ -54,6 +54,8 @@ TOO_MUCH_MEMORY: Final = 4413
 TOO_MANY: Final = 4429
 ENDED: Final = 4500
 UNAVAILABLE: Final = 4503
+
+_NO_SOURCE: Final = {"code": -32602, "message": "This file cannot be shown."}
 
 Following = Callable[[], Awaitable[dict[str, Any]]]
 
@@ -104,7 +106,7 @@ class Relay:
     def __init__(self, page: Page, server: Server) -> None:
         self._page = page
         self._server = server
-        self._addresses = Addresses(server.root)
+        self._addresses = Addresses(server.root, server.sources)
         self._writing = asyncio.Lock()
         self._last_heard_s = time.monotonic()
 
@@ -141,11 +143,23 @@ class Relay:
                 continue
             except (ValueError, RecursionError):
                 return Closed(1003, "A message is not JSON.")
+            if (asked := source_asked(message)) is not None:
+                await self._tell(await self._source(*asked))
+                continue
             passed, answer = for_server(message, f"file://{self._server.root}")
             if answer is not None:
                 await self._tell(answer)
             if passed is not None and not await self._write(passed):
                 return Closed(ENDED, "The language server has ended.")
+
+    async def _source(self, message_id: Any, uri: str) -> dict[str, Any]:
+        """Answers the page's request for a file outside of the project; only sources are given out."""
+        try:
+            text = await self._server.source(path_of(uri))
+        except OSError:
+            text = None
+        answer = {"error": _NO_SOURCE} if text is None else {"result": {"text": text}}
+        return {"jsonrpc": "2.0", "id": message_id} | answer
 
     async def _from_server(self) -> Closed | None:
         unframer = Unframer()

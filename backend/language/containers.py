@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import hashlib
 import json
 from typing import TYPE_CHECKING, Any
@@ -26,9 +27,11 @@ if TYPE_CHECKING:
 class ContainerServer:
     """A language server that is reached over a socket of `executor.tools`."""
 
-    def __init__(self, connection: ClientConnection, home: str) -> None:
+    def __init__(self, connection: ClientConnection, home: str, sources: Mapping[str, str]) -> None:
         self._connection = connection
         self._home = home
+        self._sources = sources
+        self._asked: dict[str, asyncio.Future[str | None]] = {}
         self._sent: dict[str, bytes] = {}
         self._memory_bytes = 0
 
@@ -36,6 +39,11 @@ class ContainerServer:
     def root(self) -> str:
         """The project's folder inside the container."""
         return f"{self._home}/files"
+
+    @property
+    def sources(self) -> Mapping[str, str]:
+        """The folders of the container that its tools give out."""
+        return self._sources
 
     async def begin(self, contents: Mapping[str, bytes], library: str, python: str) -> None:
         """Sends the initial files and starts the server."""
@@ -66,13 +74,31 @@ class ContainerServer:
         await self._send(data)
 
     async def read(self) -> bytes:
-        """Returns the next bytes of the language server; stores its reports of the memory in use."""
+        """Returns the next bytes of the language server; stores the other messages of the tools."""
         try:
             while isinstance(message := await self._connection.recv(), str):
-                self._memory_bytes = int(json.loads(message)["memory_bytes"])
+                self._hear(json.loads(message))
         except ConnectionClosed:
             return b""
         return message
+
+    def _hear(self, told: dict[str, Any]) -> None:
+        if "memory_bytes" in told:
+            self._memory_bytes = int(told["memory_bytes"])
+        elif (asked := self._asked.pop(str(told["source"]), None)) and not asked.done():
+            text = told["text"]
+            asked.set_result(None if text is None else str(text))
+
+    async def source(self, path: str) -> str | None:
+        """Asks the tools, which read only below their own folders; the answer arrives in `read`."""
+        if path not in self._asked:
+            self._asked[path] = asyncio.get_running_loop().create_future()
+            await self._send(json.dumps({"source": path}))
+        try:
+            return await asyncio.wait_for(asyncio.shield(self._asked[path]), tools.ANSWER_S)
+        except TimeoutError:
+            self._asked.pop(path, None)
+            return None
 
     def memory_bytes(self) -> int:
         """Returns the last reported memory in bytes; the report is at most a second old."""
@@ -94,9 +120,13 @@ class ContainerLauncher:
         connection = await tools.open_editor(user)
         try:
             told: dict[str, Any] = json.loads(await connection.recv())
-            server = ContainerServer(connection, str(told["home"]))
+            server = ContainerServer(connection, str(told["home"]), _folders(told["sources"]))
             await server.begin(contents, str(told["library"]), str(told["python"]))
-        except (OSError, ConnectionClosed, ValueError, KeyError) as error:
+        except (OSError, ConnectionClosed, ValueError, KeyError, AttributeError) as error:
             await connection.close()
             raise UnavailableError("The language server cannot be started.") from error
         return server
+
+
+def _folders(told: dict[str, Any]) -> dict[str, str]:
+    return {label: str(folder) for label, folder in told.items()}

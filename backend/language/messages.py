@@ -14,6 +14,8 @@ Message = dict[str, Any]
 _FROM_PAGE: Final = frozenset(
     {"initialized", "shutdown", "exit", "$/cancelRequest", "completionItem/resolve", "codeAction/resolve"}
 )
+# Our own request: the text of a file outside of the project. The relay answers it.
+SOURCE_METHOD: Final = "studio/source"
 _TO_PAGE: Final = frozenset({"textDocument/publishDiagnostics"})
 _HINT: Final = 4
 _METHOD_NOT_FOUND: Final = -32601
@@ -39,6 +41,15 @@ def for_server(message: Any, root_uri: str) -> tuple[Message | None, Message | N
         return message, None
     answer = _error(message["id"], _METHOD_NOT_FOUND, "Not offered.") if "id" in message else None
     return None, answer
+
+
+def source_asked(message: Any) -> tuple[Any, str] | None:
+    """Returns id and address of a request for a file outside of the project; None for other messages."""
+    if not isinstance(message, dict) or message.get("method") != SOURCE_METHOD or "id" not in message:
+        return None
+    params = message.get("params")
+    uri = params.get("uri") if isinstance(params, dict) else None
+    return message["id"], uri if isinstance(uri, str) else ""
 
 
 def _initialize(params: Any, root_uri: str) -> Message:

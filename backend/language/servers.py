@@ -18,7 +18,8 @@ from typing import TYPE_CHECKING, Final, Protocol
 import psutil
 
 from backend.language.errors import UnavailableError
-from backend.language.folder import Folder, Sync
+from backend.language.folder import Folder, Sync, library
+from backend.language.sources import read_source, source_roots
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -39,6 +40,10 @@ class Server(Protocol):
     def root(self) -> str:
         """The absolute path of the project's files as the server sees it."""
 
+    @property
+    def sources(self) -> Mapping[str, str]:
+        """The folders of sources outside of the project that may be read, by label."""
+
     async def sync(self, contents: Mapping[str, bytes]) -> Sync:
         """Makes the server's folder contain exactly the Python files among these files."""
 
@@ -47,6 +52,9 @@ class Server(Protocol):
 
     async def read(self) -> bytes:
         """Waits for the next bytes of the server, and returns them; empty at the end."""
+
+    async def source(self, path: str) -> str | None:
+        """Returns the text of a file below one of the `sources`; None for all other files."""
 
     def memory_bytes(self) -> int:
         """Returns the memory that the server uses now, in bytes; 0 if it has ended."""
@@ -76,10 +84,15 @@ class ProcessServer:
     def __init__(self, process: asyncio.subprocess.Process, folder: Folder) -> None:
         self._process = process
         self._folder = folder
+        self._sources = source_roots(folder.home, library())
 
     @property
     def root(self) -> str:
         return str(self._folder.files)
+
+    @property
+    def sources(self) -> Mapping[str, str]:
+        return self._sources
 
     async def sync(self, contents: Mapping[str, bytes]) -> Sync:
         return await asyncio.to_thread(self._folder.sync, contents)
@@ -92,6 +105,9 @@ class ProcessServer:
     async def read(self) -> bytes:
         assert self._process.stdout is not None  # noqa: S101 - for the type checker
         return await self._process.stdout.read(_CHUNK_BYTES)
+
+    async def source(self, path: str) -> str | None:
+        return await asyncio.to_thread(read_source, path, self._sources.values())
 
     def memory_bytes(self) -> int:
         """Returns the resident memory in bytes."""

@@ -323,7 +323,7 @@ class SessionServer:
     def _snapshot_message(self, client: str) -> bytes:
         self.traffic.snapshots += 1
         _log.info("client %s is too slow and gets a snapshot", client)
-        return self._envelope("snapshot", msgspec.Raw(_encode(self._session.mirror.snapshot())), None)
+        return self._envelope("snapshot", msgspec.Raw(_encode(self._session.snapshot())), None)
 
 
 def _decode_data(data: msgspec.Raw, kind: type[Struct]) -> Struct:

@@ -82,6 +82,11 @@ class Child:
         """Whether the child's hang was reported and the child has not recovered since."""
         return bool(self.hang) and not self.vitals.is_well
 
+    @property
+    def hanging_s(self) -> float:
+        """The time in s for which its main thread has hung, if that was reported; else 0."""
+        return max(self.vitals.stuck_s, self.vitals.silent_s) if self.is_hanging else 0.0
+
     def expect(self, token: str) -> None:
         """Stores the token of a request that the session itself sent, to recognise the answer."""
         self._answers[token] = None

@@ -63,9 +63,12 @@ class Mirror:
         self.speed = 1.0
         self.real_time_factor = 0.0
         self.universe = ""
+        self.runs = 0
+        self._logged = 0
+        self._run_starts: deque[tuple[int, int]] = deque(maxlen=LOG_LINES)
 
     def begin_run(self, tick_hz: float) -> None:
-        """Removes the state of the previous run."""
+        """Removes the state of the previous run, and separates its output from what follows."""
         self.tree = None
         self.statuses.clear()
         self.past = []
@@ -76,6 +79,8 @@ class Mirror:
         self.tick = 0
         self.tick_ms = 0.0
         self.tick_hz = tick_hz
+        self.runs += 1
+        self._run_starts.append((self._logged, self.runs))
 
     def apply(self, event: Struct) -> None:
         """Updates the state by one event that is sent to all clients."""
@@ -98,6 +103,7 @@ class Mirror:
                 self.ports[event.path, event.node_id, event.port] = event
             case Log():
                 self.logs.append(event)
+                self._logged += 1
             case LaunchNodes():
                 self.launch_nodes = event.nodes
                 self._forget_faults_of([node for node in event.nodes if node.state == "running"])
@@ -115,8 +121,12 @@ class Mirror:
         """Returns the mean duration of the last ticks, and the time available for one, in ms."""
         return self.tick_ms, 1000.0 / self.tick_hz if self.tick_hz else 0.0
 
-    def snapshot(self) -> Snapshot:
-        """Returns the complete state, which a client needs before the following events."""
+    def snapshot(self, hanging_s: float = 0.0) -> Snapshot:
+        """Returns the complete state, which a client needs before the following events.
+
+        Args:
+            hanging_s: how long the present tick has hung.
+        """
         return Snapshot(
             state=self.state.value,
             tree=self.tree,
@@ -131,8 +141,16 @@ class Mirror:
             mismatches=list(self.mismatches),
             past=self.past,
             finished=self.finished,
+            runs=self.runs,
+            run_starts=self._starts(),
+            hanging_s=hanging_s,
             ports=list(self.ports.values()),
         )
+
+    def _starts(self) -> list[tuple[int, int]]:
+        """Returns where in the kept lines runs began."""
+        dropped = self._logged - len(self.logs)
+        return [(at - dropped, run) for at, run in self._run_starts if at >= dropped]
 
     def _enter(self, state: State) -> None:
         self.state = state

@@ -135,6 +135,11 @@ class Session:
             self.renderer, self.has_tf = "", False
         self.output.emit(messages.StateChanged(state.value, reason))
 
+    def snapshot(self) -> messages.Snapshot:
+        """Returns the complete state, for a client that joins late or was too slow."""
+        application = self.children.get("application")
+        return self.mirror.snapshot(hanging_s=application.hanging_s if application is not None else 0.0)
+
     def unpack(self, archive_base64: str) -> Callable[[], Unpacked | None]:
         """Orders an archive to be unpacked.
 
@@ -154,7 +159,7 @@ class Session:
             case ClientJoined():
                 self.clients.join(event.client)
                 self.introspect(event.client)
-                self.output.send(event.client, self.mirror.snapshot())
+                self.output.send(event.client, self.snapshot())
                 streaming.resume_echoes(self)
             case ClientLeft():
                 for topic in self.clients.leave(event.client, self.now_s):

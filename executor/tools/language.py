@@ -1,9 +1,10 @@
 """One open editor: a folder with its project's Python, and a language server on it.
 
 The first message goes to the web server: `{home, library, python}`, the paths for the configuration that it
-writes. Then the web server sends
+writes, and `sources`, the folders beside the project whose Python it may ask for. Then the web server sends
 
     {"files": {path: text, or null to remove}}   as text; the first starts the language server
+    {"source": path}                             as text; answered by {"source": path, "text": text or null}
     messages of the editor                       as bytes, relayed unchanged
 
 and receives the bytes of the language server, and sometimes `{"memory_bytes": n}` as text. Order is
@@ -19,9 +20,11 @@ import json
 import os
 import sys
 from pathlib import Path, PurePosixPath
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import psutil
+
+from executor.tools.sources import read_source, source_roots
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -41,7 +44,8 @@ _CHUNK_BYTES: Final = 64 * 1024
 
 async def serve_editor(connection: ServerConnection, home: Path, command: tuple[str, ...] = COMMAND) -> None:
     """Serves one editor in a new empty folder, until either side ends."""
-    told = {"home": str(home), "library": LIBRARY, "python": sys.executable}
+    sources = source_roots(home, Path(LIBRARY))
+    told = {"home": str(home), "library": LIBRARY, "python": sys.executable, "sources": sources}
     await connection.send(json.dumps(told))
     try:
         put_files(home, json.loads(await connection.recv())["files"])
@@ -63,13 +67,20 @@ async def serve_editor(connection: ServerConnection, home: Path, command: tuple[
         stderr=asyncio.subprocess.DEVNULL,
     )
     try:
-        await _relay(connection, process, home)
+        await _relay(connection, process, Place(home, tuple(sources.values())))
     finally:
         await _end(process)
 
 
-async def _relay(connection: ServerConnection, process: asyncio.subprocess.Process, home: Path) -> None:
-    steps = (_inward(connection, process, home), _outward(connection, process), _watch(connection, process))
+class Place(NamedTuple):
+    """The folders that an editor's messages may name: its own one, and those of sources."""
+
+    home: Path
+    sources: tuple[str, ...]
+
+
+async def _relay(connection: ServerConnection, process: asyncio.subprocess.Process, place: Place) -> None:
+    steps = (_inward(connection, process, place), _outward(connection, process), _watch(connection, process))
     tasks = [asyncio.create_task(step) for step in steps]
     try:
         await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
@@ -79,15 +90,20 @@ async def _relay(connection: ServerConnection, process: asyncio.subprocess.Proce
         await asyncio.gather(*tasks, return_exceptions=True)
 
 
-async def _inward(connection: ServerConnection, process: asyncio.subprocess.Process, home: Path) -> None:
+async def _inward(connection: ServerConnection, process: asyncio.subprocess.Process, place: Place) -> None:
     assert process.stdin is not None  # noqa: S101 - for the type checker
     async for message in connection:
         if isinstance(message, bytes):
             process.stdin.write(message)
             await process.stdin.drain()
             continue
+        asked = json.loads(message)
+        if "source" in asked:
+            text = await asyncio.to_thread(read_source, asked["source"], place.sources)
+            await connection.send(json.dumps({"source": asked["source"], "text": text}))
+            continue
         try:
-            put_files(home, json.loads(message)["files"])
+            put_files(place.home, asked["files"])
         except OSError as error:
             await connection.close(NO_ROOM, _reason(error))
             return

@@ -254,7 +254,8 @@ async def test_python_is_read_in_containers_of_its_users(stack, ann, ben, projec
         items = await ask(2, "textDocument/completion", textDocument={"uri": go}, position=position)
         assert [item["label"] for item in items["items"]][:3] == ["x", "y", "z"]
         place = {"textDocument": {"uri": go}, "position": {"line": 1, "character": 28}}
-        assert (await ask(3, "textDocument/definition", **place))["uri"] == "file:///project/actions/Turn.py"
+        [found] = await ask(3, "textDocument/definition", **place)
+        assert found["uri"] == "file:///project/actions/Turn.py"
 
 
 async def test_a_killed_web_server_loses_no_project_and_no_running_robot(stack, ann, ben, projects):

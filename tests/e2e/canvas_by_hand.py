@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING
 from playwright.sync_api import expect
 
 from tests.e2e.server import wait_until
+from tests.e2e.studio import Studio
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator
-
-    from tests.e2e.studio import Studio
 
 
 def block(studio: Studio, type_: str) -> Locator:
@@ -336,7 +335,7 @@ def several_are_disabled(studio: Studio) -> None:
 
 
 def a_piece_goes_to_another_project(studio: Studio) -> None:
-    """Copied here, pasted there, where its action is missing: the lamp on the block creates it."""
+    """Copied here, pasted there with its action; the lamp on a block whose action is missing creates it."""
     block(studio, "Inverter").click()
     studio.page.keyboard.press("Control+c")
     page = studio.page.context.new_page()
@@ -345,10 +344,18 @@ def a_piece_goes_to_another_project(studio: Studio) -> None:
     canvas = page.get_by_test_id("canvas")
     expect(canvas).to_be_focused()
     page.keyboard.press("Control+v")
+    page.get_by_test_id("take-arrivals").click()
     check = canvas.locator("[data-type=CheckObstacle]")
-    expect(check).to_have_attribute("data-problem", "error")
-    check.get_by_test_id("problem-mark").click()
-    page.get_by_test_id("fix-box").get_by_role("button", name="Write the action").click()
+    expect(check).to_be_visible()
     expect(check).not_to_have_attribute("data-problem", "error")
     expect(page.get_by_test_id("file-actions/CheckObstacle.py")).to_be_visible()
+    page.keyboard.press("Control+z")
+    expect(check).to_have_count(0)
+    paste(Studio(page, studio.server), "<Unwritten/>")
+    unwritten = canvas.locator("[data-type=Unwritten]")
+    expect(unwritten).to_have_attribute("data-problem", "error")
+    unwritten.get_by_test_id("problem-mark").click()
+    page.get_by_test_id("fix-box").get_by_role("button", name="Write the action").click()
+    expect(unwritten).not_to_have_attribute("data-problem", "error")
+    expect(page.get_by_test_id("file-actions/Unwritten.py")).to_be_visible()
     page.close()

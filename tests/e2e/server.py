@@ -45,17 +45,20 @@ def _is_of_a_session(process: psutil.Process) -> bool:
         return False
 
 
-def command(*arguments: str) -> list[str]:
-    """Returns the `bt-studio` program of this environment."""
-    return [sys.executable, "-m", "backend.cli.main", *arguments]
+def command(*arguments: str, python: str = sys.executable) -> list[str]:
+    """Returns the `bt-studio` program of this environment, or of another Python's."""
+    return [python, "-m", "backend.cli.main", *arguments]
 
 
 @contextmanager
-def serving(folder: Path, *arguments: str, **environment: str) -> Iterator[Server]:
+def serving(
+    folder: Path, *arguments: str, python: str = sys.executable, **environment: str
+) -> Iterator[Server]:
     """Starts `bt-studio serve` on a free port with its data in `folder`; ends it and its descendants."""
     ready = folder / "ready.json"
     log = (folder / "serve.log").open("wb")
-    serve = command("serve", "--no-browser", "--port", "0", "--data-dir", str(folder / "data"))
+    data = str(folder / "data")
+    serve = command("serve", "--no-browser", "--port", "0", "--data-dir", data, python=python)
     process = subprocess.Popen(
         [*serve, "--ready-file", str(ready), *arguments],
         env=os.environ | environment,

@@ -25,6 +25,8 @@ OUTPUT = Path(__file__).parent / "output"
 NO_LESSONS = (
     """localStorage.getItem("bts.lessons") ?? localStorage.setItem("bts.lessons", '{"opens":false}')"""
 )
+# Nothing points at the canvas: the first task is a walk of its own.
+NO_FIRST_TASK = """localStorage.getItem("bts.guide") ?? localStorage.setItem("bts.guide", "done")"""
 # The page shows a refused or lost request; the browser's own note of it is not an error of the page.
 EXPECTED_NOTES = re.compile(
     r"Failed to load resource|WebSocket connection to .* failed|GPU stall|GL Driver Message"
@@ -38,7 +40,7 @@ NOT_RUNNABLE = r"422 GET /api/v1/projects/[^/]+/app"
 class Studio:
     """One page of the IDE."""
 
-    def __init__(self, page: Page, server: Server, *, keeps_3d: bool = True) -> None:
+    def __init__(self, page: Page, server: Server, *, keeps_3d: bool = True, is_guided: bool = False) -> None:
         self.page = page
         self.server = server
         self.complaints: list[str] = []
@@ -48,6 +50,8 @@ class Studio:
             page.context.add_init_script("localStorage.setItem('bts.keep3d', 'yes')")
         self.refusals = [STALE_SAVE]
         page.add_init_script(NO_LESSONS)
+        if not is_guided:
+            page.add_init_script(NO_FIRST_TASK)
         page.on("console", self._note)
         page.on("response", self._hear)
         page.on("pageerror", lambda error: self.complaints.append(str(error)))

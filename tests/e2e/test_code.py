@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 from playwright.sync_api import expect
 
+from tests.e2e.accessibility import expect_no_findings
 from tests.e2e.studio import Studio
 
 if TYPE_CHECKING:
@@ -142,8 +143,14 @@ def test_fixes_formatting_definition_and_renaming(shared_studio: Studio) -> None
     expect(page.locator('[data-testid="code-editor"][data-path="actions/Turn.py"]')).to_be_visible()
     page.mouse.click(*spot(studio, "class Turn", "Turn"))
     page.keyboard.press("F2")
-    page.locator(".cm-lsp-rename-panel input").fill("Rotate")
+    dialogue = page.get_by_role("dialog", name="Rename Turn")
+    expect(dialogue).to_contain_text("2 places in 2 files")
+    dialogue.get_by_role("textbox").fill("Rotate")
+    expect(dialogue.get_by_role("region")).to_contain_text("class TurnRotate(")
+    expect_no_findings(page, "the dialogue of a rename")
+    studio.picture("code-rename-light")
     page.keyboard.press("Enter")
+    expect(dialogue).to_have_count(0)
     expect(studio.at("file-actions/Rotate.py")).to_be_visible()
     expect(studio.at("file-actions/Turn.py")).to_have_count(0)
     studio.saved()

@@ -115,16 +115,18 @@ def signatures_and_references(studio: Studio) -> None:
 
     page.mouse.click(*spot(studio, "class Forward(Turn)", "Turn"))
     keys.press("Shift+F12")
-    found = page.locator(".cm-lsp-reference-panel")
-    files = found.locator(".cm-lsp-reference-file")
-    expect(files).to_have_count(2)
-    # Python's server gives them in no fixed order.
-    assert sorted(files.all_text_contents()) == ["Forward.py", "Turn.py"]
-    expect(found).to_be_focused()
+    found = page.get_by_test_id("references").filter(visible=True)
+    expect(found).to_contain_text("3 places in 2 files")
+    expect(found.get_by_role("group", name="actions/Forward.py").get_by_role("option")).to_have_count(2)
+    expect(found.get_by_role("listbox")).to_be_focused()
     studio.picture("code-references-light")
-    found.get_by_role("option").filter(has_text="class Turn").click()
+    keys.press("End")
+    keys.press("Enter")
     expect(editor(studio, "actions/Turn.py")).to_be_focused()
     expect(tab(studio, "Turn.py")).to_have_attribute("aria-selected", "true")
+    expect(found).to_be_visible()
+    keys.press("Escape")
+    expect(found).to_have_count(0)
 
 
 def letters_have_a_size(studio: Studio) -> None:
@@ -229,9 +231,11 @@ def names_that_cannot_be(studio: Studio) -> None:
     open_editor(studio, "actions/Turn.py")
     studio.page.mouse.click(*spot(studio, "class Turn", "Turn"))
     studio.page.keyboard.press("F2")
-    studio.page.locator(".cm-lsp-rename-panel input").fill("class")
+    dialogue.get_by_role("textbox").fill("class")
     studio.page.keyboard.press("Enter")
-    expect(studio.page.get_by_text("“class” cannot be a name in Python.")).to_be_visible()
+    expect(dialogue).to_contain_text("“class” cannot be a name in Python.")
+    studio.page.keyboard.press("Escape")
+    expect(dialogue).to_have_count(0)
     expect(line(studio, "class Turn(")).to_be_visible()
 
 

@@ -150,3 +150,42 @@ def labels_of(buttons: Locator) -> set[str]:
         " each.querySelector('.mantine-Menu-itemLabel')?.textContent || each.textContent)"
     )
     return {re.sub(r" \([^)]*\)$|^\d+% · |: .*$", "", str(name)) for name in names}
+
+
+# Keys of the shortcut page that no other walk presses, and what is to be seen then.
+SHOWS = {
+    "Control+Backquote": "[data-testid=console]",
+    "Control+Shift+KeyM": "[data-testid=problems]",
+    "Control+Shift+KeyH": "[data-testid^=revision-], [data-testid=revisions]",
+    "Control+Shift+KeyF": "[data-testid=search-text]",
+}
+
+
+# Keys of the canvas, the second keys of Redo, and those of the palette itself.
+BESIDE_THE_PALETTE = {"← ↑ → ↓", "Ctrl+← ↑ → ↓", "Shift+Del", "Home", "Shift+F10", "Ctrl+Shift+Z", "Ctrl+K"}
+
+
+def test_the_page_of_shortcuts_tells_the_truth(shared_studio: Studio) -> None:
+    """Each key means one thing, the page is the palette's list, and the keys do what it says."""
+    studio, keys = shared_studio, shared_studio.page.keyboard
+    studio.new_from("laser_bump_and_go")
+    keys.press("Control+Slash")
+    page = studio.at("shortcuts")
+    expect(page.get_by_role("heading")).to_have_count(7)
+    rows = [row.split("\t") for row in page.get_by_role("row").all_inner_texts()]
+    by_keys: dict[str, set[str]] = {}
+    for label, shown in rows:
+        by_keys.setdefault(shown, set()).add(label)
+    assert {shown: labels for shown, labels in by_keys.items() if len(labels) > 1}.keys() <= {"Space"}
+    studio.picture("shortcuts")
+    keys.press("Escape")
+    keys.press("Control+k")
+    known = set(studio.at("command-palette").get_by_role("option").all_inner_texts())
+    for label, shown in rows:
+        is_known = any(label in text and shown in text for text in known)
+        assert is_known or shown in BESIDE_THE_PALETTE, (label, shown)
+    keys.press("Escape")
+    for shortcut, target in SHOWS.items():
+        keys.press(shortcut)
+        expect(studio.page.locator(target).first).to_be_visible()
+        keys.press("Alt+t")

@@ -16,6 +16,7 @@ from tests.fakes.react_diagrams import chain
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from pathlib import Path
 
     from playwright.sync_api import Locator
 
@@ -277,3 +278,28 @@ def test_what_falls_onto_the_page_becomes_a_project(shared_studio: Studio) -> No
     drop(studio, "holiday.zip", b"no zip at all")
     expect(studio.page.get_by_text("not a zip that can be read")).to_be_visible()
     expect(studio.at("projects")).to_be_visible()
+
+
+def test_a_project_is_downloaded_and_brought_back(shared_studio: Studio, tmp_path: Path) -> None:
+    """By the card's menu and the button *Import…*: tree, code and name are the same."""
+    studio, page = shared_studio, shared_studio.page
+    studio.new_from("laser_bump_and_go")
+    studio.set_port("n6", "lin_speed", "0.123")
+    page.get_by_role("link", name="All projects").click()
+    with page.expect_download() as download:
+        choose(studio, "Laser bump and go", "Download as zip")
+    archive = tmp_path / download.value.suggested_filename
+    download.value.save_as(archive)
+    assert archive.suffix == ".zip"
+    choose(studio, "Laser bump and go", "Delete")
+    expect(cards(studio)).to_have_count(0)
+    with page.expect_file_chooser() as chooser:
+        page.get_by_role("button", name="Import…").click()
+    chooser.value.set_files(archive)
+    report(studio, archive.name)
+    studio.at("node-n6").click()
+    expect(studio.at("port-lin_speed")).to_have_value("0.123")
+    studio.open_file("actions/Turn.py")
+    expect(studio.at("code-editor")).to_contain_text("class Turn")
+    home(studio)
+    expect(card(studio, "Laser bump and go").locator("a svg")).to_be_visible()

@@ -105,8 +105,11 @@ def a_clash_is_chosen(studio: Studio) -> None:
 
 
 def a_tree_of_the_menu_is_pasted(source: Studio, studio: Studio) -> None:
+    # A browser lets only the page in front write to the clipboard.
+    source.page.bring_to_front()
     source.at("file-trees/MainTree.json").click(button="right")
     source.page.get_by_role("menuitem", name="Copy", exact=True).click()
+    expect(source.page.get_by_text("MainTree is copied")).to_be_visible()
     studio.page.bring_to_front()
     block(studio, "ReactiveSequence").click()
     studio.page.keyboard.press("Control+v")

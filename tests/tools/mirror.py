@@ -34,6 +34,9 @@ PLAIN: Final = (
     *(ast.Constant, ast.Name, ast.Attribute, ast.Tuple, ast.List, ast.Dict, ast.JoinedStr),
     *(ast.FormattedValue, ast.expr_context),
 )
+# Lines at the left edge that are neither exports, imports, comments, types, nor the end of one.
+STATEMENTS: Final = re.compile(r"(?m)^(?!import\b|export\b|type\b|interface\b)[\w(]")
+EXPORTS: Final = re.compile(r"(?m)^export (?:default )?([\w*{]+)")
 ASSERTS: Final = re.compile(r"\bassert\b|\bexpect\(|pytest\.(?:raises|warns)")
 
 
@@ -47,7 +50,15 @@ def page_modules() -> list[Path]:
     """Returns the modules of the page that need a test file."""
     paths = sorted((ROOT / PAGE).rglob("*.ts*"))
     kinds = (".test.ts", ".test.tsx", ".d.ts")
-    return [path for path in paths if _counts(path) and not path.name.endswith(kinds)]
+    modules = (path for path in paths if _counts(path) and not path.name.endswith(kinds))
+    return [path for path in modules if not declares_types_alone(path)]
+
+
+def declares_types_alone(path: Path) -> bool:
+    """Returns whether a module of the page exports types and nothing that runs."""
+    text = path.read_text(encoding="utf-8")
+    exports = set(EXPORTS.findall(text))
+    return bool(exports) and exports <= {"type", "interface"} and not STATEMENTS.search(text)
 
 
 def _counts(path: Path) -> bool:

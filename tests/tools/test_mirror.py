@@ -81,3 +81,17 @@ def test_the_list_does_not_grow(tmp_path, monkeypatch):
     monkeypatch.setattr(mirror, "unmirrored", lambda: ["moved"])
     assert mirror.main(["--write"]) == 0
     assert known.read_text() == "moved\n"
+
+
+def test_a_module_of_the_page_that_only_has_types_needs_no_test(tmp_path):
+    module = tmp_path / "messages.ts"
+    for text, is_bare in [
+        ("export type A = 1;\nexport interface B {}\n", True),
+        ("export type A = 1;\nexpose(a);\n", False),
+        ("export type A = 1;\nexport const a = 1;\n", False),
+        ("export type A = 1;\nexport default function a() {}\n", False),
+        ("export * from './a';\n", False),
+        ("self.onmessage = answer;\n", False),
+    ]:
+        module.write_text(text)
+        assert mirror.declares_types_alone(module) is is_bare, text

@@ -7,7 +7,14 @@ import {
   type Model,
   type TabNode,
 } from 'flexlayout-react';
-import { IconChevronsDown, IconFileCode, IconFileText, IconGitFork, IconHistory } from '@tabler/icons-react';
+import {
+  IconChevronsDown,
+  IconFileCode,
+  IconFileText,
+  IconGitFork,
+  IconHistory,
+  IconLock,
+} from '@tabler/icons-react';
 import { useCallback, useEffect, useMemo, useRef, type RefObject } from 'react';
 import { useTranslation } from 'react-i18next';
 import 'flexlayout-react/style/light.css';
@@ -45,6 +52,7 @@ function renderTabButton(node: TabNode, values: ITabRenderValues): void {
   const tab = documentOf(node);
   if (tab?.kind === 'tree') values.leading = <IconGitFork size={15} aria-hidden="true" />;
   if (tab?.kind === 'compare') values.leading = <IconHistory size={15} aria-hidden="true" />;
+  if (tab?.kind === 'source') values.leading = <IconLock size={15} aria-hidden="true" />;
   if (tab?.kind === 'file') {
     values.leading = tab.path.endsWith('.py') ? (
       <IconFileCode size={15} aria-hidden="true" />

@@ -20,7 +20,9 @@ const ROWS = [
   'view.search',
   'view.history',
   'view.xml',
+  'view.present',
   'view.shortcuts',
+  'view.guide',
   'view.resetLayout',
 ] as const;
 

@@ -12,6 +12,7 @@ import { FileDialog } from '@/features/code/FileDialog';
 import { ExportDialog } from '@/features/export/ExportDialog';
 import { ArrivalsDialog } from '@/features/library/ArrivalsDialog';
 import { ImportReport } from '@/features/importReport/ImportReport';
+import { Guide } from '@/features/onboarding/guide/Guide';
 import { Shortcuts } from '@/features/onboarding/Shortcuts';
 import { RunStrip } from '@/features/run/strip/RunStrip';
 import { registerRunCommands } from '@/features/run/commands';
@@ -31,12 +32,15 @@ import { hasWebGl } from '@/features/viewer/webgl';
 import { useProjectStore } from '@/store/project';
 import { setNavigator } from '@/store/project/navigation';
 import { navigate } from '@/store/route';
+import { followTreeRename } from '@/store/session/values/shown';
 import { leaveInspector, registerFrameCommands } from './commands';
 import { CommandPalette } from '@/workspace/CommandPalette';
 import { Dock } from './Dock';
 import classes from './frame.module.css';
 import { loadLayout } from '@/workspace/layoutModel';
 import { openLesson } from '@/workspace/lessons';
+import { endPresentation, usePresentation } from '@/workspace/presentation';
+import { PresentationBar } from './presentation/PresentationBar';
 import { RestoredNotice } from './RestoredNotice';
 import { StatusBar } from './StatusBar';
 import {
@@ -88,6 +92,7 @@ function Workbench({ projectId }: StudioProps) {
   const model = useTabs((state) => state.model);
   const modelWidth = useTabs((state) => state.width);
   const name = useProjectStore((state) => state.name);
+  const presenting = usePresentation((state) => state.mode);
   useShortcuts();
   useRunReactions({ showPanel, openFile: (path, line) => openTab({ kind: 'file', path }, line) });
 
@@ -109,10 +114,11 @@ function Workbench({ projectId }: StudioProps) {
       openTree: (id) => openTab({ kind: 'tree', id }),
       openFile: (path, line) => openTab({ kind: 'file', path }, line),
       openTopics: () => showPanel('topics'),
-      renamed: (kind, from, to) =>
-        kind === 'tree'
-          ? followRename({ kind, id: from }, { kind, id: to })
-          : followRename({ kind, path: from }, { kind, path: to }),
+      renamed: (kind, from, to) => {
+        if (kind === 'file') return followRename({ kind, path: from }, { kind, path: to });
+        followTreeRename(from, to);
+        followRename({ kind, id: from }, { kind, id: to });
+      },
       aimAt,
     });
     window.addEventListener('keydown', leaveInspector);
@@ -124,6 +130,7 @@ function Workbench({ projectId }: StudioProps) {
       unwatch();
       window.removeEventListener('keydown', leaveInspector);
       closePalette();
+      endPresentation();
       unregister.forEach((undo) => undo?.());
       useTabs.setState({ model: null, target: null });
     };
@@ -139,13 +146,15 @@ function Workbench({ projectId }: StudioProps) {
   }, [model, modelWidth, width, projectId]);
 
   return (
-    <div className={classes['studio']}>
+    <div className={classes['studio']} data-presenting={presenting === 'off' ? undefined : presenting}>
       <TopBar />
       <RunStrip />
       <main className={classes['dock']}>
+        <PresentationBar />
         {model && modelWidth ? <Dock model={model} width={modelWidth} key={modelWidth} /> : null}
       </main>
       <StatusBar />
+      <Guide />
       <CommandPalette />
       <ConflictDialog />
       <FileDialog />

@@ -12,7 +12,10 @@ import {
   IconKeyboard,
   IconLayout,
   IconLayoutSidebar,
+  IconMapPin,
+  IconMapPinOff,
   IconPlus,
+  IconPresentation,
   IconTerminal2,
   IconWorld,
   IconRobot,
@@ -34,12 +37,14 @@ import { openNewRobot } from '@/store/dialogs/newRobot';
 import { openNewUniverse } from '@/store/dialogs/newUniverse';
 import { resetLayout } from './Dock';
 import { fileCommands } from '@/features/explorer/fileCommands';
+import { endGuide, startGuide, useGuide } from '@/features/onboarding/guide/guide';
 import { usedCommands } from '@/features/explorer/used/commands';
 import { focusInspector } from '@/workspace/focus';
 import { openAnotherCamera } from '@/workspace/cameraViews';
 import { WINDOWED, type PanelId } from '@/workspace/layoutModel';
 import { popOut } from './popouts';
 import { showLesson } from '@/workspace/lessons';
+import { present, togglePresentation } from '@/workspace/presentation';
 import { openTab, showPanel, togglePanel } from '@/workspace/tabs';
 
 /** Moves the keyboard focus to the tree that was edited last. */
@@ -211,6 +216,38 @@ const rows: UserCommand[] = [
     shortcut: '$mod+Slash',
     inTextFields: true,
     run: openShortcuts,
+  },
+  {
+    id: 'view.guide',
+    group: 'view',
+    labelKey: 'onboarding:guide.start',
+    icon: IconMapPin,
+    enabled: () => useProjectStore.getState().role !== 'viewer',
+    run: startGuide,
+  },
+  {
+    id: 'view.endGuide',
+    group: 'view',
+    labelKey: 'onboarding:guide.skip',
+    icon: IconMapPinOff,
+    enabled: () => useGuide.getState().step !== null,
+    run: endGuide,
+  },
+  {
+    id: 'view.present',
+    group: 'view',
+    labelKey: 'frame:command.present',
+    icon: IconPresentation,
+    shortcut: 'Alt+KeyP',
+    inTextFields: true,
+    run: togglePresentation,
+  },
+  {
+    id: 'view.presentRobot',
+    group: 'view',
+    labelKey: 'frame:command.presentRobot',
+    icon: IconPresentation,
+    run: () => present('robot'),
   },
   {
     id: 'view.anotherCamera',

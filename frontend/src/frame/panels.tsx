@@ -21,6 +21,7 @@ import { Explorer } from '@/features/explorer/Explorer';
 import { cameraOf, chooseCamera, openCameraBelow } from '@/workspace/cameraViews';
 import type { PanelId } from '@/workspace/layoutModel';
 import { InItsWindow } from './popouts';
+import { Presented } from './presentation/Presented';
 import { documentOf, useTabs } from '@/workspace/tabs';
 import { Waiting } from './Waiting';
 
@@ -33,6 +34,7 @@ const RevisionsPanel = lazyPart(
 const CompareTab = lazyPart(async () => (await import('@/features/revisions/CompareTab')).CompareTab);
 const UniverseTab = lazyPart(async () => (await import('@/features/universeEditor/UniverseTab')).UniverseTab);
 const RobotTab = lazyPart(async () => (await import('@/features/robotEditor/RobotTab')).RobotTab);
+const SourceTab = lazyPart(async () => (await import('@/features/code/SourceTab')).SourceTab);
 const CodeTab = lazyPart(async () => (await import('@/features/code/CodeTab')).CodeTab);
 
 const panels: Record<PanelId, (node: TabNode) => ReactNode> = {
@@ -84,7 +86,13 @@ function Document({ node }: { readonly node: TabNode }) {
   if (tab.kind === 'tree') return <Canvas treeId={tab.id} />;
   return (
     <Suspense fallback={<Waiting reason="loadingEditor" />}>
-      {tab.kind === 'compare' ? <CompareTab /> : <FileTab path={tab.path} />}
+      {tab.kind === 'compare' ? (
+        <CompareTab />
+      ) : tab.kind === 'source' ? (
+        <SourceTab path={tab.path} />
+      ) : (
+        <FileTab path={tab.path} />
+      )}
     </Suspense>
   );
 }
@@ -100,7 +108,9 @@ export function renderTab(node: TabNode): ReactNode {
   const content = documentOf(node) ? <Document node={node} /> : panels[node.getComponent() as PanelId](node);
   return (
     <InItsWindow node={node}>
-      <ErrorBoundary>{content}</ErrorBoundary>
+      <Presented node={node}>
+        <ErrorBoundary>{content}</ErrorBoundary>
+      </Presented>
     </InItsWindow>
   );
 }

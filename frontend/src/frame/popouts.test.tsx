@@ -1,7 +1,8 @@
+import { waitFor } from '@testing-library/react';
 import { notifications } from '@mantine/notifications';
 import { Actions, Model, TabNode, TabSetNode } from 'flexlayout-react';
-import { beforeEach, describe, expect, it, vi } from 'vitest';
-import '@/i18n';
+import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
+import { setLanguage } from '@/i18n';
 import { loadLayout } from '@/workspace/layoutModel';
 import { popOut, Popouts } from './popouts';
 import { useTabs } from '@/workspace/tabs';
@@ -24,6 +25,7 @@ const neighboursOf = (id: string) =>
 const opened = (id: string) => {
   const page = document.implementation.createHTMLDocument();
   popouts.onOpen({ getLayoutId: () => tab(id).getLayoutId() }, window, page);
+  return page;
 };
 const closed = (id: string) => popouts.onAction(Actions.closePopout(tab(id).getLayoutId()));
 
@@ -54,6 +56,18 @@ describe('panels in windows of their own', () => {
     closed('blackboard');
     expect(isInWindow('blackboard')).toBe(false);
     expect(tab('blackboard').getParent()).toBeInstanceOf(TabSetNode);
+  });
+
+  it('follow theme and language, also in their titles', async () => {
+    popOut('blackboard');
+    const page = opened('blackboard');
+    expect(page.title).toBe('Blackboard — BT Studio');
+    document.documentElement.setAttribute('data-mantine-color-scheme', 'dark');
+    setLanguage('es');
+    onTestFinished(() => setLanguage('en'));
+    await waitFor(() => expect(page.title).toBe('Pizarra — BT Studio'));
+    expect(page.documentElement.lang).toBe('es');
+    expect(page.documentElement.getAttribute('data-mantine-color-scheme')).toBe('dark');
   });
 
   it('stay in the stored layout', () => {

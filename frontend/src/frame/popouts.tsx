@@ -122,18 +122,22 @@ export class Popouts {
   };
 
   readonly onOpen = (layout: { getLayoutId(): string }, target: Window, page: Document): void => {
-    const names = tabsIn(this.model, layout.getLayoutId()).map(titleOf);
-    page.title = `${names.join(', ')} — BT Studio`;
-    const followTheme = () => {
+    const follow = () => {
+      const { lang } = document.documentElement;
       const scheme = document.documentElement.getAttribute('data-mantine-color-scheme') ?? 'light';
+      const names = tabsIn(this.model, layout.getLayoutId()).map(titleOf);
+      page.title = `${names.join(', ')} — BT Studio`;
+      page.documentElement.lang = lang;
       page.documentElement.setAttribute('data-mantine-color-scheme', scheme);
     };
-    followTheme();
-    const themed = new MutationObserver(followTheme);
-    themed.observe(document.documentElement, { attributeFilter: ['data-mantine-color-scheme'] });
+    follow();
+    // It is in a window already: the button that opens one is hidden there (`dock.css`).
+    page.documentElement.dataset['panelWindow'] = '';
+    const followed = new MutationObserver(follow);
+    followed.observe(document.documentElement, { attributeFilter: ['data-mantine-color-scheme', 'lang'] });
     const unbind = bindShortcuts(target);
     this.open.set(layout.getLayoutId(), () => {
-      themed.disconnect();
+      followed.disconnect();
       unbind();
     });
   };

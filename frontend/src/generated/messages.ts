@@ -451,6 +451,9 @@ export interface Snapshot {
   past: [number, NodeStatus][];
   finished: Finished | null;
   ports: PortSet[];
+  runs: number;
+  run_starts: [number, number][];
+  hanging_s: number;
 }
 
 /** The envelope of an event. */

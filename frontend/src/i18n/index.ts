@@ -41,8 +41,9 @@ document.documentElement.lang = i18next.language;
 
 export function setLanguage(language: Language): void {
   localStorage.setItem(STORAGE_KEY, language);
-  document.documentElement.lang = language;
   void i18next.changeLanguage(language);
+  // What follows this attribute finds the new texts.
+  document.documentElement.lang = language;
 }
 
 export function currentLanguage(): Language {

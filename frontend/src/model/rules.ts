@@ -69,10 +69,14 @@ export function canUnwrap(diagram: Diagram, id: NodeId, vocabulary: Vocabulary):
   return childrenOf(diagram, parent).length - 1 + count <= capacity(diagram, parent, vocabulary);
 }
 
-/** The place of a block: at the root, under a parent, or as a draft. */
+/**
+ * The place of a block: at the root, under a parent, as a draft, or after a block that has no parent with room:
+ * then a new Sequence takes the place of that block, and holds both.
+ */
 export type Placement =
   | { readonly at: 'root' }
   | { readonly at: 'child'; readonly parent: NodeId; readonly index: number }
+  | { readonly at: 'beside'; readonly node: NodeId }
   | { readonly at: 'draft'; readonly position?: readonly [number, number] };
 
 export function bestPlacement(
@@ -92,5 +96,8 @@ export function bestPlacement(
       id = parentOf(diagram, id);
     }
   }
-  return { at: 'draft' };
+  return {
+    at: 'beside',
+    node: selected !== undefined && selected in diagram.nodes ? selected : diagram.root,
+  };
 }

@@ -2,5 +2,7 @@
 export type DocumentTab =
   | { kind: 'tree'; id: string }
   | { kind: 'file'; path: string }
+  /** Python outside of the project, to read: Python's own library, a package, a stub. */
+  | { kind: 'source'; path: string }
   /** The comparison of two revisions; there is only one such tab. */
   | { kind: 'compare' };

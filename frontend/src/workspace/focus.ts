@@ -13,6 +13,11 @@ function focusableOf(tab: DocumentTab): HTMLElement | null {
   if (tab.kind === 'tree') {
     return document.querySelector(`[data-testid="canvas"][data-tree="${CSS.escape(tab.id)}"]`);
   }
+  if (tab.kind === 'source') {
+    return document.querySelector(
+      `[data-testid="source-tab"][data-path="${CSS.escape(tab.path)}"] .cm-content`,
+    );
+  }
   const editor = document.querySelector(
     `[data-testid="universe-editor"][data-path="${CSS.escape(tab.path)}"]`,
   );

@@ -42,7 +42,7 @@ let requests = 0;
 
 function tabId(tab: DocumentTab): string {
   if (tab.kind === 'compare') return 'compare';
-  return tab.kind === 'tree' ? `tree:${tab.id}` : `file:${tab.path}`;
+  return tab.kind === 'tree' ? `tree:${tab.id}` : `${tab.kind}:${tab.path}`;
 }
 
 function nameOf(tab: DocumentTab): string {
@@ -59,7 +59,7 @@ const isNamed = (tab: DocumentTab): boolean =>
 
 /** The folder, or of a universe or robot the id, of a file whose tab has the name of another open tab; null if its name says enough. */
 export function folderOf(tab: DocumentTab, open: readonly DocumentTab[]): string | null {
-  if (tab.kind !== 'file') return null;
+  if (tab.kind !== 'file' && tab.kind !== 'source') return null;
   const name = nameOf(tab);
   const isAlone = open.every((other) => tabId(other) === tabId(tab) || nameOf(other) !== name);
   if (!isAlone && isNamed(tab)) return documentName(tab.path);
@@ -69,7 +69,7 @@ export function folderOf(tab: DocumentTab, open: readonly DocumentTab[]): string
 /** Returns the icon and name of a document's tab. */
 function faceOf(tab: DocumentTab): Pick<IJsonTabNode, 'name' | 'config' | 'helpText'> {
   const name = nameOf(tab);
-  const helpText = tab.kind === 'file' ? tab.path : tab.kind === 'tree' ? name : '';
+  const helpText = tab.kind === 'compare' ? '' : tab.kind === 'tree' ? name : tab.path;
   return { name, config: { document: true, tab }, helpText };
 }
 
@@ -138,6 +138,7 @@ export function followNames(): void {
 
 function exists(tab: DocumentTab): boolean {
   const { files, diagrams } = useProjectStore.getState();
+  if (tab.kind === 'source') return true;
   return tab.kind === 'tree' ? tab.id in diagrams : tab.kind === 'file' && tab.path in files;
 }
 
@@ -196,6 +197,12 @@ export function frontDocument(model: Model): DocumentTab | null {
 }
 
 const isSame = (a: DocumentTab, b: DocumentTab | null) => b !== null && tabId(a) === tabId(b);
+
+/** Whether a tab shows the document that is in front. */
+export function isInFront(node: TabNode): boolean {
+  const tab = documentOf(node);
+  return tab !== undefined && isSame(tab, useTabs.getState().front);
+}
 
 /** Makes the tree in front the active one for canvas, inspector and undo. */
 export function followFront(model: Model): void {

@@ -6,6 +6,7 @@ const STORAGE_KEYS = [
   "'bts.compactTrees'",
   "'bts.followRunning'",
   "'bts.formatOnSave'",
+  "'bts.guide'",
   "'bts.hints'",
   "'bts.keep3d'",
   "'bts.language'",
@@ -19,6 +20,7 @@ const STORAGE_KEYS = [
   '`bts.draft.${projectId}`',
   '`bts.layout.${VERSION}.${width}`',
   '`bts.open.${projectId}`',
+  '`bts.values.${projectId}`',
   '`bts.xml.${projectId}.${treeId}`',
 ];
 const PANELS = [
@@ -40,7 +42,7 @@ const PANELS = [
   'viewer3d',
   'xml',
 ];
-const DOCUMENTS = ['compare', 'file', 'tree'];
+const DOCUMENTS = ['compare', 'file', 'source', 'tree'];
 
 const sources = import.meta.glob<string>(['../**/*.{ts,tsx}', '!../**/*.test.{ts,tsx}'], {
   query: '?raw',

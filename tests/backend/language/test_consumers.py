@@ -13,6 +13,7 @@ import pytest
 from websockets.exceptions import InvalidStatus
 
 from backend.language import consumers, places, servers
+from backend.language.messages import SOURCE_METHOD
 from tests.backend.language.conftest import GO, SOURCE, opened
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -60,6 +61,46 @@ def test_it_follows_the_revisions_of_the_project(host, with_actions, api):
         ]:
             assert time.monotonic() < deadline
             time.sleep(0.05)
+
+
+@pytest.mark.parametrize(
+    ("source", "place", "text"),
+    [
+        ("import rclpy.node\n", (0, 14), "class Node"),
+        ("import py_trees.common\n", (0, 17), "class Status"),
+        ("import json\n", (0, 8), "def dumps"),
+        ("x = len(())\n", (0, 5), "def len"),
+        ("import tree_gardener.ports\n", (0, 21), "class Port"),
+        ("from sensor_msgs.msg import LaserScan\n", (0, 30), "LaserScan"),
+    ],
+)
+def test_a_definition_outside_of_the_project_can_be_read_and_asked_about(
+    host, with_actions, source, place, text
+):
+    with opened(host, f"/ws/projects/{with_actions}/language") as page:
+        page.begin()
+        page.open(GO, source)
+        uri = page.at("definition", *place)[0]["uri"]
+        assert uri.startswith("file:///library/")
+        shown = page.ask(SOURCE_METHOD, uri=uri)["text"]
+        assert text in shown
+        page.open(uri, shown)
+        line = next(number for number, each in enumerate(shown.split("\n")) if text in each)
+        start = shown.split("\n")[line].index(text) + len(text) - 1
+        position = {"line": line, "character": start}
+        assert page.ask("textDocument/hover", textDocument={"uri": uri}, position=position)
+
+
+def test_only_sources_are_given_out(host, with_actions, tmp_path):
+    (tmp_path / "secret.py").write_text("secret = 1\n")
+    with opened(host, f"/ws/projects/{with_actions}/language") as page:
+        page.begin()
+        foreign = ("file:///etc/passwd", f"file://{tmp_path}/secret.py", "file:///library/python/../../x.py")
+        for uri in foreign:
+            assert "not a file of this project" in page.ask(SOURCE_METHOD, uri=uri)["message"]
+        for uri in ("file:///library/python/LICENSE.txt", "file:///library/packages/none.py", GO):
+            assert page.ask(SOURCE_METHOD, uri=uri)["message"] == "This file cannot be shown."
+        assert "cannot be shown" in page.ask(SOURCE_METHOD)["message"]
 
 
 def test_it_names_no_file_of_the_machine(host, with_actions):

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from backend.language import consumers, tools
+from backend.language.messages import SOURCE_METHOD
 from backend.sessions import writes
 from tests.backend.language.conftest import GO, SOURCE, opened
 from tests.backend.sessions.keeper.conftest import Host
@@ -47,6 +48,10 @@ def test_an_editor_knows_neighbours_follows_revisions_and_leaves_nothing(
         page.open(GO, SOURCE.replace("import Turn\n", "import Turn\nfrom Spin import Spin\n"))
         assert page.at("definition", 3, 18)[0]["uri"] == "file:///project/actions/Turn.py"
         assert not page.at("definition", 4, 18), "there is no such file"
+        [status] = page.at("definition", 11, 41)
+        assert "class Status" in page.ask(SOURCE_METHOD, uri=status["uri"])["text"]
+        nowhere = "file:///library/packages/none.py"
+        assert page.ask(SOURCE_METHOD, uri=nowhere)["message"] == "This file cannot be shown."
         spin = {"path": "actions/Spin.py", "base_revision": 0, "content": "class Spin:\n    pass\n"}
         api.save(with_actions, spin)
         deadline = time.monotonic() + 60

@@ -11,6 +11,7 @@ from executor.messages import (
     Finished,
     LaunchNode,
     LaunchNodes,
+    Log,
     PortSet,
     StateChanged,
     Tick,
@@ -19,7 +20,7 @@ from executor.messages import (
     TreeNode,
 )
 from executor.session.ladder import State
-from executor.session.mirror import FAULTS, Mirror
+from executor.session.mirror import FAULTS, LOG_LINES, Mirror
 
 NODE = TreeNode(uid=1, parent=0, type="A", kind="action", name="", path="A::1", node_id="", tree_id="T")
 
@@ -103,3 +104,18 @@ def test_a_launch_node_that_runs_again_has_no_fault() -> None:
     node.state = "running"
     mirror.apply(LaunchNodes([node]))
     assert mirror.snapshot().faults == [other]
+
+
+def test_the_kept_lines_know_where_runs_began() -> None:
+    mirror = Mirror()
+    mirror.begin_run(10.0)
+    mirror.apply(Log("action", "info", "one"))
+    mirror.begin_run(10.0)
+    mirror.apply(Log("action", "info", "two"))
+    snapshot = mirror.snapshot(hanging_s=4.0)
+    assert (snapshot.runs, snapshot.run_starts, snapshot.hanging_s) == (2, [(0, 1), (1, 2)], 4.0)
+    for number in range(LOG_LINES - 1):
+        mirror.apply(Log("action", "info", str(number)))
+    assert mirror.snapshot().run_starts == [(0, 2)]
+    mirror.apply(Log("action", "info", "last"))
+    assert mirror.snapshot().run_starts == []

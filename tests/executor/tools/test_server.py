@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import inspect
 import json
+import os
 import socket
 import sys
 from pathlib import Path
@@ -86,15 +88,21 @@ async def test_an_editor_has_files_bytes_and_a_folder_that_goes(tmp_path, monkey
         assert told["python"] == sys.executable
         await editor.send(json.dumps({"files": {"a/b.py": "1", "c.py": "2"}}))
         await editor.send(json.dumps({"files": {"c.py": None, "a/b.py": "3"}}))
+        await editor.send(json.dumps({"source": f"{home}/c.py"}))
+        await editor.send(json.dumps({"source": os.__file__}))
         await editor.send(b"hello")
         said = b""
         memory = None
+        sources = {}
         while said != b"hello" or memory is None:
             message = await editor.recv()
             if isinstance(message, bytes):
                 said += message
+            elif "source" in (heard := json.loads(message)):
+                sources[heard["source"]] = heard["text"]
             else:
-                memory = json.loads(message)["memory_bytes"]
+                memory = heard["memory_bytes"]
+        assert sources == {f"{home}/c.py": None, os.__file__: inspect.getsource(os)}
         assert memory > 1e5
         assert texts_below(home) == ["3"]
         assert "cat" in children()

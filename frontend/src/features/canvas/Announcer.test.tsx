@@ -1,8 +1,10 @@
 import { act, screen } from '@testing-library/react';
-import { beforeEach, expect, it } from 'vitest';
+import { beforeEach, expect, it, onTestFinished } from 'vitest';
 import { useLiveStore } from '@/store/project/live';
 import type { ShownProblem } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
+import { useLiveValues } from '@/store/session/values/live';
+import { useShownValues } from '@/store/session/values/shown';
 import { openDiagram } from '../../../harness/canvas';
 import { show } from '../../../harness/testing';
 import { Announcer } from './Announcer';
@@ -66,4 +68,18 @@ it('is silent while no block of this tree is selected', () => {
   select('Other', 'r');
   expect(text()).toBe('');
   expect(screen.getByText('', { selector: '#canvas-announcer' })).toHaveAttribute('aria-live', 'polite');
+});
+
+it('tells the values that the block shows, and does not follow them', () => {
+  useShownValues.setState({ ports: new Set(['Main/a/msec']) });
+  const live = { key: 'wait', value: 12.34567, changedAt: 1, samples: [] };
+  useLiveValues.setState({ values: new Map([['Main/a/msec', live]]) });
+  onTestFinished(() => {
+    useShownValues.setState({ ports: new Set() });
+    useLiveValues.setState({ values: new Map() });
+  });
+  select('Main', 'a');
+  expect(text()).toContain('msec is 12.35');
+  act(() => useLiveValues.setState({ values: new Map([['Main/a/msec', { ...live, value: 13 }]]) }));
+  expect(text()).toContain('msec is 12.35');
 });

@@ -1,16 +1,35 @@
 import { memo } from 'react';
 import { useTranslation } from 'react-i18next';
-import { displayName, parentOf } from '@/model/diagram';
+import { displayName, parentOf, type DiagramNode, type NodeId } from '@/model/diagram';
+import { portLines } from '@/model/measure';
+import { specOf, type NodeSpec } from '@/model/vocabulary';
 import { liveKey, pastOf, useLiveStore } from '@/store/project/live';
 import type { ShownProblem } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
+import { useLiveValues } from '@/store/session/values/live';
+import { shownPort } from '@/store/session/values/shown';
 import { useProblemText } from '@/ui/useProblemText';
+import { shortValue } from './block/spark';
 import { ordinal } from './flow';
 import classes from './Canvas.module.css';
 
 interface AnnouncerProps {
   readonly treeId: string;
   readonly problems: ReadonlyMap<string, ShownProblem>;
+}
+
+interface Spoken {
+  readonly port: string;
+  readonly value: string;
+}
+
+/** The values that the block shows now; they are not followed, since a number would never fall silent. */
+function valuesOf(node: DiagramNode, spec: NodeSpec | undefined, tree: string, id: NodeId): Spoken[] {
+  const { values } = useLiveValues.getState();
+  return portLines(node, spec).flatMap(({ name }) => {
+    const live = values.get(shownPort(tree, id, name));
+    return live ? [{ port: name, value: shortValue(live.value) }] : [];
+  });
 }
 
 /** The announcement of the selected block for screen readers: name, type, place, status and problems. */
@@ -21,6 +40,7 @@ export const Announcer = memo(function Announcer({ treeId, problems }: Announcer
   const status = useLiveStore((state) => state.statuses.get(liveKey(treeId, id ?? '')) ?? 'IDLE');
   const past = useLiveStore((state) => pastOf(state, liveKey(treeId, id ?? '')));
   const fault = useLiveStore((state) => state.faults.get(liveKey(treeId, id ?? '')));
+  const vocabulary = useProjectStore((state) => state.vocabulary);
   const textOf = useProblemText();
   const problem = problems.get(id ?? '');
   const node = id === undefined ? undefined : diagram?.nodes[id];
@@ -37,6 +57,9 @@ export const Announcer = memo(function Announcer({ treeId, problems }: Announcer
       : t('announce.root'),
     ...(status === 'IDLE' ? [] : [t(`status.${status}`)]),
     ...(past === undefined ? [] : [t('announce.past', { status: t(`status.${past}`) })]),
+    ...valuesOf(node, specOf(vocabulary, node), treeId, id).map(({ port, value }) =>
+      t('announce.value', { port, value }),
+    ),
     ...(fault === undefined ? [] : [t('announce.fault', { message: fault })]),
     ...(problem ? [t('announce.problem', { message: textOf(problem).message })] : []),
     ...(node.disabled ? [t('announce.disabled')] : []),

@@ -50,6 +50,8 @@ describe('BlockMenu', () => {
 
   it('has the commands for a leaf', () => {
     open(['a']);
+    const menu = screen.getByRole('menu', { name: 'Commands on the block' });
+    expect(menu.querySelector('[role=presentation][tabindex]')).toBeNull();
     expect(groups()).toEqual([['addAfter', 'wrap', 'morph'], ...COMMON]);
   });
 

@@ -2,6 +2,7 @@ import { Menu } from '@mantine/core';
 import { Fragment } from 'react';
 import { useTranslation } from 'react-i18next';
 import { keysOf } from '@/commands/shortcuts';
+import { PointTarget } from '@/ui/PointTarget';
 import { blockCommands, type BlockCommand } from './commands/blockCommands';
 import { levelCommands } from './commands/levelCommands';
 
@@ -62,10 +63,16 @@ export function BlockMenu({ point, onClose }: BlockMenuProps) {
   const { t } = useTranslation('canvas');
   if (!point) return null;
   return (
-    <Menu opened onClose={onClose} position="bottom-start" offset={2} width={284} returnFocus={false}>
-      <Menu.Target>
-        <span style={{ position: 'fixed', left: point.x, top: point.y, width: 1, height: 1 }} />
-      </Menu.Target>
+    <Menu
+      opened
+      withInitialFocusPlaceholder={false}
+      onClose={onClose}
+      position="bottom-start"
+      offset={2}
+      width={284}
+      returnFocus={false}
+    >
+      <PointTarget x={point.x} y={point.y} label={t(point.isOnBlock ? 'menu.ofBlocks' : 'menu.ofCanvas')} />
       <Menu.Dropdown
         onContextMenu={(event) => {
           event.preventDefault();

@@ -22,6 +22,7 @@ import { FixBox } from './FixBox';
 import { FlowProjection, withHeld, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
 import { openBlock } from './commands/selectedBlock';
 import { enterInside, isMenuKey, onCanvasKey } from './gestures/keyboard';
+import { OutOfSight } from './view/OutOfSight';
 import { Overview } from './view/Overview';
 import { QuickAdd } from './quickAdd/QuickAdd';
 import { openQuickAdd, pointOf } from './quickAdd/open';
@@ -259,6 +260,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
       </ReactFlow>
       {isMinimapShown(minimap, nodes.length) && <Overview nodes={resting} edges={edges} />}
       {nodes.length === 0 && <EmptyTree treeId={treeId} />}
+      <OutOfSight layout={layout} onBack={focus} />
       <Breadcrumbs treeId={treeId} />
       <CanvasToolbar treeId={treeId} />
       {find && <FindBar treeId={treeId} onClose={focus} />}

@@ -18,7 +18,10 @@ import { extensionsFor } from './extensions';
 import { lintMarks, servedMark } from './findings';
 import { applyKeptFontSize } from './fontSize';
 import { changesBetween } from './language/ruff';
+import { uriOf } from './language/uris';
 import { LanguageStatus } from './LanguageStatus';
+import { ReferencesPanel } from './places/ReferencesPanel';
+import { RenameDialog } from './places/RenameDialog';
 import { textMarks, useTextErrors } from './textErrors';
 
 interface CodeTabProps {
@@ -102,7 +105,13 @@ export function CodeTab({ path }: CodeTabProps) {
   return (
     <div className={frame['frame']}>
       <div ref={host} className={frame['editor']} data-testid="code-editor" data-path={path} />
-      {path.endsWith('.py') ? <LanguageStatus path={path} /> : null}
+      {path.endsWith('.py') ? (
+        <>
+          <ReferencesPanel onLeave={() => view.current?.focus()} />
+          <RenameDialog uri={uriOf(path)} />
+          <LanguageStatus path={path} />
+        </>
+      ) : null}
     </div>
   );
 }

@@ -19,6 +19,9 @@ interface ExplorerItemProps {
   readonly worst: Worst | undefined;
 }
 
+/** The button of a press of the pointer; the keys that open a menu have none. */
+const RIGHT = 2;
+
 function nameOf(path: string): string {
   const treeId = treeIdOf(path);
   return treeId ?? path.replace(/^(actions|universes)\//, '').replace(/^robots\/([^/]+)\/robot\.yaml$/, '$1');
@@ -27,6 +30,7 @@ function nameOf(path: string): string {
 export function ExplorerItem({ path, isTree, isAction, worst }: ExplorerItemProps) {
   const { t } = useTranslation('frame');
   const [isMenuOpen, setMenuOpen] = useState(false);
+  const [point, setPoint] = useState<{ x: number; y: number } | null>(null);
   const treeId = treeIdOf(path);
   const isDiagram = useProjectStore((state) => state.files[path]?.kind === 'tree');
   const isBinary = useProjectStore((state) => state.files[path]?.kind === 'binary');
@@ -50,6 +54,7 @@ export function ExplorerItem({ path, isTree, isAction, worst }: ExplorerItemProp
   const onContextMenu = (event: MouseEvent) => {
     if (path === 'project.json') return;
     event.preventDefault();
+    setPoint(event.button === RIGHT ? { x: event.clientX, y: event.clientY } : null);
     setMenuOpen(true);
   };
 
@@ -77,7 +82,11 @@ export function ExplorerItem({ path, isTree, isAction, worst }: ExplorerItemProp
           path={path}
           name={nameOf(path)}
           isOpened={isMenuOpen}
-          onChange={setMenuOpen}
+          point={isMenuOpen ? point : null}
+          onChange={(isOpened) => {
+            setPoint(null);
+            setMenuOpen(isOpened);
+          }}
           onOpen={() => openTab(tab)}
         />
       )}

@@ -36,8 +36,27 @@ describe('a right click, or the menu key', () => {
   });
 });
 
-it('is closed until it is requested', () => {
-  show(<ExplorerMenu path="b.md" name="b.md" isOpened={false} onChange={vi.fn()} onOpen={vi.fn()} />);
+it('opens at the pointer, or at its button', () => {
+  const props = { path: 'b.md', name: 'b.md', isOpened: true, onChange: vi.fn(), onOpen: vi.fn() };
+  const { rerender, container } = show(<ExplorerMenu {...props} point={{ x: 12, y: 34 }} />);
+  const target = () => container.querySelector<HTMLElement>('[aria-expanded]');
+  expect(target()?.style).toMatchObject({ left: '12px', top: '34px' });
+  expect(screen.getByRole('menu', { name: 'More for b.md' })).toBeInTheDocument();
+  rerender(<ExplorerMenu {...props} point={null} />);
+  expect(target()).toHaveAccessibleName('More for b.md');
+});
+
+it('is shut until it is asked for', () => {
+  show(
+    <ExplorerMenu
+      path="b.md"
+      name="b.md"
+      isOpened={false}
+      point={null}
+      onChange={vi.fn()}
+      onOpen={vi.fn()}
+    />,
+  );
   expect(screen.getByRole('button', { name: 'More for b.md' })).toHaveAttribute('aria-expanded', 'false');
 });
 

@@ -21,6 +21,7 @@ import { canDuplicate, duplicateDocument } from '@/store/project/duplicating';
 import { copyTree } from '@/store/project/edits/clipboard';
 import { treeIdOf } from '@/store/project/state';
 import { setScope } from '@/store/revisions/scope';
+import { PointTarget } from '@/ui/PointTarget';
 import { undoNotification } from '@/ui/undoNotification';
 import { showPanel } from '@/workspace/tabs';
 import classes from './explorer.module.css';
@@ -30,12 +31,14 @@ interface ExplorerMenuProps {
   readonly path: string;
   readonly name: string;
   readonly isOpened: boolean;
+  /** The point of a right click; null: at the button. */
+  readonly point: { readonly x: number; readonly y: number } | null;
   readonly onChange: (isOpened: boolean) => void;
   readonly onOpen: () => void;
 }
 
-/** The menu of a file; its button, a right click, Shift+F10 and the menu key open it. */
-export function ExplorerMenu({ path, name, isOpened, onChange, onOpen }: ExplorerMenuProps) {
+/** What can be done with a file; its button, a right click, Shift+F10 and the menu key open it. */
+export function ExplorerMenu({ path, name, isOpened, point, onChange, onOpen }: ExplorerMenuProps) {
   const { t } = useTranslation('frame');
   const treeId = treeIdOf(path);
   const isDiagram = useProjectStore((state) => state.files[path]?.kind === 'tree');
@@ -75,13 +78,23 @@ export function ExplorerMenu({ path, name, isOpened, onChange, onOpen }: Explore
     notifications.show({ message: t('explorer.copied', { path }) });
   };
 
+  const label = t('explorer.moreFor', { name });
+  const button = (
+    <ActionIcon size="sm" className={classes['more']} aria-label={label}>
+      <IconDots size={15} />
+    </ActionIcon>
+  );
+
   return (
-    <Menu position="bottom-end" opened={isOpened} onChange={onChange}>
-      <Menu.Target>
-        <ActionIcon size="sm" className={classes['more']} aria-label={t('explorer.moreFor', { name })}>
-          <IconDots size={15} />
-        </ActionIcon>
-      </Menu.Target>
+    <Menu position={point ? 'bottom-start' : 'bottom-end'} opened={isOpened} onChange={onChange}>
+      {point ? (
+        <>
+          <PointTarget {...point} label={label} />
+          {button}
+        </>
+      ) : (
+        <Menu.Target>{button}</Menu.Target>
+      )}
       <Menu.Dropdown>
         <Menu.Item disabled={isBinary} leftSection={<IconFolderOpen size={16} />} onClick={onOpen}>
           {t('explorer.open')}
@@ -117,7 +130,7 @@ export function ExplorerMenu({ path, name, isOpened, onChange, onOpen }: Explore
           {t('explorer.history')}
         </Menu.Item>
         <Menu.Item
-          color="red"
+          color="var(--bts-failure)"
           disabled={isMain}
           leftSection={<IconTrash size={16} />}
           onClick={() => void removeDocument(path)}

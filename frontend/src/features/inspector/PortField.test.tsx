@@ -1,4 +1,4 @@
-import { screen } from '@testing-library/react';
+import { cleanup, screen } from '@testing-library/react';
 import { useState } from 'react';
 import { describe, expect, it, vi } from 'vitest';
 import type { PortSpec } from '@/model/ports';
@@ -23,6 +23,7 @@ function Field({ spec, start = null, onChange }: FieldProps) {
       value={value}
       keys={['goal', 'pose']}
       error={null}
+      shown={`Main/a/${spec.name}`}
       taken={[]}
       onRenameKey={onRenameKey}
       onChange={change}
@@ -131,6 +132,24 @@ describe('PortField', () => {
     expect(last()).toBe('{goal}');
   });
 
+  it('keeps the caret while a typed brace makes a value a key, and back', async () => {
+    const { input, last } = field({ default: '0.3' });
+    await user.type(input(), '{{goal}');
+    expect(input()).toHaveFocus();
+    expect(last()).toBe('{goal}');
+    await user.keyboard('{Backspace>6/}');
+    expect(input()).toHaveFocus();
+    await user.keyboard('7');
+    expect(last()).toBe('7');
+  });
+
+  it('keeps the caret in an output whose key has no braces yet', async () => {
+    const { input, last } = field({ direction: 'output', type: 'string' });
+    await user.type(input(), 'side');
+    expect(input()).toHaveFocus();
+    expect(last()).toBe('side');
+  });
+
   it('accepts only a key for an output', () => {
     const { input } = field({ direction: 'output' });
     expect(input()).toHaveAttribute('placeholder', '{x}');
@@ -146,5 +165,17 @@ describe('PortField', () => {
   it('has no reset for a required port', () => {
     field({ required: true }, '2');
     expect(screen.queryByRole('button', { name: 'Back to the default' })).toBeNull();
+  });
+
+  it('offers to show its value in the block where it names a key', () => {
+    const name = 'Show the value of x in the block';
+    field({}, '{goal}');
+    expect(screen.getByRole('button', { name })).toHaveAttribute('aria-pressed', 'false');
+    cleanup();
+    field({ default: '{=}' });
+    expect(screen.getByRole('button', { name })).toBeInTheDocument();
+    cleanup();
+    field({}, '2');
+    expect(screen.queryByRole('button', { name })).toBeNull();
   });
 });

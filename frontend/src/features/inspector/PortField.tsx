@@ -2,12 +2,16 @@ import { ActionIcon, Tooltip } from '@mantine/core';
 import { IconArrowBackUp, IconBraces, IconCursorText, IconPencil, IconTrash } from '@tabler/icons-react';
 import { useEffect, useId, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { keyIn } from '@/model/keys/entry';
 import { readPortText, type PortSpec } from '@/model/ports';
+import type { ShownPort } from '@/store/session/values/shown';
 import type { PortMark } from '@/store/run/portMarks';
 import { LivePort } from './ports/LivePort';
 import { useTyping } from './ports/useTyping';
 import { KeyInput } from './KeyInput';
 import { PortNameInput } from './PortNameInput';
+import { ShowValue } from './ports/ShowValue';
+import { useKeptCaret } from './ports/useKeptCaret';
 import { ValueInput } from './ValueInput';
 import classes from './Inspector.module.css';
 
@@ -20,6 +24,8 @@ interface PortFieldProps {
   readonly onChange: (value: string | null) => void;
   /** Whether the port was just added: then its value gets the caret. */
   readonly isNew?: boolean;
+  /** The key of the choice to show the port's live value in the block. */
+  readonly shown: ShownPort;
   /** Called when the focus leaves the field. */
   readonly onLeave?: () => void;
   /** Present only for a port that is set but not declared. */
@@ -70,13 +76,11 @@ export function PortField(props: PortFieldProps) {
   const read = readPortText(value ?? '');
   const { kind } = read;
   const key = read.kind === 'key' ? `${read.global ? '@' : ''}${read.key}` : port.name;
-  const isKey =
-    kind === 'key' ||
-    kind === 'same-name' ||
-    kind === 'broken' ||
-    (port.direction === 'output' && kind !== 'literal');
+  // An output is written to a key, also while its name is still without braces.
+  const isKey = kind === 'key' || kind === 'same-name' || kind === 'broken' || port.direction === 'output';
+  const kept = useKeptCaret(field, isKey ? 'key' : 'value');
   return (
-    <div ref={field} className={classes['portField']} {...handlers}>
+    <div ref={field} className={classes['portField']} {...handlers} {...kept}>
       <div className={classes['portHead']}>
         {isRenaming ? (
           <PortNameInput
@@ -111,6 +115,9 @@ export function PortField(props: PortFieldProps) {
               <IconBraces size={14} aria-hidden="true" />
             </ActionIcon>
           </Tooltip>
+        )}
+        {keyIn(value ?? port.default ?? '', port.name) !== null && (
+          <ShowValue port={props.shown} name={port.name} />
         )}
         {(kind === 'key' || kind === 'same-name') && (
           <Tooltip label={t('keys:here')}>

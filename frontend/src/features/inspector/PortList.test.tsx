@@ -157,5 +157,5 @@ it('accepts ports of an unknown type', async () => {
   show(<List id="x" />);
   expect(fields()).toEqual(['lost']);
   expect(adding()).not.toBeNull();
-  expect(within(screen.getByText('lost').parentElement!).getAllByRole('button')).toHaveLength(4);
+  expect(within(screen.getByText('lost').parentElement!).getAllByRole('button')).toHaveLength(5);
 });

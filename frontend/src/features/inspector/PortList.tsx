@@ -13,6 +13,7 @@ import { portsInUse, shared } from '@/store/project/edits/ports';
 import { liveKey } from '@/store/project/live';
 import { problemsOf } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
+import { shownPort } from '@/store/session/values/shown';
 import { useProblemText } from '@/ui/useProblemText';
 import { shippedPort } from '@/i18n/shipped';
 import { keepPort } from '@/store/run/livePorts';
@@ -99,6 +100,7 @@ export function PortList(target: Target) {
           port={{ ...port, description: shippedPort(node.type, port.name, port.description) }}
           value={node.ports?.[port.name] ?? null}
           keys={keys}
+          shown={shownPort(diagram.id, id, port.name)}
           isNew={fresh?.id === id && fresh.name === port.name}
           onLeave={() => {
             setFresh(null);

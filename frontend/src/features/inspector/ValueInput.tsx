@@ -2,6 +2,7 @@ import { SegmentedControl, Select, TextInput } from '@mantine/core';
 import type { KeyboardEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import { choicesOf, widgetOf, type PortSpec } from '@/model/ports';
+import { useFirstPress } from './ports/useFirstPress';
 import { ScriptInput } from './ScriptInput';
 
 interface ValueInputProps {
@@ -25,6 +26,7 @@ const mono = { input: { fontFamily: 'var(--bts-font-mono)' } };
 /** The field for a literal value, with the widget for the port's type. */
 export function ValueInput({ port, labelledBy, value, keys, error, onChange }: ValueInputProps) {
   const { t } = useTranslation('inspector');
+  const selectsAll = useFirstPress();
   const shared = { 'aria-labelledby': labelledBy, 'data-testid': `port-${port.name}`, size: 'xs' } as const;
   const widget = widgetOf(port.type);
   const current = value ?? '';
@@ -83,7 +85,7 @@ export function ValueInput({ port, labelledBy, value, keys, error, onChange }: V
       placeholder={placeholder}
       error={error !== null}
       spellCheck={false}
-      {...(isNumber ? { inputMode: 'decimal' as const } : {})}
+      {...(isNumber ? { inputMode: 'decimal' as const, ...selectsAll } : {})}
       onKeyDown={onKeyDown}
       onChange={(event) => {
         const text = event.currentTarget.value;

@@ -4,6 +4,7 @@ import { useTranslation } from 'react-i18next';
 import { openPalette } from '@/commands/palette';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
+import { useGuide } from './guide/guide';
 import { finishHint, HINTS, useHints } from './hints';
 import classes from './onboarding.module.css';
 
@@ -15,6 +16,7 @@ export function Hint() {
     Object.values(state.histories).some((each) => each.past.length > 0),
   );
   const isRunning = useSessionStore((state) => state.executor === 'application_running');
+  const isGuided = useGuide(({ step }) => step !== null);
   const isReadOnly = useProjectStore((state) => state.role === 'viewer');
 
   useEffect(() => {
@@ -24,7 +26,8 @@ export function Hint() {
     if (isRunning) finishHint('run');
   }, [isRunning]);
 
-  if (id === undefined || isReadOnly) return null;
+  // The first task says the same, where it is to be done.
+  if (id === undefined || isReadOnly || isGuided) return null;
   return (
     <span className={classes['hint']} role="status" data-testid="hint" data-hint={id}>
       <IconBulb size={14} aria-hidden="true" />

@@ -50,6 +50,13 @@ describe('NewAction', () => {
     expect(create()).toBeEnabled();
   });
 
+  it.each(['beep!', '2nd', 'lambda'])('says why there can be no class %s', async (typed) => {
+    await user.type(name(), `${typed}{Enter}`);
+    expect(screen.getByText(/no Python keyword/)).toBeInTheDocument();
+    expect(name()).toBeInvalid();
+    expect(onDone).not.toHaveBeenCalled();
+  });
+
   it('makes nothing when it is cancelled', async () => {
     await user.type(name(), 'PickUp');
     await user.click(screen.getByRole('button', { name: 'Cancel' }));

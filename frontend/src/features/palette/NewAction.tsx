@@ -19,6 +19,7 @@ export function NewAction({ onDone }: { readonly onDone: () => void }) {
   const [kind, setKind] = useState<ActionKind>('Action');
   const isTaken = vocabulary.specs.has(name);
   const isValid = isPythonName(name) && !isTaken;
+  const problem = isTaken ? t('taken') : isValid || name === '' ? undefined : t('noName');
   return (
     <form
       className={classes['form']}
@@ -35,7 +36,7 @@ export function NewAction({ onDone }: { readonly onDone: () => void }) {
         label={t('name')}
         description={t('nameHint')}
         value={name}
-        error={isTaken ? t('taken') : undefined}
+        error={problem}
         ref={field}
         onChange={(event) => {
           setName(event.currentTarget.value);

@@ -67,7 +67,7 @@ function Row({ item }: { readonly item: ListedProblem }) {
           {message} {hint ? <span className={classes['hint']}>{hint}</span> : null}
         </span>
         <span className={classes['where']}>{where}</span>
-        <span className={classes['code']}>
+        <span className={classes[item.isFault ? 'fault' : 'code']}>
           {item.isFault ? t('fault') : item.topic === null ? item.code : t('topic')}
         </span>
       </button>

@@ -81,6 +81,8 @@ describe('ExecutorState', () => {
       'Stopped: fault',
     );
     expect(words({ silentS: 12 })).toBe('Not responding (12 s)');
-    expect(words({ executor: 'application_running', isHanging: true })).toBe('Not responding (3 s)');
+    expect(words({ executor: 'application_running', isHanging: true, hungS: 7.4 })).toBe(
+      'Not responding (7 s)',
+    );
   });
 });

@@ -39,6 +39,7 @@ export function ExecutorState() {
 function useSilence(): number {
   const silentS = useSessionStore((state) => state.silentS);
   const isHanging = useSessionStore((state) => state.isHanging);
+  const hungS = useSessionStore((state) => Math.round(state.hungS));
   const [hangsS, setHangsS] = useState(0);
   useEffect(() => {
     if (!isHanging) return;
@@ -48,8 +49,5 @@ function useSilence(): number {
       setHangsS(0);
     };
   }, [isHanging]);
-  return silentS > 0 ? silentS : HANG_REPORTED_S + hangsS;
+  return silentS > 0 ? silentS : hungS + hangsS;
 }
-
-/** The time in s after which the executor reports a tick that has not returned. */
-const HANG_REPORTED_S = 3;

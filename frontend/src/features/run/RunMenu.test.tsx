@@ -13,7 +13,7 @@ beforeEach(() => {
   openProject({});
   onTestFinished(
     registerCommands([
-      { id: 'run.step10', group: 'run', labelKey: 'run:command.step10', shortcut: 'Shift+F10', run: step },
+      { id: 'run.step10', group: 'run', labelKey: 'run:command.step10', shortcut: '$mod+F10', run: step },
       {
         id: 'run.restart',
         group: 'run',
@@ -40,7 +40,7 @@ describe('RunMenu', () => {
   it('has the available commands, with their keys', async () => {
     await open();
     const item = screen.getByRole('menuitem', { name: /^Step ten ticks/ });
-    expect(item).toHaveTextContent('Step ten ticksShift+F10');
+    expect(item).toHaveTextContent('Step ten ticksCtrl+F10');
     await user.click(item);
     expect(step).toHaveBeenCalledOnce();
     expect(screen.queryByRole('menuitem', { name: /Reset the world/ })).toBeNull();

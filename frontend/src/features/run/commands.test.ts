@@ -95,7 +95,7 @@ describe('commands of a run', () => {
       ['run.resume', 'F7', true],
       ['run.step', 'F10', true],
       ['run.stop', 'Shift+F5', true],
-      ['run.step10', 'Shift+F10', true],
+      ['run.step10', '$mod+F10', true],
       ['run.restart', '$mod+Shift+F5', true],
     ]);
   });

@@ -94,7 +94,7 @@ const rows: UserCommand[] = [
     group: 'run',
     labelKey: 'run:command.step10',
     icon: IconPlayerTrackNextFilled,
-    shortcut: 'Shift+F10',
+    shortcut: '$mod+F10',
     inTextFields: true,
     enabled: hasApplication,
     run: () => void stepMany(10),

@@ -1,17 +1,18 @@
 import { Button, Text, useComputedColorScheme } from '@mantine/core';
 import { IconCurrentLocation, IconPlayerPlayFilled } from '@tabler/icons-react';
-import { Canvas } from '@react-three/fiber';
-import { useRef, useState } from 'react';
+import { useMemo, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { perform } from '@/commands/registry';
 import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 import { CameraInset } from './pictures/CameraInset';
-import { keep3d } from './keep3d';
+import { keep3d, keeps3d } from './keep3d';
+import { canMove } from './lastMove';
+import { useMeasuring } from './measuring';
 import { Notes } from './Notes';
-import { Stage } from './scene/Stage';
+import type { View } from './offscreen/messages';
 import { TeleopPad } from './TeleopPad';
-import './scene/three';
+import { usePageShown } from '@/ui/usePageShown';
 import { useScene } from './useScene';
 import { useStream } from './useStream';
 import { useUsesCamera } from './pictures/useUsesCamera';
@@ -20,7 +21,8 @@ import { VideoInstead } from './VideoInstead';
 import { ViewerToolbar } from './ViewerToolbar';
 import { keepViewOptions, loadViewOptions, type ViewOptions } from './viewOptions';
 import classes from './viewer.module.css';
-import { hasWebGl, isSoftwareWebGl } from './webgl';
+import { hasWebGl } from './webgl';
+import { WorldPicture } from './WorldPicture';
 
 const POSES_HZ = 30;
 const SCAN_HZ = 10;
@@ -35,8 +37,14 @@ export function Viewer3d() {
   const [options, setOptions] = useState<ViewOptions>(loadViewOptions);
   const usesCamera = useUsesCamera();
   const camera = options.camera ?? usesCamera;
-  const isSimple = isSoftwareWebGl();
   const [slowHz, setSlowHz] = useState<number | null>(null);
+  const measuring = useMeasuring();
+  const canDrag = useSessionStore(canMove);
+  const isJudged = usePageShown() && isVisible && !keeps3d();
+  const view = useMemo<View>(
+    () => ({ options, isDark, isVisible, isJudged, canMove: canDrag, measuring }),
+    [options, isDark, isVisible, isJudged, canDrag, measuring],
+  );
   useStream('poses', isVisible && hasWebGl() && slowHz === null, { max_hz: POSES_HZ });
   useStream('scan', isVisible && hasWebGl() && slowHz === null && options.rays, { max_hz: SCAN_HZ });
 
@@ -64,24 +72,12 @@ export function Viewer3d() {
       {hasWebGl() && !scene ? <NoWorld /> : null}
       {hasWebGl() && scene ? (
         <>
-          <Canvas
-            frameloop={isVisible ? 'demand' : 'never'}
-            shadows={isSimple ? false : 'percentage'}
-            dpr={isSimple ? 0.8 : [1, 2]}
-            gl={{ antialias: !isSimple, powerPreference: 'high-performance' }}
-            camera={{ fov: 45, near: 0.05, far: 200, up: [0, 0, 1], position: [-4, -4, 4] }}
-            aria-label={t('label3d')}
-            role="img"
-          >
-            <Stage
-              scene={scene}
-              options={options}
-              isDark={isDark}
-              isVisible={isVisible}
-              onMoved={() => options.follow && change({ follow: false })}
-              onSlow={setSlowHz}
-            />
-          </Canvas>
+          <WorldPicture
+            scene={scene}
+            view={view}
+            onTurned={() => options.follow && change({ follow: false })}
+            onSlow={setSlowHz}
+          />
           <ViewerToolbar options={{ ...options, camera }} onChange={change} />
           <Notes />
           {options.follow ? null : <FollowButton onClick={() => change({ follow: true })} />}

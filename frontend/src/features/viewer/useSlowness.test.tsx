@@ -1,12 +1,10 @@
 import { renderHook } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
-import { keep3d } from './keep3d';
 import { useSlowness } from './useSlowness';
 
 let now = 0;
 
 beforeEach(() => {
-  localStorage.clear();
   now = 0;
   const clock = vi.spyOn(performance, 'now').mockImplementation(() => now);
   onTestFinished(() => clock.mockRestore());
@@ -16,9 +14,9 @@ beforeEach(() => {
  * Requests pictures continuously for four seconds and draws two a second; returns the rates that were too
  * slow.
  */
-function watch(isVisible = true) {
+function watch(isJudged = true) {
   const onSlow = vi.fn();
-  const { result } = renderHook(() => useSlowness(isVisible, onSlow));
+  const { result } = renderHook(() => useSlowness(isJudged, onSlow));
   for (; now < 4000; now += 50) {
     result.current.request();
     if (now % 500 === 0) result.current.draw();
@@ -33,12 +31,7 @@ describe('the watch on a view', () => {
     expect(onSlow.mock.lastCall?.[0]).toBeCloseTo(2, 0);
   });
 
-  it('accepts any rate if the user keeps 3D', () => {
-    keep3d();
-    expect(watch()).not.toHaveBeenCalled();
-  });
-
-  it('does not judge a hidden view', () => {
+  it('does not judge a hidden view, or one that the user keeps', () => {
     expect(watch(false)).not.toHaveBeenCalled();
   });
 });

@@ -1,5 +1,4 @@
 import { useEffect, useMemo } from 'react';
-import { keeps3d } from './keep3d';
 import { Slowness } from './slowness';
 
 interface Watch {
@@ -10,24 +9,23 @@ interface Watch {
 }
 
 /**
- * Watches the rate of pictures, and calls `onSlow` with the rate if it is too low, unless the user keeps 3D.
+ * Watches the rate of pictures, and calls `onSlow` with the rate if it is too low.
+ *
+ * @param isJudged whether the view is visible and the user does not keep 3D in any case.
  */
-export function useSlowness(isVisible: boolean, onSlow: (hz: number) => void): Watch {
+export function useSlowness(isJudged: boolean, onSlow: (hz: number) => void): Watch {
   const slowness = useMemo(() => new Slowness(), []);
   useEffect(() => {
-    const forget = () => slowness.forget();
-    if (!isVisible) forget();
-    document.addEventListener('visibilitychange', forget);
-    return () => document.removeEventListener('visibilitychange', forget);
-  }, [slowness, isVisible]);
+    if (!isJudged) slowness.forget();
+  }, [slowness, isJudged]);
   return useMemo(() => {
     const request = () => {
-      if (!isVisible || document.hidden) return;
+      if (!isJudged) return;
       const now = performance.now();
       slowness.request(now);
-      const hz = keeps3d() ? null : slowness.tooSlow(now);
+      const hz = slowness.tooSlow(now);
       if (hz !== null) onSlow(hz);
     };
     return { request, draw: () => slowness.draw(performance.now()) };
-  }, [slowness, isVisible, onSlow]);
+  }, [slowness, isJudged, onSlow]);
 }

@@ -10,6 +10,7 @@ import { useMoves } from './lastMove';
 import { setMeasuring, useMeasuring } from './measuring';
 import type { Orbit } from './scene/Surroundings';
 import { World } from './scene/World';
+import { pageHost } from './pageHost';
 import { useTools } from './useTools';
 
 const BOX: Shape = { shape: 'box', size: [1, 1, 1], pose: [0, 0, 0, 0, 0, 0, 1], color: [1, 0, 0, 1] };
@@ -31,7 +32,7 @@ const view = { enabled: true } as Orbit;
 
 function Tools({ world }: { readonly world: World }) {
   const controls = useRef<Orbit | null>(view);
-  useTools(world, controls);
+  useTools(world, controls, pageHost);
   return <primitive object={world.group} />;
 }
 

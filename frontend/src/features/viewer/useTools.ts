@@ -1,13 +1,11 @@
-import { notifications } from '@mantine/notifications';
 import { useThree } from '@react-three/fiber';
 import { useEffect } from 'react';
 import type { OrbitControls } from '@react-three/drei/core/OrbitControls';
 import type { ComponentRef } from 'react';
-import { send } from '@/store/session/connection';
 import { DraggedBody, carriable } from './scene/DraggedBody';
-import { canMove, useMoves } from './lastMove';
 import { pointedAt, pointedAtHeight } from './pointing';
-import { addMeasured, useMeasuring } from './measuring';
+import { useMeasuring } from './measuring';
+import type { StageHost } from './scene/host';
 import type { World } from './scene/World';
 
 type Controls = { readonly current: ComponentRef<typeof OrbitControls> | null };
@@ -20,9 +18,10 @@ const TURN_RAD = Math.PI / 12;
  * Adds the tools of the pointer: dragging bodies while time is paused, and measuring. The camera controls
  * turn the view.
  */
-export function useTools(world: World, controls: Controls): void {
+export function useTools(world: World, controls: Controls, host: StageHost): void {
   const camera = useThree((state) => state.camera);
-  const canvas = useThree((state) => state.gl.domElement);
+  const own = useThree((state) => state.gl.domElement);
+  const canvas = host.element ?? own;
   const invalidate = useThree((state) => state.invalidate);
 
   useEffect(() => {
@@ -44,18 +43,14 @@ export function useTools(world: World, controls: Controls): void {
       done.release(isMoved);
       invalidate();
       if (!isMoved) return;
-      send('move_body', { id: done.body, pose }).then(
-        () => useMoves.setState({ last: { body: done.body, from: done.origin } }),
-        (error: Error) => {
-          world.put(done.body);
-          invalidate();
-          notifications.show({ color: 'red', message: error.message });
-        },
-      );
+      host.moveBody(done.body, pose, done.origin).catch(() => {
+        world.put(done.body);
+        invalidate();
+      });
     };
     const onDown = (event: PointerEvent) => {
       pressed = { x: event.clientX, y: event.clientY };
-      if (event.button !== 0 || useMeasuring.getState().isOn || !canMove()) return;
+      if (event.button !== 0 || useMeasuring.getState().isOn || !host.canMove()) return;
       const hit = pointedAt(event, canvas, camera, world);
       const body = hit && carriable(world, hit.objectId);
       if (!hit || !body) return;
@@ -78,7 +73,7 @@ export function useTools(world: World, controls: Controls): void {
     const showCursor = (event: PointerEvent) => {
       if (event.buttons !== 0) return;
       const isMeasuring = useMeasuring.getState().isOn;
-      const hit = !isMeasuring && canMove() ? pointedAt(event, canvas, camera, world) : null;
+      const hit = !isMeasuring && host.canMove() ? pointedAt(event, canvas, camera, world) : null;
       canvas.style.cursor = isMeasuring ? 'crosshair' : hit && carriable(world, hit.objectId) ? 'grab' : '';
     };
     const onUp = (event: PointerEvent) => {
@@ -86,14 +81,14 @@ export function useTools(world: World, controls: Controls): void {
       const isClick = Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < CLICK_PX;
       if (!isClick || event.button !== 0 || !useMeasuring.getState().isOn) return;
       const hit = pointedAt(event, canvas, camera, world);
-      if (hit) addMeasured([hit.point.x, hit.point.y, hit.point.z]);
+      if (hit) host.addMeasured([hit.point.x, hit.point.y, hit.point.z]);
       invalidate();
     };
-    const onKey = (event: KeyboardEvent) => {
+    const onKey = (event: Event) => {
+      const { key } = event as KeyboardEvent;
       if (!dragged) return;
-      if (event.key === 'Escape') end(false);
-      else if (event.key === 'q' || event.key === 'e')
-        dragged.turnBy(event.key === 'q' ? TURN_RAD : -TURN_RAD);
+      if (key === 'Escape') end(false);
+      else if (key === 'q' || key === 'e') dragged.turnBy(key === 'q' ? TURN_RAD : -TURN_RAD);
       else return;
       event.preventDefault();
       invalidate();
@@ -104,14 +99,14 @@ export function useTools(world: World, controls: Controls): void {
     canvas.addEventListener('pointermove', onMove);
     canvas.addEventListener('pointerup', onUp);
     canvas.addEventListener('pointercancel', onCancel);
-    window.addEventListener('keydown', onKey);
+    host.keys.addEventListener('keydown', onKey);
     return () => {
       end(false);
       canvas.removeEventListener('pointerdown', onDown, { capture: true });
       canvas.removeEventListener('pointermove', onMove);
       canvas.removeEventListener('pointerup', onUp);
       canvas.removeEventListener('pointercancel', onCancel);
-      window.removeEventListener('keydown', onKey);
+      host.keys.removeEventListener('keydown', onKey);
     };
-  }, [world, controls, camera, canvas, invalidate]);
+  }, [world, controls, camera, canvas, host, invalidate]);
 }

@@ -1,8 +1,10 @@
 let known: { isAvailable: boolean; isSoftware: boolean } | null = null;
 
 function probe(): { isAvailable: boolean; isSoftware: boolean } {
-  const canvas = document.createElement('canvas');
-  const gl = canvas.getContext('webgl2');
+  // A worker has no document.
+  const canvas =
+    typeof document === 'undefined' ? new OffscreenCanvas(1, 1) : document.createElement('canvas');
+  const gl = canvas.getContext('webgl2') as WebGL2RenderingContext | null;
   if (!gl) return { isAvailable: false, isSoftware: false };
   const info = gl.getExtension('WEBGL_debug_renderer_info');
   const renderer = String(

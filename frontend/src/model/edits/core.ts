@@ -1,5 +1,5 @@
 import { current, enablePatches, isDraft, produceWithPatches, type Draft, type Patch } from 'immer';
-import { parentOf, type Diagram, type DiagramNode, type NodeId } from '../diagram';
+import { freshId, parentOf, type Diagram, type DiagramNode, type NodeId } from '../diagram';
 import type { Placement } from '../rules';
 
 enablePatches();
@@ -68,6 +68,9 @@ export function attach(draft: Draft<Diagram>, id: NodeId, place: Placement): voi
       draft.root = id;
       delete nodeOf(draft, id).position;
       return;
+    case 'beside':
+      attachBeside(draft, id, place.node);
+      return;
     case 'draft':
       draft.drafts.push(id);
       if (place.position) nodeOf(draft, id).position = [...place.position];
@@ -81,6 +84,19 @@ export function attach(draft: Draft<Diagram>, id: NodeId, place: Placement): voi
       return;
     }
   }
+}
+
+/** Puts a node after one whose parent has no room, both in a new Sequence at its place. */
+function attachBeside(draft: Draft<Diagram>, id: NodeId, beside: NodeId): void {
+  const above = freshId(asPlain(draft).nodes);
+  const place = placementOf(draft, beside);
+  const { position } = nodeOf(draft, beside);
+  detach(draft, beside);
+  draft.nodes[above] = { type: 'Sequence' };
+  attach(draft, above, place);
+  if (place.at === 'draft' && position) nodeOf(draft, above).position = [position[0], position[1]];
+  attach(draft, beside, { at: 'child', parent: above, index: 0 });
+  attach(draft, id, { at: 'child', parent: above, index: 1 });
 }
 
 /** Sets an optional field, or removes it if the value is empty. */

@@ -154,6 +154,12 @@ export function withFreshIds(
   };
 }
 
+/** The place after a node. */
+function after(draft: Draft<Diagram>, id: NodeId): Placement {
+  const place = placementOf(draft, id);
+  return place.at === 'child' ? { ...place, index: place.index + 1 } : place;
+}
+
 /** Adds a fragment, whose ids must be new to the diagram. */
 export function insertFragment(fragment: Fragment, place: Placement): Recipe {
   return (draft) => {
@@ -166,6 +172,7 @@ export function insertFragment(fragment: Fragment, place: Placement): Recipe {
     fragment.tops.forEach((top, offset) => {
       let target: Placement = place;
       if (place.at === 'child') target = { ...place, index: place.index + offset };
+      else if (place.at === 'beside' && offset > 0) target = after(draft, fragment.tops[offset - 1] ?? '');
       else if (place.at === 'root' && offset > 0) target = { at: 'draft' };
       else if (place.at === 'draft' && place.position) {
         target = { at: 'draft', position: [place.position[0] + 40 * offset, place.position[1]] };

@@ -41,6 +41,9 @@ const log = (text: string, more: Partial<Log> = {}): Log => ({
 });
 
 const snapshot = (more: Partial<Snapshot> = {}): Snapshot => ({
+  runs: 0,
+  run_starts: [],
+  hanging_s: 0,
   state: 'application_running',
   tree: null,
   statuses: [],
@@ -244,6 +247,30 @@ describe('a run', () => {
     expect(first.logs.map(({ run }) => run)).toEqual([undefined]);
     const second = reduce(first, loading);
     expect(second.logs.map(({ run }) => run)).toEqual([undefined, 2]);
+  });
+
+  it('is divided from the one before for those who come later too, and hangs as long as it does', () => {
+    const logs = [log('a'), log('b'), log('c', { time: 2 })];
+    const late = reduce(
+      initialSession,
+      message(
+        'snapshot',
+        snapshot({
+          logs,
+          runs: 3,
+          run_starts: [
+            [0, 1],
+            [2, 2],
+            [3, 3],
+          ],
+          hanging_s: 7.5,
+        }),
+      ),
+    );
+    expect(late.logs.map(({ run, text }) => run ?? text)).toEqual([1, 'a', 'b', 2, 'c', 3]);
+    expect(late).toMatchObject({ runs: 3, isHanging: true, hungS: 7.5 });
+    expect(reduce(late, loading).logs.at(-1)?.run).toBe(4);
+    expect(reduce(late, message('snapshot', snapshot())).isHanging).toBe(false);
   });
 
   it('hangs from the report until the next tick', () => {

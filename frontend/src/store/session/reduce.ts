@@ -6,9 +6,13 @@ import type {
   Log,
   PortSet,
   ServerMessage,
+  Snapshot,
   TopicMismatch,
 } from '@/generated/messages';
 import type { BlackboardRow, LogLine, SessionData } from './types';
+
+/** The executor reports a tick that has not returned for this long, s. */
+const HANG_REPORTED_S = 2;
 
 /** The number of log lines that are kept, about an hour of output; older lines are dropped. */
 export const MAX_LOG_LINES = 5000;
@@ -25,6 +29,7 @@ export const initialSession: SessionData = {
   executorReason: '',
   progress: null,
   isHanging: false,
+  hungS: 0,
   runs: 0,
   isLaunching: false,
   tree: [],
@@ -93,6 +98,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
   fault: (state, data, { t }) => ({
     faults: [...state.faults, data],
     isHanging: data.kind === 'timeout' && state.executor === 'application_running',
+    hungS: HANG_REPORTED_S,
     ...appendLogs(state, [logOf(data, t)]),
   }),
   port_set: ({ ports }, data) => ({ ports: withPort(ports, data) }),
@@ -126,12 +132,12 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
       : { tickHz: data.tick_hz, speed: data.speed }),
     universe: data.universe,
     finished: data.finished,
+    isHanging: data.hanging_s > 0,
+    hungS: data.hanging_s,
+    runs: data.runs,
     ports: data.ports.reduce(withPort, {}),
     mismatches: data.mismatches,
-    ...appendLogs({ ...state, logs: [] }, [
-      ...data.logs,
-      ...data.mismatches.map((mismatch) => mismatchLog(mismatch, t)),
-    ]),
+    ...keptLogs({ ...state, logs: [] }, data, t),
   }),
 };
 
@@ -182,17 +188,31 @@ export const isOfLaunchNode = (fault: Fault, nodes: readonly LaunchNode[]): bool
 export const launchNodeFaults = ({ faults, launchNodes }: Pick<SessionData, 'faults' | 'launchNodes'>) =>
   faults.filter((fault) => isOfLaunchNode(fault, launchNodes));
 
+type Lines = Pick<SessionData, 'logs' | 'nextLogId'>;
+
 /** Separates the output of a run from the output before it. */
 function beginRun(state: SessionData): Partial<SessionData> {
   const run = state.runs + 1;
-  const { logs, nextLogId } = state;
-  if (logs.length === 0) return { runs: run };
+  return { runs: run, ...(state.logs.length === 0 ? {} : withDivider(state, run, state.simTime)) };
+}
+
+function withDivider({ logs, nextLogId }: Lines, run: number, time: number): Lines {
   const divider = { source: 'manager', level: 'error', text: '', node_id: '', node_path: '' } as const;
   return {
-    runs: run,
-    logs: [...logs, { ...divider, time: state.simTime, launch_node: '', id: nextLogId, run }],
+    logs: [...logs, { ...divider, time, launch_node: '', id: nextLogId, run }],
     nextLogId: nextLogId + 1,
   };
+}
+
+/** The lines that the executor has kept, with the dividers of the runs that began between them. */
+function keptLogs(state: Lines, { logs, run_starts, mismatches }: Snapshot, time: number): Lines {
+  let [lines, from] = [state, 0];
+  for (const [at, run] of run_starts) {
+    lines = withDivider(appendLogs(lines, logs.slice(from, at)), run, logs[at]?.time ?? time);
+    from = at;
+  }
+  const rest = logs.slice(from);
+  return appendLogs(lines, [...rest, ...mismatches.map((mismatch) => mismatchLog(mismatch, time))]);
 }
 
 /** Returns a fault as console text: its traceback, with lines that can be clicked. */
@@ -210,10 +230,7 @@ function mismatchLog({ topic, message, hint }: TopicMismatch, time: number): Log
 }
 
 /** Adds console lines: one numbered row for each line of text. */
-export function appendLogs(
-  state: Pick<SessionData, 'logs' | 'nextLogId'>,
-  added: readonly Log[],
-): Pick<SessionData, 'logs' | 'nextLogId'> {
+export function appendLogs(state: Lines, added: readonly Log[]): Lines {
   let id = state.nextLogId;
   const lines: LogLine[] = [];
   for (const log of added) {

@@ -6,6 +6,8 @@ import { feedLive, forgetPending, showDueStatuses } from './liveFeed';
 import { appendLogs, initialSession, reduceAll } from './reduce';
 import { feedTopics } from './topics';
 import type { SessionData } from './types';
+import { feedValues, forgetValues } from './values/live';
+import { useShownValues } from './values/shown';
 
 export const useSessionStore = create<SessionData>(() => initialSession);
 
@@ -36,7 +38,13 @@ export function flush(): void {
     feedTopics(message);
   }
   showDueStatuses();
+  feedValues(useSessionStore.getState);
 }
+
+// A value that is chosen while time is paused is shown too.
+useShownValues.subscribe(() => {
+  feedValues(useSessionStore.getState);
+});
 
 /** Writes a line from the page itself to the console. */
 export function note(text: string): void {
@@ -61,5 +69,6 @@ export function resetSession(change: Partial<SessionData> = {}): void {
   // The console stays readable after the session has ended.
   useSessionStore.setState({ ...initialSession, tickHz, speed, projectId, logs, nextLogId, ...change }, true);
   forgetPending();
+  forgetValues();
   useLiveStore.getState().clear();
 }

@@ -42,6 +42,8 @@ export interface SessionData {
   progress: Progress | null;
   /** Whether a tick does not return, which is reported as a fault, until there is another tick or state. */
   isHanging: boolean;
+  /** For how long the tick had hung when that was reported, s. */
+  hungS: number;
   /** The number of runs that began while this page was connected. */
   runs: number;
   /** Whether Run was pressed and has neither succeeded nor failed yet. */

@@ -58,7 +58,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
         <NodeSymbol type={node.type} family={family} size={22} />
       </span>
       <BlockTitle id={id} node={node} t={t} />
-      <BlockPorts node={node} spec={spec} marks={marks} t={t} />
+      <BlockPorts place={inside ?? { tree, node: id }} node={node} spec={spec} marks={marks} t={t} />
       <StatusMark status={fault === undefined ? status : 'FAILURE'} past={past} flash={flash} />
       {fault !== undefined && (
         <ProblemMark

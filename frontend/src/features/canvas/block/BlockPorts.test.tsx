@@ -1,9 +1,10 @@
 import { screen } from '@testing-library/react';
 import i18next from 'i18next';
-import { describe, expect, it } from 'vitest';
+import { describe, expect, it, onTestFinished } from 'vitest';
 import type { PortSpec } from '@/model/ports';
 import { vocabulary } from '@/model/testing';
 import type { NodeSpec } from '@/model/vocabulary';
+import { useShownValues } from '@/store/session/values/shown';
 import type { PortMark } from '@/store/run/portMarks';
 import { port, show } from '../../../../harness/testing';
 import { BlockPorts } from './BlockPorts';
@@ -20,7 +21,8 @@ function open(
 ) {
   const t = i18next.getFixedT('en', 'canvas');
   const node = { type: 'Turn', ports };
-  show(<BlockPorts node={node} spec={spec} marks={new Map(Object.entries(marks))} t={t} />);
+  const place = { tree: 'Main', node: 'a' };
+  show(<BlockPorts place={place} node={node} spec={spec} marks={new Map(Object.entries(marks))} t={t} />);
   return screen.queryAllByRole('listitem').map(({ textContent }) => textContent);
 }
 
@@ -105,5 +107,26 @@ describe('BlockPorts', () => {
     expect(screen.getByTitle('sixteen letters!')).not.toHaveAttribute('data-long');
     open(undefined, { y: 'seventeen letters' });
     expect(screen.getByTitle('seventeen letters')).toHaveAttribute('data-long', 'true');
+  });
+
+  it('marks the ports whose live values are wanted, if they name an entry', () => {
+    useShownValues.setState({ ports: new Set(['Main/a/angle', 'Main/a/rate', 'Main/b/way']) });
+    onTestFinished(() => useShownValues.setState({ ports: new Set() }));
+    open(specOf(port('angle', 'double'), port('rate', 'double'), port('way', 'string')), {
+      angle: '{a}',
+      rate: '5',
+      way: '{w}',
+    });
+    expect(screen.getByTestId('value-Main/a/angle')).toHaveTextContent('{a}');
+    expect(screen.queryByTestId('value-Main/a/rate')).toBeNull();
+    expect(screen.queryByTestId('value-Main/a/way')).toBeNull();
+  });
+
+  it('keeps room for a wanted value', () => {
+    useShownValues.setState({ ports: new Set(['Main/a/p8']) });
+    onTestFinished(() => useShownValues.setState({ ports: new Set() }));
+    const names = Array.from({ length: 8 }, (_, index) => `p${index + 1}`);
+    const rows = open(specOf(...names.map((name) => port(name, 'any'))), { p8: '{x}' });
+    expect(rows.map((row) => row.trim().slice(0, 2))).toEqual(['p1', 'p2', 'p3', 'p4', 'p5', 'p8', '2 ']);
   });
 });

@@ -1,8 +1,13 @@
 import type { TFunction } from 'i18next';
+import { useShallow } from 'zustand/react/shallow';
 import type { DiagramNode } from '@/model/diagram';
+import type { Inside } from '@/model/expand';
+import { keyIn } from '@/model/keys/entry';
 import { BLOCK, portLines, type PortLine } from '@/model/measure';
 import { readPortText } from '@/model/ports';
 import type { NodeSpec } from '@/model/vocabulary';
+import { shownPort, useShownValues, type ShownPort } from '@/store/session/values/shown';
+import { PortValue } from './PortValue';
 import type { PortMark, PortMarks } from '@/store/run/portMarks';
 import classes from './Block.module.css';
 
@@ -18,7 +23,28 @@ const ARROWS = { input: '', output: '→', inout: '⇄' } as const;
 const shownValue = (line: PortLine, t: TFunction<'canvas'>): string =>
   line.value ?? line.default ?? (line.required ? t('port.missing') : '—');
 
+const NONE: readonly string[] = [];
+
+/** The ports whose live values are wanted: a fixed value has none. */
+const wantedOf = (lines: readonly PortLine[], place: Inside, ports: ReadonlySet<ShownPort>): string[] =>
+  lines
+    .filter(({ name }) => ports.has(shownPort(place.tree, place.node, name)))
+    .filter(({ name, value, default: text }) => keyIn(value ?? text ?? '', name) !== null)
+    .map(({ name }) => name);
+
+/** As many lines as fit, in their order; those whose live values are wanted first of all. */
+function fitting(lines: readonly PortLine[], wanted: ReadonlySet<string>): readonly PortLine[] {
+  if (lines.length <= BLOCK.maxPorts) return lines;
+  const first = [
+    ...lines.filter(({ name }) => wanted.has(name)),
+    ...lines.filter(({ name }) => !wanted.has(name)),
+  ].slice(0, BLOCK.maxPorts);
+  return lines.filter((line) => first.includes(line));
+}
+
 interface BlockPortsProps {
+  /** The block's own tree and id. */
+  readonly place: Inside;
   readonly node: DiagramNode;
   readonly spec: NodeSpec | undefined;
   readonly marks: PortMarks;
@@ -32,14 +58,17 @@ function titleOf(line: PortLine, mark: PortMark | undefined, t: TFunction<'canva
   return t(`port.live.${mark.state}`, { value: line.value ?? line.default ?? '', saved });
 }
 
-/** The block's ports with their values, as many as fit. */
-export function BlockPorts({ node, spec, marks, t }: BlockPortsProps) {
+/** The ports of a block with their values, as many as fit. */
+export function BlockPorts({ place, node, spec, marks, t }: BlockPortsProps) {
   const lines = portLines(node, spec);
+  const wanted = new Set(
+    useShownValues(useShallow(({ ports }) => (ports.size === 0 ? NONE : wantedOf(lines, place, ports)))),
+  );
   if (lines.length === 0) return null;
   const more = lines.length - BLOCK.maxPorts;
   return (
     <ul className={classes['ports']}>
-      {lines.slice(0, BLOCK.maxPorts).map((line) => {
+      {fitting(lines, wanted).map((line) => {
         const value = shownValue(line, t);
         const mark = marks.get(line.name);
         return (
@@ -47,14 +76,18 @@ export function BlockPorts({ node, spec, marks, t }: BlockPortsProps) {
             <span className={classes['portName']}>
               {ARROWS[line.direction]} {line.name}
             </span>
-            <span
-              className={classes[valueClass(line)]}
-              title={titleOf(line, mark, t)}
-              data-live={mark?.state}
-              data-long={value.length > BLOCK.valueLetters || undefined}
-            >
-              {value}
-            </span>
+            {wanted.has(line.name) ? (
+              <PortValue port={shownPort(place.tree, place.node, line.name)} text={value} />
+            ) : (
+              <span
+                className={classes[valueClass(line)]}
+                title={titleOf(line, mark, t)}
+                data-live={mark?.state}
+                data-long={value.length > BLOCK.valueLetters || undefined}
+              >
+                {value}
+              </span>
+            )}
           </li>
         );
       })}

@@ -1,9 +1,11 @@
 import type { TFunction } from 'i18next';
+import { Fragment, type CSSProperties } from 'react';
 import { displayName, type DiagramNode, type NodeId } from '@/model/diagram';
 import { setComment, setName } from '@/model/edits';
 import { change } from '@/store/project/edits/blocks';
 import { setEditor, useEditorStore } from '@/store/project/editor';
 import { BlockBadges } from './BlockBadges';
+import { wordsOf } from './words';
 import { TextField } from './TextField';
 import classes from './Block.module.css';
 
@@ -11,6 +13,22 @@ interface BlockTitleProps {
   readonly id: NodeId;
   readonly node: DiagramNode;
   readonly t: TFunction<'canvas'>;
+}
+
+/** The name; seen from some way off it has two lines, which break only between words. */
+function BlockName({ name }: { readonly name: string }) {
+  const words = wordsOf(name);
+  const longest = Math.max(...words.map((word) => word.trim().length));
+  return (
+    <span className={classes['name']} style={{ '--longest': longest } as CSSProperties}>
+      {words.map((word, index) => (
+        <Fragment key={index}>
+          {index > 0 && <wbr />}
+          {word}
+        </Fragment>
+      ))}
+    </span>
+  );
 }
 
 /** The name and type of a block; F2 and `/` edit the name and the comment here. */
@@ -30,7 +48,7 @@ export function BlockTitle({ id, node, t }: BlockTitleProps) {
     <div className={classes['titles']}>
       {field === null ? (
         <>
-          <span className={classes['name']}>{name}</span>
+          <BlockName name={name} />
           {(name !== node.type || hasBadges) && (
             <span className={classes['subtitle']}>
               {name !== node.type && <span className={classes['type']}>{node.type}</span>}

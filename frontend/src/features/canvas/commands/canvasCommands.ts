@@ -21,6 +21,7 @@ import { useProjectStore } from '@/store/project';
 import { toggleCompact } from '../view/compact';
 import { blockCommands } from './blockCommands';
 import { levelCommands } from './levelCommands';
+import { valuesCommand } from './shownValues';
 import { followClipboard } from '../gestures/clipboard';
 import { isOnCanvas, isTreeInFront } from '../inFront';
 import { fit, fitSelection, isTreeShown, zoomIn, zoomOut, zoomReset } from '../view/views';
@@ -73,6 +74,7 @@ const rows: readonly UserCommand[] = [
       if (diagram) state().select(diagram.id, Object.keys(diagram.nodes));
     },
   },
+  valuesCommand,
   {
     id: 'canvas.find',
     group: 'canvas',

@@ -1,10 +1,11 @@
-import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
+import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { useProjectStore } from '@/store/project';
 import { openDiagram } from '../../../../harness/canvas';
 import { nodeOf } from '../../../../harness/testing';
 import { showsTree } from '../view/views';
 import { levelCommands } from './levelCommands';
 
+const fitView = vi.fn();
 const command = (id: string) => levelCommands.find((each) => each.id === `canvas.${id}`)!;
 
 beforeEach(() => {
@@ -17,7 +18,12 @@ beforeEach(() => {
       a: { type: 'Sleep' },
     },
   });
-  onTestFinished(showsTree('Main', {} as Parameters<typeof showsTree>[1]));
+  fitView.mockClear();
+  vi.spyOn(window, 'requestAnimationFrame').mockImplementation((draw) => {
+    draw(0);
+    return 0;
+  });
+  onTestFinished(showsTree('Main', { fitView } as unknown as Parameters<typeof showsTree>[1]));
 });
 
 describe('the commands of levels', () => {
@@ -31,6 +37,13 @@ describe('the commands of levels', () => {
     expect(nodeOf('Main', 'f')?.collapsed).toBe(true);
     useProjectStore.getState().undo();
     expect(nodeOf('Main', 'i')?.collapsed).toBeUndefined();
+  });
+
+  it('show the whole tree as it is then', () => {
+    command('collapse1').run();
+    expect(fitView).toHaveBeenCalledTimes(1);
+    command('collapseAll').run();
+    expect(fitView).toHaveBeenCalledTimes(2);
   });
 
   it('are in the menu of the empty canvas if they have an effect', () => {

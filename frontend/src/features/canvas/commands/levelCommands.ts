@@ -1,7 +1,7 @@
 import { IconFold, IconFoldUp, IconFoldDown } from '@tabler/icons-react';
 import { collapseToLevel } from '@/model/edits';
 import { activeDiagram, change } from '@/store/project/edits/blocks';
-import { isTreeShown } from '../view/views';
+import { fitSoon, isTreeShown } from '../view/views';
 import type { BlockCommand } from './blockCommands';
 
 const hasBranches = (): boolean =>
@@ -24,6 +24,7 @@ export const levelCommands: readonly BlockCommand[] = [
     enabled: () => isTreeShown() && hasBranches(),
     run: () => {
       change('collapse', [collapseToLevel(level)]);
+      fitSoon();
     },
   })),
   {
@@ -35,6 +36,7 @@ export const levelCommands: readonly BlockCommand[] = [
     enabled: () => isTreeShown() && isFolded(),
     run: () => {
       change('expandAll', [collapseToLevel(Infinity)]);
+      fitSoon();
     },
   },
 ];

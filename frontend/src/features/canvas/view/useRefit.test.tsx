@@ -1,10 +1,11 @@
 import { act, waitFor } from '@testing-library/react';
-import { beforeEach, describe, expect, it } from 'vitest';
+import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import { setLayout } from '@/model/edits';
 import { toggleExpanded } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
 import { oneBlock } from '@/store/testing';
-import { inFlow, openDiagram } from '../../../../harness/canvas';
+import { usePresentation } from '@/workspace/presentation';
+import { inFlow, openDiagram, PANE } from '../../../../harness/canvas';
 import { useTree } from '../useTree';
 import { toggleCompact } from './compact';
 import { useRefit } from './useRefit';
@@ -24,9 +25,9 @@ beforeEach(() => {
 });
 
 function begin() {
-  const { store } = inFlow(() => useRefit(useTree('Main')));
+  const { store, view } = inFlow(() => useRefit(useTree('Main')));
   const wish = () => store.getState().fitViewOptions;
-  return { store, wish };
+  return { store, view, wish };
 }
 
 describe('the view is fitted again', () => {
@@ -68,9 +69,39 @@ describe('the view is fitted again', () => {
   });
 });
 
+it('is fitted to the last of several sizes that follow each other, as an edge is dragged', async () => {
+  const { store, wish } = begin();
+  act(() => store.setState({ transform: [250, 20, 1] }));
+  act(() => store.setState({ width: 200 }));
+  await waitFor(() => expect(wish()).toMatchObject({ duration: 200 }));
+  // On its way to the whole tree the view shows a part of it.
+  act(() => store.setState({ transform: [120, 20, 0.9], fitViewOptions: undefined }));
+  act(() => store.setState({ width: 150 }));
+  await waitFor(() => expect(wish()).toMatchObject({ duration: 200 }));
+});
+
 it('but not if the user looked at a part', () => {
   const { store, wish } = begin();
   act(() => store.setState({ transform: [-500, 20, 1] }));
   act(() => store.setState({ width: 200 }));
   expect(wish()).toBeUndefined();
+});
+
+describe('a presentation', () => {
+  const resize = (store: ReturnType<typeof begin>['store'], width: number, height: number) =>
+    act(() => store.setState({ width, height }));
+
+  it('shows the whole tree enlarged, and gives the view of before back', async () => {
+    onTestFinished(() => usePresentation.setState(usePresentation.getInitialState(), true));
+    const { store, view, wish } = begin();
+    act(() => store.setState({ transform: [12, 34, 0.9] }));
+    act(() => usePresentation.setState({ mode: 'tree' }));
+    resize(store, 1600, 900);
+    await waitFor(() => expect(wish()).toMatchObject({ maxZoom: 2 }));
+    act(() => usePresentation.setState({ mode: 'off' }));
+    resize(store, PANE.width, PANE.height);
+    await waitFor(() =>
+      expect(view.setViewport).toHaveBeenCalledWith({ x: 12, y: 34, zoom: 0.9 }, undefined),
+    );
+  });
 });

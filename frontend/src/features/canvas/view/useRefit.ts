@@ -1,11 +1,16 @@
-import { useReactFlow, useStore, useStoreApi } from '@xyflow/react';
+import { useReactFlow, useStore, useStoreApi, type Viewport } from '@xyflow/react';
 import { useEffect, useRef } from 'react';
 import type { NodeId } from '@/model/diagram';
+import { usePresentation } from '@/workspace/presentation';
 import type { BlockNode, TreeEdge } from '../flow';
 import type { TreeOnCanvas } from '../useTree';
 import { FIT, READABLE } from './useViewport';
 
 const ANIMATED = { ...FIT, duration: 200 };
+/** A fit has its effect in this time; sizes that change until then come from the same drag of an edge. */
+const FITTED_MS = ANIMATED.duration + 300;
+/** In a presentation a small tree is enlarged, to be read from afar. */
+const PRESENTED = { ...FIT, maxZoom: 2, duration: 200 };
 
 /** Returns the blocks of the SubTree that was expanded or closed last; null if none was. */
 function changedGroup(
@@ -21,32 +26,42 @@ function changedGroup(
 /**
  * Fits the view again after a change of the whole picture: the orientation, the compact layout, a SubTree
  * that is expanded or closed, or a new size of the canvas, if all blocks were visible before and are not any
- * more.
+ * more. A presentation always shows all blocks, and restores the earlier view at its end.
  */
 export function useRefit(tree: TreeOnCanvas): void {
   const flow = useReactFlow<BlockNode, TreeEdge>();
   const store = useStoreApi();
   const { layout, diagram, shown, isCompact } = tree;
+  const isPresented = usePresentation(({ mode }) => mode !== 'off');
+  const resting = useRef<Resting | null>(null);
   const width = useStore((state) => state.width);
   const height = useStore((state) => state.height);
   const before = useRef({
     orientation: diagram.layout,
     isCompact,
     groups: shown.groups,
+    isPresented,
     width,
     height,
     layout,
   });
+  /** Until this time the view is on its way to the whole tree. */
+  const aims = useRef(0);
 
   useEffect(() => {
     const last = before.current;
-    before.current = { orientation: diagram.layout, isCompact, groups: shown.groups, width, height, layout };
+    const { groups } = shown;
+    before.current = { orientation: diagram.layout, isCompact, groups, isPresented, width, height, layout };
+    const whole = isPresented ? PRESENTED : ANIMATED;
     const fitSoon = (nodes?: readonly NodeId[]): void => {
+      aims.current = nodes ? 0 : performance.now() + FITTED_MS;
       // The view is fitted after React Flow knows the new places.
       requestAnimationFrame(
-        () => void flow.fitView(nodes ? { ...ANIMATED, nodes: nodes.map((id) => ({ id })) } : ANIMATED),
+        () => void flow.fitView(nodes ? { ...whole, nodes: nodes.map((id) => ({ id })) } : whole),
       );
     };
+    if (isPresented && !last.isPresented)
+      resting.current = { viewport: flow.getViewport(), width: last.width, height: last.height };
     if (last.orientation !== diagram.layout || last.isCompact !== isCompact) return fitSoon();
     if (last.groups !== shown.groups) {
       const group = changedGroup(tree, last.groups);
@@ -54,10 +69,26 @@ export function useRefit(tree: TreeOnCanvas): void {
       if (group) fitSoon(zoom >= READABLE ? undefined : group);
       return;
     }
+    // The canvas gets its new size after the presentation began or ended.
+    if (isPresented && width > 0 && (last.width !== width || last.height !== height)) return fitSoon();
+    const rest = resting.current;
+    if (!isPresented && rest && rest.width === width && rest.height === height) {
+      resting.current = null;
+      requestAnimationFrame(() => void flow.setViewport(rest.viewport));
+      return;
+    }
     if ((last.width === width && last.height === height) || last.width === 0 || width === 0) return;
     const { transform } = store.getState();
-    if (isWhole(last, transform) && !isWhole({ width, height, layout }, transform)) fitSoon();
-  }, [tree, flow, store, layout, diagram, shown, isCompact, width, height]);
+    const isAiming = performance.now() < aims.current;
+    if (isAiming || (isWhole(last, transform) && !isWhole({ width, height, layout }, transform))) fitSoon();
+  }, [tree, flow, store, layout, diagram, shown, isCompact, isPresented, width, height]);
+}
+
+/** The view before a presentation. */
+interface Resting {
+  readonly viewport: Viewport;
+  readonly width: number;
+  readonly height: number;
 }
 
 interface Seen {

@@ -1,7 +1,8 @@
+import { waitFor } from '@testing-library/react';
 import { beforeEach, expect, it, vi } from 'vitest';
 import { useProjectStore } from '@/store/project';
 import { openProject } from '../../../../harness/testing';
-import { fit, fitSelection, isTreeShown, showsTree, zoomIn, zoomOut, zoomReset } from './views';
+import { fit, fitSelection, fitSoon, isTreeShown, showsTree, zoomIn, zoomOut, zoomReset } from './views';
 
 const recording = () => ({ zoomIn: vi.fn(), zoomOut: vi.fn(), zoomTo: vi.fn(), fitView: vi.fn() });
 const shows = (tree: string, view: ReturnType<typeof recording>) =>
@@ -29,6 +30,15 @@ it('act on the view of the tree in front', () => {
   expect(main.fitView.mock.calls).toEqual([[how], [{ ...how, nodes: [{ id: 'r' }, { id: 'a' }] }]]);
   expect(dock.zoomIn).not.toHaveBeenCalled();
   ends.forEach((end) => end());
+});
+
+it('fits what is drawn next', async () => {
+  const main = recording();
+  const end = shows('Main', main);
+  fitSoon();
+  expect(main.fitView).not.toHaveBeenCalled();
+  await waitFor(() => expect(main.fitView).toHaveBeenCalledOnce());
+  end();
 });
 
 it('returns whether the tree in front is drawn', () => {

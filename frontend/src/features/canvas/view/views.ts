@@ -25,6 +25,9 @@ export const zoomOut = (): void => void inFront()?.zoomOut(FAST);
 export const zoomReset = (): void => void inFront()?.zoomTo(1, FAST);
 export const fit = (): void => void inFront()?.fitView({ ...FIT, ...SLOW });
 
+/** Shows the whole tree once React has drawn its new layout. */
+export const fitSoon = (): void => void requestAnimationFrame(fit);
+
 /** Fits the view to the selected blocks. */
 export function fitSelection(): void {
   const nodes = useProjectStore.getState().selection.map((id) => ({ id }));

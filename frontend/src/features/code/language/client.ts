@@ -1,5 +1,4 @@
 import {
-  findReferencesKeymap,
   hoverTooltips,
   jumpToDefinitionKeymap,
   LSPClient,
@@ -15,7 +14,9 @@ import { useProjectStore } from '@/store/project';
 import { renameKeymap } from './rename';
 import { sanitizeHtml } from './sanitize';
 import { CLOSED, openSocket } from './socket';
-import { pathOf, uriOf } from './uris';
+import { referencesKeymap } from './references';
+import { nameOf, pathOf, sourceUriOf, uriOf } from './uris';
+import { textOfSource } from './sources';
 import { ProjectWorkspace } from './workspace';
 
 const SEVERITIES = ['error', 'error', 'warning', 'info', 'info'] as const;
@@ -59,8 +60,8 @@ function makeClient(): LSPClient {
     timeout: ANSWER_WITHIN_MS,
     sanitizeHTML: sanitizeHtml,
     workspace: (client) =>
-      new ProjectWorkspace(client, (where) =>
-        notifications.show({ message: t('code:language.outside', { where }) }),
+      new ProjectWorkspace(client, (uri) =>
+        notifications.show({ message: t('code:language.outside', { where: nameOf(uri) }) }),
       ),
     notificationHandlers: {
       'textDocument/publishDiagnostics': (_client, params: Published) => {
@@ -72,7 +73,7 @@ function makeClient(): LSPClient {
       serverCompletion(),
       hoverTooltips({ hoverTime: 400 }),
       signatureHelp(),
-      keymap.of([...renameKeymap, ...jumpToDefinitionKeymap, ...findReferencesKeymap]),
+      keymap.of([...renameKeymap, ...jumpToDefinitionKeymap, ...referencesKeymap]),
     ],
   });
 }
@@ -175,19 +176,38 @@ class Connection {
 
 let connection: Connection | null = null;
 
-/**
- * Returns the extensions that connect a Python editor to the language server; all editors share one
- * connection.
- */
-export function languageSupport(path: string): Extension {
+/** Connects the open project, unless it is connected; null if none is open. */
+function connected(): Connection | null {
   const { projectId } = useProjectStore.getState();
-  if (!projectId || !path.endsWith('.py')) return [];
+  if (!projectId) return null;
   if (connection?.projectId !== projectId) {
     connection?.end();
     connection = new Connection(projectId);
   }
   connection.wake();
-  return connection.client.plugin(uriOf(path), 'python');
+  return connection;
+}
+
+/** The extensions that connect a Python editor to the language server; all editors share the connection. */
+export function languageSupport(path: string): Extension {
+  if (!path.endsWith('.py')) return [];
+  return connected()?.client.plugin(uriOf(path), 'python') ?? [];
+}
+
+/** The same, for a source outside of the project. */
+export const sourceSupport = (path: string): Extension =>
+  connected()?.client.plugin(sourceUriOf(path), 'python') ?? [];
+
+/** Wakes the language server, for what needs it without an editor. */
+export function wakeLanguage(): void {
+  connected();
+}
+
+/** Reads a source outside of the project, over the socket of the language server. */
+export async function readSource(path: string): Promise<string> {
+  const client = connected()?.client;
+  if (!client) throw new Error(t('code:language.lost'));
+  return textOfSource(client, sourceUriOf(path));
 }
 
 export function retryLanguage(): void {

@@ -1,11 +1,11 @@
 import { EditorState } from '@codemirror/state';
 import { EditorView } from '@codemirror/view';
-import { fireEvent, screen } from '@testing-library/react';
+import { screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import { useProjectStore } from '@/store/project';
 import { connectedClient, type FakeLanguageServer } from '../../../../harness/languageServer';
 import { fakeServer, openProject, show } from '../../../../harness/testing';
-import { renameKeymap, renameSymbol } from './rename';
+import { leaveRename, rename, renameKeymap, renameSymbol, useRename, type RenameRequest } from './rename';
 import { uriOf } from './uris';
 import { ProjectWorkspace } from './workspace';
 
@@ -51,37 +51,75 @@ beforeEach(async () => {
     view.destroy();
     parent.remove();
   });
+  useRename.setState({ request: null });
   show(<p />);
 });
 
-const field = () => view.dom.querySelector('input[name="name"]') as HTMLInputElement;
-function rename(to: string): void {
+const request = () => useRename.getState().request;
+const both = (name: string) => ({
+  changes: { [uriOf(GO)]: [edit(0, 6, 8, name)], [uriOf(USER)]: [edit(0, 15, 17, name)] },
+});
+
+/** Asks for a rename at the cursor; returns it with its places. */
+async function asked(): Promise<RenameRequest> {
   expect(renameSymbol(view)).toBe(true);
-  field().value = to;
-  fireEvent.submit(field().form as HTMLFormElement);
+  await expect.poll(() => request()?.groups).toBeTruthy();
+  return request() as RenameRequest;
 }
 
 describe('renameSymbol', () => {
-  it('has a key, and asks for the new name', () => {
+  it('has a key, and finds what changes before it asks for the name', async () => {
+    answers['textDocument/rename'] = both('Go_');
     expect(renameKeymap).toMatchObject([{ key: 'F2', preventDefault: true }]);
-    renameSymbol(view);
-    expect(field()).toHaveValue('Go');
-    expect(field()).toHaveAccessibleName('New name of Go');
+    const { before, groups } = await asked();
+    expect(before).toBe('Go');
+    expect(groups?.map(({ name, places }) => [name, places.map(({ text }) => text)])).toEqual([
+      [GO, ['class Go:']],
+      [USER, ['from Go import Go']],
+    ]);
+    expect(text(GO)).toContain('class Go:');
+    leaveRename();
+    expect(request()).toBeNull();
+    expect(view.hasFocus).toBe(true);
   });
 
-  it('renames in all files, and an action with its blocks', async () => {
+  it('says that something cannot be renamed, and asks for nothing', async () => {
+    renameSymbol(view);
+    expect(await screen.findByText('“Go” cannot be renamed here.')).toBeInTheDocument();
+    expect(request()).toBeNull();
+  });
+
+  it('renames nothing that is defined outside of the project', async () => {
     answers['textDocument/rename'] = {
-      changes: {
-        [uriOf(GO)]: [edit(0, 6, 8, 'Drive')],
-        [uriOf(USER)]: [edit(0, 15, 17, 'Drive')],
-        'file:///library/x.py': [],
-      },
+      changes: { ...both('x').changes, 'file:///library/packages/x.py': [edit(0, 0, 1, 'x')] },
     };
-    rename(' Drive ');
-    expect(await screen.findByText('Renamed to Drive: 2 places in 3 files.')).toBeInTheDocument();
-    expect(server.sent('textDocument/rename')).toEqual([
-      { newName: 'Drive', position: { line: 0, character: 6 }, textDocument: { uri: uriOf(GO) } },
-    ]);
+    renameSymbol(view);
+    expect(await screen.findByText('“Go” cannot be renamed here.')).toBeInTheDocument();
+    expect(text(USER)).toBe('from Go import Go\n');
+  });
+
+  it('does nothing beside words', () => {
+    view.dispatch({ selection: { anchor: 10 } });
+    expect(renameSymbol(view)).toBe(false);
+    expect(request()).toBeNull();
+  });
+
+  it('does nothing without a language server', () => {
+    const alone = new EditorView({ doc: 'Go', selection: { anchor: 1 } });
+    expect(renameSymbol(alone)).toBe(false);
+  });
+});
+
+describe('rename', () => {
+  it('renames in all files, and an action with its blocks', async () => {
+    answers['textDocument/rename'] = both('Drive');
+    await rename(await asked(), 'Drive');
+    expect(await screen.findByText('Renamed to Drive: 2 places in 2 files.')).toBeInTheDocument();
+    expect(server.sent('textDocument/rename').at(-1)).toEqual({
+      newName: 'Drive',
+      position: { line: 0, character: 6 },
+      textDocument: { uri: uriOf(GO) },
+    });
     expect(text('actions/Drive.py')).toContain('class Drive:');
     expect(text(GO)).toBeNull();
     expect(useProjectStore.getState().diagrams['Main']?.nodes['a']?.type).toBe('Drive');
@@ -90,37 +128,8 @@ describe('renameSymbol', () => {
 
   it('leaves the action unchanged if another name was renamed', async () => {
     answers['textDocument/rename'] = { changes: { [uriOf(GO)]: [edit(1, 4, 8, 'x')] } };
-    rename('x');
-    expect(await screen.findByText('Renamed to x: 1 places in 1 files.')).toBeInTheDocument();
+    await rename(await asked(), 'x');
+    expect(await screen.findByText('Renamed to x: 1 place in 1 file.')).toBeInTheDocument();
     expect(text(GO)).toBe('class Go:\n    x\n');
-  });
-
-  it('refuses a name that is invalid in Python', async () => {
-    rename('3D');
-    expect(await screen.findByText('“3D” cannot be a name in Python.')).toBeInTheDocument();
-    expect(server.sent('textDocument/rename')).toEqual([]);
-  });
-
-  it.each(['Go', ' ', ''])('requests nothing with the name “%s”', async (name) => {
-    rename(name);
-    await expect.poll(() => view.dom.querySelector('.cm-lsp-rename-panel')).toBeNull();
-    expect(server.sent('textDocument/rename')).toEqual([]);
-  });
-
-  it('reports that something cannot be renamed', async () => {
-    rename('Drive');
-    expect(await screen.findByText('“Go” cannot be renamed here.')).toBeInTheDocument();
-    expect(text(GO)).toContain('class Go:');
-  });
-
-  it('does nothing outside of words', () => {
-    view.dispatch({ selection: { anchor: 10 } });
-    expect(renameSymbol(view)).toBe(false);
-    expect(field()).toBeNull();
-  });
-
-  it('does nothing without a language server', () => {
-    const alone = new EditorView({ doc: 'Go', selection: { anchor: 1 } });
-    expect(renameSymbol(alone)).toBe(false);
   });
 });

@@ -1,60 +1,95 @@
 import { LSPPlugin } from '@codemirror/lsp-client';
-import { showDialog, type Command, type EditorView, type KeyBinding } from '@codemirror/view';
+import type { Command, EditorView, KeyBinding } from '@codemirror/view';
 import { notifications } from '@mantine/notifications';
+import { create } from 'zustand';
 import { t } from '@/i18n';
-import { isPythonName } from '@/model/pythonNames';
 import { actionPath } from '@/store/project/state';
 import { useProjectStore } from '@/store/project';
+import { groupPlaces, type PlacesInFile, type Range } from './places';
+import { reasonOf } from './reason';
 import { pathOf } from './uris';
 
 interface TextEdit {
-  readonly range: {
-    readonly start: { line: number; character: number };
-    readonly end: { line: number; character: number };
-  };
+  readonly range: Range;
   readonly newText: string;
 }
 
-/** Renames the symbol at the cursor in every file of the project. */
+type Changes = readonly (readonly [uri: string, edits: readonly TextEdit[]])[];
+
+/** A rename that waits for its new name. */
+export interface RenameRequest {
+  readonly view: EditorView;
+  readonly uri: string;
+  /** The position of the name in the editor. */
+  readonly at: number;
+  readonly before: string;
+  /** The places that change; null until the server has answered. */
+  readonly groups: readonly PlacesInFile[] | null;
+}
+
+export const useRename = create<{ readonly request: RenameRequest | null }>(() => ({ request: null }));
+
+export function leaveRename(): void {
+  const { request } = useRename.getState();
+  useRename.setState({ request: null });
+  request?.view.focus();
+}
+
+/** Asks for a new name of the symbol at the cursor, and shows what changes in the project. */
 export const renameSymbol: Command = (view) => {
   const word = view.state.wordAt(view.state.selection.main.head);
   const plugin = LSPPlugin.get(view);
   if (!word || !plugin?.client.serverCapabilities) return false;
   const before = view.state.sliceDoc(word.from, word.to);
-  const { close, result } = showDialog(view, {
-    label: t('code:rename.label', { name: before }),
-    input: { name: 'name', value: before, 'aria-label': t('code:rename.label', { name: before }) },
-    submitLabel: t('code:rename.submit'),
-    focus: true,
-    class: 'cm-lsp-rename-panel',
-  });
-  void result.then((form) => {
-    view.dispatch({ effects: close });
-    view.focus();
-    const field = form?.elements.namedItem('name');
-    const after = field instanceof HTMLInputElement ? field.value.trim() : '';
-    if (after !== '' && after !== before) void rename(view, word.from, before, after);
-  });
+  const request: RenameRequest = { view, uri: plugin.uri, at: word.from, before, groups: null };
+  useRename.setState({ request });
+  plugin.client.sync();
+  // Any other name shows the same places.
+  void changesFor(request, `${before}_`)
+    .then((changes) =>
+      groupPlaces(
+        plugin.client,
+        changes.flatMap(([uri, edits]) => edits.map(({ range }) => ({ uri, range }))),
+      ),
+    )
+    .then(
+      (groups) => {
+        if (useRename.getState().request === request) useRename.setState({ request: { ...request, groups } });
+      },
+      (error: unknown) => {
+        if (useRename.getState().request === request) leaveRename();
+        notifications.show({ color: 'red', message: reasonOf(error) });
+      },
+    );
   return true;
 };
 
-async function rename(view: EditorView, at: number, before: string, after: string): Promise<void> {
+/**
+ * Asks the server for the changes of a rename.
+ *
+ * @throws The symbol cannot be renamed, or is defined outside of the project.
+ */
+async function changesFor({ view, uri, at, before }: RenameRequest, after: string): Promise<Changes> {
   const plugin = LSPPlugin.get(view);
-  if (!plugin) return;
-  if (!isPythonName(after)) {
-    notifications.show({ color: 'red', message: t('code:rename.noName', { name: after }) });
-    return;
-  }
-  const { client } = plugin;
+  if (!plugin) return [];
+  const answer = await plugin.client.request<unknown, { changes?: Record<string, TextEdit[]> } | null>(
+    'textDocument/rename',
+    { newName: after, position: plugin.toPosition(at), textDocument: { uri } },
+  );
+  const changes = Object.entries(answer?.changes ?? {}).filter(([, edits]) => edits.length > 0);
+  const isOutside = changes.some(([each]) => pathOf(each) === null);
+  if (changes.length === 0 || isOutside) throw new Error(t('code:rename.nothing', { name: before }));
+  return changes;
+}
+
+/** Renames in every file of the project. */
+export async function rename(request: RenameRequest, after: string): Promise<void> {
+  const client = LSPPlugin.get(request.view)?.client;
+  if (!client) return;
   client.sync();
   try {
     await client.withMapping(async (mapping) => {
-      const answer = await client.request<unknown, { changes?: Record<string, TextEdit[]> } | null>(
-        'textDocument/rename',
-        { newName: after, position: plugin.toPosition(at), textDocument: { uri: plugin.uri } },
-      );
-      const changes = Object.entries(answer?.changes ?? {});
-      if (changes.length === 0) throw new Error(t('code:rename.nothing', { name: before }));
+      const changes = await changesFor(request, after);
       for (const [uri, edits] of changes) {
         if (!client.workspace.getFile(uri)) continue;
         client.workspace.updateFile(uri, {
@@ -68,14 +103,18 @@ async function rename(view: EditorView, at: number, before: string, after: strin
       }
       renameActionToo(
         changes.map(([uri]) => uri),
-        before,
+        request.before,
         after,
       );
       const count = changes.reduce((sum, [, edits]) => sum + edits.length, 0);
-      notifications.show({ message: t('code:rename.done', { count, files: changes.length, name: after }) });
+      const where = t('code:places.summary', {
+        places: t('code:places.places', { count }),
+        files: t('code:places.files', { count: changes.length }),
+      });
+      notifications.show({ message: t('code:rename.done', { name: after, where }) });
     });
   } catch (error) {
-    notifications.show({ color: 'red', message: messageOf(error) });
+    notifications.show({ color: 'red', message: reasonOf(error) });
   }
 }
 
@@ -87,12 +126,6 @@ function renameActionToo(uris: readonly string[], before: string, after: string)
   const renamed = touched && new RegExp(`^class ${after}\\b`, 'm').test(currentText(path) ?? '');
   if (!renamed || actionPath(after) in files) return;
   renameAction(before, after);
-}
-
-function messageOf(error: unknown): string {
-  if (error instanceof Error) return error.message;
-  const { message } = (error ?? {}) as { message?: string };
-  return message ?? String(error);
 }
 
 export const renameKeymap: readonly KeyBinding[] = [{ key: 'F2', run: renameSymbol, preventDefault: true }];

@@ -1,13 +1,24 @@
 import { expect, it } from 'vitest';
-import { libraryOf, pathOf, uriOf } from './uris';
+import { nameOf, pathOf, sourceName, sourceOf, sourceUriOf, uriOf } from './uris';
 
-it('hides the real folder of a project', () => {
-  expect(uriOf('actions/Go há.py')).toBe('file:///project/actions/Go%20h%C3%A1.py');
-  expect(pathOf('file:///project/actions/Go%20h%C3%A1.py')).toBe('actions/Go há.py');
-  expect(pathOf('file:///library/rclpy/node.py')).toBeNull();
+it('the URI of a path is read back as that path', () => {
+  for (const path of ['actions/Go.py', 'notes/a b#c%.md']) {
+    expect(pathOf(uriOf(path))).toBe(path);
+    expect(sourceOf(sourceUriOf(path))).toBe(path);
+  }
 });
 
-it('names the file of a library', () => {
-  expect(libraryOf('file:///library/rclpy/no%20de.py')).toBe('rclpy/no de.py');
-  expect(libraryOf('file:///project/a.py')).toBeNull();
+it('a file is of the project or a source', () => {
+  expect(pathOf('file:///library/packages/rclpy/node.py')).toBeNull();
+  expect(sourceOf('file:///project/a.py')).toBeNull();
+  expect(sourceOf('file:///elsewhere/a.py')).toBeNull();
+});
+
+it('a source has the name that a reader knows', () => {
+  expect(sourceName('packages/rclpy/node.py')).toBe('rclpy/node.py');
+  expect(sourceName('python/os.py')).toBe('os.py');
+  expect(sourceName(`typeshed/${'0a'.repeat(20)}/stdlib/builtins.pyi`)).toBe('builtins.pyi');
+  expect(nameOf('file:///library/python/os.py')).toBe('os.py');
+  expect(nameOf('file:///project/actions/Go.py')).toBe('actions/Go.py');
+  expect(nameOf('file:///elsewhere/a.py')).toBe('file:///elsewhere/a.py');
 });

@@ -3,13 +3,15 @@ import { EditorView } from '@codemirror/view';
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { useProjectStore } from '@/store/project';
 import { connectedClient, type FakeLanguageServer } from '../../../../harness/languageServer';
+import { watchTabs } from '../../../../harness/tabs';
 import { openProject, watchNavigation } from '../../../../harness/testing';
-import { uriOf } from './uris';
+import { sourceUriOf, uriOf } from './uris';
 import { ProjectWorkspace } from './workspace';
 
 const GO = 'actions/Go.py';
 const TURN = 'actions/Turn.py';
-const onOutside = vi.fn();
+const NODE = 'packages/rclpy/node.py';
+const onElsewhere = vi.fn();
 const store = () => useProjectStore.getState();
 
 let client: Awaited<ReturnType<typeof connectedClient>>['client'];
@@ -28,10 +30,10 @@ const changes = () => server.sent('textDocument/didChange');
 const answered = () => client.request('test/answer', {});
 
 beforeEach(async () => {
-  onOutside.mockClear();
+  onElsewhere.mockClear();
   openProject({ texts: { [GO]: 'go = 1', [TURN]: 'turn = 1', 'notes.md': '' } });
   navigator = watchNavigation();
-  ({ client, server } = await connectedClient({ workspace: (of) => new ProjectWorkspace(of, onOutside) }));
+  ({ client, server } = await connectedClient({ workspace: (of) => new ProjectWorkspace(of, onElsewhere) }));
 });
 
 function editor(path: string): EditorView {
@@ -130,11 +132,25 @@ describe('a definition', () => {
     expect(navigator.openFile).not.toHaveBeenCalled();
   });
 
-  it.each([
-    ['file:///library/rclpy/node.py', 'rclpy/node.py'],
-    ['file:///elsewhere/a.py', 'file:///elsewhere/a.py'],
-  ])('outside of the project is named (%s)', async (uri, where) => {
-    expect(await client.workspace.displayFile(uri)).toBeNull();
-    expect(onOutside).toHaveBeenCalledExactlyOnceWith(where);
+  it('outside of the project opens a tab to read, whose text the server knows while it is open', async () => {
+    const tabs = watchTabs();
+    const shown = client.workspace.displayFile(sourceUriOf(NODE));
+    expect(tabs()).toEqual([{ kind: 'source', path: NODE }]);
+    const view = new EditorView({
+      state: EditorState.create({
+        doc: 'class Node: ...',
+        extensions: client.plugin(sourceUriOf(NODE), 'python'),
+      }),
+    });
+    expect(await shown).toBe(view);
+    await expect.poll(() => paths('textDocument/didOpen').at(-1)).toBe(sourceUriOf(NODE));
+    view.destroy();
+    client.sync();
+    await expect.poll(() => paths('textDocument/didClose')).toEqual([sourceUriOf(NODE)]);
+  });
+
+  it('that cannot be opened is named', async () => {
+    expect(await client.workspace.displayFile('file:///elsewhere/a.py')).toBeNull();
+    expect(onElsewhere).toHaveBeenCalledExactlyOnceWith('file:///elsewhere/a.py');
   });
 });

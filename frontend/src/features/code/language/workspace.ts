@@ -3,7 +3,8 @@ import { ChangeSet, Text, type TransactionSpec } from '@codemirror/state';
 import type { EditorView } from '@codemirror/view';
 import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
-import { libraryOf, pathOf, uriOf } from './uris';
+import { openTab } from '@/workspace/tabs';
+import { pathOf, sourceOf, uriOf } from './uris';
 
 type WorkspaceFile = Workspace['files'][number];
 type Update = ReturnType<Workspace['syncFiles']>[number];
@@ -16,22 +17,20 @@ class ProjectFile implements WorkspaceFile {
   readonly views: EditorView[] = [];
 
   constructor(
-    readonly path: string,
+    readonly uri: string,
+    /** The path in the project; null for a source outside of it. */
+    readonly path: string | null,
     public version: number,
     public doc: Text,
   ) {}
-
-  get uri(): string {
-    return uriOf(this.path);
-  }
 
   getView(main?: EditorView): EditorView | null {
     return main && this.views.includes(main) ? main : (this.views[0] ?? null);
   }
 }
 
-function textOf(path: string): Text | null {
-  const text = useProjectStore.getState().currentText(path);
+function textOf(path: string | null): Text | null {
+  const text = path === null ? null : useProjectStore.getState().currentText(path);
   return text === null ? null : Text.of(text.split('\n'));
 }
 
@@ -51,8 +50,8 @@ export class ProjectWorkspace extends Workspace {
 
   constructor(
     client: LSPClient,
-    /** Called with the place of a definition outside of the project, which cannot be opened. */
-    private readonly onOutside: (where: string) => void,
+    /** Called with the address of a file that cannot be opened. */
+    private readonly onElsewhere: (uri: string) => void,
   ) {
     super(client);
   }
@@ -63,7 +62,7 @@ export class ProjectWorkspace extends Workspace {
   }
 
   override openFile(uri: string, _language: string, view: EditorView): void {
-    const file = this.fileAt(uri) ?? this.add(pathOf(uri) ?? uri, view.state.doc);
+    const file = this.fileAt(uri) ?? this.add(uri, view.state.doc);
     file.views.push(view);
     const { doc } = view.state;
     if (!doc.eq(file.doc)) this.replace(file, doc);
@@ -92,31 +91,34 @@ export class ProjectWorkspace extends Workspace {
     const file = this.fileAt(uri);
     const view = file?.getView();
     if (view) view.dispatch(update);
-    else if (file && update.changes) {
+    else if (file && file.path !== null && update.changes) {
       const changed = ChangeSet.of(update.changes, file.doc.length).apply(file.doc);
       useProjectStore.getState().setFileText(file.path, changed.toString());
     }
   }
 
   override displayFile(uri: string): Promise<EditorView | null> {
-    const path = pathOf(uri);
-    if (path === null) {
-      this.onOutside(libraryOf(uri) ?? uri);
-      return Promise.resolve(null);
-    }
-    if (useProjectStore.getState().currentText(path) === null) return Promise.resolve(null);
+    if (!this.open(uri)) return Promise.resolve(null);
     const view = this.fileAt(uri)?.getView();
-    openFile(path);
     if (view) return Promise.resolve(view);
     return new Promise((resolve) => this.waiting.set(uri, resolve));
+  }
+
+  /** Opens the tab of a file; returns whether there is such a file. */
+  private open(uri: string): boolean {
+    const [path, source] = [pathOf(uri), sourceOf(uri)];
+    if (source !== null) openTab({ kind: 'source', path: source });
+    else if (path === null) this.onElsewhere(uri);
+    else if (textOf(path) !== null) openFile(path);
+    return source !== null || textOf(path) !== null;
   }
 
   private fileAt(uri: string): ProjectFile | undefined {
     return this.files.find((file) => file.uri === uri);
   }
 
-  private add(path: string, doc: Text): ProjectFile {
-    const file = new ProjectFile(path, this.nextVersion(path), doc);
+  private add(uri: string, doc: Text): ProjectFile {
+    const file = new ProjectFile(uri, pathOf(uri), this.nextVersion(uri), doc);
     this.files.push(file);
     if (this.client.serverCapabilities) this.client.didOpen(file);
     return file;
@@ -127,9 +129,9 @@ export class ProjectWorkspace extends Workspace {
     const paths = new Set(pythonFiles());
     for (const path of paths) {
       const doc = this.files.some((file) => file.path === path) ? null : textOf(path);
-      if (doc) this.add(path, doc);
+      if (doc) this.add(uriOf(path), doc);
     }
-    const gone = this.files.filter((file) => !paths.has(file.path) && file.views.length === 0);
+    const gone = this.files.filter(({ path, views }) => !paths.has(path ?? '') && views.length === 0);
     this.files = this.files.filter((file) => !gone.includes(file));
     if (this.client.serverCapabilities) for (const file of gone) this.client.didClose(file.uri);
   }
@@ -142,20 +144,20 @@ export class ProjectWorkspace extends Workspace {
       const changes = plugin.unsyncedChanges;
       if (changes.empty) return [];
       file.doc = view.state.doc;
-      file.version = this.nextVersion(file.path);
+      file.version = this.nextVersion(file.uri);
       plugin.clear();
       return [{ file, prevDoc, changes }];
     }
     const doc = textOf(file.path);
     if (!doc || doc.eq(prevDoc)) return [];
     file.doc = doc;
-    file.version = this.nextVersion(file.path);
+    file.version = this.nextVersion(file.uri);
     return [{ file, prevDoc, changes: wholeChange(prevDoc, doc) }];
   }
 
   private replace(file: ProjectFile, doc: Text): void {
     file.doc = doc;
-    file.version = this.nextVersion(file.path);
+    file.version = this.nextVersion(file.uri);
     if (!this.client.serverCapabilities) return;
     this.client.notification('textDocument/didChange', {
       textDocument: { uri: file.uri, version: file.version },
@@ -163,9 +165,9 @@ export class ProjectWorkspace extends Workspace {
     });
   }
 
-  private nextVersion(path: string): number {
-    const version = (this.versions.get(path) ?? 0) + 1;
-    this.versions.set(path, version);
+  private nextVersion(uri: string): number {
+    const version = (this.versions.get(uri) ?? 0) + 1;
+    this.versions.set(uri, version);
     return version;
   }
 }

@@ -150,6 +150,14 @@ describe('messagesFor', () => {
     expect(new Set(all.map(({ id }) => id)).size).toBe(all.length);
   });
 
+  it('puts the offer of a restart before a failed launch node, which does not end the run', () => {
+    const node = fault({ kind: 'process', file: 'launch/a.yaml', line: 2 });
+    const at = { file: 'launch/a.yaml', line: 2, id: 'a', name: 'a', package: '', executable: '' };
+    const launchNodes = [{ ...at, state: 'failed', restarts: 0, end: '' }] as const;
+    const all = messagesFor({ ...calm, faults: [node], launchNodes, canRestart: true });
+    expect(all.map(({ kind }) => kind)).toEqual(['restart', 'node']);
+  });
+
   it('does not repeat the end of a run that a fault explains', () => {
     const faults = [fault({})];
     expect(messagesFor({ ...calm, faults, executorReason: 'It ended.' })).toHaveLength(1);

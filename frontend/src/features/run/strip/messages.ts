@@ -16,8 +16,8 @@ export const PRIORITY: readonly MessageKind[] = [
   'fault',
   'finished',
   'viewer',
-  'node',
   'restart',
+  'node',
   'world',
 ];
 

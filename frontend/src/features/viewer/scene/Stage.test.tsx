@@ -6,6 +6,7 @@ import type { Poses, Scan, Scene, Shape } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
 import { trail } from '@/store/session/trace/trail';
 import { objectsOf, showScene } from '../../../../harness/scene';
+import { pageHost } from '../pageHost';
 import { loadViewOptions, type ViewOptions } from '../viewOptions';
 import { Stage } from './Stage';
 
@@ -52,7 +53,15 @@ function robotAt(x: number, t: number): Poses {
 function stage(more: Partial<ViewOptions> = {}) {
   const onMoved = vi.fn();
   const element = (options: ViewOptions) => (
-    <Stage scene={SCENE} options={options} isDark={false} isVisible onMoved={onMoved} onSlow={vi.fn()} />
+    <Stage
+      scene={SCENE}
+      options={options}
+      isDark={false}
+      isJudged
+      host={pageHost}
+      onMoved={onMoved}
+      onSlow={vi.fn()}
+    />
   );
   let options = { ...loadViewOptions(), ...more };
   const shown = showScene(element(options));

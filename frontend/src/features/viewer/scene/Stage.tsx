@@ -4,6 +4,7 @@ import type { Scene } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
 import { forEachPose, type Pose } from '@/store/session/poses';
 import { trail } from '@/store/session/trace/trail';
+import type { StageHost } from './host';
 import { FramesView, FrustumView } from './HelperViews';
 import { LidarView } from './LidarView';
 import { MeasureLine } from './MeasureLine';
@@ -26,7 +27,9 @@ interface StageProps {
   readonly scene: Scene;
   readonly options: ViewOptions;
   readonly isDark: boolean;
-  readonly isVisible: boolean;
+  /** Whether a rate of pictures that is too low is reported. */
+  readonly isJudged: boolean;
+  readonly host: StageHost;
   /** Called when the user turns or moves the camera. */
   readonly onMoved: () => void;
   /** Called with the rate of pictures in Hz when it has been too low for too long. */
@@ -34,10 +37,10 @@ interface StageProps {
 }
 
 /** The content of the 3D view: the world, its light, and optional helpers. */
-export function Stage({ scene, options, isDark, isVisible, onMoved, onSlow }: StageProps) {
+export function Stage({ scene, options, isDark, isJudged, host, onMoved, onSlow }: StageProps) {
   const isSimple = isSoftwareWebGl();
   const invalidate = useThrottledInvalidate();
-  const slowness = useSlowness(isVisible, onSlow);
+  const slowness = useSlowness(isJudged, onSlow);
   const requestFrame = useCallback(() => {
     slowness.request();
     invalidate();
@@ -105,11 +108,12 @@ export function Stage({ scene, options, isDark, isVisible, onMoved, onSlow }: St
     most: LARGEST_M,
   }));
   useFollow(world, controls, { isOn: options.follow, view, onMoved, requestFrame });
-  useTools(world, controls);
+  useTools(world, controls, host);
 
   return (
     <Surroundings
       controls={controls}
+      element={host.element}
       isDark={isDark}
       lights={scene.lights}
       bounds={world.bounds}

@@ -18,6 +18,8 @@ const LOOKS = {
 
 interface SurroundingsProps {
   readonly controls: RefObject<Orbit | null>;
+  /** The element whose events turn the view; by default the canvas. */
+  readonly element?: HTMLElement | null;
   readonly isDark: boolean;
   readonly lights: Scene['lights'];
   readonly bounds: THREE.Box3;
@@ -33,7 +35,7 @@ interface SurroundingsProps {
 
 /** The sky, light, ground, grid and camera controls of every view of a world. */
 export function Surroundings(props: SurroundingsProps) {
-  const { controls, isDark, lights, bounds, ground, textures, hasGrid, fineGrid = 0, reach } = props;
+  const { controls, element, isDark, lights, bounds, ground, textures, hasGrid, fineGrid = 0, reach } = props;
   const isSimple = isSoftwareWebGl();
   const look = isDark ? LOOKS.dark : LOOKS.light;
   const [nearest, farthest] = reach;
@@ -62,6 +64,7 @@ export function Surroundings(props: SurroundingsProps) {
       {props.children}
       <OrbitControls
         ref={controls}
+        {...(element ? { domElement: element } : {})}
         makeDefault
         // Damping draws many additional pictures, and with software rendering each takes time from the
         // simulation.

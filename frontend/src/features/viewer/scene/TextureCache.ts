@@ -18,13 +18,28 @@ export function loadTexture(
   anisotropy: number,
   done: (texture: THREE.Texture | null) => void,
 ): void {
-  const arrived = (texture: THREE.Texture) => {
-    texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
-    texture.colorSpace = THREE.SRGBColorSpace;
-    texture.anisotropy = anisotropy;
-    done(texture);
-  };
+  const arrived = (texture: THREE.Texture) => done(repeating(texture, anisotropy));
   new THREE.TextureLoader().load(address, arrived, undefined, () => done(null));
+}
+
+/** Decodes a repeating picture in a worker, which has no image elements; null if it is damaged. */
+function decodeInWorker(jpeg: Blob, anisotropy: number, done: (texture: THREE.Texture | null) => void): void {
+  createImageBitmap(jpeg, { imageOrientation: 'flipY' }).then(
+    (bitmap) => {
+      const texture = new THREE.Texture(bitmap);
+      texture.flipY = false; // the bitmap has been turned, since WebGL cannot turn it
+      texture.needsUpdate = true;
+      done(repeating(texture, anisotropy));
+    },
+    () => done(null),
+  );
+}
+
+function repeating(texture: THREE.Texture, anisotropy: number): THREE.Texture {
+  texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
+  texture.colorSpace = THREE.SRGBColorSpace;
+  texture.anisotropy = anisotropy;
+  return texture;
 }
 
 interface Loading {
@@ -68,13 +83,18 @@ export class TextureCache implements Pictures {
   }
 
   private load(jpeg: Uint8Array<ArrayBuffer>, loading: Loading): void {
-    const address = URL.createObjectURL(new Blob([jpeg], { type: 'image/jpeg' }));
-    loadTexture(address, this.anisotropy, (texture) => {
-      URL.revokeObjectURL(address);
+    const blob = new Blob([jpeg], { type: 'image/jpeg' });
+    const arrived = (texture: THREE.Texture | null) => {
       if (this.isOver || !texture) return;
       loading.texture = texture;
       for (const take of loading.waiting.splice(0)) take(texture);
       this.onLoaded();
+    };
+    if (typeof document === 'undefined') return decodeInWorker(blob, this.anisotropy, arrived);
+    const address = URL.createObjectURL(blob);
+    loadTexture(address, this.anisotropy, (texture) => {
+      URL.revokeObjectURL(address);
+      arrived(texture);
     });
   }
 }

@@ -1,0 +1,53 @@
+import { IconActivity } from '@tabler/icons-react';
+import { useRef } from 'react';
+import { useTranslation } from 'react-i18next';
+import { useLiveValues } from '@/store/session/values/live';
+import type { ShownPort } from '@/store/session/values/shown';
+import { useVisible } from '@/ui/useVisible';
+import { shortValue, SPARK, sparkPoints } from './spark';
+import classes from './PortValue.module.css';
+
+interface PortValueProps {
+  readonly port: ShownPort;
+  /** What the block shows before the port has a value. */
+  readonly text: string;
+}
+
+/** The value that the port's entry has in the run, with a spark line if it is a number. */
+export function PortValue({ port, text }: PortValueProps) {
+  const { t } = useTranslation('canvas');
+  const root = useRef<HTMLSpanElement>(null);
+  const isVisible = useVisible(root);
+  const live = useLiveValues(({ values }) => (isVisible ? values.get(port) : undefined));
+  const short = live && shortValue(live.value);
+  return (
+    <span
+      ref={root}
+      className={classes['value']}
+      data-testid={`value-${port}`}
+      data-valued={live ? '' : undefined}
+      title={live ? `${live.key} = ${short}` : t('port.shown')}
+    >
+      {live ? (
+        <>
+          {live.samples.length > 1 && (
+            <svg
+              className={classes['spark']}
+              viewBox={`0 0 ${SPARK.width} ${SPARK.height}`}
+              preserveAspectRatio="none"
+              aria-hidden="true"
+            >
+              <polyline points={sparkPoints(live.samples)} vectorEffect="non-scaling-stroke" />
+            </svg>
+          )}
+          <span className={classes['text']}>{short}</span>
+        </>
+      ) : (
+        <>
+          <IconActivity size={11} stroke={2} aria-hidden="true" />
+          <span className={classes['text']}>{text}</span>
+        </>
+      )}
+    </span>
+  );
+}

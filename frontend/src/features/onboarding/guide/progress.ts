@@ -1,0 +1,41 @@
+import type { Diagram } from '@/model/diagram';
+import type { UndoEntry } from '@/model/undo';
+import { specOf } from '@/model/vocabulary';
+import type { useProjectStore } from '@/store/project';
+
+type ProjectState = ReturnType<typeof useProjectStore.getState>;
+
+const blocksOf = (diagrams: Readonly<Record<string, Diagram>>): number =>
+  Object.values(diagrams).reduce((sum, { nodes }) => sum + Object.keys(nodes).length, 0);
+
+/** The edit that was made here between two states; null if there was none, or if one was undone. */
+function editBetween(now: ProjectState, before: ProjectState): UndoEntry | null {
+  for (const [tree, { past }] of Object.entries(now.histories)) {
+    const newest = past.at(-1);
+    const earlier = before.histories[tree]?.past ?? [];
+    if (newest && newest !== earlier.at(-1) && past.length >= earlier.length) return newest;
+  }
+  return null;
+}
+
+/** Whether a block was added by hand. */
+export function hasAddedBlock(now: ProjectState, before: ProjectState): boolean {
+  return editBetween(now, before) !== null && blocksOf(now.diagrams) > blocksOf(before.diagrams);
+}
+
+/** What the selected block needs next: values for its ports, or blocks below it. */
+export function needOf({ diagrams, activeTree, selection, vocabulary }: ProjectState): 'port' | 'child' {
+  const node = diagrams[activeTree ?? '']?.nodes[selection[0] ?? ''];
+  const ports = node ? (specOf(vocabulary, node)?.ports ?? []) : [];
+  return ports.length > 0 || node?.ports !== undefined ? 'port' : 'child';
+}
+
+const FILLS: ReadonlySet<string> = new Set(['port', 'condition', 'connect']);
+const GROWS: ReadonlySet<string> = new Set(['add', 'move', 'paste', 'wrap']);
+
+/** Whether a port was set or blocks were connected by hand. */
+export function hasFilled(now: ProjectState, before: ProjectState): boolean {
+  const edit = editBetween(now, before);
+  if (!edit) return false;
+  return FILLS.has(edit.label) || (needOf(before) === 'child' && GROWS.has(edit.label));
+}

@@ -1,0 +1,53 @@
+import type { Frame } from '@/generated/messages';
+import type { Point } from '../measuring';
+import type { Pose } from '@/store/session/poses';
+import type { BodyPose } from '../scene/DraggedBody';
+import type { ViewOptions } from '../viewOptions';
+
+/** What the page knows and the drawing depends on. */
+export interface View {
+  readonly options: ViewOptions;
+  readonly isDark: boolean;
+  readonly isVisible: boolean;
+  /** Whether a rate of pictures that is too low is reported. */
+  readonly isJudged: boolean;
+  readonly canMove: boolean;
+  readonly measuring: { readonly isOn: boolean; readonly points: readonly Point[] };
+}
+
+/** The size of the canvas in CSS pixels, and the pixels of the picture for each of them. */
+export interface Size {
+  readonly width: number;
+  readonly height: number;
+  readonly dpr: number;
+}
+
+/** The fields of a pointer, wheel or key event that the stage reads; positions are relative to the canvas. */
+export type SentEvent = { readonly type: string } & Readonly<Record<string, string | number | boolean>>;
+
+export type ToWorker =
+  | { readonly kind: 'begin'; readonly canvas: OffscreenCanvas; readonly size: Size }
+  /** A new request to move the camera has another number, since a copied request is always another object. */
+  | { readonly kind: 'view'; readonly view: View; readonly viewpoint: number }
+  | { readonly kind: 'size'; readonly size: Size }
+  | { readonly kind: 'frame'; readonly frame: Frame }
+  /** What the page recorded before this view was opened. */
+  | { readonly kind: 'past'; readonly poses: readonly (readonly [number, Pose])[]; readonly trail: string }
+  | { readonly kind: 'event'; readonly to: 'element' | 'keys'; readonly event: SentEvent }
+  /** The answer to `move`; the error is null if the session moved the body. */
+  | { readonly kind: 'moved'; readonly id: number; readonly error: string | null };
+
+export type FromWorker =
+  /** The user has turned or moved the camera. */
+  | { readonly kind: 'turned' }
+  /** The view draws too slowly, in Hz. */
+  | { readonly kind: 'slow'; readonly hz: number }
+  | { readonly kind: 'cursor'; readonly cursor: string }
+  | { readonly kind: 'measured'; readonly point: Point }
+  | {
+      readonly kind: 'move';
+      readonly id: number;
+      readonly body: string;
+      readonly pose: BodyPose;
+      readonly from: BodyPose;
+    };

@@ -1,0 +1,21 @@
+import type { Point } from '../measuring';
+import type { BodyPose } from './DraggedBody';
+
+/** What the stage needs from its page. The page implements it, and so does the worker that draws for it. */
+export interface StageHost {
+  /** The element whose pointer events turn the view and drag bodies; null: the canvas. */
+  readonly element: HTMLElement | null;
+  /** Where key presses arrive. */
+  readonly keys: EventTarget;
+  /** Returns whether bodies can be dragged now. */
+  canMove(): boolean;
+  /**
+   * Moves a body in the session.
+   *
+   * @param from its pose before the drag.
+   * @throws Error if the session refuses; the user was notified.
+   */
+  moveBody(body: string, pose: BodyPose, from: BodyPose): Promise<void>;
+  /** Adds a point to the measurement, in m, in the world frame. */
+  addMeasured(point: Point): void;
+}

@@ -36,10 +36,18 @@ export default defineConfig({
     environment: 'jsdom',
     projects: [
       { extends: true, test: { name: 'modules', include: ['src/**/*.test.ts'] } },
-      { extends: true, test: { name: 'components', include: ['src/**/*.test.tsx'] } },
+      {
+        extends: true,
+        test: {
+          name: 'components',
+          include: ['src/**/*.test.tsx'],
+          // Removes what a file leaves behind in the page, its stores and its modules.
+          setupFiles: ['./harness/sharedPage.ts'],
+        },
+      },
     ],
     // Files share a process with the libraries that it has loaded, which takes most of the time of a process of
-    // their own. `harness/sharedPage.ts` removes what a file leaves behind.
+    // their own.
     isolate: false,
     setupFiles: ['./vitest.setup.ts'],
     // Styles are left out, but for the colours that pictures are drawn with.

@@ -2,9 +2,7 @@ import './harness/sentBodies';
 import './src/i18n/editorTexts';
 import '@testing-library/jest-dom/vitest';
 import { cleanup, configure } from '@testing-library/react';
-import { afterAll, afterEach } from 'vitest';
-// After the libraries, which add to the page once for all files.
-import { cleanPage } from './harness/sharedPage';
+import { afterEach } from 'vitest';
 
 // jsdom has no layout: Mantine asks for these at start, and neither matters to a test.
 window.matchMedia ??= (query: string) =>
@@ -55,7 +53,6 @@ Range.prototype.getBoundingClientRect ??= () => new DOMRect();
 configure({ defaultHidden: true, asyncUtilTimeout: 20_000 });
 
 afterEach(cleanup);
-afterAll(cleanPage);
 
 // jsdom draws no pictures, and would say so each time it is asked to.
 HTMLCanvasElement.prototype.getContext = () => null;

@@ -1,9 +1,10 @@
-import { vi } from 'vitest';
+import { afterAll, vi } from 'vitest';
 
 /*
  * Files of tests run one after the other in one process: loading React, Mantine and CodeMirror takes longer than
  * most tests. This removes what a file leaves behind. Modules of ours are evaluated again for each file, so
- * stores and caches in modules begin empty; the libraries and the window stay.
+ * stores and caches in modules begin empty; the libraries and the window stay. It is set up after the libraries,
+ * which add to the page once for all files.
  */
 
 type Listening = [type: string, listener: EventListenerOrEventListenerObject, options?: boolean];
@@ -82,7 +83,7 @@ function cleanDocument(): void {
 }
 
 /** Makes the page as it was before this file of tests. */
-export function cleanPage(): void {
+function cleanPage(): void {
   vi.useRealTimers();
   vi.unstubAllGlobals();
   vi.unstubAllEnvs();
@@ -97,3 +98,4 @@ export function cleanPage(): void {
 }
 
 watch();
+afterAll(cleanPage);

@@ -1,4 +1,5 @@
 import { CompletionContext, type CompletionResult, type CompletionSource } from '@codemirror/autocomplete';
+import { ensureSyntaxTree } from '@codemirror/language';
 import { EditorState } from '@codemirror/state';
 import { describe, expect, it } from 'vitest';
 import { makeVocabulary, type NodeSpec } from '@/model/vocabulary';
@@ -46,7 +47,10 @@ const vocabulary = makeVocabulary(
 /** Returns the completions at the bar in a text. */
 async function offered(text: string) {
   const pos = text.indexOf('|');
-  const state = EditorState.create({ doc: text.replace('|', ''), extensions: treeXml(vocabulary) });
+  const begun = EditorState.create({ doc: text.replace('|', ''), extensions: treeXml(vocabulary) });
+  // A busy machine may not have parsed all in the time that a state gives itself.
+  ensureSyntaxTree(begun, pos, 60_000);
+  const { state } = begun.update({});
   const [source] = state.languageDataAt<CompletionSource>('autocomplete', pos);
   const found = (await source?.(new CompletionContext(state, pos, true))) as CompletionResult | null;
   return found?.options ?? [];

@@ -1,4 +1,4 @@
-import type { Model} from 'flexlayout-react';
+import type { Model } from 'flexlayout-react';
 import { type TabNode } from 'flexlayout-react';
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { openProject } from '../../harness/testing';

@@ -28,7 +28,7 @@ function open(answers = {}, texts: Record<string, string> = {}) {
 
 beforeEach(() => useUniverseChoice.setState({ universe: null, robot: null }));
 
-describe("a copy of your own", () => {
+describe('a copy of your own', () => {
   it('of the universe is used and opened, and all of it is undone', async () => {
     open(ANSWERS);
     useUniverseChoice.setState({ universe: 'line' });

@@ -1,14 +1,27 @@
 import { Menu } from '@mantine/core';
+import { useEffect } from 'react';
 
 interface PointTargetProps {
   readonly x: number;
   readonly y: number;
   /** The name of the menu. */
   readonly label: string;
+  readonly onClose: () => void;
 }
 
 /** Opens a menu at a point of the window, where the pointer is. */
-export function PointTarget({ x, y, label }: PointTargetProps) {
+export function PointTarget({ x, y, label, onClose }: PointTargetProps) {
+  // The menu hears Escape only once it has the focus, which comes a moment after it is shown.
+  useEffect(() => {
+    const closeBeforeFocus = (event: KeyboardEvent) => {
+      if (event.key !== 'Escape' || document.activeElement?.closest('[role=menu]')) return;
+      event.stopPropagation();
+      onClose();
+    };
+    window.addEventListener('keydown', closeBeforeFocus, true);
+    return () => window.removeEventListener('keydown', closeBeforeFocus, true);
+  }, [onClose]);
+
   return (
     <Menu.Target>
       {/* Hidden: a point has no role that could say what it opens. */}

@@ -72,7 +72,12 @@ export function BlockMenu({ point, onClose }: BlockMenuProps) {
       width={284}
       returnFocus={false}
     >
-      <PointTarget x={point.x} y={point.y} label={t(point.isOnBlock ? 'menu.ofBlocks' : 'menu.ofCanvas')} />
+      <PointTarget
+        x={point.x}
+        y={point.y}
+        label={t(point.isOnBlock ? 'menu.ofBlocks' : 'menu.ofCanvas')}
+        onClose={onClose}
+      />
       <Menu.Dropdown
         onContextMenu={(event) => {
           event.preventDefault();

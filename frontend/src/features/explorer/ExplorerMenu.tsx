@@ -89,7 +89,7 @@ export function ExplorerMenu({ path, name, isOpened, point, onChange, onOpen }: 
     <Menu position={point ? 'bottom-start' : 'bottom-end'} opened={isOpened} onChange={onChange}>
       {point ? (
         <>
-          <PointTarget {...point} label={label} />
+          <PointTarget {...point} label={label} onClose={() => onChange(false)} />
           {button}
         </>
       ) : (

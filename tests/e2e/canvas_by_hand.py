@@ -262,8 +262,10 @@ def comment_and_menu_by_keys(studio: Studio, whole: list[str]) -> None:
     takes_back(studio, whole)
     block(studio, "ReactiveFallback").click()
     keys.press("Shift+F10")
-    expect(studio.at("menu-addChild")).to_be_visible()
+    expect(studio.at("menu-addChild")).to_be_focused()
     keys.press("ArrowDown")
+    expect(studio.at("menu-addChild")).not_to_be_focused()
+    keys.press("ArrowUp")
     expect(studio.at("menu-addChild")).to_be_focused()
     assert selected(studio) == ["ReactiveFallback"], "the menu's keys are not the tree's"
     keys.press("Escape")

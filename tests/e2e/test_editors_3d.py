@@ -89,7 +89,7 @@ def change_a_universe(studio: Studio) -> None:
     studio.at("mesh-file").set_input_files(
         files=FilePayload(name="rock.obj", mimeType="text/plain", buffer=CRATE)
     )
-    expect(studio.at("placing")).to_contain_text("rock.obj")
+    expect(studio.at("universe-view").get_by_test_id("placing")).to_contain_text("rock.obj")
     studio.page.keyboard.press("Enter")
     expect(studio.at("thing-rock")).to_be_visible()
     place(studio, "place-floor")
@@ -271,7 +271,7 @@ def let_a_mesh_turn(studio: Studio) -> None:
     studio.at("part-mesh-file").set_input_files(
         files=FilePayload(name="cup.stl", mimeType="model/stl", buffer=MESH_MM)
     )
-    expect(studio.at("placing")).to_contain_text("cup.stl")
+    expect(studio.at("robot-view").get_by_test_id("placing")).to_contain_text("cup.stl")
     studio.page.keyboard.press("Enter")
     expect(studio.at("thing-link cup_link")).to_have_attribute("aria-selected", "true")
     field(fields, "part-name", "holder")
@@ -294,7 +294,7 @@ def let_a_mesh_turn(studio: Studio) -> None:
 
 def delete_and_bring_back(studio: Studio, name: str) -> None:
     """A robot is deleted with its URDF and its mesh, and all of it is restored."""
-    studio.page.get_by_role("button", name=f"More for {name}").click()
+    studio.page.get_by_role("button", name=f"More for {name}", exact=True).click()
     studio.page.get_by_role("menuitem", name="Delete").click()
     for file in ("robot.yaml", "robot.urdf", "meshes/cup.stl"):
         expect(studio.at(f"file-robots/{name}/{file}")).to_have_count(0)
@@ -307,7 +307,7 @@ def delete_and_bring_back(studio: Studio, name: str) -> None:
 
 def rename(studio: Studio, name: str, to: str) -> None:
     """The robot's folder gets another name; the project still runs with it."""
-    studio.page.get_by_role("button", name=f"More for {name}").click()
+    studio.page.get_by_role("button", name=f"More for {name}", exact=True).click()
     studio.page.get_by_role("menuitem", name="Rename").click()
     studio.page.get_by_role("dialog").get_by_role("textbox").fill(to)
     studio.page.keyboard.press("Enter")

@@ -42,6 +42,7 @@ def test_menus_open_at_the_pointer(shared_studio: Studio) -> None:
     studio = shared_studio
     studio.new_from("laser_bump_and_go")
     for target in (studio.at("file-actions/Turn.py"), block(studio, "Turn")):
+        target.scroll_into_view_if_needed()  # the Explorer may be longer than its panel
         x, y = middle(target)
         studio.page.mouse.click(x - 8, y, button="right")
         menu = studio.page.get_by_role("menu")

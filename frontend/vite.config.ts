@@ -35,7 +35,10 @@ export default defineConfig({
   test: {
     environment: 'jsdom',
     projects: [
-      { extends: true, test: { name: 'modules', include: ['src/**/*.test.ts'] } },
+      {
+        extends: true,
+        test: { name: 'modules', include: ['src/**/*.test.ts'], setupFiles: ['./harness/endTimers.ts'] },
+      },
       {
         extends: true,
         test: {

@@ -280,9 +280,9 @@ def test_what_falls_onto_the_page_becomes_a_project(shared_studio: Studio) -> No
     expect(studio.at("projects")).to_be_visible()
 
 
-def test_a_project_is_downloaded_and_brought_back(shared_studio: Studio, tmp_path: Path) -> None:
+def test_a_project_is_downloaded_and_brought_back(studio: Studio, tmp_path: Path) -> None:
     """By the card's menu and the button *Import…*: tree, code and name are the same."""
-    studio, page = shared_studio, shared_studio.page
+    page = studio.page
     studio.new_from("laser_bump_and_go")
     studio.set_port("n6", "lin_speed", "0.123")
     page.get_by_role("link", name="All projects").click()

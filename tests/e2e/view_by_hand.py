@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from tests.e2e.observer import Observer
     from tests.e2e.studio import Studio
 
+BUTTON_PX = 48
 LAYERS = ("LIDAR rays", "Trail", "Grid", "Coordinate frames", "Camera's field of view")
 # The camera over the walled room by `look` of viewer/Surroundings.tsx and the view's angle, in m.
 ROOM_DIAGONAL_M = math.hypot(10.4, 10.4, 1.4)
@@ -32,7 +33,7 @@ def the_view_is_used_by_hand(studio: Studio, observer: Observer) -> None:
     expect(studio.at("canvas")).to_be_hidden()
     the_view_is_turned(studio)
     layers_come_and_go(studio)
-    tool(studio, "Top view").click()
+    changes(studio, tool(studio, "Top view").click, "the view from above")
     a_distance_is_measured(studio)
     bodies_are_carried_and_put_back(studio, observer)
     studio.picture("view-from-above")
@@ -53,9 +54,11 @@ def area(studio: Studio) -> FloatRect:
 
 
 def drawn(studio: Studio) -> bytes:
-    """Returns the drawing, without its right part, where the tools and their menus are."""
+    """Returns the drawing without the page's buttons: tools and menus at the right, *Follow* below."""
     box = area(studio)
-    return studio.page.screenshot(clip={**box, "width": box["width"] * 0.7})
+    return studio.page.screenshot(
+        clip={**box, "width": box["width"] * 0.7, "height": box["height"] - BUTTON_PX}
+    )
 
 
 def changes(studio: Studio, gesture: Callable[[], None], what: str) -> None:
@@ -85,7 +88,9 @@ def the_view_is_turned(studio: Studio) -> None:
         "the view moves": lambda: drag("right"),
         "the view comes nearer": scroll,
     }
-    tool(studio, "Default view").click()
+    # A worker draws some time after a click: a view is known to be drawn when another one was before.
+    changes(studio, tool(studio, "Top view").click, "the view from above")
+    changes(studio, tool(studio, "Default view").click, "the default view")
     mouse.move(x, y)
     wait_until(lambda: drawn(studio) == drawn(studio), "the view is at rest")
     home = drawn(studio)

@@ -206,7 +206,8 @@ def test_deltas_applied_to_a_snapshot_equal_a_new_snapshot():
     play.command("pause")
 
     late = Mirror()
-    late.tree, late.tick_hz, late.universe = early.tree, early.tick_hz, early.universe
+    late.begin_run(early.tick_hz)
+    late.tree, late.universe = early.tree, early.universe
     late.state, late.statuses = State(early.state), dict(early.statuses)
     late.logs.extend(early.logs)
     for name in ("state-changed", "tick", "blackboard", "log", "fault"):

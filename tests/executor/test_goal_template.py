@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from executor.ros.environment import ros_environment
-from tests.executor.application.test_process import app
+from tests.executor.application.real_application import app
 from tests.executor.session_client import SessionClient, manager_process, run_data
 
 ROOT = Path(__file__).parents[2]

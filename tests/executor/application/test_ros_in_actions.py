@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.executor.application.test_process import HEAD, action, app, run_data, second_run_works, session
+from tests.executor.application.real_application import HEAD, action, app, run_data, second_run_works, session
 
 pytestmark = pytest.mark.simulation
 

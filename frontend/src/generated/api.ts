@@ -851,6 +851,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/offers": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * @description Lists the trees that the user's own projects, and those shared with the user, offer to others.
+         *
+         *     The projects are in the order of their last change, without archived ones.
+         */
+        get: operations["list_offers"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/python/format": {
         parameters: {
             query?: never;
@@ -1324,6 +1345,27 @@ export interface components {
             nodes: {
                 [key: string]: unknown;
             }[];
+        };
+        /** @description The trees that one project offers to others. */
+        Offer: {
+            /** Format: uuid */
+            project: string;
+            name: string;
+            description: string;
+            owner: string;
+            revision: number;
+            main_tree: string;
+            /** @description The offered trees. */
+            trees: string[];
+            /** @description The trees and actions that they use, by path. */
+            files: {
+                [key: string]: string;
+            };
+        };
+        /** @description A page of offers; `next_offset` is null on the last page. */
+        OfferList: {
+            items: components["schemas"]["Offer"][];
+            next_offset: number | null;
         };
         /** @enum {string} */
         OnErrorEnum: "stop" | "failure";
@@ -3658,6 +3700,37 @@ export interface operations {
                 };
                 content: {
                     "application/problem+json": components["schemas"]["CheckProblem"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_offers: {
+        parameters: {
+            query?: {
+                limit?: number;
+                offset?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OfferList"];
                 };
             };
             /** @description A problem document. */

@@ -44,7 +44,7 @@ export const renameSymbol: Command = (view) => {
   const request: RenameRequest = { view, uri: plugin.uri, at: word.from, before, groups: null };
   useRename.setState({ request });
   plugin.client.sync();
-  // Any other name shows the same places.
+  // The places are the same for every new name, so any other name will do.
   void changesFor(request, `${before}_`)
     .then((changes) =>
       groupPlaces(

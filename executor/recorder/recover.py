@@ -19,7 +19,7 @@ __all__ = ["Recovered", "join", "recover"]
 
 @dataclass(frozen=True)
 class Recovered:
-    """What was recovered: the messages, the time of the last one, and the bytes that could not be used."""
+    """The recovered messages, the time of the last one, and the bytes that could not be used."""
 
     messages: int
     end_ns: int

@@ -1,6 +1,7 @@
 """Files that a user may read beside the project: Python's own library, installed packages, and stubs.
 
-As `backend/language/sources.py`, for the container. The labels stand for the folders in the page.
+Does the same as `backend/language/sources.py`, in the container. The page sees the labels instead of the
+folders.
 """
 
 from __future__ import annotations
@@ -41,6 +42,6 @@ def read_source(path: str, roots: Iterable[str]) -> str | None:
         if not is_below or real.suffix not in _SUFFIXES or not real.is_file():
             return None
         data = real.read_bytes() if real.stat().st_size <= MAX_BYTES else None
-    except (OSError, ValueError, RuntimeError):  # a null character; a circle of links
+    except (OSError, ValueError, RuntimeError):  # the path has a null character, or the links form a circle
         return None
     return None if data is None else data.decode(errors="replace")

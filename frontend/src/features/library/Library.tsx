@@ -59,7 +59,7 @@ export function Library() {
   const trees = useTreesOf(source === BUILT_IN ? null : source);
   const taken = useMemo(() => takenIn(record), [record]);
   const { data, error, isPending } = source === BUILT_IN ? library : trees;
-  // A project that offers some of its trees by name shows the others on demand.
+  // If a project offers some of its trees, its other trees are shown only on demand.
   const curates = (data ?? []).some(({ isOffered }) => isOffered);
   const hasMore = curates && (data ?? []).some(({ isOffered }) => !isOffered);
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);

@@ -14,7 +14,7 @@ export interface Offer extends Reusable {
   readonly diagram: unknown;
   /** The name of its project; null in the built-in library. */
   readonly project: string | null;
-  /** Its project offers it by name. */
+  /** Whether its project explicitly offers it. */
   readonly isOffered: boolean;
 }
 

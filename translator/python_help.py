@@ -57,6 +57,6 @@ def read_source(path: str, roots: Iterable[str]) -> str | None:
         if not is_below or real.suffix not in SUFFIXES or not real.is_file():
             return None
         data = real.read_bytes() if real.stat().st_size <= MAX_BYTES else None
-    except (OSError, ValueError, RuntimeError):  # a null character; a circle of links
+    except (OSError, ValueError, RuntimeError):  # the path has a null character, or the links form a circle
         return None
     return None if data is None else data.decode(errors="replace")

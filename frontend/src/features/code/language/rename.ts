@@ -82,7 +82,7 @@ async function changesFor({ view, uri, at, before }: RenameRequest, after: strin
   return changes;
 }
 
-/** Renames in every file of the project. */
+/** Renames a symbol in every file of the project. */
 export async function rename(request: RenameRequest, after: string): Promise<void> {
   const client = LSPPlugin.get(request.view)?.client;
   if (!client) return;

@@ -95,7 +95,7 @@ export function Library() {
   const { data, error, isPending } = isAll ? library : trees;
   // Both lists come at once, so that none is pushed down by the other.
   const isLoading = isPending || (isAll && offered.isLoading);
-  // A project that offers some of its trees by name shows the others on demand.
+  // If a project offers some of its trees, its other trees are shown only on demand.
   const curates = (data ?? []).some(({ isOffered }) => isOffered);
   const hasMore = curates && (data ?? []).some(({ isOffered }) => !isOffered);
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);

@@ -18,7 +18,7 @@ export interface Offer extends Reusable {
   readonly project: string | null;
   /** The owner of its project, if that is somebody else. */
   readonly owner: string | null;
-  /** Its project offers it by name. */
+  /** Whether its project explicitly offers it. */
   readonly isOffered: boolean;
 }
 

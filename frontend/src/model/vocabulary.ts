@@ -63,6 +63,9 @@ interface CatalogDocument {
       readonly description: string;
     }[];
     readonly summary: string;
+    /** `ros` for nodes that BehaviorTree.CPP has not. */
+    readonly group?: string;
+    readonly open?: boolean;
   }[];
 }
 
@@ -76,7 +79,7 @@ export function readCatalog(document: CatalogDocument): readonly NodeSpec[] {
     maxChildren: node.children.max ?? Infinity,
     ports: node.ports as readonly PortSpec[],
     summary: node.summary,
-    open: node.kind === 'subtree' || node.type === 'TestNode',
+    open: node.kind === 'subtree' || (node.open ?? false),
     source: node.kind === 'subtree' ? 'subtree' : 'builtin',
   }));
 }

@@ -114,7 +114,7 @@ def a_tree_of_the_menu_is_pasted(source: Studio, studio: Studio) -> None:
     studio.page.bring_to_front()
     block(studio, "ReactiveSequence").click()
     studio.page.keyboard.press("Control+v")
-    expect(studio.at("arrival-trees/MainTree.json")).to_contain_text("the other one comes as MainTree2")
+    expect(studio.at("arrival-trees/MainTree.json")).to_contain_text("the incoming one is named MainTree2")
     studio.page.keyboard.press("Escape")
     expect(studio.at("take-arrivals")).to_have_count(0)
     expect(block(studio, "SubTree")).to_have_count(0)

@@ -55,7 +55,7 @@ describe('Library', () => {
     await user.type(screen.getByLabelText('Search behaviours'), 'wall follow');
     expect(offers()).toEqual(['Follow']);
     await user.type(screen.getByLabelText('Search behaviours'), ' home');
-    expect(screen.getByText('No behaviour is like that.')).toBeInTheDocument();
+    expect(screen.getByText('No behaviour matches the search.')).toBeInTheDocument();
   });
 
   it('inserts a behaviour with its files', async () => {
@@ -183,10 +183,10 @@ describe('Library', () => {
   it('shows that it is loading, and not yet that it is empty', async () => {
     open();
     expect(screen.getByLabelText('Loading the behaviours')).toBeInTheDocument();
-    expect(screen.queryByText('No behaviour is like that.')).toBeNull();
+    expect(screen.queryByText('No behaviour matches the search.')).toBeNull();
     await screen.findByTestId('behaviour-Dock');
     expect(screen.queryByLabelText('Loading the behaviours')).toBeNull();
-    expect(screen.queryByText('No behaviour is like that.')).toBeNull();
+    expect(screen.queryByText('No behaviour matches the search.')).toBeNull();
   });
 
   it('finds text in the summary, the name and the description, whatever its case', async () => {

@@ -126,7 +126,7 @@ def drain(
 ) -> None:
     """Stops new robots from starting, notifies the users, and reports how many still run.
 
-    With --wait it ends when the last one has; its status is 1 when time is up before.
+    With --wait it ends when the last robot has ended; the status is 1 if the time runs out first.
     """
     with _accounts():
         from backend.sessions import drain as drains

@@ -2,9 +2,9 @@
 
 `backend.sessions.watch` handles sessions that are alive and do not answer.
 
-Of several web servers, and of several workers of one, the one that has the lease does so for all
-(`lease.py`). Each of the steps is right when another did it a moment before. What a server alone knows, the
-viewers of each session through it, it notes itself, and it notifies its own browsers.
+If there are several web servers, or several workers of one, the one that holds the lease does this for all
+(`lease.py`). Each step is correct even if another server did it a moment before. Each server itself notes
+which browsers are connected to it, since no other server knows this, and notifies its own browsers.
 """
 
 from __future__ import annotations

@@ -50,6 +50,7 @@ POLICY = {
     ("get", "/api/v1/projects"): PERSONAL,
     ("post", "/api/v1/projects"): NEW,
     ("post", "/api/v1/projects/import"): NEW,
+    ("get", "/api/v1/projects/offers"): PERSONAL,
     ("get", P): READ,
     ("patch", P): WRITE,
     ("delete", P): MANAGE_GONE,

@@ -119,7 +119,7 @@ def find_roles(projects: Iterable[Project], user: User) -> None:
         if project.owner_id == user.pk:
             project.rank = Role.OWNER.value  # type: ignore[attr-defined]
         else:
-            # It may have been deleted, or its share revoked, since it was listed.
+            # The project may have been deleted, or its share revoked, since it was listed.
             project.rank = Role.NONE.value  # type: ignore[attr-defined]
             others[project.pk] = project
     if not others:

@@ -130,7 +130,8 @@ def _conflict(
     change: FileChange, existing: Existing | None, by_key: Mapping[str, Existing], leaving: set[str]
 ) -> Conflict | None:
     if existing is None:
-        # To delete a file that is gone is no conflict; every other change needs the file that the client saw.
+        # Deleting a file that no longer exists is not a conflict; every other change needs the file that the
+        # client saw.
         if change.base_revision > 0 and not change.delete:
             return Conflict(change, change.path, None)
     elif not _is_same(change, existing) and existing.revision > change.base_revision:

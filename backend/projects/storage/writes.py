@@ -196,7 +196,8 @@ def delete_project(project_id: UUID, *, acting_user: User, if_match: str = "") -
     project.deleted_at = timezone.now()
     project.save(update_fields=["deleted_at"])
     note("project.delete", actor=acting_user, subject=project.name, subject_id=project.id)
-    # Robust, since the deletion is committed: an error in a receiver must not make it look failed.
+    # `send_robust`, since the deletion is committed: an error in a receiver must not make it look as if it
+    # had failed.
     transaction.on_commit(lambda: project_deleted.send_robust(Project, project_id=project.id), robust=True)
 
 

@@ -53,6 +53,9 @@ export type ImportedProject = ProjectDetail & Pick<Server['ImportedProject'], 'p
 export type ProjectDetail = ProjectSummary &
   Checked<Server['Report']> & { settings: Server['ProjectDetail']['settings']; files: ProjectFile[] };
 
+/** The trees that one project offers to others. */
+export type OfferInfo = Server['Offer'];
+
 /** One file of a change set; `base_revision` 0 requires that the file does not exist yet. */
 export type FileChange = Server['FileChangeRequest'];
 export type ChangesResult = Checked<Server['ChangesDone']> & {

@@ -64,6 +64,9 @@ interface CatalogDocument {
       readonly description: string;
     }[];
     readonly summary: string;
+    /** `ros` for nodes that BehaviorTree.CPP has not. */
+    readonly group?: string;
+    readonly open?: boolean;
   }[];
 }
 
@@ -77,7 +80,7 @@ export function readCatalog(document: CatalogDocument): readonly NodeSpec[] {
     maxChildren: node.children.max ?? Infinity,
     ports: node.ports as readonly PortSpec[],
     summary: node.summary,
-    open: node.kind === 'subtree' || node.type === 'TestNode',
+    open: node.kind === 'subtree' || (node.open ?? false),
     source: node.kind === 'subtree' ? 'subtree' : 'builtin',
   }));
 }

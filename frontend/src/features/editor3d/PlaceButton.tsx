@@ -32,11 +32,14 @@ interface PlaceButtonProps {
   readonly what: object;
   /** Places it without a ghost. */
   readonly onPlace: () => void;
-  /** The thing has no place of its own, and so no ghost. */
+  /** Whether the thing has no pose, and therefore no ghost. */
   readonly isPlaceless?: boolean;
 }
 
-/** A button for a thing: after a click its ghost follows the pointer; a drag puts it where it is let go. */
+/**
+ * A button for a thing: after a click its ghost follows the pointer; a drag places it where the pointer is
+ * released.
+ */
 export function PlaceButton(props: PlaceButtonProps) {
   const { editor, icon: Icon, label, testId, what, onPlace, isPlaceless = false } = props;
   const { t } = useTranslation('editor3d');

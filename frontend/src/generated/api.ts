@@ -1363,26 +1363,6 @@ export interface components {
                 [key: string]: unknown;
             }[];
         };
-<<<<<<< HEAD
-        /** @description A node of Nav2 as its source declares it, with the source. */
-        OfferedAction: {
-            name: string;
-            path: string;
-            doc: string;
-            kind: string;
-            children: components["schemas"]["Children"];
-            open: boolean;
-            line: number;
-            ports: components["schemas"]["Port"][];
-            imports: string[];
-            diagnostics: components["schemas"]["Diagnostic"][];
-            /** @description The text of `path` in a project that takes the node. */
-            text: string;
-        };
-        /** @description The nodes of Nav2 that the palette offers. */
-        OfferedActionList: {
-            items: components["schemas"]["OfferedAction"][];
-=======
         /** @description The trees that one project offers to others. */
         Offer: {
             /** Format: uuid */
@@ -1403,7 +1383,25 @@ export interface components {
         OfferList: {
             items: components["schemas"]["Offer"][];
             next_offset: number | null;
->>>>>>> main
+        };
+        /** @description A node of Nav2 as its source declares it, with the source. */
+        OfferedAction: {
+            name: string;
+            path: string;
+            doc: string;
+            kind: string;
+            children: components["schemas"]["Children"];
+            open: boolean;
+            line: number;
+            ports: components["schemas"]["Port"][];
+            imports: string[];
+            diagnostics: components["schemas"]["Diagnostic"][];
+            /** @description The text of `path` in a project that takes the node. */
+            text: string;
+        };
+        /** @description The nodes of Nav2 that the palette offers. */
+        OfferedActionList: {
+            items: components["schemas"]["OfferedAction"][];
         };
         /** @enum {string} */
         OnErrorEnum: "stop" | "failure";

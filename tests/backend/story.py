@@ -42,6 +42,7 @@ TREE = {
     "nodes": {
         "n1": {"type": "Forward", "name": "", "ports": {"speed": "0.3"}, "children": [], "x": 0, "y": 0},
     },
+    "attributes": {"_description": "Drives ahead.", "_bts_offered": "1"},
 }
 MAX_TEXT = 240
 MAX_ITEMS = 2
@@ -92,11 +93,11 @@ class Story:
     def _operation(self, method, address):
         path = address.partition("?")[0]
         found = [
-            (len(template), operation)
+            ("{" not in template, len(template), operation)
             for verb, pattern, template, operation in self._operations
             if verb == method.lower() and pattern.match(path)
         ]
-        return max(found)[1]
+        return max(found)[-1]
 
     def _plain(self, value, key=""):
         """Returns an answer that is the same in every recording, and short enough to read."""
@@ -158,6 +159,7 @@ def _files(story, teacher, one):
     action = {"path": "actions/Forward.py", "base_revision": 0, "content": FORWARD}
     diagram = {"path": "trees/MainTree.json", "base_revision": 1, "content": tree}
     story.ask(teacher, "POST", f"{one}/changes", {"message": "Drive ahead", "files": [action, diagram]})
+    story.ask(teacher, "GET", "projects/offers?limit=20")
     stale = {"message": "Drive faster", "files": [action | {"content": FORWARD.replace("0.2", "0.5")}]}
     story.ask(teacher, "POST", f"{one}/changes", stale, status=409)
     overlay = [{"path": "actions/Forward.py", "content": FORWARD.replace("def update(self)", "def update(")}]
@@ -234,7 +236,7 @@ def _tools(story, teacher):
     tree = {"diagram": json.dumps(TREE)}
     answer = story.ask(teacher, "POST", "trees/xml", tree)
     story.ask(teacher, "POST", "trees/diagram", tree | {"xml": answer["xml"].replace("0.3", "0.6")})
-    for name in ("nodes", "universes", "robots", "templates", "behaviours"):
+    for name in ("nodes", "actions", "universes", "robots", "templates", "behaviours"):
         story.ask(teacher, "GET", f"catalog/{name}")
     universe = story.ask(teacher, "GET", "catalog/universes")["items"][0]["id"]
     robot = story.ask(teacher, "GET", "catalog/robots")["items"][0]["id"]

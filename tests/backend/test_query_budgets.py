@@ -12,6 +12,7 @@ from django.test.utils import CaptureQueriesContext
 BUDGETS = Path(__file__).with_name("query_budgets.json")
 CALLS = {
     "list_projects": ("GET", "projects", None),
+    "list_offers": ("GET", "projects/offers", None),
     "get_project": ("GET", "projects/{id}", None),
     "save_changes": (
         "POST",

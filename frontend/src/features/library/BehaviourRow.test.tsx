@@ -17,6 +17,7 @@ const offer: Offer = {
   doc: 'Looks for the dock first.',
   diagram: JSON.parse(text) as unknown,
   project: null,
+  owner: null,
   isOffered: true,
   files: { 'trees/Dock.json': text, 'actions/Dock.py': 'class Dock: ...' },
 };

@@ -18,6 +18,7 @@ const offer = (version: string, source: string): Offer => ({
   doc: '',
   diagram: null,
   project: null,
+  owner: null,
   isOffered: true,
   files: { 'trees/Dock.json': oneBlock('Dock', 'AlwaysSuccess'), 'actions/Dock.py': source },
 });

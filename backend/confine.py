@@ -19,7 +19,8 @@ from typing import Final
 PR_SET_NO_NEW_PRIVS: Final = 38
 PR_SET_SECCOMP: Final = 22
 SECCOMP_MODE_FILTER: Final = 2
-# Of `struct seccomp_data`: where number, architecture and the low half of the first argument are.
+# Offsets in `struct seccomp_data` of the call's number, the architecture, and the low half of the first
+# argument.
 NUMBER_AT: Final = 0
 ARCHITECTURE_AT: Final = 4
 FIRST_AT: Final = 16
@@ -47,9 +48,9 @@ NEVER: Final = {
         *(425, 426, 427, 428, 429, 430, 431, 432, 433, 438, 442),
     ),
 }
-# fork and vfork, which few use, and execve and execveat.
+# The numbers of fork and vfork, which few programs use, and of execve and execveat.
 PROGRAMS: Final = {"x86_64": (57, 58, 59, 322), "aarch64": (221, 281)}
-# clone, clone3, connect.
+# The numbers of clone, clone3 and connect.
 THREADS_AND_CONNECT: Final = {"x86_64": (56, 435, 42), "aarch64": (220, 435, 203)}
 UNIX: Final = (1,)
 UNIX_IP_NETLINK: Final = (1, 2, 10, 16)

@@ -10,7 +10,7 @@ NAMES = ("licen", "copying", "notice", "authors")
 
 
 def texts(found: metadata.Distribution) -> list[tuple[str, str]]:
-    """Name and text of each of a package's files about its licence."""
+    """Returns the name and the text of each licence file of a package."""
     chosen = {}
     for path in found.files or ():
         own = PurePosixPath(path)
@@ -33,7 +33,7 @@ def licence(found: metadata.Distribution) -> str:
 
 
 def main() -> None:
-    """Writes to the standard output."""
+    """Writes the licences to the standard output."""
     every = {found.metadata["Name"].lower(): found for found in metadata.distributions()}
     write = sys.stdout.write
     write("# Third-party notices\n\nThe Python packages of this image, each with its licence.\n")

@@ -13,13 +13,13 @@ from pathlib import Path
 
 
 def without(lock: str, patterns: list[str]) -> str:
-    """The lock less the packages that match."""
+    """Returns the lock without the packages that match."""
     blocks = re.split(r"(?m)^(?=[A-Za-z0-9])", lock)
     return "".join(block for block in blocks if not _matches(name_of(block), patterns))
 
 
 def name_of(block: str) -> str:
-    """The package that a block of the lock is about; empty for what stands before the first."""
+    """Returns the package that a block of the lock is about; empty for the text before the first package."""
     found = re.match(r"[A-Za-z0-9._-]+", block)
     return found[0] if found else ""
 
@@ -29,7 +29,7 @@ def _matches(name: str, patterns: list[str]) -> bool:
 
 
 def read_patterns(text: str) -> list[str]:
-    """The names of a list, one a line; `#` begins a comment."""
+    """Returns the names in a list, one on each line; `#` begins a comment."""
     return [name for line in text.splitlines() if (name := line.partition("#")[0].strip())]
 
 

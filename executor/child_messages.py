@@ -94,7 +94,7 @@ class StopRobot(_Message, tag="stop_robot"):
 
 
 class Teleop(_Message, tag="teleop"):
-    """Drive the first robot. With `goes_on`, a paused world runs for a moment so that the robot moves."""
+    """Drives the first robot. With `goes_on`, a paused world runs for a moment so that the robot moves."""
 
     linear: float
     angular: float
@@ -197,7 +197,7 @@ class SetBlackboard(_Message, tag="set_blackboard"):
 
 
 class SetPort(_Asked, tag="set_port"):
-    """Give a port of a node another text, or none; a `PortSet` comes before the answer."""
+    """Gives a port of a node another text, or none; a `PortSet` comes before the answer."""
 
     node_id: str
     path: str

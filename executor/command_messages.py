@@ -96,7 +96,7 @@ class SetBlackboard(Struct, forbid_unknown_fields=True):
 
 
 class SetPort(Struct, forbid_unknown_fields=True):
-    """Gives a port of a running node another text from the next tick on; null takes its value away.
+    """Gives a port of a running node another text from the next tick on; null removes its text.
 
     The node is the one with the id `node_id` in the diagram at `path`, which names its instance as in the
     event `tree`. `value` is a text as in the diagram: a literal, or `{key}`. Refused with `port_fixed` if the

@@ -36,7 +36,10 @@ class PortModel:
 
 @dataclass(frozen=True, slots=True)
 class NodeModel:
-    """A kind of node: control, decorator, action, condition or subtree; its ports and child counts."""
+    """A kind of node: control, decorator, action, condition or subtree; its ports and child counts.
+
+    `group` is `ros` for built-in nodes that BehaviorTree.CPP has not.
+    """
 
     type: str
     kind: str
@@ -46,6 +49,7 @@ class NodeModel:
     open: bool = False
     summary: str = ""
     since: str = "4.0"
+    group: str = ""
 
 
 @cache
@@ -68,9 +72,10 @@ def _node_model(row: dict[str, object]) -> NodeModel:
         min_children=children["min"],
         max_children=children["max"],
         ports={port["name"]: _port_model(port) for port in ports},
-        open=row["type"] == "TestNode",
+        open=bool(row.get("open", False)),
         summary=str(row["summary"]),
         since=str(row["since"]),
+        group=str(row.get("group", "")),
     )
 
 

@@ -96,7 +96,7 @@ class _Reader:
         attributes = self.texts(node_id, row, "attributes")
         if (
             row["type"] == SUBTREE and AUTOREMAP in ports
-        ):  # editors may put it there, since it is set like a port
+        ):  # editors may put `_autoremap` among the ports, since it is set like one
             attributes = {**attributes, AUTOREMAP: ports[AUTOREMAP]}
             ports = {name: text for name, text in ports.items() if name != AUTOREMAP}
         return Node(

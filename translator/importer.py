@@ -219,7 +219,7 @@ def _actions(
             continue  # more likely a built-in node that is spelled wrong
         kind = model.kind if model is not None else kinds.get(type_, use.kind)
         if use.children and kind not in LIMITS:
-            kind = use.kind  # a leaf could not have them
+            kind = use.kind  # a leaf could not have the children
         if path not in files:
             files[path] = stub_source(type_, model, use.ports, kind=kind).encode()
     return files

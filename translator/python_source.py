@@ -33,6 +33,6 @@ def parse(source: str, filename: str) -> ast.Module:
             try:
                 return ast.parse(source, filename=filename)
             except (SystemError, RecursionError):
-                # The standard library parses too: the lines that it marks in tracebacks, for the log.
+                # The standard library may parse at the same time, to mark lines of tracebacks in the log.
                 continue
         return ast.parse(source, filename=filename)

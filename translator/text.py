@@ -9,7 +9,8 @@ from xml.parsers import expat
 
 # XML 1.0 has no way to write these, not even as a character reference.
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
-# What BehaviorTree.CPP 4.9+ forbids in the IDs of trees and nodes; it would end a path or a tag.
+# The characters that BehaviorTree.CPP 4.9+ forbids in the IDs of trees and nodes; they would end a path or a
+# tag.
 _BAD_IN_ID = re.compile(r"[\s/\\:*?|.<>&\"'\x00-\x1f]")
 
 

@@ -59,7 +59,7 @@ class _Loader(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         sys.modules[PACKAGE] = self.package
         for name in sources:
             sys.modules.pop(f"{PACKAGE}.{name}", None)
-        # One set of actions at a time: that of the program that runs.
+        # Only one set of actions can be imported at a time: that of the running program.
         sys.meta_path[:] = [finder for finder in sys.meta_path if not isinstance(finder, _Loader)]
         sys.meta_path.append(self)
 
@@ -107,7 +107,7 @@ class _Loader(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         try:
             exec(code, module.__dict__)  # noqa: S102 - running the user's actions is what this is for
         except LoadError:
-            raise  # of an action that this one imports
+            raise  # the error of an action that this one imports
         except (Exception, SystemExit) as error:
             del sys.modules[module.__name__]
             raise LoadError([_raised(name, filename, error)]) from error

@@ -27,7 +27,10 @@ class CatalogPort:
 
 @dataclasses.dataclass(frozen=True)
 class CatalogNode:
-    """A built-in node; `max_children` is None if there may be any number."""
+    """A built-in node; `max_children` is None if there may be any number.
+
+    `group` is ``ros`` for nodes that BehaviorTree.CPP has not. An `open` node takes more ports than its own.
+    """
 
     type: str
     kind: str
@@ -37,6 +40,8 @@ class CatalogNode:
     ports: tuple[CatalogPort, ...]
     summary: str
     since: str
+    group: str = ""
+    open: bool = False
 
     @functools.cached_property
     def manifest(self) -> dict[str, PortSpec]:
@@ -68,4 +73,6 @@ def _node(node: dict[str, Any]) -> CatalogNode:
         ports=ports,
         summary=node["summary"],
         since=node["since"],
+        group=node.get("group", ""),
+        open=node.get("open", False),
     )

@@ -67,7 +67,7 @@ class Timers:
 
     def __init__(self, clock: Clock) -> None:
         self.clock = clock
-        # Public, so that every tick can test without a call that nothing is due.
+        # Public, so that each tick can test without a call whether anything is due.
         self.heap: list[tuple[float, int, Timer]] = []
         self._order = itertools.count()
 

@@ -137,8 +137,8 @@ class ControlNode:
         """Halts a child if it is RUNNING (its ``_onHalted`` runs), and makes it IDLE in every case.
 
         Raises:
-            TickError: the child raised an exception, or the reasons are those of `tick_child`. Unlike
-                `tick_child`, the method may also be called by `halt` and by timers.
+            TickError: the child raised an exception, or for any other reason of `tick_child`. Unlike
+                `tick_child`, this method may also be called by `halt` and by timers.
         """
         self._node.halt_child(index)
 

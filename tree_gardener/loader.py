@@ -61,7 +61,7 @@ class Builder:
         self.nodes: list[Node] = []
         self.boards: list[Blackboard] = [tree.blackboard]
         self.definition: Definition
-        self.paths = {""}  # of the SubTrees; the main tree has none
+        self.paths = {""}  # of the SubTrees; that of the main tree is empty
         self.depths: list[int] = []
 
     def report(  # noqa: PLR0913 - one diagnostic
@@ -201,7 +201,7 @@ class Builder:
             self.report(element, code, message, hint, attribute, span_start)
 
     def construct(self, node: Node) -> None:
-        """Reports what BehaviorTree.CPP's constructor of the node would miss."""
+        """Reports a missing value that BehaviorTree.CPP's constructor of the node requires."""
         port, element = node.NEEDS, node.element
         given = node.ports.get(port)
         if given is None or (not given and not node.CODE and not isinstance(node, Loop)):

@@ -115,7 +115,7 @@ class Recorder:
         self.entries = {}
 
     def reset(self, children: Iterable[Node]) -> None:
-        """Halts the children that are RUNNING and makes all of them IDLE, as `Control.reset_children`."""
+        """Halts the children that are RUNNING and makes all of them IDLE, like `Control.reset_children`."""
         for child in children:
             if child.status is RUNNING:
                 child.stop()

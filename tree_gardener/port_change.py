@@ -14,7 +14,7 @@ READ_AT_LOAD: Final = "TG308"
 
 
 class PortEffect(enum.Enum):
-    """When a node uses the new text of a port."""
+    """The time from which a node uses the new text of a port."""
 
     NEXT_TICK = "next_tick"
     NEXT_START = "next_start"

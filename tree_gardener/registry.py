@@ -37,6 +37,7 @@ from tree_gardener.leaves.sleep import Sleep
 from tree_gardener.leaves.test_node import TestNode
 from tree_gardener.node import Control, Decorator, Kind, Leaf, Node
 from tree_gardener.ports import INOUT, INPUT, OUTPUT, Manifest, PortSpec, manifest_of
+from tree_gardener.ros_nodes import NODES as ROS_NODES
 from tree_gardener.values import STATUS, queue_type, value_type
 
 BUILT_IN: Final[Mapping[str, type[Node]]] = {
@@ -106,12 +107,16 @@ class NodeType:
 @functools.cache
 def built_in_types() -> dict[str, NodeType]:
     """Returns the built-in node types by tag."""
-    return {
-        entry.type: NodeType(
-            entry.type, BUILT_IN[entry.type], entry.manifest, entry.min_children, entry.max_children
-        )
-        for entry in catalog.load().values()
-    }
+    return {entry.type: _built_in(entry) for entry in catalog.load().values()}
+
+
+def _built_in(entry: catalog.CatalogNode) -> NodeType:
+    behaviour = ROS_NODES.get(entry.type)
+    if behaviour is None:
+        node_class = BUILT_IN[entry.type]
+        return NodeType(entry.type, node_class, entry.manifest, entry.min_children, entry.max_children)
+    kind = LEAF_KINDS[getattr(behaviour, "NODE_KIND", "Action")]
+    return NodeType(entry.type, kind, None if entry.open else entry.manifest, 0, 0, behaviour)
 
 
 def build_registry(nodes: Mapping[str, Any]) -> dict[str, NodeType]:

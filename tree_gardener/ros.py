@@ -42,7 +42,7 @@ class RosRunner:
         finished: called with the root's last status when the run ends by itself.
         callback_group: the callback group of the timer; by default a separate one, so that an action may spin
             the node within a tick.
-        more: arguments of `Runner`.
+        more: further arguments of `Runner`.
     """
 
     def __init__(
@@ -65,7 +65,8 @@ class RosRunner:
         tree.on_warning = self._log_warning
         tree.setup(node=node)
         self.runner = Runner(tree, tick_hz=tick_hz, finished=finished, **more)
-        # A few calls a period: the runner itself decides when a tick is due, so that the rate can change.
+        # Polls several times in each period: the runner itself decides when a tick is due, so that the rate
+        # can change.
         group = callback_group or MutuallyExclusiveCallbackGroup()
         self._timer = node.create_timer(self.runner.period_s / 4.0, self.poll, callback_group=group)
 

@@ -63,8 +63,8 @@ def run_tree(  # noqa: PLR0913 - what main.py states of one package
         node_name: the name of the node.
         actions: a folder of sources, which override those in the document.
         tick_hz: ticks a second.
-        on_finish: ``stop`` or ``repeat``, as `Runner` has it.
-        on_error: ``stop`` or ``failure``, as `Runner` has it.
+        on_finish: ``stop`` or ``repeat``, as for `Runner`.
+        on_error: ``stop`` or ``failure``, as for `Runner`.
         args: the command line; that of the process, without the program, if None.
 
     Returns:
@@ -79,7 +79,7 @@ def run_tree(  # noqa: PLR0913 - what main.py states of one package
     words = list(sys.argv[1:] if args is None else args)
     log = get_logger(node_name)
     try:
-        # Our own handlers, since rclpy's would end the context before the tree could stop the robot.
+        # rclpy's own handlers would end the context before the tree could stop the robot.
         rclpy.init(args=words, signal_handler_options=SignalHandlerOptions.NO)
         node = _made(node_name, words)
     except Exception as error:

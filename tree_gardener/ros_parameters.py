@@ -122,7 +122,7 @@ def _number(text: str) -> "float | str":
     try:
         return float(text)
     except ValueError:
-        return text  # which is judged with the rest
+        return text  # the text is checked with the other values
 
 
 def _shown(value: Any) -> str:

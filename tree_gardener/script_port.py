@@ -34,7 +34,7 @@ class ScriptPort:
         self.text = ""
         given = node.ports.get(port)
         if given and pointer_key(given, port) is None:
-            with contextlib.suppress(TickError):  # it is reported by the loader, or when it runs
+            with contextlib.suppress(TickError):  # the loader reports the error, or the node when it runs
                 self.fixed = self.current()
 
     def current(self) -> Callable[[], Any]:

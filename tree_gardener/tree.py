@@ -345,7 +345,7 @@ class Tree:
         return status
 
     def _guarded(self, function: Callable[[], T]) -> T:
-        """Calls a function that ticks or halts nodes, with stack for deep trees; notifies observers."""
+        """Calls a function that ticks or halts nodes, with stack for deep trees, and notifies observers."""
         if self._recorder.observers:
             return self._recorder.tick(lambda: self._guarded_without_telling(function))
         return self._guarded_without_telling(function)

@@ -22,7 +22,7 @@ def _entry_of(text: str) -> tuple[Blackboard, str] | None:
     match = _KEY.match(text)
     if match is None:
         return None
-    board = getattr(text, "board", None)  # an empty one is false
+    board = getattr(text, "board", None)  # not tested by truth: an empty blackboard is false
     if board is None:
         board = _state.get("board")
     if board is None:

@@ -37,7 +37,8 @@ lessened = Signal()
 def lessen(*, user_id: int | None = None, project_id: UUID | None = None) -> None:
     """Sends a notice for one user, or for all users of one project, after the transaction."""
     if environment().is_team:
-        # Robust: a notice that cannot be sent must not make the committed write look as if it had failed.
+        # With `robust`, a notice that cannot be sent does not make the committed write look as if it had
+        # failed.
         transaction.on_commit(lambda: _tell(user_id, project_id), robust=True)
 
 

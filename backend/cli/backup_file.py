@@ -173,7 +173,7 @@ def _load(archive: zipfile.ZipFile, manifest: dict[str, Any]) -> dict[str, int]:
         )
     with transaction.atomic():
         connection.check_constraints()
-        for model in reversed(models):  # the local user, which the first start creates
+        for model in reversed(models):  # the local user, whom the first start creates
             model._base_manager.all().delete()
         with connection.constraint_checks_disabled():
             counts = {model._meta.label_lower: _fill(archive, model) for model in models}

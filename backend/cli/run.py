@@ -63,7 +63,7 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     try:
         opened = cli.open_project(project)
         stubs = unwritten_actions(opened)
-        if stubs and lockstep:  # otherwise the session reports it
+        if stubs and lockstep:  # otherwise the session reports the stubs
             sys.stderr.write(f"{stubs_sentence(stubs)}\n")
         if lockstep:
             from executor.headless.lockstep import LockstepOptions

@@ -227,7 +227,7 @@ class Parent:
         deadline_s = time.monotonic() + STOP_S
         for worker in self._workers:
             worker.end(deadline_s)
-        self._pool.close_input()  # last, since workers that end may wait for it
+        self._pool.close_input()  # last: workers that are ending may still wait for the pool
         self._pool.end(deadline_s)
 
 

@@ -172,7 +172,7 @@ def await_database(url: str, patience_s: float = DATABASE_PATIENCE_S) -> None:
     deadline = time.monotonic() + patience_s
     while True:
         try:
-            # Not by Django, whose pool would log each attempt.
+            # Connects without Django, whose pool would log each attempt.
             psycopg.connect(url, connect_timeout=5).close()
             return
         except psycopg.OperationalError as error:

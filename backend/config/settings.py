@@ -174,8 +174,9 @@ ACCOUNT_PREVENT_ENUMERATION = True
 ACCOUNT_SESSION_REMEMBER = True
 ACCOUNT_USERNAME_MIN_LENGTH = 2
 ACCOUNT_USERNAME_BLACKLIST = ["local", "admin", "root", "system"]
-# Failed sign-ins are counted by `backend.accounts.sign_in.attempts`, wrong codes of second factors here, by
-# user. A class behind one address signs up, or follows links for new passwords, at once.
+# `backend.accounts.sign_in.attempts` counts failed sign-ins; here, wrong codes of second factors are counted
+# for each user. The limits for an address are high, since a whole class behind one address may sign up, or
+# follow links for new passwords, at the same time.
 ACCOUNT_RATE_LIMITS = {
     "login": "",
     "login_failed": "5/5m/key",

@@ -206,7 +206,7 @@ class _Reading:
             raise _too_large(environment().max_request_bytes)
         if declared > self._most:
             await self._allow_more(declared)
-        if declared > self._in_memory:  # refused before it is sent if the disk has no room for all of it
+        if declared > self._in_memory:  # fails before the body is sent if the disk has no room for it
             self._file = await self._bodies.write(partial(self._bodies.scratch.file, expected=declared))
 
     async def _allow_more(self, size: int) -> None:

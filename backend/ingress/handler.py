@@ -202,7 +202,7 @@ async def _ended(work: Future[Any]) -> None:
     """Waits until the work has succeeded or failed; several callers may wait for the same work."""
     waiting = asyncio.wrap_future(work)
     await asyncio.wait([waiting])
-    waiting.exception()  # marks it as retrieved; the caller reads that of `work`
+    waiting.exception()  # marks the exception as retrieved; the caller gets it from `work`
 
 
 def _closed(response: Any) -> Answer:

@@ -36,7 +36,7 @@ class Addresses:
     def __init__(self, root: str, sources: Mapping[str, str]) -> None:
         self._root = "file://" + quote(root.rstrip("/"))
         self._plain = root.rstrip("/")
-        # The longest first: one folder can be inside another.
+        # The longest comes first, since one folder can be inside another.
         self._folders = sorted(((folder, label) for label, folder in sources.items()), key=_longest_first)
         self._labels = sorted(sources.items(), key=_longest_first)
 

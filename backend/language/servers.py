@@ -19,7 +19,7 @@ import psutil
 
 from backend.language.errors import UnavailableError
 from backend.language.folder import Folder, Sync, library
-from backend.language.sources import read_source, source_roots
+from translator.python_help import environment_of, read_source, source_roots
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -130,17 +130,6 @@ class ProcessServer:
     async def forget(self) -> None:
         """Removes the folder."""
         await asyncio.to_thread(self._folder.remove)
-
-
-def environment_of(home: Path) -> dict[str, str]:
-    """Returns the environment of a language server, without any variable of the web server."""
-    return {
-        "PATH": os.defpath,
-        "HOME": str(home),
-        "LANG": "C.UTF-8",
-        "TY_CONFIG_FILE": str(home / "ty.toml"),
-        "TY_MAX_PARALLELISM": "1",
-    }
 
 
 class ProcessLauncher:

@@ -53,8 +53,8 @@ class Project(models.Model):
     archived_at = models.DateTimeField(null=True, blank=True)
     deleted_at = models.DateTimeField(null=True, blank=True)
 
-    # No columns: what the user who asked may do with it, as `queries` found out; and its files,
-    # as the write left them that this row comes from.
+    # These are no columns: `role` is the role of the user who made the request, set by `queries`; `now` holds
+    # the files after the write that returned this project.
     role: Role = Role.OWNER
     now: Mapping[str, Existing] | None = None
 

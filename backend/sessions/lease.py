@@ -2,8 +2,8 @@
 
 The lease is a row and not a lock of the database: a lock is held as long as its connection lasts, and a
 server that hangs, is frozen with its machine, or has lost the network may keep its connection for hours. The
-row expires by the clock of the database, which is the same for all servers. If a holder is late, it may do
-the same work as its successor for a while. Every task is correct even if two servers do it at the same time;
+row expires by the clock of the database, which is the same for all servers. If a holder is late, it and its
+successor may do the same work for a while. Every task is correct even if two servers do it at the same time;
 the lease only saves work.
 
 A server that is the only one of its database, or whose executors are its own child processes, always has

@@ -2,9 +2,9 @@
 
 `backend.sessions.watch` handles sessions that are alive and do not answer.
 
-Of several web servers, and of several workers of one, the one that has the lease does so for all
-(`lease.py`). Each of the steps is right when another did it a moment before. What a server alone knows, the
-viewers of each session through it, it notes itself, and it notifies its own browsers.
+If there are several web servers, or several workers of one, the one that holds the lease does this for all
+(`lease.py`). Each step is correct even if another server did it a moment before. Each server itself notes
+which browsers are connected to it, since no other server knows this, and notifies its own browsers.
 """
 
 from __future__ import annotations
@@ -151,7 +151,7 @@ async def one_round(rounds_held: Iterator[int]) -> None:
     attendance.keep_warned(soon)
     for session_id, minutes in soon.items():
         await attendance.warn(
-            session_id, f"Nobody uses this session. It ends in {minutes} min; do something to keep it."
+            session_id, f"This session is not being used. It ends in {minutes} min unless you use it."
         )
 
 
@@ -195,7 +195,7 @@ def end_idle() -> None:
     for session, left in _unused():
         if left <= timedelta(0):
             log.info("session %s is idle and is ended", session.id)
-            writes.end_session(session, "It was ended since nobody used it.")
+            writes.end_session(session, "It was ended because it was not used.")
 
 
 def ending_soon() -> dict[UUID, int]:

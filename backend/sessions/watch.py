@@ -102,7 +102,7 @@ async def _ask(session: Session, silence: Silence) -> None:
         except InvalidStatus:
             silence.heard()  # a manager of an older version has no such socket, but its refusal is an answer
         except (ConnectionClosed, TimeoutError, InvalidHandshake):
-            pass  # it can be reached, which is enough
+            pass  # the manager can be reached, which is enough
         except OSError:
             silence.not_reached()
         await asyncio.sleep(PING_EVERY_S)

@@ -162,7 +162,7 @@ def refresh(session: Session) -> Session:
             died = session.error or died  # the caller that ended it has stored the reason
             state = SessionState.FAILED if died else SessionState.ENDED
             if not _moved(session, SessionState.READY, state=state, error=died, ended_at=timezone.now()):
-                _look_again(session)  # it did not end by itself, but was ended
+                _look_again(session)  # the session did not end by itself, but was ended
     return session
 
 
@@ -172,7 +172,7 @@ def end_session(session: Session, why: str = "") -> Session:
         launch = _launches.pop(session.id, None)
     if launch is not None and not launch.cancel():
         launch.result()
-    _look_again(session)  # it may have started since it was looked up
+    _look_again(session)  # the executor may have started since the session was looked up
     ended = {"state": SessionState.ENDED, "error": why, "ended_at": timezone.now()}
     if launch is None and _moved(session, SessionState.STARTING, **ended):
         _await_launch(session)
@@ -361,7 +361,7 @@ def _begins(session: Session) -> bool:
 
 
 def _look_again(session: Session) -> None:
-    with suppress(Session.DoesNotExist):  # it was deleted with its project or user
+    with suppress(Session.DoesNotExist):  # the session was deleted with its project or user
         session.refresh_from_db()
 
 

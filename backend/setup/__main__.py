@@ -162,7 +162,7 @@ def uv_install() -> list[str]:
     return [str(VENV / "bin" / "uv"), "pip", "install", "--python", str(PYTHON), "--quiet"]
 
 
-# A path instead of an import hook, which every process would load.
+# Adds a path instead of an import hook, which every process would have to load.
 OWN_OPTIONS = ["--no-deps", "--no-build-isolation", "--config-settings", "editable_mode=compat"]
 
 

@@ -85,7 +85,7 @@ class Locator:
     def place_of(self, frame: FrameType | None) -> Place:
         """Returns the node, file and line of the innermost user code on a stack.
 
-        An empty place without user code.
+        The place is empty if no user code is on the stack.
         """
         node = self.node_of(frame)
         stack = traceback.extract_stack(frame, limit=DEPTH) if frame is not None else []

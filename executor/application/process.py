@@ -162,7 +162,7 @@ class Application:
         try:
             board = tree.blackboard.scope(scope) if scope else tree.blackboard
             key, value = message.key, message.value
-            # JSON has one kind of number: 1 over 0.5 must stay a double.
+            # JSON has only one kind of number: writing 1 over 0.5 must keep a double.
             is_double = isinstance(board.get(key), float) and type(value) is int
             board[key] = float(value) if is_double else value
         except KeyError:
@@ -237,7 +237,7 @@ class Application:
     # --- running ----------------------------------------------------------------------------------
 
     def _now(self) -> float:
-        return self._graph.now()  # a method of this object, since the graph may be replaced at the start
+        return self._graph.now()  # called through this object, since the graph may be replaced at the start
 
     def _on_clock(self, now_s: float) -> None:
         self._pulse.clocks += 1
@@ -300,7 +300,7 @@ def main(arguments: list[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     die_with_parent()
     faulthandler.enable()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the manager's to handle
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the manager handles Ctrl-C
     for name, value in ros_environment(int(os.environ.get("ROS_DOMAIN_ID", "0"))).items():
         os.environ.setdefault(name, value)
     channel: Channel[FromApplication, ToApplication] = Channel(options.channel_fd, decode_to_application)

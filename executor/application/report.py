@@ -248,6 +248,6 @@ def _hint(cause: BaseException | None) -> str:
         return "The application reached its limit of the size of a file."
     if isinstance(cause, OSError) and cause.errno == errno.ENOSPC:
         return "There is no room left where the application writes; remove what earlier runs left there."
-    if isinstance(cause, BlockingIOError):  # EAGAIN of fork
+    if isinstance(cause, BlockingIOError):  # fork failed with EAGAIN
         return "The application reached its limit of processes."
     return ""

@@ -157,7 +157,8 @@ class _Runner:
             return self._measured.end(time.monotonic() - began_s)
         finally:
             self._show_figures(is_over=True)
-            # The readers run until both sockets are closed: behind unread frames the close would not be seen.
+            # The readers run until both sockets are closed: unread frames would hide the end of the
+            # connection.
             await asyncio.gather(self._stream.close(), self._control.close())
             if self._viewer is not None:
                 await self._viewer.close()

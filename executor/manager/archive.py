@@ -55,7 +55,7 @@ def _check_directory(data: bytes) -> None:
     """Refuses a zip directory with millions of entries before `zipfile` makes an object of each entry."""
     at = data.rfind(_END_OF_DIRECTORY, max(0, len(data) - _LONGEST_TAIL))
     if at < 0 or at + _END.size > len(data):
-        return  # it is no zip, which zipfile reports
+        return  # the archive is not a zip, which zipfile reports
     *_, size, _, _ = _END.unpack_from(data, at)
     if size > MAX_DIRECTORY_BYTES:
         raise ArchiveError(f"its directory is larger than {MAX_DIRECTORY_BYTES >> 20} MB")

@@ -66,7 +66,7 @@ class Folders:
 
     def _sweep(self) -> None:
         for path in Path(tempfile.gettempdir()).iterdir():
-            # The world, which starts at the same time, has such a folder too.
+            # The world, which starts at the same time, has such a folder too; it must stay.
             if path == self._scratch.path or is_in_use(path):
                 continue
             if path.is_dir() and not path.is_symlink():

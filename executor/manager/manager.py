@@ -116,7 +116,7 @@ def _environment_bytes(name: str, default_mb: int) -> int:
 def session_programs(domain_id: int) -> dict[Kind, Program]:
     """Returns the programs of world and application, with their limits."""
     threads = {name: os.environ.get(name, count) for name, count in FEW_THREADS.items()}
-    own = {"PYDANTIC_DISABLE_PLUGINS": "__all__"}  # it would search all installed packages
+    own = {"PYDANTIC_DISABLE_PLUGINS": "__all__"}  # pydantic would search all installed packages
     environment = {**ros_environment(domain_id), **threads, **own}
     limits = Limits(
         memory_bytes=_environment_bytes("BT_STUDIO_APPLICATION_MEMORY_MB", 4096),

@@ -137,7 +137,7 @@ class RamServer:
                 self._report(ClientJoined(client))
                 async for frame in connection:
                     self._take(client, frame)
-                    await asyncio.sleep(0)  # lets messages of the world be handled
+                    await asyncio.sleep(0)  # lets the loop handle messages of the world
                     await outbox.has_room()
         finally:
             sender.cancel()

@@ -54,7 +54,7 @@ class TinyRenderer:
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int, *, smooth: bool = True
     ) -> NDArray[np.uint8]:
         """Returns the picture as height × width × 3 bytes of RGB, the top row first."""
-        del smooth  # it has no antialiasing
+        del smooth  # TinyRenderer has no antialiasing
         picture = self._shoot(poses, view, width, height)[2]
         return np.ascontiguousarray(np.reshape(picture, (height, width, 4))[:, :, :3].astype(np.uint8))
 

@@ -19,7 +19,7 @@ class Due:
         self._done = -1
 
     def __call__(self, time_s: float) -> bool:
-        """Returns whether a turn is due at this simulated time; counts it as done then."""
+        """Returns whether a turn is due at this simulated time; if so, counts it as done."""
         turn = int(time_s * self.rate_hz + 1e-6)
         if turn == self._done:
             return False

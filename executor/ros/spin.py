@@ -153,7 +153,7 @@ def _hold(things: Iterable[Any], held: list[Any]) -> list[Any]:
         handle = thing.handle
         try:
             handle.__enter__()
-        except rclpy_implementation.InvalidHandle:  # it was destroyed meanwhile
+        except rclpy_implementation.InvalidHandle:  # the entity was destroyed meanwhile
             continue
         held.append(handle)
         found.append(thing)
@@ -173,7 +173,7 @@ def _call_once(subscription: Subscription) -> int:
     try:
         with subscription.handle:
             taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
-    except rclpy_implementation.InvalidHandle:  # an earlier callback destroyed it
+    except rclpy_implementation.InvalidHandle:  # an earlier callback destroyed the subscription
         return 0
     if taken is None:
         return 0

@@ -223,7 +223,7 @@ class Topics:
         try:
             kind = message_type(type_name)
         except ValueError:
-            return False  # it is listed without a rate
+            return False  # the topic is listed without a rate
         publishers = self._node.get_publishers_info_by_topic(name)
         latched = bool(publishers) and all(
             end.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL for end in publishers

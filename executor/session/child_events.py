@@ -39,7 +39,7 @@ def forward(stage: Stage, child: Child, event: ChildSaid) -> None:
         case child_messages.Sim():
             stage.sim_time_s = message.t
             sim = event_of(message, messages.Sim)
-            sim.tick_ms, sim.tick_budget_ms = stage.mirror.tick_load()  # the world lacks these
+            sim.tick_ms, sim.tick_budget_ms = stage.mirror.tick_load()  # the world does not know these
             stage.output.emit(sim)
         case Log():
             log(stage, event)

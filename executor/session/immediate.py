@@ -86,7 +86,7 @@ def _run_world(stage: Stage, event: CommandCame, _: Struct) -> None:
 
 
 def _does_time_pass(stage: Stage) -> bool:
-    """Returns whether simulated time passes; that of an outside graph is not the session's to stop."""
+    """Returns whether simulated time passes; the session cannot stop the time of an outside graph."""
     run = stage.run
     return stage.state is State.APPLICATION_RUNNING or run.is_world_alone or run.is_outside
 

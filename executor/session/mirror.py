@@ -148,7 +148,7 @@ class Mirror:
         )
 
     def _starts(self) -> list[tuple[int, int]]:
-        """Returns where in the kept lines runs began."""
+        """Returns the positions in the stored lines at which runs began."""
         dropped = self._logged - len(self.logs)
         return [(at - dropped, run) for at, run in self._run_starts if at >= dropped]
 

@@ -291,7 +291,7 @@ class Session:
     def _cancel(self, *, also_bounded: bool = False) -> None:
         """Ends the step in progress if it climbs the ladder.
 
-        All other steps have short timeouts; with `also_bounded` they are ended too.
+        All other steps have short timeouts; they are ended only if `also_bounded` is set.
         """
         if self._job is None or not (also_bounded or self._job.command in _CLIMBING):
             return

@@ -67,7 +67,7 @@ def traced(stage: Stage, event: ChildTraced) -> None:
     if child is None or child.hang:
         return
     if event.text or not child.vitals.is_well:
-        # It is reported even if the child has recovered: the signal itself may have ended the wait.
+        # The hang is reported even if the child has recovered: the signal itself may have ended the wait.
         _tell(stage, child, event)
     else:
         child.was_inspected = False

@@ -55,7 +55,7 @@ class Descendants:
                             self._found[one] = psutil.Process(one)
             elif parent == NOBODY or parent in self._others:
                 self._others.update(line)
-            # Otherwise the parent started or ended during the scan: the next call decides.
+            # Otherwise the parent started or ended during the scan, and the next call decides.
 
 
 def _parent_of(pid: int) -> int | None:

@@ -45,5 +45,5 @@ def is_abandoned(lock: Path) -> bool:
 
 
 def _is_recent(status: os.stat_result) -> bool:
-    # A time in the future is nobody's recent change; it could keep a file forever.
+    # A time in the future does not count as recent, since it would protect the file forever.
     return abs(time.time() - status.st_mtime) < YOUNGEST_S

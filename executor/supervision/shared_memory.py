@@ -34,7 +34,7 @@ def mapped_files(processes: Path = Path("/proc")) -> set[str]:
     """Returns the files that processes have mapped, as far as permissions allow."""
     found: set[str] = set()
     for maps in processes.glob("[0-9]*/maps"):
-        with contextlib.suppress(OSError):  # it has ended, or belongs to another user
+        with contextlib.suppress(OSError):  # the process has ended, or belongs to another user
             lines = maps.read_text(errors="replace").splitlines()
             found.update(line[line.index("/") :] for line in lines if "/" in line)
     return found
@@ -51,7 +51,7 @@ def _ports_of_nobody(folder: Path) -> list[str]:
 
 
 def _is_removed(folder: Path, name: str) -> bool:
-    with contextlib.suppress(OSError):  # it belongs to another user
+    with contextlib.suppress(OSError):  # the file belongs to another user
         for file in (name, f"sem.{name}_mutex", f"{name}{LOCK_SUFFIX}"):
             (folder / file).unlink(missing_ok=True)
         return True

@@ -17,14 +17,13 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
-import os
 import sys
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 import psutil
 
-from executor.tools.sources import read_source, source_roots
+from translator.python_help import environment_of, read_source, source_roots
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -55,13 +54,7 @@ async def serve_editor(connection: ServerConnection, home: Path, command: tuple[
     process = await asyncio.create_subprocess_exec(
         *command,
         cwd=home,
-        env={
-            "PATH": os.defpath,
-            "HOME": str(home),
-            "LANG": "C.UTF-8",
-            "TY_CONFIG_FILE": str(home / "ty.toml"),
-            "TY_MAX_PARALLELISM": "1",
-        },
+        env=environment_of(home),
         stdin=asyncio.subprocess.PIPE,
         stdout=asyncio.subprocess.PIPE,
         stderr=asyncio.subprocess.DEVNULL,

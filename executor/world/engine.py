@@ -33,6 +33,10 @@ with _silenced():
     import pybullet
 
 
+PhysicsError: type[Exception] = pybullet.error
+"""Is raised where the physics server refuses."""
+
+
 class Bullet:
     """A physics server in this process. It has PyBullet's functions and constants."""
 

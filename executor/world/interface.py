@@ -145,6 +145,16 @@ class World(Protocol):
     def forget(self, state: Any) -> None:
         """Frees a saved state."""
 
+    def dump(self) -> bytes:
+        """Returns the full state as plain data, for `load` in another process."""
+
+    def load(self, data: bytes) -> None:
+        """Restores a state that `dump` returned, of a world of the same universe, robots and seed.
+
+        Raises:
+            WorldError: the data are no such state.
+        """
+
     def poses(self) -> NDArray[np.float32]:
         """Returns the poses of the scene's objects, one row [x, y, z, qx, qy, qz, qw] each.
 

@@ -264,7 +264,7 @@ def main(arguments: list[str] | None = None) -> None:
     logging.basicConfig(level=logging.INFO, format="%(levelname)s %(name)s: %(message)s")
     for name, value in ros_environment(int(os.environ.get("ROS_DOMAIN_ID", "0"))).items():
         os.environ.setdefault(name, value)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the manager's to handle
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the manager handles Ctrl-C
     channel: Channel[FromWorld, ToWorld] = Channel(options.channel_fd, decode_to_world)
     try:
         WorldProcess(channel, Pulse(channel.send)).run()

@@ -12,6 +12,7 @@ from django.test.utils import CaptureQueriesContext
 BUDGETS = Path(__file__).with_name("query_budgets.json")
 CALLS = {
     "list_projects": ("GET", "projects", None),
+    "list_offers": ("GET", "projects/offers", None),
     "get_project": ("GET", "projects/{id}", None),
     "save_changes": (
         "POST",
@@ -53,7 +54,7 @@ def test_no_endpoint_asks_the_database_more_often_than_its_budget_says(api):
     if os.environ.get("BT_STUDIO_RECORD") == "1":
         BUDGETS.write_text(json.dumps(found, indent=2) + "\n")
     budgets = json.loads(BUDGETS.read_text())
-    if connection.vendor == "postgresql":  # which is asked for several things at once
+    if connection.vendor == "postgresql":  # PostgreSQL is asked for several things in one query
         assert {name for name in found if found[name] > budgets[name]} == set()
     else:
         assert found == budgets

@@ -267,7 +267,7 @@ def forgets_the_password(bob: Someone, mails: Mailbox) -> None:
 
 def takes_everything_along_and_goes(bob: Someone) -> None:
     bob.go("/")
-    bob.menu("Room and data")
+    bob.menu("Storage and data")
     with bob.page.expect_download() as download:
         bob.press("link", "Download everything")
     assert download.value.suggested_filename == "bob.zip"

@@ -409,7 +409,7 @@ def a_tree_is_reused(studio: Studio, source: str) -> None:
 
 def an_update_is_shown_before_it_is_taken(studio: Studio, source: str) -> None:
     studio.at("theme-toggle").click()
-    choose_source(studio, "Built-in library")
+    choose_source(studio, "Built-in and offered")
     choose_source(studio, source)
     studio.at("update-MainTree").click()
     difference = studio.at("difference-trees/MainTree2.json")

@@ -25,7 +25,7 @@ def test_a_definition_outside_of_the_project_is_read_and_leads_on(studio: Studio
     keys.press("F12")
     tab = page.get_by_test_id("source-tab").filter(visible=True)
     expect(tab.get_by_role("note")).to_contain_text("py_trees/common.py")
-    expect(tab.get_by_role("note")).to_contain_text("to read only")
+    expect(tab.get_by_role("note")).to_contain_text("read-only")
     text = tab.locator(".cm-content")
     expect(text).to_be_focused()
 

@@ -79,7 +79,7 @@ def the_program_takes_what_is_typed_with_enter(studio: Studio) -> None:
     field(studio).click()
     studio.page.keyboard.press("Control+a")
     studio.page.keyboard.type("0.75")
-    expect(studio.page.get_by_text("Enter gives the running program this value.")).to_be_visible()
+    expect(studio.page.get_by_text("Press Enter to send this value to the running program.")).to_be_visible()
     studio.saved()
     studio.page.keyboard.press("Enter")
     told(studio, "speed 0.75")

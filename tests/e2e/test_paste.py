@@ -30,6 +30,7 @@ def test_blocks_bring_what_they_use(shared_studio: Studio) -> None:
     one_undo_takes_all_back(other)
     a_clash_is_chosen(other)
     a_tree_of_the_menu_is_pasted(studio, other)
+    an_offered_tree_is_in_every_library(other, name)
     a_library_behaviour_is_taken_back(other, name)
     assert other.complaints == []
     other.page.close()
@@ -113,15 +114,34 @@ def a_tree_of_the_menu_is_pasted(source: Studio, studio: Studio) -> None:
     studio.page.bring_to_front()
     block(studio, "ReactiveSequence").click()
     studio.page.keyboard.press("Control+v")
-    expect(studio.at("arrival-trees/MainTree.json")).to_contain_text("the other one comes as MainTree2")
+    expect(studio.at("arrival-trees/MainTree.json")).to_contain_text("the incoming one is named MainTree2")
     studio.page.keyboard.press("Escape")
     expect(studio.at("take-arrivals")).to_have_count(0)
     expect(block(studio, "SubTree")).to_have_count(0)
 
 
-def a_library_behaviour_is_taken_back(studio: Studio, source: str) -> None:
+def an_offered_tree_is_in_every_library(studio: Studio, source: str) -> None:
+    """Nobody needs to know which project offers it."""
     page = studio.page
     page.locator(".flexlayout__tab_button", has_text="Library").click()
+    offered = studio.at("library").get_by_role("list", name="Offered by projects")
+    row = offered.get_by_test_id("behaviour-MainTree")
+    expect(row).to_contain_text(f"From {source}")
+    expect(row).to_contain_text(DESCRIPTION)
+    expect(studio.at("behaviour-DriveForward")).to_be_visible()
+    expect_accessible(studio, "light")
+    studio.picture("library-offered")
+    offered.get_by_test_id("insert-MainTree").click()
+    studio.at("take-arrivals").click()
+    expect(studio.at("file-trees/MainTree2.json")).to_be_visible()
+    studio.saved()
+    studio.at("undo").click()
+    expect(studio.at("file-trees/MainTree2.json")).to_have_count(0)
+    studio.saved()
+
+
+def a_library_behaviour_is_taken_back(studio: Studio, source: str) -> None:
+    page = studio.page
     studio.at("library-source").click()
     studio.at("library-source").fill(source[:6])
     page.get_by_role("option", name=source, exact=True).click()

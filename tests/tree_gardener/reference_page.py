@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from tree_gardener import catalog
 from tree_gardener.registry import BUILT_IN
+from tree_gardener.ros_nodes import NODES as ROS_NODES
 
 if TYPE_CHECKING:
     from tree_gardener.catalog import CatalogNode, CatalogPort
@@ -23,6 +24,7 @@ TITLES = {
     "action": "Actions",
     "condition": "Conditions",
     "subtree": "SubTree",
+    "ros": "ROS",
 }
 INTRODUCTION = """# Nodes
 
@@ -33,13 +35,24 @@ later is needed, it says so. Every node also takes the pre-conditions `_failureI
 `_while` and the post-conditions `_onSuccess`, `_onFailure`, `_post`, `_onHalted`.
 """
 
+ROS = """These are not in BehaviorTree.CPP; names and meaning follow the base classes of BehaviorTree.ROS2.
+The fields of the interface are ports: `goal__`, `result__` and `feedback__` of
+an action, `request__` and `response__` of a service, `message__` of a topic, each with the path of the
+field, whose parts are joined by two underscores: `goal__pose__pose__position__x="1.5"`. A quaternion has
+also the field `yaw`. A list is written `1;2;3`, a time in seconds (or `now`), a whole message as an
+entry of the type, or as `json:{"x": 1.0}`. No tick waits: while a server is missing or has not answered,
+the node is RUNNING. Timeouts are in ROS time, simulated time in a simulation. When a node is halted, its
+goal is cancelled.
+"""
+
 
 def page() -> str:
     """The page's text."""
     parts = [INTRODUCTION]
     for kind, title in TITLES.items():
         parts.append(f"## {title}\n")
-        parts += [section(node) for node in catalog.load().values() if node.kind == kind]
+        parts += [ROS] if kind == "ros" else []
+        parts += [section(node) for node in catalog.load().values() if (node.group or node.kind) == kind]
     return "\n".join(parts)
 
 
@@ -72,7 +85,7 @@ def children(node: CatalogNode) -> str:
 
 def rule(node: CatalogNode) -> str:
     """The rule, from the docstring of the class, in Markdown."""
-    first, _, text = (inspect.getdoc(BUILT_IN[node.type]) or "").partition("\n\n")
+    first, _, text = (inspect.getdoc({**BUILT_IN, **ROS_NODES}[node.type]) or "").partition("\n\n")
     if first.rstrip(".") not in node.summary:
         text = f"{first}\n\n{text}"
     text = text.strip()

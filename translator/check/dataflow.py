@@ -31,7 +31,7 @@ class _Keys:
 
     read: dict[str, _Use] = field(default_factory=dict)
     written: dict[str, _Use] = field(default_factory=dict)
-    surely: set[str] = field(default_factory=set)  # written, whatever undeclared ports do
+    surely: set[str] = field(default_factory=set)  # written in any case, whatever undeclared ports do
 
 
 def check_dataflow(context: Context) -> None:
@@ -104,7 +104,7 @@ def _add_ports(context: Context, own: _Keys, node: Node) -> None:
             own.written.setdefault(key, _Use(node, name if port.direction == "output" else ""))
     for name, value in node.ports.items():
         if (model is None or name not in model.ports) and (key := pointer(value, name)) is not None:
-            # Of an undeclared port nobody knows the direction: it may read, and it may write.
+            # The direction of an undeclared port is unknown: it may read, and it may write.
             own.written.setdefault(key, _Use(node, ""))
             own.read.setdefault(key, _Use(node, name))
 

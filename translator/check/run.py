@@ -41,7 +41,7 @@ def _check(project: Project) -> tuple[Diagnostic, ...]:
     if any(item.code in OVERSIZE for item in project.diagnostics):
         return tuple(
             located(list(project.diagnostics), project)
-        )  # it is not translated: no need to look closer
+        )  # the project is not translated, so no further check is needed
     context = Context(project, list(project.diagnostics))
     check_structure(context)
     check_actions(context)

@@ -22,7 +22,7 @@ def scripts_of(context: Context, node: Node) -> Iterator[tuple[str, str]]:
         return
     for port in model.ports.values():
         text = node.ports.get(port.name) if port.type == "script" else None
-        # A script may be in an entry; the engine reads it from there when the node is ticked.
+        # A script may be in a blackboard entry; the engine reads it from there when the node is ticked.
         if text is not None and pointer(text, port.name) is None:
             yield port.name, text
 
@@ -37,7 +37,7 @@ def check_scripts(context: Context) -> None:
 
 def _check_script(context: Context, tree: Tree, node: Node, attribute: str, code: str) -> None:
     if not code.strip():
-        if code or node.type != "Script" or attribute in node.conditions:  # that of a Script may be empty
+        if code or node.type != "Script" or attribute in node.conditions:  # a Script's own may be empty
             context.report("BT0301", tree, node, attribute, attribute=attribute)
         return
     for number in integers_too_large(code):

@@ -88,7 +88,8 @@ def _check_cycles(context: Context) -> None:
 def closing_calls(trees: Mapping[str, Tree], main: str) -> Iterator[tuple[str, str, list[str]]]:
     """Yields each call that closes a cycle: the caller, the called tree, and the trees of the cycle.
 
-    The search begins at the main tree, and continues at each tree that was not reached, by ID.
+    The search begins at the main tree. It then continues at the trees that it has not reached, in the order
+    of their IDs.
     """
     done: set[str] = set()
     for start in [main, *sorted(trees)]:

@@ -187,7 +187,7 @@ class _Reader:
         children = [child for child in block.children if self.blocks[child].name != ROOT_NAME]
         row: dict[str, Any] = {"type": block.name, "ports": block.ports, "children": children}
         if block.is_subtree or block.name in self.options.subtrees:
-            # There, all trees share one blackboard.
+            # In JdeRobot's BT Studio, all trees share one blackboard.
             row["type"] = SUBTREE
             row["tree"] = self.options.subtrees.get(block.name, block.name)
             row["attributes"] = {"_autoremap": "true"}

@@ -27,7 +27,7 @@ _PLAIN = re.compile(r"[A-Za-z_][\w.]*")
 _XML_NODE = re.compile(r"<node\b[^>]*>")
 _XML_EXEC = re.compile(r"""\bexec\s*=\s*(?P<quote>["'])(?P<path>[^"']+)(?P=quote)""")
 _HERE = "$(dirname)/"
-# `pkg: x` and `pkg="x"`, `$(find-pkg-share x)`, and what Python says instead.
+# `pkg: x` and `pkg="x"`, `$(find-pkg-share x)`, and the equivalent in Python.
 _PACKAGES = re.compile(
     r"""\bpkg["']?\s*[:=]\s*["']?(\w+)|\$\(find-pkg-(?:share|prefix) (\w+)\)"""
     r"""|\bpackage\s*=\s*["'](\w+)["']"""

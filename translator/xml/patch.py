@@ -233,7 +233,7 @@ class _Patch:
 
 
 def _opened(tag: str) -> str:
-    """Returns a start tag that has children: `<A x="1"/>` as `<A x="1">`."""
+    """Returns the start tag of an element that now has children: `<A x="1"/>` becomes `<A x="1">`."""
     return tag[:-2].rstrip() + ">" if tag.endswith("/>") else tag
 
 

@@ -106,11 +106,11 @@ def _written(values: dict[str, str]) -> str:
 
 
 def model_lines(project: Project, trees: list[Tree]) -> list[str]:
-    """Returns the lines of `<TreeNodesModel>`, with the ports of the used nodes that are not built in."""
+    """Returns the lines of `<TreeNodesModel>`, with the ports of used nodes that BehaviorTree.CPP has not."""
     seen = _ports_seen(trees)
     lines: list[str] = []
     for type_ in sorted(seen):
-        if type_ in builtins():
+        if type_ in builtins() and not builtins()[type_].group:
             continue
         model = project.model(type_) or project.imported_model(type_)
         if model is not None:

@@ -198,7 +198,7 @@ class _Run:
         yield from _compare(f"{place}: statuses", expected["status"], statuses)
         yield from _compare(f"{place}: events", expected.get("events", []), self.trace.take())
         if "bb" in expected:
-            # Only what changed is given; a scope that is given replaces the one before.
+            # The case gives only the scopes that changed; each of them replaces its earlier state.
             self.expected_board = expected["bb"]
         yield from _compare(f"{place}: blackboard", _comparable(self.expected_board), _dump(self.tree))
 

@@ -93,7 +93,7 @@ class CustomControl(Control):
             return self.result_of(self.update())
         except TickError as error:
             if error.uid != self.uid:
-                raise  # of a node below, which it names
+                raise  # the error names a node below this one
             return self.failed(error)
         except (Exception, SystemExit) as error:
             return self.failed(TickError(self, describe(error), error))

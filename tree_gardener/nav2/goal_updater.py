@@ -8,7 +8,7 @@ from tree_gardener.nav2.topics import Topic, message_class, parameter
 
 
 class GoalUpdater(DecoratorNode):
-    """Writes the goal, and the goals, that were received by topic, and ticks its child.
+    """Writes the goal, and the goals, that were received on topics, and ticks its child.
 
     A received goal replaces the input if its stamp is not zero and not older than the input's; else the input
     is written. The same holds for goals; an empty message of goals is ignored. Without ROS the inputs are

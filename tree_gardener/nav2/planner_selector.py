@@ -5,7 +5,7 @@ from tree_gardener.ports import Port
 
 
 class PlannerSelector(Selector):
-    """Writes the name of the planner that was last received by topic, or the default until then.
+    """Writes the name of the planner that was last received on the topic, or the default until then.
 
     It fails if there is neither. Rule: Nav2's plugins/action/planner_selector_node.cpp.
     """

@@ -12,7 +12,7 @@ from tree_gardener.ports import Port
 
 
 class RemovePassedGoals(Behaviour):
-    """Removes the goals at the beginning that the robot is within `radius` of; the last goal always stays.
+    """Removes the first goals while the robot is within `radius` of them; the last goal always stays.
 
     If `input_waypoint_statuses` is given, the first pending status of each removed goal becomes completed; if
     there is none, the node fails. It fails while the robot's pose is not known, and succeeds if there are no

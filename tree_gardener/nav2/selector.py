@@ -1,4 +1,4 @@
-"""The rule that all of Nav2's selectors share: the name of a plugin is chosen by topic."""
+"""The rule that all of Nav2's selectors share: the name of a plugin is received on a topic."""
 
 from typing import Any, ClassVar
 
@@ -10,7 +10,7 @@ from tree_gardener.nav2.topics import Topic
 
 
 class Selector(Behaviour):
-    """Writes the name that was last received by topic, or the default until then.
+    """Writes the name that was last received on the topic, or the default until then.
 
     It fails if nothing was received and there is no default. A default that was used once stays valid until a
     name is received. When it starts, it subscribes to the topic if that has changed; messages from before the

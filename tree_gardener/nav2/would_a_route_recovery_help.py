@@ -5,7 +5,7 @@ from tree_gardener.ports import Port
 
 
 class WouldARouteRecoveryHelp(AreErrorCodesPresent):
-    """Succeeds if a recovery may help the route server: unknown, timeout, no valid route.
+    """Succeeds if a recovery may help the route server: the error is unknown, timeout, or no valid route.
 
     The codes are fixed; those of the port are not read, as in Nav2.
     Rule: Nav2's plugins/condition/would_a_route_recovery_help_condition.cpp.

@@ -5,10 +5,10 @@ from tree_gardener.ports import Port
 
 
 class WouldASmootherRecoveryHelp(AreErrorCodesPresent):
-    """Succeeds if a recovery may help the smoother: unknown, timeout, path in collision, smoothing failed.
+    """Succeeds if a recovery may help the smoother, by its last error.
 
-    The codes are fixed; those of the port are not read, as in Nav2.
-    Rule: Nav2's plugins/condition/would_a_smoother_recovery_help_condition.cpp.
+    The error must be one of: unknown, timeout, path in collision, smoothing failed. The codes are fixed;
+    those of the port are not read, as in Nav2.
     """
 
     NODE_KIND = "Condition"

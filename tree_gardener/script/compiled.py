@@ -20,7 +20,7 @@ from tree_gardener.script.writer import BOUND
 ATTEMPTS: Final = 3
 COMPILES = True
 """Whether scripts are compiled; tests and benchmarks switch it off to compare with the evaluator."""
-_FILE: Final = f"{__file__.rpartition('/')[0]}/<script>"  # in the package, so that no error points to it
+_FILE: Final = f"{__file__.rpartition('/')[0]}/<script>"  # in the package, so that errors do not point to it
 
 
 class Code:
@@ -35,7 +35,7 @@ class Code:
     def bind(self, environment: Environment) -> Callable[[], Any]:
         """Makes the function that runs in an environment."""
         values = [BOUND[name](environment) if name in BOUND else value for name, value in self.parameters]
-        # The last parameter keeps this object, which others with the same script share, alive.
+        # The last parameter keeps this object alive, which other functions of the same script share.
         return types.FunctionType(self.code, {"__builtins__": {}}, "script", (*values, self))
 
 

@@ -108,7 +108,7 @@ class Generator(Writer):
     def value(self, expression: Expression) -> Value:
         """Adds the statements that compute an expression; returns its value."""
         if not isinstance(expression, (Literal, Name, Assignment)) and self.is_fixed(expression):
-            # What cannot be computed is an error when it runs, and not before.
+            # An expression that cannot be computed is an error only when it runs.
             with contextlib.suppress(ScriptError):
                 return self.known(evaluate(expression, self.folding))
         return _WRITERS[type(expression)](self, expression)
@@ -331,7 +331,7 @@ class Generator(Writer):
     ) -> list[ast.stmt]:
         """Returns statements that step an entry of the step's type.
 
-        Integers only if a double holds them exactly.
+        Integers are stepped only if a double holds them exactly.
         """
         with self.block() as exact:
             self.fill(entry, result)

@@ -130,7 +130,7 @@ class Threads:
             following: _Task | None = task
             while following is not None:
                 done, tell = following.owner, following.job()
-                following = self._next(inbox, done)  # before the notice, so that its receiver finds it idle
+                following = self._next(inbox, done)  # before `tell`, whose receiver then finds an idle thread
                 tell()
 
     def _next(self, inbox: Inbox, done: str) -> _Task | None:

@@ -36,7 +36,7 @@ def _announce_later(sender: object, *, change: ChangeSet, **_: object) -> None:
         "message": change.message,
     }
     group = group_of(change.project_id)
-    # Robust: a lost notice must not make a stored save look as if it had failed.
+    # With `robust`, a lost notice does not make a stored save look as if it had failed.
     transaction.on_commit(lambda: tell(group, notice), robust=True)
 
 

@@ -5,7 +5,15 @@ from __future__ import annotations
 from django.urls import path
 
 from backend.accounts.api.viewsets import resource_router
-from backend.projects.api import views, views_files, views_mine, views_revisions, views_sharing, views_trees
+from backend.projects.api import (
+    views,
+    views_files,
+    views_mine,
+    views_offers,
+    views_revisions,
+    views_sharing,
+    views_trees,
+)
 
 ONE = "projects/<uuid:project_id>"
 
@@ -21,5 +29,6 @@ router.register("trees", views_trees.Trees, basename="trees")
 urlpatterns = [
     *router.urls,
     path(f"{ONE}/transfer", views_sharing.Transfer.as_view()),
+    path("projects/offers", views_offers.Offers.as_view()),
     path("actions/inspect", views.InspectAction.as_view()),
 ]

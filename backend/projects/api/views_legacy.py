@@ -159,7 +159,7 @@ def _write(user: User, project: Project, file: str, content: str, *, base: int |
 
 
 class Reading(APIView):
-    """An endpoint that reads. Its method is GET, as in the original."""
+    """An endpoint that only reads. Its method is GET, as in the original."""
 
     handler: Handler | None = None
 

@@ -117,7 +117,7 @@ class Upload(NamedTuple):
 
 
 def _named(name: PurePosixPath) -> str:
-    """Returns the path of a single file: its own, after which the project is named, if it is allowed."""
+    """Returns the path of a single imported file; its name, if allowed, is also that of the project."""
     suffix = name.suffix.lower()
     try:
         return names.file_path(f"{name.stem}{suffix}")

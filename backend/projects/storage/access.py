@@ -79,13 +79,13 @@ def gate(project: Project | None, *, user: User, need: Need) -> Project:
         raise NotFoundError(NOT_FOUND)
     if role < need.role:
         raise RoleTooLowError(
-            f"You are {_article(role)} of “{project.name}”; this takes {_article(need.role)}.",
+            f"You are {_article(role)} of “{project.name}”; this requires {_article(need.role)}.",
             hint="Ask the owner to share the project with more rights, or work on a copy of your own.",
             role=role.label,
         )
     if need.account and user.is_guest:
         raise RoleTooLowError(
-            "You read this project by a link; this takes an account.",
+            "You are reading this project by a link; this requires an account.",
             hint="Sign in, then open the link again.",
             role=role.label,
         )
@@ -119,7 +119,7 @@ def find_roles(projects: Iterable[Project], user: User) -> None:
         if project.owner_id == user.pk:
             project.rank = Role.OWNER.value  # type: ignore[attr-defined]
         else:
-            # It may have been deleted, or its share revoked, since it was listed.
+            # The project may have been deleted, or its share revoked, since it was listed.
             project.rank = Role.NONE.value  # type: ignore[attr-defined]
             others[project.pk] = project
     if not others:

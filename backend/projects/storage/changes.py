@@ -130,7 +130,8 @@ def _conflict(
     change: FileChange, existing: Existing | None, by_key: Mapping[str, Existing], leaving: set[str]
 ) -> Conflict | None:
     if existing is None:
-        # To delete a file that is gone is no conflict; every other change needs the file that the client saw.
+        # Deleting a file that no longer exists is not a conflict; every other change needs the file that the
+        # client saw.
         if change.base_revision > 0 and not change.delete:
             return Conflict(change, change.path, None)
     elif not _is_same(change, existing) and existing.revision > change.base_revision:
@@ -174,7 +175,7 @@ def _refuse_collisions(current: Mapping[str, Existing], result: Plan) -> None:
         other = owners.setdefault(names.key(path), path)
         if other is not path:
             raise InvalidInputError(
-                f"“{names.shown(path)}” and “{names.shown(other)}” have one name where case does not count.",
+                f"“{names.shown(path)}” and “{names.shown(other)}” are the same name if case is ignored.",
                 field="files",
             )
     for key, path in owners.items():

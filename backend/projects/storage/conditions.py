@@ -1,4 +1,4 @@
-"""Which blocks of a tree are conditions: the class of a project's own action says so.
+"""Finds the blocks of a tree that are conditions, by the classes of the project's own actions.
 
 A list of projects draws each tree. It reads the one line of the class that it needs, since a full reading of
 every action of every project would take too long.
@@ -17,7 +17,7 @@ _NAME: Final = re.compile(r"[A-Za-z_]\w{0,99}")
 
 
 def action_paths(diagram: dict[str, Any] | None) -> dict[str, str]:
-    """Returns the file in which a project would have each type of the tree, by type."""
+    """Returns the file in which a project would define each type of the tree, by type."""
     nodes = (diagram or {}).get("nodes")
     found = nodes.values() if isinstance(nodes, dict) else ()
     types = {str(node.get("type", "")) for node in found if isinstance(node, dict)}

@@ -156,7 +156,7 @@ def root_diagrams(found: Iterable[Project]) -> dict[UUID, dict[str, Any]]:
 
 
 def conditions_of(diagrams: Mapping[UUID, dict[str, Any]]) -> dict[UUID, list[str]]:
-    """Returns the types of each project's tree that its own code makes conditions."""
+    """Returns, for each project, the types of its tree that its own code defines as conditions."""
     paths = sorted(all_paths(diagrams.values()))
     blobs = rows.action_blobs(list(diagrams), paths) if paths else {}
     data = cache.contents(blobs.values())

@@ -196,7 +196,8 @@ def delete_project(project_id: UUID, *, acting_user: User, if_match: str = "") -
     project.deleted_at = timezone.now()
     project.save(update_fields=["deleted_at"])
     note("project.delete", actor=acting_user, subject=project.name, subject_id=project.id)
-    # Robust, since the deletion is committed: an error in a receiver must not make it look failed.
+    # `send_robust`, since the deletion is committed: an error in a receiver must not make it look as if it
+    # had failed.
     transaction.on_commit(lambda: project_deleted.send_robust(Project, project_id=project.id), robust=True)
 
 
@@ -331,11 +332,11 @@ def _store_manifest(project: Project, manifest: Manifest) -> None:
 
 def _manifest_after(result: Plan) -> Manifest | None:
     if MANIFEST in result.removed:
-        raise InvalidInputError("A project cannot be without project.json.", field="files")
+        raise InvalidInputError("A project must have a project.json.", field="files")
     for written in result.written:
         if written.path == MANIFEST:
             if written.content is None:
-                raise InvalidInputError("project.json cannot come about by renaming.", field="files")
+                raise InvalidInputError("No file can be renamed to project.json.", field="files")
             return read(written.content.data)
     return None
 

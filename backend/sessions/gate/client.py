@@ -71,7 +71,7 @@ class Door:
                 return self
 
     def wait(self, timeout_s: float) -> bool:
-        """Waits until a session has fetched its socket; returns False if the time is over before."""
+        """Waits until a session has fetched its socket; returns False if the time runs out first."""
         deadline_s = time.monotonic() + timeout_s
         try:
             connection = self._connection or self._connect(timeout_s)

@@ -44,7 +44,7 @@ class Doors:
         except OSError as error:
             hint = "The volume must belong to the user that the gate runs as: remove it and start again."
             raise GateError("gate_folder", f"{root} cannot be used: {error}.", hint) from error
-        # Doors do not outlive their gate: the keeper opens those again that it still needs.
+        # Doors do not outlive their gate: the keeper opens again those that it still needs.
         for left in root.iterdir():
             if DOOR_NAME.fullmatch(left.name):
                 shutil.rmtree(left, ignore_errors=True)

@@ -124,7 +124,7 @@ class GateServer:
     def end(self) -> None:
         """Makes `serve` return; may be called by a signal handler or another thread."""
         self._is_ended = True
-        with suppress(OSError):  # it has ended
+        with suppress(OSError):  # the loop has ended
             self._waker.send(b"e")
 
     def step(self, timeout_s: float) -> None:

@@ -1,9 +1,13 @@
 """The requests that the web server may make, over a unix socket that only the web server sees.
 
-GET    /health                  200 when Docker answers GET    /sessions                every executor POST
-/sessions                {session, token, domain_id, timeout_s}: starts an executor GET    /sessions/<id>
-whether the executor runs DELETE /sessions/<id>?timeout_s=5   ends the executor POST   /tools
-{tools, token, timeout_s}: the path of a user's tools; starts them if necessary
+Bodies are JSON objects with these fields:
+
+    GET    /health                    200 when Docker answers
+    GET    /sessions                  every executor
+    POST   /sessions                  {session, token, domain_id, timeout_s}: starts an executor
+    GET    /sessions/<id>             whether the executor runs
+    DELETE /sessions/<id>?timeout_s=5 ends the executor
+    POST   /tools                     {tools, token, timeout_s}: the path of a user's tools; starts them
 """
 
 from __future__ import annotations

@@ -139,7 +139,7 @@ def _environment(spec: Spec) -> dict[str, str]:
 
 
 def _await_port(ready: IO[bytes], timeout_s: float) -> int | None:
-    """Returns the port from the ready line; None if the child ends or the time is over before."""
+    """Returns the port from the ready line; None if the child ends or the time runs out first."""
     deadline = time.monotonic() + timeout_s
     line = b""
     while not line.endswith(b"\n"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import astuple
 from typing import TYPE_CHECKING
 
 from executor.world.geometry.person import Part, person_parts
@@ -53,13 +54,13 @@ class BulletActor:
         self._walker.advance(dt_s)
         self._carry()
 
-    def save(self) -> Gait:
-        """Returns the state for `restore`."""
-        return self._walker.gait
+    def save(self) -> list[float]:
+        """Returns the state for `restore`, as plain data."""
+        return list(astuple(self._walker.gait))
 
-    def restore(self, gait: Gait) -> None:
+    def restore(self, saved: Sequence[float]) -> None:
         """Restores a state that `save` returned."""
-        self._walker.gait = gait
+        self._walker.gait = Gait(*saved)
         self._carry()
 
     def add_to_scene(self, objects: SceneObjects) -> None:

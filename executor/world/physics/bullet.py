@@ -17,6 +17,13 @@ from executor.world.physics.actor import BulletActor
 from executor.world.physics.assembly import Assembly, Links, read_assembly
 from executor.world.physics.bodies import Body, make_body, make_ground, model_mesh, rgba, scene_shape
 from executor.world.physics.ceiling import ceiling_of, upper_part
+from executor.world.physics.dump import (
+    DUMP_VERSION,
+    dump_state,
+    load_state,
+    restore_physics,
+    save_physics,
+)
 from executor.world.physics.paint import texture_key, textures_of
 from executor.world.physics.placement import put_at_rest
 from executor.world.physics.randomize import draw
@@ -47,8 +54,8 @@ After a drive of 8 m, the result differs by less than 3 mm from that of 300 iter
 class _Saved:
     physics: int
     steps: int
-    robots: list[object]
-    actors: list[Any]
+    robots: list[dict[str, Any]]
+    actors: list[list[float]]
 
 
 @dataclass
@@ -97,6 +104,7 @@ class BulletWorld:
         self._poses: NDArray[np.float32] | None = None
         self._collisions: list[tuple[str, Collision]] = []
         self._objects = SceneObjects()
+        self._placed: dict[str, list[float]] = {}
         self._content = _Content()
         self._build()
 
@@ -177,18 +185,44 @@ class BulletWorld:
     def restore(self, state: _Saved) -> None:
         """Restores a saved state."""
         self._bullet.restoreState(state.physics)
-        self._steps = state.steps
-        for robot, saved in zip(self._content.robots, state.robots, strict=True):
-            robot.restore(saved, self.time_s)
-        for actor, gait in zip(self._content.actors, state.actors, strict=True):
-            actor.restore(gait)
-        self._rays.moved()
-        self._poses = None
-        self._collisions.clear()
+        self._restore_rest(state.steps, state.robots, state.actors)
 
     def forget(self, state: _Saved) -> None:
         """Frees the memory of a saved state."""
         self._bullet.removeState(state.physics)
+
+    def dump(self) -> bytes:
+        """Returns the full state as plain data, for `load` in another process."""
+        content = self._content
+        return dump_state(
+            {
+                "version": DUMP_VERSION,
+                "universe": self.name,
+                "steps": self._steps,
+                "placed": self._placed,
+                "robots": {robot.id: robot.save() for robot in content.robots},
+                "actors": {actor.id: actor.save() for actor in content.actors},
+                "physics": save_physics(self._bullet),
+            }
+        )
+
+    def load(self, data: bytes) -> None:
+        """Restores a state that `dump` returned, of a world of the same universe, robots and seed.
+
+        Raises:
+            WorldError: the data are no such state.
+        """
+        content = self._content
+        state = load_state(
+            data, self.name, [robot.id for robot in content.robots], [actor.id for actor in content.actors]
+        )
+        for body in self._placed.keys() - state["placed"].keys():
+            self.move_body(body, next(m.pose for m in self._universe.models if m.id == body))
+        for body, pose in state["placed"].items():
+            self.move_body(body, pose)
+        restore_physics(self._bullet, state["physics"])
+        self._placed = state["placed"]
+        self._restore_rest(state["steps"], list(state["robots"].values()), list(state["actors"].values()))
 
     def poses(self) -> NDArray[np.float32]:
         """Returns the poses of the scene's objects; they are computed at most once in each step."""
@@ -213,6 +247,7 @@ class BulletWorld:
                 self._rays.moved()
             else:
                 raise WorldError(f"there is no body {body!r} that can be moved")
+            self._placed[body] = list(pose)
         self._poses = None
 
     def take_collisions(self) -> list[tuple[str, Collision]]:
@@ -225,6 +260,17 @@ class BulletWorld:
         self._bullet.close()
 
     # --- inside ---
+
+    def _restore_rest(self, steps: int, robots: Sequence[Any], actors: Sequence[Any]) -> None:
+        """Restores the state that the physics server does not hold."""
+        self._steps = steps
+        for robot, saved in zip(self._content.robots, robots, strict=True):
+            robot.restore(saved, self.time_s)
+        for actor, gait in zip(self._content.actors, actors, strict=True):
+            actor.restore(gait)
+        self._rays.moved()
+        self._poses = None
+        self._collisions.clear()
 
     def _control(self) -> None:
         now_s, dt_s = self.time_s, CONTROL_EVERY / STEP_HZ
@@ -248,6 +294,7 @@ class BulletWorld:
         self._set_up_physics()
         self._steps = 0
         self._poses, self._collisions = None, []
+        self._placed = {}
         self._objects, self._content = SceneObjects(), _Content()
         universe, content = self._universe, self._content
         content.ground = make_ground(self._bullet, universe.ground.friction)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from executor.world.geometry.transforms import wrap
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy as np
 
     from executor.robots.config import Drive
@@ -39,6 +41,15 @@ class DriveState(NamedTuple):
     angular: float = 0.0
     wheel_angles: tuple[float, float] | None = None
     odometry: Odometry = Odometry()
+
+
+def drive_state(plain: Sequence[Any]) -> DriveState:
+    """Returns a state from plain data: its fields, with lists in place of tuples."""
+    wanted, commanded_s, linear, angular, angles, (x, y, yaw, forward, turning, covariance) = plain
+    xx, xy, xt, yy, yt, tt = covariance
+    odometry = Odometry(x, y, yaw, forward, turning, (xx, xy, xt, yy, yt, tt))
+    turned = None if angles is None else (angles[0], angles[1])
+    return DriveState((wanted[0], wanted[1]), commanded_s, linear, angular, turned, odometry)
 
 
 class DifferentialDrive:

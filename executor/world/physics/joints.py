@@ -58,17 +58,14 @@ class JointMotors:
         states = self._bullet.getJointStates(self._uid, list(self._indices.values()))
         return {name: (state[0], state[1]) for name, state in zip(self._indices, states, strict=True)}
 
-    def save(self) -> object:
-        """Returns the state that the physics server does not save itself."""
-        return dict(self._wanted), dict(self._held)
+    def save(self) -> dict[str, dict[str, float]]:
+        """Returns the state that the physics server does not save itself, as plain data."""
+        return {"wanted": dict(self._wanted), "held": dict(self._held)}
 
-    def restore(self, saved: object) -> None:
+    def restore(self, saved: Mapping[str, Mapping[str, float]]) -> None:
         """Restores a state that `save` returned."""
-        if not isinstance(saved, tuple):
-            raise TypeError("not saved joints")
-        wanted, held = saved
-        self._wanted = dict(wanted)
-        for name, position in held.items():
+        self._wanted = dict(saved["wanted"])
+        for name, position in saved["held"].items():
             self._hold(self._drives[name], position)
 
     def _hold(self, drive: JointDrive, position: float) -> None:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import copy
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -13,9 +11,10 @@ from executor.robots.prepare import physical_urdf
 from executor.world.geometry.kinematics import add_links, link_pose, sensor_placements
 from executor.world.geometry.transforms import Pose, Vector, compose, from_xyz_rpy, inverse, yaw_of
 from executor.world.physics.collision import Collision, CollisionCounter
-from executor.world.physics.drive import DifferentialDrive, DriveState, Odometry
+from executor.world.physics.drive import DifferentialDrive, DriveState, Odometry, drive_state
 from executor.world.physics.joints import JointMotors
 from executor.world.sensing.lidar import LidarCaster
+from executor.world.sensing.noise import plain_generator, restore_generator
 from executor.world.sensing.proprioception import Proprioception
 
 if TYPE_CHECKING:
@@ -38,17 +37,6 @@ MOST_QUESTIONS: Final = 2
 TOUCH_M: Final = 0.0  # PyBullet reports near misses too, with a positive distance
 FIRST_ROBOT_GROUP: Final = 8  # bits 0 to 7 are taken by Bullet and by the groups of models
 ALL_GROUPS: Final = 0x7FFF
-
-
-@dataclass(frozen=True)
-class _Saved:
-    drive: DriveState
-    counter: CollisionCounter
-    distance_m: float
-    at: tuple[float, float]
-    noise: Mapping[str, Any]
-    senses: object
-    motors: object
 
 
 class BulletRobot:
@@ -233,33 +221,31 @@ class BulletRobot:
         )
         self._apply((0.0, 0.0))
 
-    def save(self) -> object:
-        """Returns the state that the physics server does not save itself."""
-        noise, senses = self._noise.bit_generator.state, self._proprioception.save()
-        return _Saved(
-            self._drive.state,
-            copy.copy(self._counter),
-            self.distance_m,
-            self._at,
-            noise,
-            senses,
-            self._motors.save(),
-        )
+    def save(self) -> dict[str, Any]:
+        """Returns the state that the physics server does not save itself, as plain data."""
+        return {
+            "drive": self._drive.state,
+            "collisions": [self._counter.count, self._counter.last_contact_s],
+            "distance_m": self.distance_m,
+            "at": self._at,
+            "noise": plain_generator(self._noise),
+            "senses": self._proprioception.save(),
+            "motors": self._motors.save(),
+        }
 
-    def restore(self, saved: object, now_s: float) -> None:
+    def restore(self, saved: Mapping[str, Any], now_s: float) -> None:
         """Restores a state that `save` returned."""
-        if not isinstance(saved, _Saved):
-            raise TypeError("not a saved robot")
         self._clock_s = now_s
-        self._drive.state = saved.drive
-        self._counter = copy.copy(saved.counter)
-        self.distance_m, self._at = saved.distance_m, saved.at
-        self._noise.bit_generator.state = saved.noise
-        self._proprioception.restore(saved.senses)
-        self._motors.restore(saved.motors)
+        self._drive.state = drive_state(saved["drive"])
+        self._counter = CollisionCounter(*saved["collisions"])
+        self.distance_m, self._at = saved["distance_m"], (saved["at"][0], saved["at"][1])
+        restore_generator(self._noise, saved["noise"])
+        self._proprioception.restore(saved["senses"])
+        self._motors.restore(saved["motors"])
         drive = self.config.drive
         half_track, radius = drive.track * drive.turn_factor / 2, drive.wheel_radius
-        linear, turn = saved.drive.linear, saved.drive.angular * half_track
+        state = self._drive.state
+        linear, turn = state.linear, state.angular * half_track
         rates = ((linear - turn) / radius, (linear + turn) / radius)
         self._apply(rates if self._proprioception.has_power else (0.0, 0.0))
 

@@ -46,6 +46,14 @@ class BatteryModel:
         self._current = self._config.idle_a + self._config.drive_a * min(1.0, max(0.0, effort))
         self.charge = max(0.0, self.charge - self._current * dt_s / _HOUR_S)
 
+    def save(self) -> list[float]:
+        """Returns the state as plain data."""
+        return [self.charge, self._current]
+
+    def restore(self, saved: list[float]) -> None:
+        """Restores a state that `save` returned."""
+        self.charge, self._current = saved
+
     def reading(self) -> BatteryReading:
         """Returns the current measurement."""
         config = self._config

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from executor.world.geometry.transforms import rotate
 from executor.world.sensing.noise import generator_at
@@ -47,6 +47,16 @@ class ImuModel:
             x, y, z = ((now - before) / dt_s for now, before in zip(velocity, old, strict=True))
             self._felt = (x, y, z + GRAVITY)
         self.velocity = velocity
+
+    def save(self) -> list[Any]:
+        """Returns the state as plain data."""
+        return [None if self.velocity is None else list(self.velocity), list(self._felt), self.has_drawn]
+
+    def restore(self, saved: list[Any]) -> None:
+        """Restores a state that `save` returned."""
+        velocity, (x, y, z), self.has_drawn = saved
+        self.velocity = None if velocity is None else (velocity[0], velocity[1], velocity[2])
+        self._felt = (x, y, z)
 
     def reading(self, time_s: float, pose: Pose, rate: Vector) -> ImuReading:
         """Returns the measurement at a pose; the turning rate is given in the world frame."""

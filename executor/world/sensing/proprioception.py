@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import copy
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from executor.world.geometry.transforms import Pose, Vector, compose, inverse
 from executor.world.sensing.battery import BatteryModel
@@ -11,7 +10,7 @@ from executor.world.sensing.bumper import Bumper
 from executor.world.sensing.imu import ImuModel
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from executor.robots.config import Battery, Imu, RobotConfig
     from executor.world.sensing.battery import BatteryReading
@@ -81,11 +80,21 @@ class Proprioception:
         """Returns the current state of the battery."""
         return self._batteries[battery.name].reading()
 
-    def save(self) -> object:
-        """Returns the state of all inner sensors."""
-        return copy.deepcopy((self._imus, self._batteries, self._bumper, self._rate))
+    def save(self) -> dict[str, Any]:
+        """Returns the state of all inner sensors as plain data."""
+        return {
+            "imus": {name: imu.save() for name, imu in self._imus.items()},
+            "batteries": {name: battery.save() for name, battery in self._batteries.items()},
+            "touched_s": dict(self._bumper.touched_s),
+            "rate": list(self._rate),
+        }
 
-    def restore(self, saved: object) -> None:
+    def restore(self, saved: Mapping[str, Any]) -> None:
         """Restores a state that `save` returned."""
-        if isinstance(saved, tuple):
-            self._imus, self._batteries, self._bumper, self._rate = copy.deepcopy(saved)
+        for name, imu in self._imus.items():
+            imu.restore(saved["imus"][name])
+        for name, battery in self._batteries.items():
+            battery.restore(saved["batteries"][name])
+        self._bumper.touched_s = dict(saved["touched_s"])
+        x, y, z = saved["rate"]
+        self._rate = (x, y, z)

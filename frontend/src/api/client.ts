@@ -2,11 +2,13 @@ import type { components, operations } from '@/generated/api';
 import { dataOf, done, rest, urlOf } from './http';
 import type {
   ActionModel,
+  OfferedAction,
   ChangesResult,
   CheckResult,
   FileChange,
   PackagePreview,
   ImportedProject,
+  OfferInfo,
   ProjectDetail,
   ProjectSettings,
   ProjectSummary,
@@ -25,6 +27,9 @@ type ProjectPage = Omit<components['schemas']['ProjectList'], 'items'> & { items
 /** The number of projects on one page: it fills a large screen twice. */
 const PAGE = 48;
 
+/** The number of projects whose offers come at once. */
+const OFFERS = 20;
+
 const project = (id: string) => `/projects/${encodeURIComponent(id)}`;
 const inProject = (project_id: string) => ({ path: { project_id } });
 const abortedBy = (signal: AbortSignal | undefined) => ({ signal: signal ?? null });
@@ -36,6 +41,18 @@ export const api = {
   listProjects: (asked: Omit<ProjectQuery, 'limit'>, signal?: AbortSignal): Promise<ProjectPage> => {
     const query = { ...asked, limit: PAGE };
     return dataOf(rest.GET('/api/v1/projects', { params: { query }, ...abortedBy(signal) }));
+  },
+  /** All trees that projects offer. The server answers page by page. */
+  offers: async (signal?: AbortSignal): Promise<OfferInfo[]> => {
+    const items: OfferInfo[] = [];
+    for (let offset: number | null = 0; offset !== null;) {
+      const query = { offset, limit: OFFERS };
+      const call = rest.GET('/api/v1/projects/offers', { params: { query }, ...abortedBy(signal) });
+      const page: components['schemas']['OfferList'] = await dataOf(call);
+      items.push(...page.items);
+      offset = page.next_offset;
+    }
+    return items;
   },
   createProject: (body: { name?: string; template?: string }): Promise<ProjectDetail> =>
     dataOf(rest.POST('/api/v1/projects', { body })),
@@ -123,6 +140,8 @@ export const api = {
     done(rest.DELETE('/api/v1/sessions/{session_id}', { params: { path: { session_id } } })),
 
   templates: async (): Promise<TemplateInfo[]> => (await dataOf(rest.GET('/api/v1/catalog/templates'))).items,
+  offeredActions: async (): Promise<OfferedAction[]> =>
+    (await dataOf(rest.GET('/api/v1/catalog/actions'))).items,
   behaviours: async () => (await dataOf(rest.GET('/api/v1/catalog/behaviours'))).items,
   universes: async (): Promise<UniverseInfo[]> => (await dataOf(rest.GET('/api/v1/catalog/universes'))).items,
   universeText: (universe_id: string) =>

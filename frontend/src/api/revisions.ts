@@ -28,7 +28,7 @@ export const revisions = {
         body: { label },
       }),
     ),
-  /** Restores these files, or all, of an old revision as a new revision. */
+  /** Restores files of an old revision as a new revision: the given ones, or all. */
   restore: (projectId: string, number: number, paths: readonly string[]): Promise<ProjectDetail> =>
     dataOf(
       rest.POST('/api/v1/projects/{project_id}/revisions/{number}/restore', {

@@ -53,6 +53,9 @@ export type ImportedProject = ProjectDetail & Pick<Server['ImportedProject'], 'p
 export type ProjectDetail = ProjectSummary &
   Checked<Server['Report']> & { settings: Server['ProjectDetail']['settings']; files: ProjectFile[] };
 
+/** The trees that one project offers to others. */
+export type OfferInfo = Server['Offer'];
+
 /** One file of a change set; `base_revision` 0 requires that the file does not exist yet. */
 export type FileChange = Server['FileChangeRequest'];
 export type ChangesResult = Checked<Server['ChangesDone']> & {
@@ -78,6 +81,8 @@ export type PackagePreview = Omit<Server['PackagePreview'], 'diagnostics'> & { d
 export type TemplateInfo = Needs<Server['Template'], 'id' | 'name' | 'description'>;
 /** A behaviour of the built-in library, with its texts by language. */
 export type BehaviourInfo = Server['Behaviour'];
+/** A node of Nav2 that a project can take, with its source. */
+export type OfferedAction = ActionModel & Pick<Server['OfferedAction'], 'text'>;
 /** A universe or a robot that can be chosen; `preview` is the address of its picture. */
 export type UniverseInfo = Needs<Server['Entry'], 'id' | 'name'>;
 export type Me = Server['Me'];

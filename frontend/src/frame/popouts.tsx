@@ -50,7 +50,8 @@ function rememberHome(model: Model, id: string): void {
 }
 
 /**
- * Returns the place where a panel returns: its old place, or beside a similar panel if the old place is gone.
+ * Returns the place for a panel that leaves its window: its old place, or beside a similar panel if the old
+ * place is gone.
  */
 function placeFor(model: Model, tab: TabNode): Home | null {
   const { home } = configOf(tab);
@@ -71,8 +72,8 @@ function giveBack(model: Model, tabs: readonly TabNode[]): void {
 }
 
 /**
- * Notifies the user of blocked windows and offers a button to open them, since browsers allow windows after a
- * press.
+ * Notifies the user of blocked windows and offers a button to open them, since browsers always allow a window
+ * after a press.
  */
 function tellBlocked(tabs: readonly TabNode[]): void {
   const id = 'popout-blocked';

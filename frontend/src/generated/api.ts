@@ -21,6 +21,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/catalog/actions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Lists the nodes of Nav2, each with the source that a project takes. */
+        get: operations["list_offered_actions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/catalog/behaviours": {
         parameters: {
             query?: never;
@@ -851,6 +868,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/offers": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * @description Lists the trees that the user's own projects, and those shared with the user, offer to others.
+         *
+         *     The projects are in the order of their last change, without archived ones.
+         */
+        get: operations["list_offers"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/python/format": {
         parameters: {
             query?: never;
@@ -1292,7 +1330,7 @@ export interface components {
         /** @description The user and the server's version. */
         Me: {
             mode: components["schemas"]["ModeEnum"];
-            /** @description Empty for a guest, who came by a read-only link. */
+            /** @description Empty for a guest, who opened a read-only link. */
             user: string;
             name: string;
             email: string;
@@ -1324,6 +1362,46 @@ export interface components {
             nodes: {
                 [key: string]: unknown;
             }[];
+        };
+        /** @description The trees that one project offers to others. */
+        Offer: {
+            /** Format: uuid */
+            project: string;
+            name: string;
+            description: string;
+            owner: string;
+            revision: number;
+            main_tree: string;
+            /** @description The offered trees. */
+            trees: string[];
+            /** @description The trees and actions that they use, by path. */
+            files: {
+                [key: string]: string;
+            };
+        };
+        /** @description A page of offers; `next_offset` is null on the last page. */
+        OfferList: {
+            items: components["schemas"]["Offer"][];
+            next_offset: number | null;
+        };
+        /** @description A node of Nav2 as its source declares it, with the source. */
+        OfferedAction: {
+            name: string;
+            path: string;
+            doc: string;
+            kind: string;
+            children: components["schemas"]["Children"];
+            open: boolean;
+            line: number;
+            ports: components["schemas"]["Port"][];
+            imports: string[];
+            diagnostics: components["schemas"]["Diagnostic"][];
+            /** @description The text of `path` in a project that takes the node. */
+            text: string;
+        };
+        /** @description The nodes of Nav2 that the palette offers. */
+        OfferedActionList: {
+            items: components["schemas"]["OfferedAction"][];
         };
         /** @enum {string} */
         OnErrorEnum: "stop" | "failure";
@@ -1669,6 +1747,34 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Action"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_offered_actions: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OfferedActionList"];
                 };
             };
             /** @description A problem document. */
@@ -3658,6 +3764,37 @@ export interface operations {
                 };
                 content: {
                     "application/problem+json": components["schemas"]["CheckProblem"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_offers: {
+        parameters: {
+            query?: {
+                limit?: number;
+                offset?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OfferList"];
                 };
             };
             /** @description A problem document. */

@@ -42,7 +42,7 @@ document.documentElement.lang = i18next.language;
 export function setLanguage(language: Language): void {
   localStorage.setItem(STORAGE_KEY, language);
   void i18next.changeLanguage(language);
-  // What follows this attribute finds the new texts.
+  // Observers of this attribute then find the new texts.
   document.documentElement.lang = language;
 }
 

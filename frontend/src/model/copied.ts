@@ -5,8 +5,8 @@ import { parseDiagram, serializeDiagram } from './serialize';
 import { fragmentToXml, xmlToFragment } from './xml';
 
 /**
- * The text of copied blocks: their XML, which any editor takes, and below it a comment with the trees and
- * actions that they use, as JSON. Whatever comes from the clipboard is checked before it is used.
+ * The text of copied blocks: their XML, which any editor accepts, and below it a comment with the trees and
+ * actions that they use, as JSON. Everything from the clipboard is checked before it is used.
  */
 
 const FORMAT = 'bt-studio/blocks';
@@ -15,7 +15,7 @@ const COMMENT = /\n?<!--\s*(\{"format":"bt-studio\/blocks",[^]*?\})\s*-->\s*$/;
 const ACTION = /^actions\/(.+)\.py$/;
 const TREE = /^trees\/([^/]+)\.json$/;
 
-/** The largest text with files that is copied or pasted, and the most files. */
+/** The limits for copying and pasting: the length of a text with its files, and the number of files. */
 const MOST_CHARACTERS = 8_000_000;
 const MOST_FILES = 500;
 /** The limits of the server for one tree, one action and a name. */
@@ -30,12 +30,12 @@ export interface Origin {
   readonly files: Sources;
 }
 
-/** What a text from the clipboard holds. */
+/** The contents of a text from the clipboard. */
 export interface Copied {
   readonly fragment: Fragment;
   /** Null for XML from elsewhere, or if the blocks use no files. */
   readonly origin: Origin | null;
-  /** Files came along that cannot be read: `origin` is null then. */
+  /** Whether the text has files that cannot be read; then `origin` is null. */
   readonly isDamaged: boolean;
 }
 
@@ -51,14 +51,14 @@ export function writeCopied(fragment: Fragment, origin: Origin): string {
   return xml.length + comment.length > MOST_CHARACTERS ? xml : xml + comment;
 }
 
-/** Returns the text without the files that came along, as a text editor needs it. */
+/** Returns the text without the files in its comment, for text editors. */
 export const withoutFiles = (text: string): string => text.replace(COMMENT, '');
 
 /** Returns whether a name can be the name of a file here and on every other system. */
 const isTreeName = (name: string): boolean =>
   name.length <= MOST_OF_NAME && !/[\p{Cc}\p{Cs}\\/:*?"<>|]/u.test(name) && !/^\.|^root$|[. ]$/i.test(name);
 
-/** Returns a file that may become part of a project; null if its path, name, size or content is not as it must be. */
+/** Returns a file that may become part of a project; null if its path, name, size or content is invalid. */
 function checkedFile(path: string, text: unknown): [string, string] | null {
   if (typeof text !== 'string') return null;
   const action = ACTION.exec(path)?.[1];
@@ -87,7 +87,7 @@ function checkedOrigin(json: string): Origin | null {
   if (typeof files !== 'object' || files === null || Array.isArray(files)) return null;
   const entries = Object.entries(files);
   if (entries.length > MOST_FILES) return null;
-  // Some systems cannot tell names apart that differ in their capitals only.
+  // Some file systems do not distinguish names that differ only in case.
   if (new Set(entries.map(([path]) => path.toLowerCase())).size < entries.length) return null;
   const checked = entries.map(([path, text]) => checkedFile(path, text));
   if (checked.some((file) => file === null)) return null;

@@ -19,7 +19,7 @@ function changesOf(before: DiagramNode, now: DiagramNode): Pick<PortChange, 'por
     .map((port) => ({ port, before: old[port] ?? null, value: fresh[port] ?? null }));
 }
 
-/** The ports that differ, of blocks that both states have with the same type. */
+/** Returns the ports that differ, for blocks that have the same type in both states. */
 export function portChanges(before: Diagrams, now: Diagrams): PortChange[] {
   return Object.entries(now).flatMap(([tree, diagram]) => {
     const other = before[tree];
@@ -37,7 +37,7 @@ function withPort(block: DiagramNode, port: string, value: string | null): Diagr
   return { ...block, ports: value === null ? others : { ...others, [port]: value } };
 }
 
-/** The trees with the new texts of these changes. */
+/** Returns the trees with the new texts of these changes. */
 export function withPorts(diagrams: Diagrams, changes: readonly PortChange[]): Diagrams {
   return changes.reduce<Diagrams>((trees, { tree, node, port, value }) => {
     const diagram = trees[tree];
@@ -53,7 +53,10 @@ function isSame<T extends object>(a: T, b: T, but: keyof T): boolean {
   return [...keys].every((key) => key === but || a[key] === b[key]);
 }
 
-/** Whether two states of the trees are equal but for the ports of blocks; what is equal is the same object. */
+/**
+ * Returns whether two states of the trees differ only in the ports of blocks. Equal parts must be identical
+ * objects.
+ */
 export function differInPortsOnly(a: Diagrams, b: Diagrams): boolean {
   if (Object.keys(a).length !== Object.keys(b).length) return false;
   return Object.entries(a).every(([tree, one]) => {

@@ -5,37 +5,42 @@ import { importsName, withName } from './pythonNames';
 /** The contents of files, by path. */
 export type Sources = Readonly<Record<string, string>>;
 
-/** What becomes of a file that comes under the name of another file of the project. */
+/** The choice for an incoming file if another file of the project has its name. */
 export type Choice = 'keep' | 'rename' | 'replace';
 
-/** A file that comes, and what becomes of it. */
+/** An incoming file, and what happens to it. */
 export interface Arrival {
-  /** Its path where it comes from. */
+  /** Its path in the project or behaviour that it comes from. */
   readonly path: string;
   /** Its path in the project. */
   readonly place: string;
-  /** Nothing has its name; the same file is here; or another file has its name, and the choice says what is done. */
+  /**
+   * `new`: no file has its name. `same`: the project has an identical file. Otherwise another file has its
+   * name, and this is the choice.
+   */
   readonly state: 'new' | 'same' | Choice;
 }
 
 /** The result of bringing files to a project. */
 export interface Insertion {
-  /** What comes, in order of use; files that only a file uses that is not taken are left out. */
+  /**
+   * The incoming files, in order of use. A file is left out if it is needed only by files that are not added.
+   */
   readonly arrivals: readonly Arrival[];
   /** The files to write, by path, without those that already have the same content. */
   readonly files: Sources;
-  /** The path in the project of each file that comes. */
+  /** The path in the project of each incoming file. */
   readonly places: Readonly<Record<string, string>>;
 }
 
-/** What is brought to a project, and what the project has. */
+/** The files that are brought to a project, and the files that the project has. */
 export interface Bringing {
   /** The paths that are used where the user inserts: a tree, or the actions and trees of blocks. */
   readonly needs: readonly string[];
   readonly sources: Sources;
   readonly existing: (path: string) => string | null;
   readonly isTaken: (name: string) => boolean;
-  /** By path; a clash without a choice is renamed. */
+  /** The choices by path; without a choice, a file whose name is taken is renamed. */
   readonly choices?: Readonly<Record<string, Choice>>;
 }
 
@@ -85,7 +90,7 @@ export const nameIn = (path: string): string => (ACTION.exec(path) ?? TREE.exec(
 const normalized = (sources: Sources): Record<string, string> =>
   Object.fromEntries(Object.entries(sources).map(([path, text]) => [path, normal(path, text)]));
 
-/** Returns the path of what a block uses: its tree, or the action of its type. */
+/** Returns the path of the file that a block uses: the tree of a SubTree, or the action of its type. */
 export const pathOf = ({ type, tree }: Pick<DiagramNode, 'type' | 'tree'>): string =>
   type === 'SubTree' ? `trees/${tree ?? ''}.json` : `actions/${type}.py`;
 

@@ -1,13 +1,13 @@
 import type { Diagram } from './diagram';
 
 /**
- * What a tree says of itself: attributes of its `<BehaviorTree>`, which other programs ignore and which come
- * back from XML.
+ * A tree's own metadata: attributes of its `<BehaviorTree>`, which other programs ignore and which stay in
+ * its XML.
  */
 export const DESCRIPTION = '_description';
 export const OFFERED = '_bts_offered';
 
-/** Returns the attributes of a tree; what is not a text is left out, since files are not checked. */
+/** Returns the attributes of a tree; values that are not texts are left out, since files are not checked. */
 export function attributesOf({ attributes }: Pick<Diagram, 'attributes'>): Record<string, string> {
   if (typeof attributes !== 'object' || attributes === null || Array.isArray(attributes)) return {};
   return Object.fromEntries(
@@ -15,7 +15,7 @@ export function attributesOf({ attributes }: Pick<Diagram, 'attributes'>): Recor
   );
 }
 
-/** Returns what the tree is for, in the words of its author; empty if nobody wrote it. */
+/** Returns the author's description of the tree; empty if there is none. */
 export const descriptionOf = (diagram: Pick<Diagram, 'attributes'>): string =>
   attributesOf(diagram)[DESCRIPTION] ?? '';
 

@@ -8,7 +8,7 @@ export interface TreeFacts {
   readonly calls: ReadonlySet<string>;
   /** The ports that the tree has as a SubTree. */
   readonly ports: readonly PortSpec[];
-  /** What it is for; empty if nobody wrote it. */
+  /** The description of the tree; empty if there is none. */
   readonly description: string;
 }
 

@@ -15,7 +15,8 @@ export interface NodeSpec {
   readonly summary: string;
   /** Whether the node accepts any port name. */
   readonly open: boolean;
-  readonly source: 'builtin' | 'action' | 'subtree';
+  /** `offered`: an action of Nav2 that the project has not taken yet. */
+  readonly source: 'builtin' | 'action' | 'subtree' | 'offered';
   /** Whether the Python of the action has a syntax error now: then this is its last valid declaration. */
   readonly outdated?: boolean;
 }
@@ -63,6 +64,9 @@ interface CatalogDocument {
       readonly description: string;
     }[];
     readonly summary: string;
+    /** `ros` for nodes that BehaviorTree.CPP has not. */
+    readonly group?: string;
+    readonly open?: boolean;
   }[];
 }
 
@@ -76,7 +80,7 @@ export function readCatalog(document: CatalogDocument): readonly NodeSpec[] {
     maxChildren: node.children.max ?? Infinity,
     ports: node.ports as readonly PortSpec[],
     summary: node.summary,
-    open: node.kind === 'subtree' || node.type === 'TestNode',
+    open: node.kind === 'subtree' || (node.open ?? false),
     source: node.kind === 'subtree' ? 'subtree' : 'builtin',
   }));
 }
@@ -96,7 +100,8 @@ function ownFamily(kind: string): keyof typeof OWN {
   return family === 'condition' || family === 'control' || family === 'decorator' ? family : 'action';
 }
 
-function actionSpec(action: ActionDescription): NodeSpec {
+/** Returns the spec of an action of the project. */
+export function actionSpec(action: ActionDescription): NodeSpec {
   const family = ownFamily(action.kind);
   const { min, max } = action.children ?? OWN[family];
   return {

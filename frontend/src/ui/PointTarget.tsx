@@ -11,7 +11,7 @@ interface PointTargetProps {
 
 /** Opens a menu at a point of the window, where the pointer is. */
 export function PointTarget({ x, y, label, onClose }: PointTargetProps) {
-  // The menu hears Escape only once it has the focus, which comes a moment after it is shown.
+  // A menu receives Escape only while it has the focus, which it gets a moment after it is shown.
   useEffect(() => {
     const closeBeforeFocus = (event: KeyboardEvent) => {
       if (event.key !== 'Escape' || document.activeElement?.closest('[role=menu]')) return;
@@ -24,7 +24,7 @@ export function PointTarget({ x, y, label, onClose }: PointTargetProps) {
 
   return (
     <Menu.Target>
-      {/* Hidden: a point has no role that could say what it opens. */}
+      {/* Hidden from screen readers: no role describes a point that opens a menu. */}
       <span
         aria-hidden="true"
         aria-label={label}

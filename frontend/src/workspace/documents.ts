@@ -2,7 +2,7 @@
 export type DocumentTab =
   | { kind: 'tree'; id: string }
   | { kind: 'file'; path: string }
-  /** Python outside of the project, to read: Python's own library, a package, a stub. */
+  /** Read-only Python outside of the project: from Python's own library, a package, or a stub. */
   | { kind: 'source'; path: string }
   /** The comparison of two revisions; there is only one such tab. */
   | { kind: 'compare' };

@@ -4,14 +4,14 @@ import { useProjectStore } from '@/store/project';
 import type { PanelId } from './layoutModel';
 import { documentOf, isInFront, openTab, showPanel, useTabs } from './tabs';
 
-/** What the presentation shows: nothing, as there is none; the tree; or the tree and the robot's view. */
+/** The content of the presentation: `off` if there is none, the tree, or the tree and the robot's view. */
 export type PresentationMode = 'off' | 'tree' | 'robot';
 
 interface Presentation {
   readonly mode: PresentationMode;
   /** The panel that shows the robot. */
   readonly view: PanelId;
-  /** The presentation itself asked for the full screen, which ends with it. */
+  /** Whether the presentation itself requested the full screen, which then ends with it. */
   readonly isFull: boolean;
 }
 
@@ -19,7 +19,7 @@ export const usePresentation = create<Presentation>(() => ({ mode: 'off', view: 
 
 const VIEWS: readonly PanelId[] = ['viewer3d', 'video', 'camera'];
 
-/** The view that the user looks at, else the first one that is not in a window of its own. */
+/** Returns the view in front, otherwise the first one that is not in a window of its own. */
 function viewInFront(): PanelId | null {
   const { model, inWindows } = useTabs.getState();
   const here = VIEWS.filter((id) => model?.getNodeById(id) && !inWindows.includes(id));
@@ -30,7 +30,7 @@ function viewInFront(): PanelId | null {
   return seen ?? here[0] ?? null;
 }
 
-/** Hides all but the tree, or all but the tree and the robot; the tree of before comes to the front. */
+/** Shows only the tree, or the tree and the robot. The tree that was last in front comes to the front. */
 export function present(mode: 'tree' | 'robot'): void {
   const { front } = useTabs.getState();
   const { activeTree, mainTree } = useProjectStore.getState();
@@ -56,10 +56,10 @@ export const togglePresentation = (): void =>
 export const toggleRobot = (): void =>
   present(usePresentation.getState().mode === 'robot' ? 'tree' : 'robot');
 
-/** Takes the whole screen, or gives it back. A browser may refuse it; then the window stays as it is. */
+/** Enters or leaves the full screen. If the browser refuses, the window stays as it is. */
 export async function toggleFullScreen(): Promise<void> {
   if (document.fullscreenElement) {
-    // First, so that the end of the full screen is not taken for the end of the presentation.
+    // This comes first, so that leaving the full screen does not count as ending the presentation.
     usePresentation.setState({ isFull: false });
     return document.exitFullscreen();
   }
@@ -69,7 +69,7 @@ export async function toggleFullScreen(): Promise<void> {
   );
 }
 
-/** The part of the presentation that a tab plays; null for one that is hidden. */
+/** Returns the role of a tab in the presentation; null if the tab is hidden. */
 export function roleOf(node: TabNode, { mode, view }: Presentation): 'tree' | 'robot' | null {
   if (mode === 'off') return null;
   if (documentOf(node)) return isInFront(node) ? 'tree' : null;

@@ -53,11 +53,14 @@ function nameOf(tab: DocumentTab): string {
   return nameIn(useProjectStore.getState().currentText(tab.path) ?? '') ?? documentName(tab.path);
 }
 
-/** Whether a document gives itself a name, as universes and robots do. */
+/** Returns whether the document contains its own name, as universes and robots do. */
 const isNamed = (tab: DocumentTab): boolean =>
   tab.kind === 'file' && ['universe', 'robot'].includes(kindOf(tab.path));
 
-/** The folder, or of a universe or robot the id, of a file whose tab has the name of another open tab; null if its name says enough. */
+/**
+ * Returns the folder of a file (the id of a universe or robot) if another open tab has the same name; null if
+ * the name is unique.
+ */
 export function folderOf(tab: DocumentTab, open: readonly DocumentTab[]): string | null {
   if (tab.kind !== 'file' && tab.kind !== 'source') return null;
   const name = nameOf(tab);
@@ -121,7 +124,7 @@ export function followRename(from: DocumentTab, to: DocumentTab): void {
   useTabs.setState(({ renames }) => ({ renames: renames + 1 }));
 }
 
-/** Gives the tabs of universes and robots the names that their documents have now. */
+/** Renames the tabs of universes and robots to the names in their documents. */
 export function followNames(): void {
   const { model } = useTabs.getState();
   let isNew = false;
@@ -198,7 +201,7 @@ export function frontDocument(model: Model): DocumentTab | null {
 
 const isSame = (a: DocumentTab, b: DocumentTab | null) => b !== null && tabId(a) === tabId(b);
 
-/** Whether a tab shows the document that is in front. */
+/** Returns whether a tab shows the document in front. */
 export function isInFront(node: TabNode): boolean {
   const tab = documentOf(node);
   return tab !== undefined && isSame(tab, useTabs.getState().front);

@@ -18,6 +18,6 @@ it('shows a link, selects it for copying, copies it, and revokes it', async () =
   await user.click(screen.getByRole('button', { name: 'Copy' }));
   expect(await navigator.clipboard.readText()).toBe('https://studio/l/1');
   expect(onRevoke).not.toHaveBeenCalled();
-  await user.click(screen.getByRole('button', { name: 'Take the link back' }));
+  await user.click(screen.getByRole('button', { name: 'Revoke the link' }));
   expect(onRevoke).toHaveBeenCalledOnce();
 });

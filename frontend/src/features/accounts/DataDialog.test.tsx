@@ -20,7 +20,7 @@ function open(answers: Readonly<Record<string, unknown>>) {
   return { requests, assign, onClose };
 }
 
-const room = () => screen.findByRole('progressbar', { name: 'Room for projects' });
+const room = () => screen.findByRole('progressbar', { name: 'Storage for projects' });
 const color = (bar: HTMLElement) => bar.getAttribute('style') ?? '';
 
 it('shows the disk use of the projects', async () => {

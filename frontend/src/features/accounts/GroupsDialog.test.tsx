@@ -95,7 +95,7 @@ describe('GroupsDialog', () => {
     const link = await screen.findByLabelText('Invitation link');
     expect(link).toHaveValue('https://studio/join/1');
     expect(link).toHaveAccessibleDescription('Used 3 of 40 times, works until 2/1/2030');
-    await click('Take the link back');
+    await click('Revoke the link');
     await expect.poll(changes).toEqual(['POST /groups/g1/invitations', 'DELETE /invitations/i1']);
   });
 

@@ -10,7 +10,7 @@ it('explains what a new owner means, and asks for confirmation', async () => {
     <MakeOwner who="bob" isBusy={isBusy} onConfirm={onConfirm} onCancel={onCancel} />
   );
   show(element(false));
-  expect(screen.getByRole('alert')).toHaveTextContent('The project becomes bob’s');
+  expect(screen.getByRole('alert')).toHaveTextContent('bob becomes the owner');
   await user.click(screen.getByRole('button', { name: 'Make bob the owner' }));
   expect([onConfirm.mock.calls.length, onCancel.mock.calls.length]).toEqual([1, 0]);
   await user.click(screen.getByRole('button', { name: 'Keep it' }));

@@ -117,7 +117,7 @@ describe('ShareDialog', () => {
     const field = await screen.findByLabelText('Read-only link');
     expect(field).toHaveValue('https://studio/l/1');
     expect(field).toHaveAccessibleDescription('Made on 2/1/2030');
-    await click('Take the link back');
+    await click('Revoke the link');
     await expect
       .poll(() => changes().map(({ method, path }) => `${method} ${path}`))
       .toEqual([`POST ${SHARES}/links`, `DELETE ${SHARES}/links/l1`]);

@@ -25,7 +25,7 @@ describe('UserMenu', () => {
     await openMenu();
     expect(items()).toEqual([
       ['Groups', null],
-      ['Room and data', null],
+      ['Storage and data', null],
       ['Password and second factor', '/accounts/password/change/'],
       ['Sign out', '/accounts/logout/'],
     ]);
@@ -48,7 +48,7 @@ describe('UserMenu', () => {
 
   it.each([
     ['Groups', 'Groups'],
-    ['Room and data', 'Room and data'],
+    ['Storage and data', 'Storage and data'],
   ])('opens %s', async (item, title) => {
     await open(account());
     await openMenu();
@@ -66,7 +66,7 @@ describe('UserMenu', () => {
     act(() => perform('account.groups.title'));
     expect(screen.getByRole('dialog', { name: 'Groups' })).toBeInTheDocument();
     act(() => perform('account.data.title'));
-    expect(screen.getByRole('dialog', { name: 'Room and data' })).toBeInTheDocument();
+    expect(screen.getByRole('dialog', { name: 'Storage and data' })).toBeInTheDocument();
     unmount();
     expect(commands()).toEqual([]);
   });

@@ -23,7 +23,10 @@ interface Spoken {
   readonly value: string;
 }
 
-/** The values that the block shows now; they are not followed, since a number would never fall silent. */
+/**
+ * Returns the values that the block shows now. Later changes are not announced, since a screen reader would
+ * never stop reading a changing number.
+ */
 function valuesOf(node: DiagramNode, spec: NodeSpec | undefined, tree: string, id: NodeId): Spoken[] {
   const { values } = useLiveValues.getState();
   return portLines(node, spec).flatMap(({ name }) => {

@@ -32,7 +32,7 @@ function ownersOf(diagrams: Readonly<Record<string, Diagram>>, treeId: string, m
   return owners;
 }
 
-/** The most blocks that the path shows: the first, and the last ones. */
+/** The largest number of blocks in the path: the first block, and the last ones. */
 const NEAREST = 4;
 
 interface PartOfPath {

@@ -50,8 +50,8 @@ describe('SourceTab', () => {
   it('shows a source to read, and says so', async () => {
     SourceSocket.answers = { 'studio/source': { result: { text: 'class Node: ...' } } };
     show(<SourceTab path={PATH} />);
-    expect(screen.getByRole('note')).toHaveTextContent('rclpy/node.pyOutside of the project: to read only');
-    const text = await screen.findByRole('textbox', { name: 'Source of rclpy/node.py, to read' });
+    expect(screen.getByRole('note')).toHaveTextContent('rclpy/node.pyOutside of the project: read-only');
+    const text = await screen.findByRole('textbox', { name: 'Source of rclpy/node.py, read-only' });
     const view = EditorView.findFromDOM(text);
     expect(view?.state.doc.toString()).toBe('class Node: ...');
     expect(view?.state.readOnly).toBe(true);

@@ -17,11 +17,13 @@ import { sourceName } from './language/uris';
 import { ReferencesPanel } from './places/ReferencesPanel';
 
 interface SourceTabProps {
-  /** The label of its folder, and the path below that. */
+  /** The label of the source's folder, followed by the path below that folder. */
   readonly path: string;
 }
 
-/** Shows Python outside of the project, to read: hover, definition and references work on in it. */
+/**
+ * Shows Python source outside of the project, read-only; hover, definition and references still work in it.
+ */
 export function SourceTab({ path }: SourceTabProps) {
   const { t } = useTranslation('code');
   const { text, problem } = useSource(path);
@@ -78,7 +80,7 @@ export function SourceTab({ path }: SourceTabProps) {
   );
 }
 
-/** The text of a source: read once, when the language server runs. */
+/** Returns the text of a source, which is read once, when the language server runs. */
 function useSource(path: string): { text: string | null; problem: string | null } {
   const state = useLanguageStore((store) => store.state);
   const [text, setText] = useState<string | null>(null);

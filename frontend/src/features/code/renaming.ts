@@ -30,7 +30,10 @@ export async function renameDocument(path: string, name: string): Promise<void> 
   openFile(to);
 }
 
-/** The text of a universe or a robot whose title was that of its old name, with the title of the new one. */
+/**
+ * Returns the text of a universe or a robot with a title made from its new name; null unless the title was
+ * made from the old name.
+ */
 async function withName(path: string, name: string): Promise<string | null> {
   const text = useProjectStore.getState().currentText(path);
   if (text === null || !['universe', 'robot'].includes(kindOf(path))) return null;

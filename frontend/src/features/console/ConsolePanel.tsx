@@ -53,8 +53,8 @@ export function ConsolePanel() {
     if (!element) return;
     const { scrollTop, scrollHeight, clientHeight } = element;
     const isAtEnd = scrollHeight - scrollTop - clientHeight < LINE_HEIGHT * 2;
-    // Only scrolling up by the user stops the following: filtering, measuring and showing a hidden panel also
-    // scroll.
+    // Only when the user scrolls up does the view stop following the end: filtering, measuring and showing a
+    // hidden panel also scroll.
     if (isAtEnd || (scrollTop < top.current && isScrolling())) setFollowing(isAtEnd);
     top.current = scrollTop;
   };

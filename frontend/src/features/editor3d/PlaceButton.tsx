@@ -32,13 +32,14 @@ interface PlaceButtonProps {
   readonly what: object;
   /** Places it without a ghost. */
   readonly onPlace: () => void;
-  /** The thing has no place of its own, and so no ghost. */
+  /** Whether the thing has no pose, and therefore no ghost. */
   readonly isPlaceless?: boolean;
 }
 
 /**
- * A button for a thing: after a click its ghost follows the pointer; a drag puts it where it is let go. It waits
- * for the view: before, the keyboard would stay on the button, and Enter would give up what was just chosen.
+ * A button for a thing: after a click its ghost follows the pointer; a drag places it where the pointer is
+ * released. It waits for the view: before, the keyboard would stay on the button, and Enter would give up what
+ * was just chosen.
  */
 export function PlaceButton(props: PlaceButtonProps) {
   const { editor, icon: Icon, label, testId, what, onPlace, isPlaceless = false } = props;

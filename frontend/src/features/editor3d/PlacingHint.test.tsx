@@ -10,7 +10,7 @@ it('says how a thing is placed, as long as one is', () => {
   expect(screen.getByTestId('placing')).toBeEmptyDOMElement();
   act(() => editor.store.setState({ placing: { name: 'Crate', what: {} } }));
   expect(screen.getByTestId('placing')).toHaveTextContent(
-    /^Click to place it, with Shift to place more: Crate\..*Esc/,
+    /^Click to place it, or Shift-click to place several: Crate\..*Esc/,
   );
   act(() => editor.store.setState({ placing: null }));
   expect(screen.getByTestId('placing')).toBeEmptyDOMElement();

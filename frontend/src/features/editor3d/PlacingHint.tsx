@@ -3,7 +3,7 @@ import { useStore } from 'zustand';
 import type { Editor } from './editing';
 import classes from './editor3d.module.css';
 
-/** Says how the chosen thing is placed; also to screen readers. */
+/** A hint on how to place the chosen thing, also for screen readers. */
 export function PlacingHint({ editor }: { readonly editor: Editor }) {
   const { t } = useTranslation('editor3d');
   const placing = useStore(editor.store, (state) => state.placing);

@@ -21,7 +21,7 @@ export interface ViewHandle {
   cancel(): boolean;
 }
 
-/** Something of the palette that is to be placed next. */
+/** A thing of the palette that is to be placed next. */
 export interface Placing {
   /** Its name, for the user. */
   readonly name: string;
@@ -77,7 +77,7 @@ export interface Editor {
   readonly kind: Kind;
   readonly store: StoreApi<EditorData>;
   view: ViewHandle | null;
-  /** Null: without a view in 3D, things are placed at once. */
+  /** null: there is no 3D view, so things are placed at once. */
   placer: Placer | null;
 }
 
@@ -123,7 +123,7 @@ export const textsOf = ({ path, kind }: Editor): readonly string[] => textsAt(pa
 
 export const isReadOnly = (): boolean => useProjectStore.getState().role === 'viewer';
 
-/** Sets the view that shows the editor's document, or null; nothing is being placed without one. */
+/** Sets the view that shows the editor's document. Null means no view, and cancels placing. */
 export function showIn(editor: Editor, view: ViewHandle | null, placer: Placer | null = null): void {
   editor.view = view;
   editor.placer = placer;

@@ -5,9 +5,9 @@ import type { Editor, Placing } from './editing';
 /** A smaller movement counts as a click, since hands tremble. */
 const DEAD_ZONE_PX = 6;
 
-/** What a button or a menu of the palette places. */
+/** A thing that a button or a menu of the palette places. */
 export interface Choice extends Placing {
-  /** Places it without a ghost, at the place where it would stand first. */
+  /** Places the thing without a ghost, at its default place. */
   readonly place: () => void;
 }
 
@@ -20,8 +20,8 @@ function giveUp(editor: Editor): void {
 }
 
 /**
- * Lets the ghost of a thing follow the pointer, until it is placed; chosen again, gives it up. Without a view in
- * 3D it is placed at once.
+ * Makes the ghost of a thing follow the pointer until the thing is placed; choosing the same thing again
+ * cancels this. Without a 3D view, the thing is placed at once.
  */
 export function choose(editor: Editor, choice: Choice): void {
   const { placer, store } = editor;
@@ -49,7 +49,7 @@ export function dragFrom(button: Element, event: PointerEvent, editor: Editor, c
     onEnd: (up) => {
       if (!isOut) return;
       const target = up.target instanceof Node ? up.target : null;
-      // A release on the button is a click on it, which gives up.
+      // Releasing the pointer on the button is a click, which cancels placing.
       if (button.contains(target)) return;
       const isOnPalette = button.closest('[role="toolbar"]')?.contains(target) ?? false;
       if (isOnPalette || !placer.aim(up)) giveUp(editor);

@@ -19,7 +19,7 @@ interface ExplorerItemProps {
   readonly worst: Worst | undefined;
 }
 
-/** The button of a press of the pointer; the keys that open a menu have none. */
+/** The right button of the mouse. The keys that open a menu report another button. */
 const RIGHT = 2;
 
 function nameOf(path: string): string {

@@ -31,13 +31,13 @@ interface ExplorerMenuProps {
   readonly path: string;
   readonly name: string;
   readonly isOpened: boolean;
-  /** The point of a right click; null: at the button. */
+  /** The point of the right click; null places the menu at its button. */
   readonly point: { readonly x: number; readonly y: number } | null;
   readonly onChange: (isOpened: boolean) => void;
   readonly onOpen: () => void;
 }
 
-/** What can be done with a file; its button, a right click, Shift+F10 and the menu key open it. */
+/** The menu of a file. Its button, a right click, Shift+F10 and the menu key open it. */
 export function ExplorerMenu({ path, name, isOpened, point, onChange, onOpen }: ExplorerMenuProps) {
   const { t } = useTranslation('frame');
   const treeId = treeIdOf(path);

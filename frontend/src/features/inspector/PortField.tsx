@@ -24,7 +24,7 @@ interface PortFieldProps {
   readonly onChange: (value: string | null) => void;
   /** Whether the port was just added: then its value gets the caret. */
   readonly isNew?: boolean;
-  /** The key of the choice to show the port's live value in the block. */
+  /** The key under which the page remembers whether the block shows the port's live value. */
   readonly shown: ShownPort;
   /** Called when the focus leaves the field. */
   readonly onLeave?: () => void;
@@ -34,11 +34,11 @@ interface PortFieldProps {
   readonly onRename?: ((name: string) => void) | undefined;
   /** Renames the key that the port names, wherever the key is the same entry. */
   readonly onRenameKey: (key: string) => void;
-  /** How the running program differs from what was saved. */
+  /** The difference between the running program and the saved text. */
   readonly mark?: PortMark | undefined;
-  /** Takes the present text for the saved one. */
+  /** Makes the current text count as saved. */
   readonly onKeep?: () => void;
-  /** Sets the saved text again. */
+  /** Restores the saved text. */
   readonly onBack?: (saved: string | null) => void;
   /** The names of the other ports. */
   readonly taken: readonly string[];
@@ -76,7 +76,7 @@ export function PortField(props: PortFieldProps) {
   const read = readPortText(value ?? '');
   const { kind } = read;
   const key = read.kind === 'key' ? `${read.global ? '@' : ''}${read.key}` : port.name;
-  // An output is written to a key, also while its name is still without braces.
+  // An output is written to a key, even while the typed name still lacks braces.
   const isKey = kind === 'key' || kind === 'same-name' || kind === 'broken' || port.direction === 'output';
   const kept = useKeptCaret(field, isKey ? 'key' : 'value');
   return (

@@ -35,8 +35,7 @@ const extraPort = (name: string): PortSpec => ({
 });
 
 /**
- * Returns whether all blocks of the type have the same ports: those of an action that declares none, or that
- * does not exist yet.
+ * Returns whether all blocks of the type share their ports: the action declares none, or does not exist yet.
  */
 const isShared = ({ node, spec }: Pick<Target, 'node' | 'spec'>): boolean =>
   node.type !== 'SubTree' && (spec === undefined || (spec.source === 'action' && spec.open));

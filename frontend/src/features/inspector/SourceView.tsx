@@ -10,7 +10,7 @@ interface SourceViewProps {
   readonly text: string;
 }
 
-/** The text of a file with syntax colours, which cannot be edited. */
+/** The text of a file with syntax colours; it is read-only. */
 export function SourceView({ path, text }: SourceViewProps) {
   const { t } = useTranslation('inspector');
   const host = useRef<HTMLDivElement>(null);

@@ -15,7 +15,7 @@ interface ValueInputProps {
   readonly onChange: (value: string | null) => void;
 }
 
-/** Changes a number by steps of the last decimal that is written. */
+/** Changes a number by steps of its last written decimal place. */
 function stepped(text: string, by: number): string {
   const decimals = /\.(\d+)/.exec(text)?.[1]?.length ?? 0;
   return (Number(text) + by * 10 ** -decimals).toFixed(decimals);

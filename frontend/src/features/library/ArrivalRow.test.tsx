@@ -46,7 +46,7 @@ describe('a file that comes', () => {
     unmount();
     open(TURN, 'replace');
     await user.click(screen.getByRole('button', { name: 'Turn' }));
-    expect(await screen.findByRole('textbox', { name: `${TURN} as it comes` })).toHaveTextContent('theirs');
+    expect(await screen.findByRole('textbox', { name: `${TURN}, incoming` })).toHaveTextContent('theirs');
   });
 
   it('shows a new tree as a picture', async () => {
@@ -58,7 +58,9 @@ describe('a file that comes', () => {
   it('says that the tree into which it comes stays', () => {
     useProjectStore.getState().setActiveTree('Main');
     open('trees/Main.json', 'rename', oneBlock('Main', 'AlwaysSuccess'), 'trees/Main2.json');
-    expect(screen.getByText('You insert into Main: the other one comes as Main2.')).toBeInTheDocument();
+    expect(
+      screen.getByText('You are inserting into Main, so the incoming one is named Main2.'),
+    ).toBeInTheDocument();
     expect(screen.queryByRole('radio')).toBeNull();
   });
 });

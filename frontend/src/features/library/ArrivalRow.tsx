@@ -24,7 +24,7 @@ interface ArrivalRowProps {
   readonly onChoose: (choice: Choice) => void;
 }
 
-/** One file that comes: what it is, what becomes of it, and its content on demand. */
+/** The row of an incoming file: what it is, what happens to it, and its content on demand. */
 export function ArrivalRow({ arrival, source, onChoose }: ArrivalRowProps) {
   const { t } = useTranslation('library');
   const [isOpen, setOpen] = useState(false);
@@ -81,7 +81,10 @@ interface ContentProps {
   readonly isClash: boolean;
 }
 
-/** What comes beside what is here, if that is something else; else the tree's picture, or the action's code. */
+/**
+ * The content of an incoming file: both files side by side if another file has its name, otherwise the tree's
+ * picture or the action's code.
+ */
 function Content({ path, source, isClash }: ContentProps) {
   const { t } = useTranslation('library');
   const mine = useProjectStore((state) => state.currentText(path));

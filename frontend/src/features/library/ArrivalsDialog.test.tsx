@@ -43,7 +43,7 @@ describe('what comes', () => {
     expect(row('trees/Dock.json').getByText('New')).toBeInTheDocument();
     expect(row('actions/Same.py').getByText('Already here')).toBeInTheDocument();
     expect(
-      row('actions/Turn.py').getByText('Your Turn stays; the other one comes as Turn2.'),
+      row('actions/Turn.py').getByText('Your Turn stays; the incoming one is named Turn2.'),
     ).toBeInTheDocument();
   });
 
@@ -68,10 +68,12 @@ describe('what comes', () => {
   it('is looked at before it is taken', async () => {
     await open();
     await user.click(screen.getByRole('button', { name: 'Turn' }));
-    expect(await screen.findByRole('textbox', { name: 'actions/Turn.py as it comes' })).toHaveTextContent(
+    expect(await screen.findByRole('textbox', { name: 'actions/Turn.py, incoming' })).toHaveTextContent(
       'theirs',
     );
-    expect(screen.getByRole('textbox', { name: 'actions/Turn.py as it is here' })).toHaveTextContent('mine');
+    expect(screen.getByRole('textbox', { name: 'actions/Turn.py in this project' })).toHaveTextContent(
+      'mine',
+    );
     await user.click(screen.getByRole('button', { name: 'Same' }));
     expect(await screen.findByTestId('action-source')).toHaveTextContent('class Same: ...');
     await user.click(screen.getByRole('button', { name: 'Dock' }));

@@ -8,7 +8,7 @@ import { useProjectStore } from '@/store/project';
 import { ArrivalRow } from './ArrivalRow';
 import classes from './library.module.css';
 
-/** Shows the trees and actions that come with pasted blocks or a behaviour, before they are taken. */
+/** Shows the trees and actions that come with pasted blocks or a behaviour, before they are added. */
 export function ArrivalsDialog() {
   const { t } = useTranslation('library');
   const arrivals = useArrivals((state) => state.arrivals);

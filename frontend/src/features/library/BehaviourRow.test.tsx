@@ -17,6 +17,7 @@ const offer: Offer = {
   doc: 'Looks for the dock first.',
   diagram: JSON.parse(text) as unknown,
   project: null,
+  owner: null,
   isOffered: true,
   files: { 'trees/Dock.json': text, 'actions/Dock.py': 'class Dock: ...' },
 };
@@ -85,7 +86,7 @@ describe('a behaviour', () => {
   it('shows what an update changes, and closes', async () => {
     open('1.1');
     await user.click(screen.getByTestId('update-Dock'));
-    expect(await screen.findByRole('dialog', { name: 'Dock: what version 1.2 changes' })).toBeInTheDocument();
+    expect(await screen.findByRole('dialog', { name: 'Dock: changes in version 1.2' })).toBeInTheDocument();
     await user.click(screen.getAllByRole('button', { name: 'Cancel' }).at(-1)!);
     expect(screen.queryByTestId('confirm-update')).toBeNull();
   });

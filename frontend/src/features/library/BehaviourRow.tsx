@@ -14,12 +14,14 @@ const UpdateDialog = lazyPart(async () => (await import('./UpdateDialog')).Updat
 
 interface BehaviourRowProps {
   readonly offer: Offer;
+  /** Says from which project it comes. */
+  readonly namesProject?: boolean;
   /** The version that the project contains; null if it does not contain the behaviour. */
   readonly takenVersion: string | null;
 }
 
 /** The row of a behaviour: description, picture, and buttons to add it. */
-export function BehaviourRow({ offer, takenVersion }: BehaviourRowProps) {
+export function BehaviourRow({ offer, namesProject = false, takenVersion }: BehaviourRowProps) {
   const { t } = useTranslation('library');
   const [isOpen, setOpen] = useState(false);
   const [isUpdating, setUpdating] = useState(false);
@@ -72,6 +74,13 @@ export function BehaviourRow({ offer, takenVersion }: BehaviourRowProps) {
           {t('insert')}
         </Button>
       </div>
+      {namesProject ? (
+        <Text size="xs" className={classes['summary'] ?? ''}>
+          {offer.owner === null
+            ? t('from', { project: offer.project })
+            : t('fromOwner', { project: offer.project, owner: offer.owner })}
+        </Text>
+      ) : null}
       {offer.summary === '' ? null : (
         <Text size="xs" className={classes['summary'] ?? ''}>
           {offer.summary}

@@ -2,6 +2,7 @@ import { screen, waitFor, within } from '@testing-library/react';
 import { describe, expect, it } from 'vitest';
 import { useProjectStore } from '@/store/project';
 import { oneBlock, projectDetail, projectFile } from '@/store/testing';
+import { account } from '../../../harness/requests';
 import { fakeServer, openProject, show, user } from '../../../harness/testing';
 import { Library } from './Library';
 
@@ -15,6 +16,7 @@ const behaviour = (id: string, summary: string, version = '1.1') => ({
   files: { [`trees/${id}.json`]: oneBlock(id, 'AlwaysSuccess') },
 });
 
+const OFFERS = 'GET /projects/offers?offset=0&limit=20';
 const PROJECTS = '/projects?search=&sort=-updated_at&shelf=current&offset=0&limit=48';
 const other = {
   ...projectDetail(4, [projectFile('trees/Patrol.json', 1, oneBlock('Patrol', 'AlwaysSuccess'))], 'Patrol'),
@@ -25,6 +27,8 @@ const other = {
 function open(answers: Record<string, unknown> = {}) {
   openProject({ trees: { Main: { r: { type: 'Sequence', children: [] } } } });
   const server = fakeServer({
+    'GET /me': account(),
+    [OFFERS]: { items: [], next_offset: null },
     'GET /catalog/behaviours': [behaviour('Dock', 'Goes home.'), behaviour('Follow', 'Follows a wall.')],
     [`GET ${PROJECTS}`]: {
       items: [
@@ -51,7 +55,7 @@ describe('Library', () => {
     await user.type(screen.getByLabelText('Search behaviours'), 'wall follow');
     expect(offers()).toEqual(['Follow']);
     await user.type(screen.getByLabelText('Search behaviours'), ' home');
-    expect(screen.getByText('No behaviour is like that.')).toBeInTheDocument();
+    expect(screen.getByText('No behaviour matches the search.')).toBeInTheDocument();
   });
 
   it('inserts a behaviour with its files', async () => {
@@ -116,6 +120,40 @@ describe('Library', () => {
     expect(offers()).toEqual(['Patrol', 'Dock']);
   });
 
+  it('shows what projects offer before the built-in ones, and finds it by its project', async () => {
+    const files = {
+      'trees/Charge.json': JSON.stringify({
+        ...(JSON.parse(oneBlock('Charge', 'AlwaysSuccess')) as object),
+        attributes: { _bts_offered: '1', _description: 'Fills the battery.' },
+      }),
+    };
+    const one = { description: '', revision: 2, main_tree: 'Main', trees: ['Charge'], files };
+    open({
+      [OFFERS]: {
+        items: [
+          { ...one, project: 'p2', name: 'Rover', owner: 'ada' },
+          { ...one, project: 'p3', name: 'Class', owner: 'bob' },
+        ],
+        next_offset: null,
+      },
+    });
+    const list = await screen.findByRole('list', { name: 'Offered by projects' });
+    expect(list).toHaveTextContent('From RoverFills the battery.');
+    expect(list).toHaveTextContent('From Class by bob');
+    expect(screen.getByRole('heading', { name: 'Built-in library' })).toBeInTheDocument();
+    expect(offers()).toEqual(['Charge', 'Charge', 'Dock', 'Follow']);
+    await user.type(screen.getByLabelText('Search behaviours'), 'rover');
+    expect(offers()).toEqual(['Charge']);
+    await user.click(screen.getByRole('button', { name: 'Insert Charge' }));
+    expect(useProjectStore.getState().currentText('assets/library.json')).toContain('p2/Charge');
+  });
+
+  it('has the built-in ones where the offers cannot be read', async () => {
+    open({ [OFFERS]: Response.json({ detail: 'It is away.', code: 'gone' }, { status: 404 }) });
+    expect(await screen.findByText(/It is away\./)).toBeInTheDocument();
+    expect(offers()).toEqual(['Dock', 'Follow']);
+  });
+
   it('finds a project by its name, and keeps the chosen one in the list', async () => {
     const found = PROJECTS.replace('search=', 'search=Ro');
     const { requests } = open({
@@ -123,7 +161,7 @@ describe('Library', () => {
     });
     await screen.findByTestId('behaviour-Dock');
     const source = screen.getByRole('combobox', { name: 'Where from' });
-    expect(source).toHaveValue('Built-in library');
+    expect(source).toHaveValue('Built-in and offered');
     await user.click(source);
     await user.click(await screen.findByRole('option', { name: 'Other' }));
     await screen.findByTestId('behaviour-Patrol');
@@ -138,17 +176,17 @@ describe('Library', () => {
     await user.type(source, 'zz');
     expect(await screen.findByText('No project has this name.')).toBeInTheDocument();
     await user.clear(source);
-    await user.click(screen.getByRole('option', { name: 'Built-in library' }));
+    await user.click(screen.getByRole('option', { name: 'Built-in and offered' }));
     await waitFor(() => expect(offers()).toEqual(['Dock', 'Follow']));
   });
 
   it('shows that it is loading, and not yet that it is empty', async () => {
     open();
     expect(screen.getByLabelText('Loading the behaviours')).toBeInTheDocument();
-    expect(screen.queryByText('No behaviour is like that.')).toBeNull();
+    expect(screen.queryByText('No behaviour matches the search.')).toBeNull();
     await screen.findByTestId('behaviour-Dock');
     expect(screen.queryByLabelText('Loading the behaviours')).toBeNull();
-    expect(screen.queryByText('No behaviour is like that.')).toBeNull();
+    expect(screen.queryByText('No behaviour matches the search.')).toBeNull();
   });
 
   it('finds text in the summary, the name and the description, whatever its case', async () => {
@@ -179,6 +217,8 @@ describe('Library', () => {
       },
     });
     fakeServer({
+      'GET /me': account(),
+      [OFFERS]: { items: [], next_offset: null },
       'GET /catalog/behaviours': [behaviour('Dock', 'Goes home.'), behaviour('Follow', 'Follows a wall.')],
       [`GET ${PROJECTS}`]: { items: [], total: 0, next_offset: null },
     });

@@ -7,9 +7,10 @@ import { useProjectStore } from '@/store/project';
 import { takenIn } from '@/store/project/library';
 import { BehaviourRow } from './BehaviourRow';
 import classes from './library.module.css';
-import { useLibrary, useOtherProjects, useTreesOf } from './useReusables';
+import { useLibrary, useOffers, useOtherProjects, useTreesOf, type Offer } from './useReusables';
 
-const BUILT_IN = 'library';
+/** The source that is chosen first: the built-in behaviours, and what projects offer. */
+const ALL = 'all';
 
 interface SourceProps {
   readonly value: string;
@@ -20,15 +21,15 @@ interface SourceProps {
 function Source({ value, onChange }: SourceProps) {
   const { t } = useTranslation('library');
   const projectId = useProjectStore((state) => state.projectId);
-  const [chosen, setChosen] = useState({ value: BUILT_IN, label: '' });
+  const [chosen, setChosen] = useState({ value: ALL, label: '' });
   const [typed, setTyped] = useState('');
-  const builtIn = { value: BUILT_IN, label: t('builtIn') };
-  const label = chosen.value === BUILT_IN ? builtIn.label : chosen.label;
+  const all = { value: ALL, label: t('all') };
+  const label = chosen.value === ALL ? all.label : chosen.label;
   const [search] = useDebouncedValue(typed === label ? '' : typed, 200);
   const projects = useOtherProjects(projectId, search);
   const found = (projects.data ?? []).map(({ id, name }) => ({ value: id, label: name }));
-  const isAway = chosen.value !== BUILT_IN && !found.some((each) => each.value === chosen.value);
-  const data = [builtIn, ...found, ...(isAway ? [chosen] : [])];
+  const isAway = chosen.value !== ALL && !found.some((each) => each.value === chosen.value);
+  const data = [all, ...found, ...(isAway ? [chosen] : [])];
   return (
     <Select
       size="xs"
@@ -41,33 +42,70 @@ function Source({ value, onChange }: SourceProps) {
       data={data}
       onSearchChange={setTyped}
       onChange={(next) => {
-        setChosen(data.find((each) => each.value === next) ?? builtIn);
-        onChange(next ?? BUILT_IN);
+        setChosen(data.find((each) => each.value === next) ?? all);
+        onChange(next ?? ALL);
       }}
     />
   );
 }
 
-/** The panel of reusable behaviours: the built-in library, and the trees of the user's other projects. */
+interface RowsProps {
+  readonly title?: string;
+  readonly offers: readonly Offer[];
+  readonly record: string | null;
+}
+
+/** A list of behaviours; a list with a title says from which project each comes. */
+function Rows({ title, offers, record }: RowsProps) {
+  const taken = useMemo(() => takenIn(record), [record]);
+  return (
+    <>
+      {title === undefined ? null : <h3 className={classes['section']}>{title}</h3>}
+      <ul className={classes['list']} aria-label={title}>
+        {offers.map((offer) => (
+          <BehaviourRow
+            key={`${offer.source}/${offer.id}`}
+            offer={offer}
+            namesProject={title !== undefined}
+            takenVersion={taken[`${offer.source}/${offer.id}`]?.version ?? null}
+          />
+        ))}
+      </ul>
+    </>
+  );
+}
+
+const holds = (texts: readonly (string | null)[], words: readonly string[]): boolean => {
+  const text = texts.join(' ').toLowerCase();
+  return words.every((word) => text.includes(word));
+};
+
+/** The panel of reusable behaviours: the built-in library, and the trees of the user's projects. */
 export function Library() {
   const { t, i18n } = useTranslation('library');
   const record = useProjectStore((state) => state.currentText('assets/library.json'));
-  const [source, setSource] = useState(BUILT_IN);
+  const [source, setSource] = useState(ALL);
   const [search, setSearch] = useState('');
   const [showsAll, setShowsAll] = useState(false);
+  const projectId = useProjectStore((state) => state.projectId);
   const library = useLibrary(i18n.language);
-  const trees = useTreesOf(source === BUILT_IN ? null : source);
-  const taken = useMemo(() => takenIn(record), [record]);
-  const { data, error, isPending } = source === BUILT_IN ? library : trees;
-  // A project that offers some of its trees by name shows the others on demand.
+  const offered = useOffers(projectId);
+  const trees = useTreesOf(source === ALL ? null : source);
+  const isAll = source === ALL;
+  const { data, error, isPending } = isAll ? library : trees;
+  // Both lists come at once, so that none is pushed down by the other.
+  const isLoading = isPending || (isAll && offered.isLoading);
+  // If a project offers some of its trees, its other trees are shown only on demand.
   const curates = (data ?? []).some(({ isOffered }) => isOffered);
   const hasMore = curates && (data ?? []).some(({ isOffered }) => !isOffered);
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
-  const offers = (data ?? []).filter((offer) => showsAll || !curates || offer.isOffered);
-  const shown = offers.filter(({ id, summary, doc }) => {
-    const text = `${id} ${summary} ${doc}`.toLowerCase();
-    return words.every((word) => text.includes(word));
-  });
+  const shown = (data ?? [])
+    .filter((offer) => showsAll || !curates || offer.isOffered)
+    .filter(({ id, summary, doc }) => holds([id, summary, doc], words));
+  const ofProjects = (isAll ? (offered.data ?? []) : []).filter(({ id, summary, project, owner }) =>
+    holds([id, summary, project, owner], words),
+  );
+  const problems = [error, isAll ? offered.error : null].filter((each) => each !== null);
 
   return (
     <section className={classes['library']} aria-label={t('label')} data-testid="library">
@@ -90,22 +128,18 @@ export function Library() {
           />
         ) : null}
       </div>
-      {isPending ? <Loader size="xs" m="md" aria-label={t('loading')} /> : null}
-      {error ? (
-        <Text size="sm" p="sm" c="red">
-          {error.message}
+      {isLoading ? <Loader size="xs" m="md" aria-label={t('loading')} /> : null}
+      {problems.map(({ message }) => (
+        <Text key={message} size="sm" p="sm" c="red">
+          {message}
         </Text>
+      ))}
+      {ofProjects.length > 0 ? <Rows title={t('ofProjects')} offers={ofProjects} record={record} /> : null}
+      {ofProjects.length > 0 && shown.length > 0 ? (
+        <h3 className={classes['section']}>{t('builtIn')}</h3>
       ) : null}
-      <ul className={classes['list']}>
-        {shown.map((offer) => (
-          <BehaviourRow
-            key={`${offer.source}/${offer.id}`}
-            offer={offer}
-            takenVersion={taken[`${offer.source}/${offer.id}`]?.version ?? null}
-          />
-        ))}
-      </ul>
-      {data && shown.length === 0 ? (
+      {isLoading ? null : <Rows offers={shown} record={record} />}
+      {data && !isLoading && shown.length + ofProjects.length === 0 ? (
         <Text size="sm" p="sm" c="dimmed">
           {t('nothing')}
         </Text>

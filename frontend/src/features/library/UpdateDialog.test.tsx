@@ -18,6 +18,7 @@ const offer = (version: string, source: string): Offer => ({
   doc: '',
   diagram: null,
   project: null,
+  owner: null,
   isOffered: true,
   files: { 'trees/Dock.json': oneBlock('Dock', 'AlwaysSuccess'), 'actions/Dock.py': source },
 });
@@ -34,7 +35,7 @@ beforeEach(() => {
 describe('UpdateDialog', () => {
   it('shows the files that change, before and after', () => {
     show(<UpdateDialog offer={offer('1.1', 'class Dock: new')} onClose={onClose} />);
-    expect(screen.getByRole('dialog', { name: 'Dock: what version 1.1 changes' })).toBeInTheDocument();
+    expect(screen.getByRole('dialog', { name: 'Dock: changes in version 1.1' })).toBeInTheDocument();
     expect(screen.getAllByTestId(/^difference-/).map(({ dataset }) => dataset['testid'])).toEqual([
       'difference-actions/Dock.py',
     ]);
@@ -48,7 +49,7 @@ describe('UpdateDialog', () => {
     const newer = { ...offer('r7', 'class Dock: new'), project: 'Rover' };
     show(<UpdateDialog offer={newer} onClose={onClose} />);
     expect(
-      screen.getByRole('dialog', { name: 'Dock: what changes to have it as it is now in Rover' }),
+      screen.getByRole('dialog', { name: 'Dock: changes that make it equal to the one in Rover' }),
     ).toBeInTheDocument();
   });
 

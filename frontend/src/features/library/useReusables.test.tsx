@@ -3,8 +3,9 @@ import { renderHook, waitFor } from '@testing-library/react';
 import { describe, expect, it } from 'vitest';
 import { queries } from '@/api/queries';
 import { oneBlock, projectDetail, projectFile } from '@/store/testing';
+import { account } from '../../../harness/requests';
 import { fakeServer } from '../../../harness/testing';
-import { useLibrary, useOtherProjects, useTreesOf } from './useReusables';
+import { useLibrary, useOffers, useOtherProjects, useTreesOf } from './useReusables';
 
 const query = <T,>(use: () => T) =>
   renderHook(use, {
@@ -37,6 +38,7 @@ describe('useLibrary', () => {
         group: 'motion',
         source: 'library',
         project: null,
+        owner: null,
         isOffered: true,
         summary,
         doc,
@@ -63,6 +65,57 @@ it('lists the other projects that match a search, the newest first', async () =>
   const { result } = query(() => useOtherProjects('p1', 'ro'));
   await waitFor(() => expect(result.current.data).toEqual([items[1]]));
   expect(requests.map((each) => each.path)).toEqual([path]);
+});
+
+describe('useOffers', () => {
+  const offered = (id: string) =>
+    JSON.stringify({
+      ...(JSON.parse(oneBlock(id, 'AlwaysSuccess')) as object),
+      attributes: { _bts_offered: '1' },
+    });
+  const offer = (project: string, owner: string) => ({
+    project,
+    name: `Name of ${project}`,
+    description: '',
+    owner,
+    revision: 3,
+    main_tree: 'Main',
+    trees: ['Dock'],
+    files: { 'trees/Dock.json': offered('Dock'), 'trees/Wait.json': oneBlock('Wait', 'AlwaysSuccess') },
+  });
+
+  it('has the offered trees of all pages, without those of this project', async () => {
+    const { requests } = fakeServer({
+      'GET /me': account(),
+      'GET /projects/offers?offset=0&limit=20': {
+        items: [offer('p1', 'ada'), offer('p2', 'ada')],
+        next_offset: 20,
+      },
+      'GET /projects/offers?offset=20&limit=20': { items: [offer('p3', 'bob')], next_offset: null },
+    });
+    const { result } = query(() => useOffers('p1'));
+    await waitFor(() => expect(result.current.data).toHaveLength(2));
+    expect(
+      result.current.data?.map(({ id, source, version, project, owner }) => [
+        id,
+        source,
+        version,
+        project,
+        owner,
+      ]),
+    ).toEqual([
+      ['Dock', 'p2', 'r3', 'Name of p2', null],
+      ['Dock', 'p3', 'r3', 'Name of p3', 'bob'],
+    ]);
+    expect(requests).toHaveLength(3);
+  });
+
+  it('asks nothing for a visitor with a link', async () => {
+    const { requests } = fakeServer({ 'GET /me': account({ role: 'guest' }) });
+    const { result } = query(() => useOffers('p1'));
+    await waitFor(() => expect(requests).toHaveLength(1));
+    expect(result.current.fetchStatus).toBe('idle');
+  });
 });
 
 describe('useTreesOf', () => {

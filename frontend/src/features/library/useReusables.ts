@@ -1,8 +1,10 @@
 import { keepPreviousData, useQuery } from '@tanstack/react-query';
 import { api } from '@/api/client';
+import { useMe } from '@/features/accounts/useMe';
 import type { BehaviourInfo } from '@/api/types';
 import { parseDiagram } from '@/model/serialize';
 import { descriptionOf, isOffered } from '@/model/treeAttributes';
+import type { Sources } from '@/model/reuse';
 import { reusablesOf, type Reusable } from '@/store/project/library';
 import { treePath } from '@/store/project/state';
 
@@ -14,7 +16,9 @@ export interface Offer extends Reusable {
   readonly diagram: unknown;
   /** The name of its project; null in the built-in library. */
   readonly project: string | null;
-  /** Its project offers it by name. */
+  /** The owner of its project, if that is somebody else. */
+  readonly owner: string | null;
+  /** Whether its project explicitly offers it. */
   readonly isOffered: boolean;
 }
 
@@ -29,6 +33,7 @@ function offerOf(behaviour: BehaviourInfo, language: string): Offer {
     files,
     source: 'library',
     project: null,
+    owner: null,
     isOffered: true,
     summary: text(behaviour.summary),
     doc: text(behaviour.doc),
@@ -42,6 +47,54 @@ export function useLibrary(language: string) {
     queryFn: api.behaviours,
     staleTime: Infinity,
     select: (items) => items.map((item) => offerOf(item, language)),
+  });
+}
+
+/** A project, as far as its trees are reused. */
+interface Origin {
+  readonly project: string;
+  readonly name: string;
+  readonly description: string;
+  readonly owner: string | null;
+  readonly revision: number;
+  readonly main_tree: string;
+  readonly files: Sources;
+}
+
+/** Returns the trees of a project with what the panel shows of each. */
+function treesOf(origin: Origin): readonly Offer[] {
+  const { project, name, description, owner, revision, main_tree, files } = origin;
+  return reusablesOf(project, revision, files).map((reusable) => {
+    const diagram = parseDiagram(files[treePath(reusable.id)] ?? '');
+    const isMain = reusable.id === main_tree;
+    return {
+      ...reusable,
+      group: 'project',
+      summary: descriptionOf(diagram) || (isMain ? description : ''),
+      doc: '',
+      diagram,
+      project: name,
+      owner,
+      isOffered: isOffered(diagram),
+    };
+  });
+}
+
+/** Returns the trees that the user's other projects, and those shared with the user, offer. */
+export function useOffers(projectId: string | null) {
+  const me = useMe();
+  return useQuery({
+    queryKey: ['reusables', 'offered'],
+    queryFn: ({ signal }) => api.offers(signal),
+    // A visitor with a link has no projects; the server would refuse.
+    enabled: me !== undefined && me.role !== 'guest',
+    select: (items) =>
+      items
+        .filter(({ project }) => project !== projectId)
+        .flatMap((item) => {
+          const owner = item.owner === me?.user ? null : item.owner;
+          return treesOf({ ...item, owner }).filter((offer) => offer.isOffered);
+        }),
   });
 }
 
@@ -64,19 +117,7 @@ export function useTreesOf(project: string | null) {
       const detail = await api.getProject(project ?? '', signal);
       const texts = detail.files.flatMap(({ path, content }) => (content === null ? [] : [[path, content]]));
       const files = Object.fromEntries(texts) as Record<string, string>;
-      return reusablesOf(detail.id, detail.revision, files).map((reusable) => {
-        const diagram = parseDiagram(files[treePath(reusable.id)] ?? '');
-        const isMain = reusable.id === detail.main_tree;
-        return {
-          ...reusable,
-          group: 'project',
-          summary: descriptionOf(diagram) || (isMain ? detail.description : ''),
-          doc: '',
-          diagram,
-          project: detail.name,
-          isOffered: isOffered(diagram),
-        };
-      });
+      return [...treesOf({ ...detail, project: detail.id, owner: null, files })];
     },
     enabled: project !== null,
     gcTime: 0,

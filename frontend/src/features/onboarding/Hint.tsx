@@ -26,7 +26,7 @@ export function Hint() {
     if (isRunning) finishHint('run');
   }, [isRunning]);
 
-  // The first task says the same, where it is to be done.
+  // The guided first task gives the same advice, at the place where it applies.
   if (id === undefined || isReadOnly || isGuided) return null;
   return (
     <span className={classes['hint']} role="status" data-testid="hint" data-hint={id}>

@@ -14,7 +14,7 @@ import { useFold } from './useFold';
  * Groot2.
  */
 const IMPORTS = '.zip,.xml,.btproj,application/zip,text/xml';
-/** The placeholders while the server is asked: as many as there will be cards at least. */
+/** The placeholders until the server answers: as many as the smallest number of cards. */
 const PLACES = [1, 2, 3];
 
 interface NewProjectProps {

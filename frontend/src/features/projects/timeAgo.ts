@@ -7,7 +7,7 @@ const STEPS: [Intl.RelativeTimeFormatUnit, number][] = [
   ['minute', 60],
 ];
 
-/** Returns the time that has passed in the page's language, such as "3 minutes ago". */
+/** Returns the time since a date as a text in the page's language, such as "3 minutes ago". */
 export function timeAgo(iso: string, language: string, now = Date.now()): string {
   const seconds = (new Date(iso).getTime() - now) / 1000;
   const format = new Intl.RelativeTimeFormat(language, { numeric: 'auto' });

@@ -43,7 +43,7 @@ describe('the fields of the whole robot', () => {
 
   it('leave the ground truth out of the file if it is not set', async () => {
     const robot = fields();
-    const truth = screen.getByRole('checkbox', { name: /Says where it truly is/ });
+    const truth = screen.getByRole('checkbox', { name: /Publishes its true pose/ });
     await user.click(truth);
     expect(robot().raw['ground_truth']).toBe(true);
     await user.click(truth);

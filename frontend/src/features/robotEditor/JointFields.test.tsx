@@ -108,7 +108,7 @@ describe('the fields of a joint', () => {
 
   it('cannot change the joint of a driven wheel', () => {
     fields({}, 'wheel_left_joint');
-    expect(screen.getByText('Joint · turns round and round')).toBeInTheDocument();
+    expect(screen.getByText('Joint · turns without limits')).toBeInTheDocument();
     expect(screen.getByTestId('joint')).not.toHaveAttribute('open');
     expect(screen.queryByTestId('joint-type')).toBeNull();
     expect(screen.queryByTestId('joint-motor')).toBeNull();

@@ -11,7 +11,7 @@ import { edit, readingOf, type RobotEditor } from './editor';
 
 const selected = (editor: RobotEditor) => editor.store.getState().selection;
 
-/** What can be placed: a part of a kind, or one that is drawn with a mesh. */
+/** A part that can be placed: one of a given kind, or one that is drawn with a mesh. */
 export type Placeable = { readonly kind: Addable } | { readonly mesh: MeshFile };
 
 function adding(editor: RobotEditor, robot: Robot, what: Placeable, at?: Point): RobotEdit {
@@ -25,7 +25,9 @@ export function placePart(editor: RobotEditor, what: Placeable, at?: Point): voi
   edit(editor, 'add', (robot) => adding(editor, robot, what, at));
 }
 
-/** The robot with a part at its usual place, and the part's key; null if the texts do not allow it. */
+/**
+ * Returns the robot with a part at its usual place, and the part's key; null if the texts do not allow it.
+ */
 export function robotWith(
   editor: RobotEditor,
   what: Placeable,

@@ -57,7 +57,7 @@ export function handlesOf(editor: RobotEditor, scene: RobotScene): Handles {
 }
 
 /**
- * Returns the handlers of the pointer's drags of a robot's parts: the base is fixed, and other parts move at
+ * Returns the handlers for dragging a robot's parts with the pointer: the base is fixed, and other parts keep
  * their height.
  */
 export function dragHandlerOf(editor: RobotEditor, scene: RobotScene): DragHandler {

@@ -21,11 +21,11 @@ beforeEach(() => {
 describe('Plot', () => {
   it('names each line by its colour, and takes it out', async () => {
     show(<Plot isVisible={false} />);
-    const lines = screen.getAllByRole('button', { name: /^Take \/odom/ });
+    const lines = screen.getAllByRole('button', { name: /^Remove \/odom/ });
     expect(lines.map(({ textContent }) => textContent)).toEqual(['/odom.x', '/odom.y']);
     const colors = lines.map((line) => line.querySelector('span')?.style.background);
     expect(colors[0]).not.toBe(colors[1]);
-    await user.click(screen.getByRole('button', { name: 'Take /odom.x out of the plot' }));
+    await user.click(screen.getByRole('button', { name: 'Remove /odom.x from the plot' }));
     expect(plotted()).toEqual(['/odom.y']);
   });
 

@@ -23,7 +23,7 @@ beforeEach(() => {
 describe('TopicList', () => {
   it('shows that it does not know the topics yet, or that there are none', () => {
     const { unmount } = show(<TopicList />);
-    expect(screen.getByText('Asking which topics there are…')).toBeInTheDocument();
+    expect(screen.getByText('Loading the topics…')).toBeInTheDocument();
     unmount();
     useTopicsStore.setState({ isKnown: true });
     show(<TopicList />);

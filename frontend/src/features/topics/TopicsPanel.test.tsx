@@ -66,7 +66,7 @@ describe('TopicsPanel', () => {
 
   it('requests the topics, and lists them with rate and size', () => {
     expect(executor.sentAs('list_topics').length).toBeGreaterThan(0);
-    expect(screen.getByText('Asking which topics there are…')).toBeInTheDocument();
+    expect(screen.getByText('Loading the topics…')).toBeInTheDocument();
     list();
     const cells = screen.getAllByRole('row').map((row) => within(row).queryAllByRole('cell'));
     expect(cells.map((row) => row.map(({ textContent }) => textContent))).toEqual([

@@ -39,7 +39,10 @@ const KIND_ICONS: Readonly<Record<Kind, typeof IconCube>> = {
 const chooseThing = (editor: UniverseEditor, name: string, what: Placeable) =>
   choose(editor, { name, what, place: () => placeThing(editor, what) });
 
-/** The things that can be placed: after a click a ghost follows the pointer, a drag puts it where it is let go. */
+/**
+ * The things that can be placed: after a click a ghost follows the pointer, and a drag places the thing where
+ * the pointer is released.
+ */
 export function Palette({ editor }: { readonly editor: UniverseEditor }) {
   const { t } = useTranslation('universeEditor');
   return (

@@ -90,7 +90,9 @@ export function placeThing(editor: UniverseEditor, what: Placeable, at?: Point):
   edit(editor, 'add', (universe) => adding(editor, universe, what, at));
 }
 
-/** The thing that would be placed in the middle of the view; undefined if the text does not allow it. */
+/**
+ * Returns the thing that would be placed in the middle of the view; undefined if the text does not allow it.
+ */
 export function thingToPlace(editor: UniverseEditor, what: Placeable): Thing | undefined {
   const { universe } = readingOf(editor);
   if (!universe) return undefined;

@@ -16,7 +16,7 @@ import type { WallLine } from './WallLine';
  */
 const LARGEST_M = 3;
 
-/** Returns the handlers of the pointer's drags of the things of a universe. */
+/** Returns the handlers for dragging a universe's things with the pointer. */
 export function dragHandlerOf(editor: UniverseEditor, scene: UniverseScene): DragHandler {
   const isLarge = (key: string) => {
     const size = scene.boundsOf([key]).getSize(new THREE.Vector3());

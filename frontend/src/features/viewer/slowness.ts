@@ -2,7 +2,9 @@
 const LEAST_HZ = 5;
 /** The time in ms for which 3D may be that slow. */
 const PATIENCE_MS = 3000;
-/** The pause in ms between requests after which nothing moves, so that no pictures are expected. */
+/**
+ * The pause in ms between requests after which the world counts as still, so that no pictures are expected.
+ */
 const STILL_MS = 600;
 
 /**

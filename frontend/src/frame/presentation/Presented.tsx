@@ -8,7 +8,7 @@ interface PresentedProps {
   readonly children: ReactNode;
 }
 
-/** Marks the content of a tab that a presentation shows; the style sheet gives it its place. */
+/** Marks the content of a tab that a presentation shows; the style sheet positions it. */
 export function Presented({ node, children }: PresentedProps) {
   useTabs((state) => state.front);
   const role = usePresentation((state) => roleOf(node, state));

@@ -1,7 +1,7 @@
 import { useEffect } from 'react';
 import { endPresentation, usePresentation } from '@/workspace/presentation';
 
-/** What closes with Escape itself, or has a text in it. */
+/** Elements that close on Escape themselves, or that contain text. */
 const OWN_ESCAPE =
   'input, textarea, select, [contenteditable=true], [role=dialog], [role=menu], [role=listbox], [role=slider]';
 
@@ -9,8 +9,8 @@ const hasOwnEscape = (target: EventTarget | null): boolean =>
   target instanceof Element && target.closest(OWN_ESCAPE) !== null;
 
 /**
- * While a presentation is shown, Escape ends it, unless something smaller is open or dragged; so does the end
- * of its full screen, since browsers keep that Escape for themselves.
+ * Ends a presentation on Escape, unless something smaller is open or being dragged. Leaving the full screen
+ * also ends it, since browsers do not report that Escape.
  */
 export function usePresentationKeys(isOn: boolean): void {
   useEffect(() => {
@@ -30,7 +30,7 @@ export function usePresentationKeys(isOn: boolean): void {
       if (!document.fullscreenElement && usePresentation.getState().isFull) endPresentation();
     };
     const pointer = ['pointerdown', 'pointerup', 'pointercancel'] as const;
-    // Before the canvas, for which Escape clears the selection.
+    // This runs before the canvas's handler, which clears the selection on Escape.
     window.addEventListener('keydown', onKey, { capture: true });
     pointer.forEach((type) => window.addEventListener(type, onPointer, { capture: true }));
     document.addEventListener('fullscreenchange', onScreen);

@@ -29,7 +29,7 @@ export function checkSchema(value: Json, validate: Validator): Issue[] {
   return found
     .sort((a, b) => a.rank - b.rank)
     .filter(({ path, kind, params }) => {
-      // In a list with a wrong length, issues of the items say nothing.
+      // In a list of the wrong length, issues of the items are meaningless.
       if (tooMany.some((list) => keyOf(path).startsWith(`${list}/`))) return false;
       const key = kind === 'missing' ? `${keyOf(path)} ${params['name'] ?? ''}` : keyOf(path);
       return !seen.has(key) && seen.add(key);

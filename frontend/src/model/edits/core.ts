@@ -86,7 +86,7 @@ export function attach(draft: Draft<Diagram>, id: NodeId, place: Placement): voi
   }
 }
 
-/** Puts a node after one whose parent has no room, both in a new Sequence at its place. */
+/** Attaches a node after one whose parent has no room: a new Sequence takes its place and holds both. */
 function attachBeside(draft: Draft<Diagram>, id: NodeId, beside: NodeId): void {
   const above = freshId(asPlain(draft).nodes);
   const place = placementOf(draft, beside);

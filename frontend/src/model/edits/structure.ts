@@ -154,7 +154,7 @@ export function withFreshIds(
   };
 }
 
-/** The place after a node. */
+/** Returns the place after a node. */
 function after(draft: Draft<Diagram>, id: NodeId): Placement {
   const place = placementOf(draft, id);
   return place.at === 'child' ? { ...place, index: place.index + 1 } : place;

@@ -10,9 +10,9 @@ function setAttribute(name: string, text: string | null): Recipe {
   };
 }
 
-/** Sets what the tree says of itself; a blank text removes it. */
+/** Sets the description of the tree; a blank text removes it. */
 export const setDescription = (text: string): Recipe =>
   setAttribute(DESCRIPTION, text.trim() === '' ? null : text);
 
-/** Offers the tree to other projects in their library, or no longer. */
+/** Sets whether the libraries of other projects offer the tree. */
 export const setOffered = (offered: boolean): Recipe => setAttribute(OFFERED, offered ? '1' : null);

@@ -20,7 +20,7 @@ export interface RunningBoard {
   has(entry: EntryId): boolean;
 }
 
-/** The key that a text means for a port, with `@` before a shared one; null if it names none. */
+/** Returns the key that a port's text refers to, with `@` before a shared key; null if it refers to none. */
 export function keyIn(text: string, port: string): string | null {
   const value = readPortText(text);
   if (value.kind === 'same-name') return port;
@@ -28,7 +28,10 @@ export function keyIn(text: string, port: string): string | null {
   return value.global ? `@${value.key}` : value.key;
 }
 
-/** The name that a key of a called tree has in the tree of the caller; null if the SubTree does not pass it. */
+/**
+ * Returns the name that a key of a called tree has in the tree of the caller; null if the SubTree does not
+ * pass it.
+ */
 function keyOutside(key: string, caller: Enclosing, diagrams: RunningBoard['diagrams']): string | null {
   const node = diagrams[caller.tree]?.nodes[caller.node];
   if (!node) return null;
@@ -38,8 +41,9 @@ function keyOutside(key: string, caller: Enclosing, diagrams: RunningBoard['diag
 }
 
 /**
- * Finds the entry that a key means at a node of the running tree, as the engine does: in the scope of the
- * node's own tree, then where its SubTrees, the innermost first, lead.
+ * Finds the entry that a key refers to at a node of the running tree. As in the engine, the scope of the
+ * node's own tree comes first, and then each SubTree around it that passes the key, from the innermost
+ * outwards.
  */
 export function findEntry(key: string, callers: readonly Enclosing[], board: RunningBoard): EntryId | null {
   let name: string | null = key;

@@ -114,7 +114,7 @@ export function setMotorValue(robot: Robot, name: string, field: string, value: 
 
 type Contact = 'friction' | 'skid';
 
-/** Returns a contact value of a link: `friction`, or `skid`, its share sideways. */
+/** Returns a contact value of a link: `friction`, or `skid`, the share of the friction that acts sideways. */
 export function contactOf({ raw }: Robot, field: Contact, link: string): number {
   const map = raw[field];
   const value = isObject(map) ? map[link] : undefined;

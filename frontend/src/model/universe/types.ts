@@ -54,7 +54,7 @@ export interface ModelThing extends Placed {
   readonly friction: number;
   readonly restitution: number;
   readonly solid: boolean;
-  /** Whether robots' cameras see it as high as the ceiling. */
+  /** Whether robots' cameras see the wall as high as the ceiling. */
   readonly to_ceiling: boolean;
 }
 

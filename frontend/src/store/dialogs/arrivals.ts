@@ -2,23 +2,23 @@ import { create } from 'zustand';
 import type { Insertion } from '@/model/reuse';
 import { planHere, type Delivery } from '@/store/project/bringing';
 
-/** Files that the user looks at before they become part of the project. */
+/** Files that the user reviews before they are added to the project. */
 export interface Arrivals extends Delivery {
-  /** Why they come: the dialogue's title and its button say so. */
+  /** The reason why the files are added, which the dialogue's title and button state. */
   readonly act: 'paste' | 'insert';
-  /** The project that they come from, or the behaviour. */
+  /** The name of the project or the behaviour that the files come from. */
   readonly name: string;
   readonly take: (plan: Insertion) => void;
 }
 
-/** The dialogue that shows what comes. */
+/** The state of the dialogue that shows incoming files. */
 export const useArrivals = create<{ arrivals: Arrivals | null }>(() => ({ arrivals: null }));
 
 export const closeArrivals = () => useArrivals.setState({ arrivals: null });
 
 /**
- * Brings files to the project, after a look at them: pasted ones if any is not here yet, those of the library
- * if a name is taken by something else.
+ * Adds files to the project. The user reviews them first: pasted files if any of them is new, files of the
+ * library if another file has the name of one.
  */
 export function bring(arrivals: Arrivals): void {
   const plan = planHere(arrivals);

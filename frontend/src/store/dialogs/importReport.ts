@@ -3,11 +3,11 @@ import type { ImportedProject } from '@/api/types';
 
 export type Proposal = ImportedProject['proposal'];
 
-/** The project whose report is still to be read, and what was imported last. */
+/** The project whose import report is unread, and the last import. */
 interface ImportReport {
   readonly projectId: string | null;
   readonly file: string;
-  /** The universe that suits the topics of the actions; null if none is asked for by them. */
+  /** The universe that suits the topics of the actions; null if they suggest none. */
   readonly proposal: Proposal;
 }
 

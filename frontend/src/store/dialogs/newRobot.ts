@@ -11,6 +11,6 @@ export const closeNewRobot = () => useNewRobot.setState({ base: null });
 
 export const ROBOT_FILE = /^robots\/[^/]+\/robot\.yaml$/;
 
-/** Returns the robots of a project, by id. */
+/** Returns the ids of a project's robots. */
 export const ownRobots = (paths: Iterable<string>): string[] =>
   [...paths].filter((path) => ROBOT_FILE.test(path)).map((path) => path.split('/')[1] ?? '');

@@ -2,7 +2,7 @@ import { create } from 'zustand';
 
 interface UniverseChooser {
   readonly isOpen: boolean;
-  /** What the user came for: its cards get the focus. */
+  /** The list of cards that gets the focus first. */
   readonly first: 'universe' | 'robot';
 }
 

@@ -20,7 +20,7 @@ export interface ListedProblem {
   readonly port: string;
   readonly file: string | null;
   readonly line: number | null;
-  /** The topic that it is about. */
+  /** The topic that the finding is about, if there is one. */
   readonly topic: string | null;
 }
 

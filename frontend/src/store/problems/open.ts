@@ -2,7 +2,7 @@ import { useProjectStore } from '@/store/project';
 import { openFile, openTopics, openTree } from '@/store/project/navigation';
 import type { ListedProblem } from './list';
 
-/** Shows the place of a finding: of a fault its line, of a finding in a tree its block, or the topics. */
+/** Shows the place of a finding: the line of a fault, the block of a finding in a tree, or the topics. */
 export function openProblem({ isFault, tree, node, file, line, topic }: ListedProblem): void {
   if (file !== null && (isFault || tree === null || node === null)) openFile(file, line ?? undefined);
   else if (tree !== null) {

@@ -12,13 +12,16 @@ interface Place {
 
 const escaped = (text: string): string => text.replace(/[.*+?^${}()|[\]\\]/g, '\\$&');
 
-/** The first line of a Python file that names the topic, with or without its slash. */
+/** Returns the first line of a Python file that names the topic, with or without its slash. */
 function lineIn(text: string, topic: string): number {
   const name = new RegExp(`(["'])/?${escaped(topic.replace(/^\//, ''))}\\1`);
   return text.split('\n').findIndex((line) => name.test(line)) + 1;
 }
 
-/** The place of a topic that can be repaired: a line of Python that names it, or a node of a launch file. */
+/**
+ * Returns the place where a mismatch of a topic can be repaired: a line of Python that names the topic, or a
+ * node of a launch file.
+ */
 export function placeOfTopic(mismatch: TopicMismatch, { files, launchNodes }: Sources): Place | null {
   for (const [file, { text }] of Object.entries(files)) {
     const line = file.endsWith('.py') && text ? lineIn(text, mismatch.topic) : 0;

@@ -24,7 +24,8 @@ export function planHere(
   return planInsertion({
     needs,
     sources,
-    // The tree that the user inserts into equals nothing, so that it always comes under another name.
+    // The tree that the user inserts into counts as different from every tree, so that an incoming one of
+    // this name is renamed.
     existing: (path) => (isInsertedInto(path) ? '' : currentText(path)),
     isTaken: (name) =>
       name in diagrams || vocabulary.specs.has(name) || treePath(name) in files || actionPath(name) in files,

@@ -3,7 +3,7 @@ import type { UndoEntry } from '@/model/undo';
 import { currentText, tryParse } from './files';
 import { treeIdOf, type FileEntry, type ProjectData } from './state';
 
-/** Texts by path; null takes the file away. */
+/** Texts by path; null removes the file. */
 type Texts = Readonly<Record<string, string | null>>;
 
 const ACTION = /^actions\/([^/]+)\.py$/;
@@ -15,7 +15,10 @@ function kindOf(source: string): ActionModel['kind'] {
   return /^\s*NODE_KIND\s*=\s*["']Condition["']/m.test(source) ? 'Condition' : 'Action';
 }
 
-/** Returns the actions after files came and went; a new one takes any port until the server has read it. */
+/**
+ * Returns the actions after files were added or removed; a new action accepts any port until the server has
+ * read it.
+ */
 function actionsWith(before: ProjectData['actions'], texts: Texts): ProjectData['actions'] {
   const gone = new Set(Object.keys(texts).filter((path) => texts[path] === null));
   const left = before.filter(({ path }) => path === undefined || !gone.has(path));
@@ -44,7 +47,7 @@ function withTextFile(data: ProjectData, path: string, text: string): ProjectDat
 }
 
 function withTree(data: ProjectData, id: string, path: string, text: string | null): ProjectData {
-  // The steps of its own history fit the former tree only.
+  // The steps on this tree's own undo stack apply only to its former content.
   const { [id]: _history, ...histories } = data.histories;
   const { [id]: _diagram, ...diagrams } = data.diagrams;
   const bare = { ...data, histories, diagrams };
@@ -67,8 +70,8 @@ export function withTexts(data: ProjectData, texts: Texts): ProjectData {
 }
 
 /**
- * Takes the files of a step back, or writes them again. A file that was edited since the step stays as it is,
- * so that nothing typed is lost.
+ * Reverts the file changes of a step, or makes them again. A file that was edited since the step stays as it
+ * is, so that no work is lost.
  */
 export function withFilesOfStep(
   data: ProjectData,

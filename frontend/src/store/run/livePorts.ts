@@ -16,13 +16,16 @@ export interface PortRefusal {
 interface LivePorts {
   /** The trees with the ports that the program was given; null before it is known. */
   readonly program: Readonly<Record<string, Diagram>> | null;
-  /** A text is being typed; it is sent when it is finished, since half a number is another number. */
+  /**
+   * Whether the user is typing a text. It is sent when it is complete, since half a number is a different
+   * number.
+   */
   readonly isTyping: boolean;
-  /** By block and port. */
+  /** The refused texts, by block and port. */
   readonly refused: Texts<PortRefusal>;
-  /** Texts that the user wants to keep: they count as saved. By block and port. */
+  /** Texts that the user wants to keep, by block and port: they count as saved. */
   readonly kept: Texts<string | null>;
-  /** Up to this edit, the project differs from the program in ports only. */
+  /** The edit up to which the project differs from the program only in ports. */
   readonly portsOnlyUntil: number;
 }
 
@@ -34,10 +37,10 @@ const initial: LivePorts = {
   portsOnlyUntil: -1,
 };
 
-/** The ports of the program that runs, as far as only this page knows them. */
+/** The data on the running program's ports that only this page has. */
 export const useLivePorts = create<LivePorts>(() => initial);
 
-/** A program starts with these trees. */
+/** Records that a program starts with these trees. */
 export function beginProgram(program: LivePorts['program']): void {
   useLivePorts.setState({ ...initial, program });
 }
@@ -46,7 +49,7 @@ export function setTyping(isTyping: boolean): void {
   if (useLivePorts.getState().isTyping !== isTyping) useLivePorts.setState({ isTyping });
 }
 
-/** Notes the refusal of a port; null: the program has its text. */
+/** Records the refusal of a port's text; null means that the program accepted it. */
 export function noteRefusal(key: LiveKey, port: string, refusal: PortRefusal | null): void {
   const { refused } = useLivePorts.getState();
   const { [port]: before, ...others } = refused[key] ?? {};
@@ -55,7 +58,7 @@ export function noteRefusal(key: LiveKey, port: string, refusal: PortRefusal | n
   useLivePorts.setState({ refused: { ...refused, [key]: ports } });
 }
 
-/** Takes a text for the saved one, until the next program. */
+/** Makes a text count as saved until the next program starts. */
 export function keepPort(key: LiveKey, port: string, value: string | null): void {
   const { kept } = useLivePorts.getState();
   useLivePorts.setState({ kept: { ...kept, [key]: { ...kept[key], [port]: value } } });

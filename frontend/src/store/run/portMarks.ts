@@ -6,12 +6,12 @@ import { liveKey } from '@/store/project/live';
 import { useSessionStore } from '@/store/session/store';
 import { useLivePorts, type PortRefusal } from './livePorts';
 
-/** What the running program makes of a port that was changed: it has the text, or does not have it yet. */
+/** The state of a changed port in the running program. */
 export interface PortMark {
   readonly state: 'taken' | 'next_start' | 'fixed' | 'refused';
   /** The text with which the program was started; null: none. */
   readonly saved: string | null;
-  /** The reason of a refusal, else "". */
+  /** The reason for a refusal, otherwise "". */
   readonly message: string;
 }
 
@@ -21,7 +21,7 @@ type Sets = Readonly<Record<string, PortSet>>;
 
 const grouped = new WeakMap<Sets, ReadonlyMap<LiveKey, readonly PortSet[]>>();
 
-/** The changed ports by block, made once for each state. */
+/** Returns the changed ports by block, cached for each state. */
 function byBlock(sets: Sets): ReadonlyMap<LiveKey, readonly PortSet[]> {
   const known = grouped.get(sets);
   if (known) return known;
@@ -40,7 +40,7 @@ interface Known {
   readonly kept: Readonly<Record<string, string | null>>;
 }
 
-/** The ports of a block that differ from those with which the program was started. */
+/** Returns the ports of a block that differ from those with which the program was started. */
 export function marksOf(ports: DiagramNode['ports'], { sets, refused, kept }: Known): PortMarks {
   const marks = new Map<string, PortMark>();
   for (const { port, saved, value, effect } of sets) {
@@ -63,7 +63,7 @@ export function marksOf(ports: DiagramNode['ports'], { sets, refused, kept }: Kn
 const NO_SETS: readonly PortSet[] = [];
 const NOTHING = {};
 
-/** The marks of a block's ports, in any part of the page that shows them. */
+/** Returns the marks of a block's ports; any part of the page can show them. */
 export function usePortMarks(tree: string, node: string, ports: DiagramNode['ports']): PortMarks {
   const key = liveKey(tree, node);
   const sets = useSessionStore((state) => byBlock(state.ports).get(key)) ?? NO_SETS;

@@ -9,8 +9,8 @@ import { beginProgram, noteRefusal, useLivePorts } from './livePorts';
 import { useRunStore } from './store';
 
 /**
- * Gives the running program the ports that this page edits, undoes or redoes; it takes them at its next tick.
- * Edits of other users wait for the next run: nobody else moves this robot.
+ * Sends the port changes of this page, including undo and redo, to the running program, which applies them at
+ * its next tick. Edits of other users take effect in the next run, so that nobody else moves this robot.
  */
 export function followPorts(): () => void {
   const stops = [
@@ -70,12 +70,12 @@ async function sendChanges(): Promise<void> {
   const changes = portChanges(program, diagrams);
   useLivePorts.setState({ program: diagrams });
   const areTaken = await Promise.all(changes.map(sendChange));
-  flush(); // the events that came before the replies
+  flush(); // This applies the events that arrived before the replies.
   if (areTaken.every(Boolean) && isInStep())
     useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter });
 }
 
-/** Sends a port to every instance of its block; resolves to whether all took it. */
+/** Sends a port to every instance of its block; resolves to true if all accepted it. */
 async function sendChange({ tree, node, port, before, value }: PortChange): Promise<boolean> {
   const key = liveKey(tree, node);
   const instances = useSessionStore
@@ -93,7 +93,7 @@ async function sendChange({ tree, node, port, before, value }: PortChange): Prom
   }
 }
 
-/** Whether the running program is that of the project: no restart would change it. */
+/** Returns whether the running program equals the project's, so that a restart would change nothing. */
 function isInStep(): boolean {
   const { changeCounter, diagrams } = useProjectStore.getState();
   if (useLivePorts.getState().portsOnlyUntil !== changeCounter) return false;

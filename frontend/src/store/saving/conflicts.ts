@@ -5,7 +5,7 @@ import { clearDraft, readDraft } from './drafts';
 import { useSavingStore } from './store';
 
 /**
- * Ends a conflict with the text that the user chose: the server's, the own, or a merge of both. The text
+ * Ends a conflict with the text that the user chose: the server's, the user's, or a merge of both. The text
  * becomes an edit on top of the server's version, so that the history contains both.
  */
 export async function resolveConflict(conflict: Conflict, text: string | null): Promise<void> {

@@ -11,7 +11,7 @@ import type {
 } from '@/generated/messages';
 import type { BlackboardRow, LogLine, SessionData } from './types';
 
-/** The executor reports a tick that has not returned for this long, s. */
+/** The time in s after which the executor reports a tick that has not returned. */
 const HANG_REPORTED_S = 2;
 
 /** The number of log lines that are kept, about an hour of output; older lines are dropped. */
@@ -179,7 +179,7 @@ const withPort = (ports: Record<string, PortSet>, set: PortSet): Record<string, 
 const isSameMismatch = (a: TopicMismatch, b: TopicMismatch): boolean =>
   a.topic === b.topic && a.publisher === b.publisher && a.subscriber === b.subscriber && a.code === b.code;
 
-/** Whether a fault is that of one of these launch nodes, by its place in the launch file. */
+/** Returns whether a fault belongs to one of these launch nodes, by its place in the launch file. */
 export const isOfLaunchNode = (fault: Fault, nodes: readonly LaunchNode[]): boolean =>
   fault.kind === 'process' &&
   nodes.some(({ file, line }) => file !== '' && file === fault.file && line === fault.line);
@@ -204,7 +204,7 @@ function withDivider({ logs, nextLogId }: Lines, run: number, time: number): Lin
   };
 }
 
-/** The lines that the executor has kept, with the dividers of the runs that began between them. */
+/** Returns the lines that the executor has stored, with a divider before each run. */
 function keptLogs(state: Lines, { logs, run_starts, mismatches }: Snapshot, time: number): Lines {
   let [lines, from] = [state, 0];
   for (const [at, run] of run_starts) {

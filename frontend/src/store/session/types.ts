@@ -40,9 +40,9 @@ export interface SessionData {
   executor: State;
   executorReason: string;
   progress: Progress | null;
-  /** Whether a tick does not return, which is reported as a fault, until there is another tick or state. */
+  /** Whether the current tick hangs, as a fault has reported; false again after another tick or state. */
   isHanging: boolean;
-  /** For how long the tick had hung when that was reported, s. */
+  /** How long the tick had hung when this was reported, in s. */
   hungS: number;
   /** The number of runs that began while this page was connected. */
   runs: number;

@@ -25,14 +25,17 @@ const shownValue = (line: PortLine, t: TFunction<'canvas'>): string =>
 
 const NONE: readonly string[] = [];
 
-/** The ports whose live values are wanted: a fixed value has none. */
+/** Returns the ports whose live values the user wants to see; a port with a fixed value has none. */
 const wantedOf = (lines: readonly PortLine[], place: Inside, ports: ReadonlySet<ShownPort>): string[] =>
   lines
     .filter(({ name }) => ports.has(shownPort(place.tree, place.node, name)))
     .filter(({ name, value, default: text }) => keyIn(value ?? text ?? '', name) !== null)
     .map(({ name }) => name);
 
-/** As many lines as fit, in their order; those whose live values are wanted first of all. */
+/**
+ * Returns as many lines as fit, in their order; lines whose live values the user wants to see take
+ * precedence.
+ */
 function fitting(lines: readonly PortLine[], wanted: ReadonlySet<string>): readonly PortLine[] {
   if (lines.length <= BLOCK.maxPorts) return lines;
   const first = [
@@ -51,7 +54,7 @@ interface BlockPortsProps {
   readonly t: TFunction<'canvas'>;
 }
 
-/** What the pointer tells of a value: the whole text, and how it differs from the saved one. */
+/** Returns the tooltip of a value: the whole text, and how it differs from the saved one. */
 function titleOf(line: PortLine, mark: PortMark | undefined, t: TFunction<'canvas'>): string | undefined {
   if (!mark) return line.value ?? undefined;
   const saved = mark.saved ?? line.default ?? t('port.noValue');

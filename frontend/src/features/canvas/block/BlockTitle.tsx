@@ -15,7 +15,7 @@ interface BlockTitleProps {
   readonly t: TFunction<'canvas'>;
 }
 
-/** The name; seen from some way off it has two lines, which break only between words. */
+/** The name of a block. When zoomed out, it has up to two lines, which break only between words. */
 function BlockName({ name }: { readonly name: string }) {
   const words = wordsOf(name);
   const longest = Math.max(...words.map((word) => word.trim().length));

@@ -9,11 +9,11 @@ import classes from './PortValue.module.css';
 
 interface PortValueProps {
   readonly port: ShownPort;
-  /** What the block shows before the port has a value. */
+  /** The text that is shown before the port has a value. */
   readonly text: string;
 }
 
-/** The value that the port's entry has in the run, with a spark line if it is a number. */
+/** The live value of the port's blackboard entry, with a spark line if it is a number. */
 export function PortValue({ port, text }: PortValueProps) {
   const { t } = useTranslation('canvas');
   const root = useRef<HTMLSpanElement>(null);

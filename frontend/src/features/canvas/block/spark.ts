@@ -1,7 +1,7 @@
-/** The size of a spark line in its own units; it is stretched to the room that it gets. */
+/** The size of a spark line in its own units; it is stretched to the available space. */
 export const SPARK = { width: 60, height: 14, samples: 40 } as const;
 
-/** A value for the small room of a block: few digits, and the beginning of a long text. */
+/** Returns a value shortened for a block: few digits, or the beginning of a long text. */
 export function shortValue(value: unknown): string {
   if (value === null || value === undefined) return '—';
   if (typeof value === 'number' && !Number.isInteger(value)) return String(Number(value.toPrecision(4)));
@@ -10,7 +10,7 @@ export function shortValue(value: unknown): string {
   return line.length > 24 || line !== text ? `${line.slice(0, 23)}…` : line;
 }
 
-/** The points of a spark line: the newest sample at the right, the smallest at the bottom. */
+/** Returns the points of a spark line: the newest sample at the right, the smallest at the bottom. */
 export function sparkPoints(samples: readonly number[]): string {
   const shown = samples.slice(-SPARK.samples);
   const [least, most] = [Math.min(...shown), Math.max(...shown)];

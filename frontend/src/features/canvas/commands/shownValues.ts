@@ -7,7 +7,7 @@ import { useProjectStore } from '@/store/project';
 import { activeDiagram } from '@/store/project/edits/blocks';
 import { shownPort, showValues, useShownValues, type ShownPort } from '@/store/session/values/shown';
 
-/** The ports of the selected blocks that name an entry of the blackboard. */
+/** Returns the ports of the selected blocks that refer to an entry of the blackboard. */
 function portsOfSelection(): ShownPort[] {
   const diagram = activeDiagram();
   const { selection, vocabulary } = useProjectStore.getState();

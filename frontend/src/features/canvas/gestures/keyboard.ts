@@ -27,8 +27,8 @@ const DIRECTIONS: Record<Diagram['layout'], Readonly<Record<string, Direction>>>
 };
 
 /**
- * Returns the next block in a direction: beside a block its sibling, or the nearest cousin after the last
- * sibling.
+ * Returns the next block in a direction. Among siblings this is the next one, or the nearest cousin after the
+ * last one.
  */
 export function neighbour(diagram: Diagram, id: NodeId, direction: Direction): NodeId | null {
   if (direction === 'up') return parentOf(diagram, id);

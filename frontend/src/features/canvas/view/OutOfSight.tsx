@@ -9,11 +9,11 @@ import { FIT } from './useViewport';
 
 interface OutOfSightProps {
   readonly layout: Layout;
-  /** Called when the view goes back. */
+  /** Called when the view returns to the tree. */
   readonly onBack: () => void;
 }
 
-/** The way back, shown while no block of the tree is in view. */
+/** The button that returns to the tree, shown while no block is in view. */
 export function OutOfSight({ layout, onBack }: OutOfSightProps) {
   const { t } = useTranslation('canvas');
   const flow = useReactFlow();

@@ -7,7 +7,10 @@ import type { TreeOnCanvas } from '../useTree';
 import { FIT, READABLE } from './useViewport';
 
 const ANIMATED = { ...FIT, duration: 200 };
-/** A fit has its effect in this time; sizes that change until then come from the same drag of an edge. */
+/**
+ * The time in ms within which a fit is finished; changes of size within it belong to the same drag of a
+ * panel's edge.
+ */
 const FITTED_MS = ANIMATED.duration + 300;
 /** In a presentation a small tree is enlarged, to be read from afar. */
 const PRESENTED = { ...FIT, maxZoom: 2, duration: 200 };
@@ -45,7 +48,7 @@ export function useRefit(tree: TreeOnCanvas): void {
     height,
     layout,
   });
-  /** Until this time the view is on its way to the whole tree. */
+  /** The time until which the view is moving to show the whole tree. */
   const aims = useRef(0);
 
   useEffect(() => {

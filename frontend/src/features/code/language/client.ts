@@ -198,7 +198,7 @@ export function languageSupport(path: string): Extension {
 export const sourceSupport = (path: string): Extension =>
   connected()?.client.plugin(sourceUriOf(path), 'python') ?? [];
 
-/** Wakes the language server, for what needs it without an editor. */
+/** Wakes the language server for a feature that uses it without an editor. */
 export function wakeLanguage(): void {
   connected();
 }

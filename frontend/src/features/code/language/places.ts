@@ -49,7 +49,7 @@ export async function groupPlaces(
   return groups.sort((a, b) => Number(a.isOutside) - Number(b.isOutside) || a.name.localeCompare(b.name));
 }
 
-/** The text of a file as the language server knows it; empty for one that cannot be read. */
+/** Returns the text of a file as the language server knows it; empty for a file that cannot be read. */
 async function textAt(client: LSPClient, uri: string): Promise<string> {
   const file = client.workspace.getFile(uri);
   if (file) return file.doc.toString();

@@ -10,7 +10,7 @@ export interface References {
   readonly name: string;
   readonly client: LSPClient;
   readonly groups: readonly PlacesInFile[];
-  /** Grows with each search: a new list takes the keyboard. */
+  /** Increases with each search: a new list takes the keyboard focus. */
   readonly request: number;
 }
 

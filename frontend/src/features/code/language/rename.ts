@@ -44,7 +44,7 @@ export const renameSymbol: Command = (view) => {
   const request: RenameRequest = { view, uri: plugin.uri, at: word.from, before, groups: null };
   useRename.setState({ request });
   plugin.client.sync();
-  // Any other name shows the same places.
+  // The places are the same for every new name, so any other name will do.
   void changesFor(request, `${before}_`)
     .then((changes) =>
       groupPlaces(
@@ -82,7 +82,7 @@ async function changesFor({ view, uri, at, before }: RenameRequest, after: strin
   return changes;
 }
 
-/** Renames in every file of the project. */
+/** Renames a symbol in every file of the project. */
 export async function rename(request: RenameRequest, after: string): Promise<void> {
   const client = LSPPlugin.get(request.view)?.client;
   if (!client) return;

@@ -15,16 +15,19 @@ export const pathOf = (uri: string): string | null => below(PROJECT, uri);
 
 export const sourceUriOf = (path: string): string => under(SOURCES, path);
 
-/** The path of a source outside of the project: a label of its folder (`packages`), and the path below that. */
+/**
+ * Returns the path of a source outside of the project: the label of its folder (`packages`), and the path
+ * below that; null for any other URI.
+ */
 export const sourceOf = (uri: string): string | null => below(SOURCES, uri);
 
-/** The folder of the language server's own stubs has a version, and all of them are in `stdlib`. */
+/** The beginning of the path of the language server's own stubs: a version, and the folder `stdlib`. */
 const STUBS = /^[0-9a-f]{40}\/(stdlib\/)?/;
 
-/** The path of a source as a reader knows it: `rclpy/node.py`. */
+/** Returns the path of a source as users know it: `rclpy/node.py`. */
 export const sourceName = (path: string): string => path.slice(path.indexOf('/') + 1).replace(STUBS, '');
 
-/** The name of any file of the language server, for lists. */
+/** Returns the name under which lists show a file of the language server. */
 export function nameOf(uri: string): string {
   const source = sourceOf(uri);
   return pathOf(uri) ?? (source === null ? uri : sourceName(source));

@@ -3,7 +3,7 @@ import classes from './places.module.css';
 
 interface PlaceTextProps {
   readonly place: Place;
-  /** The name that replaces what is there; undefined: nothing replaces it. */
+  /** The name that replaces the marked text; undefined if nothing replaces it. */
   readonly after?: string;
 }
 

@@ -69,7 +69,7 @@ describe('ReferencesPanel', () => {
 
   it('says that there is none', async () => {
     await open([]);
-    expect(screen.getByRole('status')).toHaveTextContent('Nobody uses it.');
+    expect(screen.getByRole('status')).toHaveTextContent('Nothing refers to it.');
     await user.keyboard('{ArrowDown}{Enter}');
     expect(shown).toEqual([]);
   });

@@ -34,7 +34,7 @@ function Found({ found, onLeave }: ReferencesPanelProps & { readonly found: Refe
   };
 
   useEffect(() => {
-    // Hidden editors have the list too; only what is seen can take the keyboard.
+    // Hidden editors contain the list too; only a visible list can take the keyboard focus.
     list.current?.focus({ preventScroll: true });
   }, []);
   useEffect(() => {
@@ -102,7 +102,7 @@ function Found({ found, onLeave }: ReferencesPanelProps & { readonly found: Refe
   );
 }
 
-/** Where a key moves the choice in a list of some length. */
+/** Returns the index of the choice after a key, in a list of the given length. */
 const STEPS: Readonly<Record<string, (at: number, count: number) => number>> = {
   ArrowDown: (at) => at + 1,
   ArrowUp: (at) => at - 1,
@@ -121,7 +121,7 @@ interface RowProps {
 
 function Row({ id, place, isChosen, onOpen }: RowProps) {
   return (
-    // The list has the keys.
+    // The list handles the keys.
     // eslint-disable-next-line jsx-a11y/click-events-have-key-events, jsx-a11y/interactive-supports-focus
     <div id={id} role="option" aria-selected={isChosen} className={classes['place']} onClick={onOpen}>
       <PlaceText place={place} />

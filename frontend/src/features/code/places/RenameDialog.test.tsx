@@ -57,7 +57,7 @@ describe('RenameDialog', () => {
 
   it('waits for the places', () => {
     open(null);
-    expect(screen.getByRole('status')).toHaveTextContent('Looking for its places…');
+    expect(screen.getByRole('status')).toHaveTextContent('Searching for its uses…');
     expect(submit()).toBeDisabled();
   });
 

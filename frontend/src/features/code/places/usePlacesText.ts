@@ -1,7 +1,7 @@
 import { useTranslation } from 'react-i18next';
 import { countOf, type PlacesInFile } from '../language/places';
 
-/** “3 places in 2 files”. */
+/** Returns a function for texts such as “3 places in 2 files”. */
 export function usePlacesText(): (groups: readonly PlacesInFile[]) => string {
   const { t } = useTranslation('code');
   return (groups) =>

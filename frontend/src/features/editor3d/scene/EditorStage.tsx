@@ -77,7 +77,7 @@ export function EditorStage(props: EditorStageProps) {
       cancel: () => made.cancel() || pointer.cancel(),
     };
     showIn(editor, handle, placingTool);
-    // It was chosen while the view was still loading.
+    // The thing was chosen while the view was still loading.
     if (editor.store.getState().placing) placingTool.focus();
     return () => {
       showIn(editor, null);

@@ -6,7 +6,7 @@ import { pointAt } from './aiming';
 import type { Drawing } from './PointerTool';
 import type { ThingScene } from './ThingScene';
 
-/** The opacity of what is not placed yet. */
+/** The opacity of a thing that is not placed yet. */
 export const GHOST_OPACITY = 0.5;
 
 /** The place of a thing, and the height in m at which the pointer holds it. */
@@ -15,13 +15,16 @@ interface Spot {
   readonly height: number;
 }
 
-/** How an editor draws and places what was chosen. */
+/** The functions of an editor that draw and place the chosen thing. */
 export interface Placement {
-  /** Draws the ghost and nothing else. */
+  /** The scene that contains only the ghost. */
   readonly scene: Pick<ThingScene<{ key: string }>, 'group'>;
-  /** Draws a thing where it would stand first; null clears, and is returned for a thing without a ghost. */
+  /**
+   * Draws a thing at its default place, or removes the ghost for null; returns null for a thing without a
+   * ghost.
+   */
   draw(what: object | null): Spot | null;
-  /** Adds the thing to the document: at a point, or where it would stand first. */
+  /** Adds the thing to the document: at a point, or at its default place. */
   place(what: object, at?: Point): void;
 }
 
@@ -33,10 +36,12 @@ interface Parts {
   readonly redraw: () => void;
 }
 
-/** Places what was chosen: its ghost follows the pointer on the grid, and a click or Enter puts it there. */
+/**
+ * Places the chosen thing: its ghost follows the pointer on the grid, and a click or Enter places it there.
+ */
 export class PlacingTool implements Drawing, Placer {
   private spot: Spot | null = null;
-  /** Where the user moved the ghost to; null: it is where the thing would stand first. */
+  /** The place to which the user moved the ghost; null while the ghost is at its default place. */
   private at: Point | null = null;
 
   constructor(private readonly parts: Parts) {}
@@ -49,7 +54,7 @@ export class PlacingTool implements Drawing, Placer {
     return this.spot?.height ?? 0;
   }
 
-  /** Draws the ghost of what is chosen now. */
+  /** Draws the ghost of the thing that is chosen now. */
   show(): void {
     const { editor, placement, canvas, redraw } = this.parts;
     const { placing } = editor.store.getState();
@@ -58,7 +63,7 @@ export class PlacingTool implements Drawing, Placer {
     placement.scene.group.position.set(0, 0, 0);
     canvas.style.cursor = placing ? 'crosshair' : '';
     redraw();
-    // Such as in a document that cannot be changed piece by piece: placing it says so.
+    // A thing without a ghost is placed at once; if the document cannot be changed, this reports the reason.
     if (placing && !this.spot) this.put(false);
   }
 
@@ -106,7 +111,7 @@ export class PlacingTool implements Drawing, Placer {
     if (!placing) return;
     if (!isMore) editor.store.setState({ placing: null });
     placement.place(placing.what, at ?? undefined);
-    // A ghost under the pointer stays there; any other goes to the next free place.
+    // A ghost under the pointer stays there; any other moves to the next free place.
     if (isMore && !at) editor.store.setState({ placing: { ...placing } });
   }
 

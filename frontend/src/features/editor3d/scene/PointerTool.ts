@@ -19,7 +19,7 @@ interface Load {
   readonly nodes: readonly THREE.Object3D[];
 }
 
-/** The handlers of the pointer's drags of an editor's things. */
+/** The handlers for dragging an editor's things with the pointer. */
 export interface DragHandler {
   /** Returns the things to drag; null if the thing under the pointer cannot be dragged. */
   take(hit: Aimed): Load | null;
@@ -103,7 +103,7 @@ export class PointerTool {
 
   private readonly onDown = (event: PointerEvent): void => {
     const isDrawing = this.drawing() !== undefined;
-    // Else the view would be moved by the press that gives up.
+    // Otherwise the press that cancels drawing would also move the view.
     if (event.button === 2 && isDrawing && this.cancel()) event.stopImmediatePropagation();
     if (event.button !== 0) return;
     if (this.parts.isTaken() && (isDrawing || !this.isOnAnother(event))) return;

@@ -17,7 +17,7 @@ import classes from '../explorer.module.css';
 import { isOutside, type InUse } from './inUse';
 import { canCopy, makeOwnCopy, useCopying } from './ownCopy';
 
-/** What a used document is called: by itself, or by us in the page's language. */
+/** Returns the title of a used document: its own, or our title of a built-in one in the page's language. */
 function useTitle(used: InUse): string {
   const { t } = useTranslation('worlds');
   const own = useProjectStore((state) => (used.path === null ? null : state.currentText(used.path)));
@@ -26,7 +26,7 @@ function useTitle(used: InUse): string {
   return t(`${used.kind}.${used.id}.name`, { defaultValue: titleOf(used.id) });
 }
 
-/** The universe or the robot that the project uses: opened if it is the project's own, changed, or copied. */
+/** The row of the universe or the robot that the project uses, with commands to open, change or copy it. */
 export function UsedItem({ used }: { readonly used: InUse }) {
   const { t } = useTranslation('frame');
   const [isMenuOpen, setMenuOpen] = useState(false);
@@ -41,7 +41,7 @@ export function UsedItem({ used }: { readonly used: InUse }) {
     `explorer.used.${path !== null ? 'own' : isOutside(used) ? 'outside' : used.isOfUniverse ? 'ofUniverse' : 'builtIn'}`,
   );
 
-  // Also Shift+F10 and the menu key, which make the same event.
+  // Shift+F10 and the menu key cause the same event.
   const onContextMenu = (event: MouseEvent) => {
     event.preventDefault();
     setMenuOpen(true);

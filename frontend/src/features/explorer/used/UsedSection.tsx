@@ -3,7 +3,9 @@ import classes from '../explorer.module.css';
 import { useInUse } from './inUse';
 import { UsedItem } from './UsedItem';
 
-/** The universe and the robot with which the project runs, built in or its own. */
+/**
+ * The section with the universe and the robot that the project uses, whether built in or part of the project.
+ */
 export function UsedSection() {
   const { t } = useTranslation('frame');
   const found = useInUse();

@@ -8,14 +8,14 @@ import { makeOwnCopy } from './ownCopy';
 
 const canChange = (): boolean => useProjectStore.getState().role !== 'viewer';
 
-/** Opens the editor of what the project uses; a built-in one is copied first. */
+/** Opens the editor of the universe or robot that the project uses; a built-in one is copied first. */
 async function edit(kind: Kind): Promise<void> {
   const used = await findInUse(kind).catch(() => null);
   if (used?.path) openFile(used.path);
   else await makeOwnCopy(kind);
 }
 
-/** What can be done with the universe and the robot that the project uses; the chooser has its own command. */
+/** The commands for the universe and the robot that the project uses; choosing others has its own command. */
 export const usedCommands: readonly UserCommand[] = [
   {
     id: 'project.chooseRobot',

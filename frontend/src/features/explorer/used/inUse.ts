@@ -8,13 +8,13 @@ import { OUTSIDE } from '@/features/universe/titles';
 
 export type Kind = 'universe' | 'robot';
 
-/** The universe or the robot with which the project runs. */
+/** The universe or the robot that the project uses. */
 export interface InUse {
   readonly kind: Kind;
   readonly id: string;
-  /** The file of one that the project has itself; null: a built-in one. */
+  /** The path of its file in the project; null if it is built in. */
   readonly path: string | null;
-  /** The universe places this robot; the project names none. */
+  /** Whether the universe determines the robot, since the project does not name one. */
   readonly isOfUniverse: boolean;
 }
 
@@ -35,7 +35,7 @@ const universeOf = (project: Project): InUse | null => {
   return id === '' ? null : inUse(project, 'universe', id);
 };
 
-/** Whether the program joins an outside ROS graph, without a simulated world. */
+/** Returns whether the program joins an outside ROS graph, without a simulated world. */
 export const isOutside = ({ kind, id, path }: InUse): boolean =>
   kind === 'universe' && id === OUTSIDE && path === null;
 
@@ -45,14 +45,14 @@ const textQuery = (universe: string) => ({
   staleTime: Infinity,
 });
 
-/** The built-in universe whose text names the robot; null where it is known without. */
+/** Returns the built-in universe whose text is needed to find the robot; null if none is needed. */
 function universeToAsk(project: Project): string | null {
   const universe = universeOf(project);
   if (!universe || universe.path || isOutside(universe) || project.settings?.robot) return null;
   return universe.id;
 }
 
-/** The robot of the project, or of its universe; `text` is that of a built-in universe. */
+/** Returns the robot of the project, or of its universe; `text` is the text of a built-in universe. */
 function robotOf(project: Project, text: string | undefined): InUse | null {
   const universe = universeOf(project);
   if (!universe || isOutside(universe)) return null;
@@ -62,7 +62,10 @@ function robotOf(project: Project, text: string | undefined): InUse | null {
   return placed === null ? null : inUse(project, 'robot', placed, true);
 }
 
-/** What the project runs with; the robot of a built-in universe is asked of the server. */
+/**
+ * Returns the universe or robot that the project uses; the server is asked for the robot of a built-in
+ * universe.
+ */
 export async function findInUse(kind: Kind): Promise<InUse | null> {
   const project = useProjectStore.getState();
   if (kind === 'universe') return universeOf(project);
@@ -70,7 +73,7 @@ export async function findInUse(kind: Kind): Promise<InUse | null> {
   return robotOf(project, asked === null ? undefined : await queries.fetchQuery(textQuery(asked)));
 }
 
-/** What the project runs with, as the universe first and then the robot; only what is known yet. */
+/** Returns the universe and then the robot that the project uses, as far as they are known yet. */
 export function useInUse(): readonly InUse[] {
   useProjectStore(useShallow(({ settings, files }) => [settings, files]));
   const project = useProjectStore.getState();

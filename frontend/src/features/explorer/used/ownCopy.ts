@@ -9,14 +9,14 @@ import { closeTab } from '@/workspace/tabs';
 import { freeName, takenRobots, takenUniverses } from '@/features/universe/freeNames';
 import { findInUse, isOutside, type InUse, type Kind } from './inUse';
 
-/** The kind of which a copy is being made. */
+/** The kind of document that is being copied; null if none is. */
 export const useCopying = create<{ kind: Kind | null }>(() => ({ kind: null }));
 
-/** Whether there is a copy to make: what is used is built in, and the project may be changed. */
+/** Returns whether a used document can be copied: it is built in, and the user may change the project. */
 export const canCopy = (used: InUse): boolean =>
   used.path === null && !isOutside(used) && useProjectStore.getState().role !== 'viewer';
 
-/** The paths of a copy; its first is the document. */
+/** Adds a copy to the project; returns the paths of its files, with the document first. */
 async function copied({ kind, id }: InUse): Promise<readonly string[]> {
   const { copyRobot, copyUniverse } = await import('@/features/universe/copying');
   const before = useProjectStore.getState().files;
@@ -27,11 +27,11 @@ async function copied({ kind, id }: InUse): Promise<readonly string[]> {
   return [path, ...others.filter((each) => each !== path)];
 }
 
-/** Lets the project run with a copy; returns the function that makes it run as before. */
+/** Makes the project use a copy; returns a function that restores the previous setting. */
 function runWith(kind: Kind, name: string): () => void {
   const { settings, setSettings } = useProjectStore.getState();
   const { universe, robot } = settings ?? {};
-  // A choice for a trial would hide the copy.
+  // A temporary choice would take precedence over the copy.
   useUniverseChoice.setState({ [kind]: null });
   setSettings({ [kind]: name });
   return () =>
@@ -39,8 +39,8 @@ function runWith(kind: Kind, name: string): () => void {
 }
 
 /**
- * Copies the built-in universe or robot that the project uses into the project, which then uses the copy; its
- * editor is opened, and a notification offers to undo all of it.
+ * Copies the built-in universe or robot that the project uses into the project, makes the project use the
+ * copy, and opens its editor. A notification offers to undo all of this.
  */
 export async function makeOwnCopy(kind: Kind): Promise<void> {
   if (useCopying.getState().kind) return;

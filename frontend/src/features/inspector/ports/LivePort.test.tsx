@@ -43,11 +43,13 @@ it.each([
 
 it('gives the reason why the program does not take a value', () => {
   open({ state: 'refused', saved: '1', message: 'No number.' });
-  expect(screen.getByRole('status')).toHaveTextContent(/does not take this value .* No number\.$/);
+  expect(screen.getByRole('status')).toHaveTextContent(/does not accept this value.* No number\.$/);
 });
 
 it('tells while a value is typed how the running program gets it', async () => {
   await openSession();
   open(undefined, { isTyping: true });
-  expect(screen.getByRole('status')).toHaveTextContent('Enter gives the running program this value.');
+  expect(screen.getByRole('status')).toHaveTextContent(
+    'Press Enter to send this value to the running program.',
+  );
 });

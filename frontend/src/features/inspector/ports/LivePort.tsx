@@ -13,7 +13,10 @@ interface LivePortProps {
   readonly onBack: (saved: string | null) => void;
 }
 
-/** What the running program makes of a changed port, and the two ways on: keep the value, or go back. */
+/**
+ * The state of a changed port in the running program, with buttons to keep the value or to restore the saved
+ * one.
+ */
 export function LivePort({ port, mark, isTyping, onKeep, onBack }: LivePortProps) {
   const { t } = useTranslation('inspector');
   const isRunning = useSessionStore(

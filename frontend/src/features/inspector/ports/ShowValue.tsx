@@ -8,7 +8,7 @@ interface ShowValueProps {
   readonly name: string;
 }
 
-/** Chooses whether the block shows the value that the port has in the run. */
+/** A button that shows or hides the live value of a port in the block. */
 export function ShowValue({ port, name }: ShowValueProps) {
   const { t } = useTranslation('inspector');
   const isShown = useShownValues(({ ports }) => ports.has(port));

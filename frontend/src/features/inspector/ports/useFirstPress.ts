@@ -1,6 +1,9 @@
 import { useRef, type MouseEvent } from 'react';
 
-/** The press that brings the focus to a field selects its text, so that typing replaces it. */
+/**
+ * Returns handlers that select the text of a field when a press gives it the focus, so that typing replaces
+ * the text.
+ */
 export function useFirstPress() {
   const isFirst = useRef(false);
   return {
@@ -9,7 +12,7 @@ export function useFirstPress() {
     },
     onClick: ({ currentTarget }: MouseEvent<HTMLInputElement>) => {
       const { selectionStart, selectionEnd } = currentTarget;
-      // What was selected by dragging stays.
+      // Text that was selected by dragging stays selected.
       if (isFirst.current && selectionStart === selectionEnd) currentTarget.select();
     },
   };

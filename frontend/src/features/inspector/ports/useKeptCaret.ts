@@ -1,11 +1,11 @@
 import { useLayoutEffect, useRef, type FormEvent, type RefObject } from 'react';
 
-/** What text is typed into: inputs, and the editor of scripts. */
+/** The elements into which text is typed: inputs, and the script editor. */
 const TEXT = 'input:not([type="radio"]), [contenteditable="true"]';
 
 /**
- * Keeps the caret where it was typed when the text itself replaces the widget: a brace makes a value a key.
- * The result belongs on the host of both widgets.
+ * Keeps the position of the caret when typing replaces the widget: for example, an opening brace turns a
+ * value into a key. The returned handler belongs on the element that contains both widgets.
  */
 export function useKeptCaret(host: RefObject<HTMLElement | null>, widget: string) {
   const shown = useRef(widget);
@@ -21,7 +21,8 @@ export function useKeptCaret(host: RefObject<HTMLElement | null>, widget: string
   });
   return {
     onInputCapture: ({ target }: FormEvent<HTMLElement>) => {
-      // A script has no caret in characters: the key that replaces it is written at its end.
+      // The script editor does not report its caret in characters, so the caret of the new widget is at the
+      // end.
       caret.current = target instanceof HTMLInputElement ? target.selectionStart : Number.MAX_SAFE_INTEGER;
     },
   };

@@ -5,8 +5,8 @@ const TEXTS = 'input:not([type]), input[type="text"], textarea, [contenteditable
 const ENDING = new Set(['Enter', 'ArrowUp', 'ArrowDown']);
 
 /**
- * Whether a text is being typed in a port's field. The running program gets it when the user presses Enter, steps
- * the number, or leaves the field; a choice or a switch counts at once.
+ * Tracks whether a text is being typed in a port's field. The running program gets the text when the user
+ * presses Enter, steps the number, or leaves the field; a choice or a switch counts at once.
  */
 export function useTyping() {
   const [isTyping, setIsTyping] = useState(false);

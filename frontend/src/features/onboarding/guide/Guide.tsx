@@ -15,10 +15,13 @@ import { needOf } from './progress';
 import { useProgress } from './useProgress';
 import { useTarget } from './useTarget';
 
-/** The panel of a step whose place is out of sight. */
+/** The panel that a step opens if its place is not visible. */
 const PANELS: Partial<Record<Step, 'palette' | 'inspector'>> = { block: 'palette', fill: 'inspector' };
 
-/** Begins by itself on a first project: not where a lesson leads, and not for who has built or run before. */
+/**
+ * Starts the first task by itself, unless the project has a lesson or the user has already built or run
+ * something.
+ */
 function useBeginning(): void {
   const canBegin = useProjectStore(
     ({ role, projectId, files }) =>
@@ -30,7 +33,7 @@ function useBeginning(): void {
   }, [canBegin]);
 }
 
-/** The first task: three marks in the frame, each until it was done. */
+/** The guided first task: three notes in the frame, each shown until its step is done. */
 export function Guide() {
   useBeginning();
   useProgress();
@@ -41,7 +44,9 @@ export function Guide() {
   return isShown ? <Mark step={step} /> : null;
 }
 
-/** The size of a note by that of its content; before it is measured, that of a usual one. */
+/**
+ * Returns the size of a note from the size of its content; before the content is measured, a typical size.
+ */
 const outer = (width: number, height: number) =>
   width === 0 ? { width: 296, height: 150 } : { width: width + 24, height: height + 20 };
 

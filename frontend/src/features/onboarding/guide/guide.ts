@@ -14,7 +14,7 @@ interface Guide {
   readonly step: Step | null;
 }
 
-/** The first task of a new user; where it stands is kept in this browser. */
+/** The progress of a new user's first task; it is stored in this browser. */
 export const useGuide = create<Guide>(() => ({ step: known() }));
 
 function go(step: Step | null): void {
@@ -22,16 +22,16 @@ function go(step: Step | null): void {
   useGuide.setState({ step });
 }
 
-/** Whether nobody has done, skipped or begun the first task in this browser. */
+/** Returns whether the first task was never started, finished or skipped in this browser. */
 export const isGuideNew = (): boolean => localStorage.getItem(KEY) === null;
 
-/** Begins the first task, also once more. */
+/** Starts the first task, even if it was done before. */
 export const startGuide = (): void => go(STEPS[0]);
 
 /** Ends the first task permanently. */
 export const endGuide = (): void => go(null);
 
-/** Continues after a step that was done; returns whether it was the last one. */
+/** Proceeds to the next step after one was done; returns whether that was the last one. */
 export function finishStep(step: Step): boolean {
   if (useGuide.getState().step !== step) return false;
   const next = STEPS[STEPS.indexOf(step) + 1] ?? null;

@@ -23,7 +23,10 @@ const EDGE = 8;
 
 const clamp = (value: number, most: number): number => Math.max(EDGE, Math.min(value, most));
 
-/** The place of a note beside a target: on the first side where it covers nothing of it, else inside of it. */
+/**
+ * Returns the place of a note: on the first side of the target where the note does not cover it, otherwise
+ * inside the target.
+ */
 export function placeBeside(target: Rect, note: Size, room: Size): Place {
   const right = target.left + target.width + GAP;
   const left = target.left - GAP - note.width;

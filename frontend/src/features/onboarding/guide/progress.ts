@@ -8,7 +8,9 @@ type ProjectState = ReturnType<typeof useProjectStore.getState>;
 const blocksOf = (diagrams: Readonly<Record<string, Diagram>>): number =>
   Object.values(diagrams).reduce((sum, { nodes }) => sum + Object.keys(nodes).length, 0);
 
-/** The edit that was made here between two states; null if there was none, or if one was undone. */
+/**
+ * Returns the edit that this user made between two states; null if there was none, or if an edit was undone.
+ */
 function editBetween(now: ProjectState, before: ProjectState): UndoEntry | null {
   for (const [tree, { past }] of Object.entries(now.histories)) {
     const newest = past.at(-1);
@@ -18,12 +20,12 @@ function editBetween(now: ProjectState, before: ProjectState): UndoEntry | null 
   return null;
 }
 
-/** Whether a block was added by hand. */
+/** Returns whether this user added a block between two states. */
 export function hasAddedBlock(now: ProjectState, before: ProjectState): boolean {
   return editBetween(now, before) !== null && blocksOf(now.diagrams) > blocksOf(before.diagrams);
 }
 
-/** What the selected block needs next: values for its ports, or blocks below it. */
+/** Returns what the selected block needs next: values for its ports, or blocks below it. */
 export function needOf({ diagrams, activeTree, selection, vocabulary }: ProjectState): 'port' | 'child' {
   const node = diagrams[activeTree ?? '']?.nodes[selection[0] ?? ''];
   const ports = node ? (specOf(vocabulary, node)?.ports ?? []) : [];
@@ -33,7 +35,7 @@ export function needOf({ diagrams, activeTree, selection, vocabulary }: ProjectS
 const FILLS: ReadonlySet<string> = new Set(['port', 'condition', 'connect']);
 const GROWS: ReadonlySet<string> = new Set(['add', 'move', 'paste', 'wrap']);
 
-/** Whether a port was set or blocks were connected by hand. */
+/** Returns whether this user set a port or connected blocks between two states. */
 export function hasFilled(now: ProjectState, before: ProjectState): boolean {
   const edit = editBetween(now, before);
   if (!edit) return false;

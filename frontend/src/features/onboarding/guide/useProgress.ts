@@ -9,7 +9,7 @@ import { hasAddedBlock, hasFilled } from './progress';
 const isTyping = (): boolean =>
   document.activeElement?.matches('input, textarea, [contenteditable=true]') ?? false;
 
-/** Waits until a text is complete: left, or confirmed with Enter. */
+/** Calls `act` once a text is complete: the user has left the field, or pressed Enter. */
 function onceTyped(act: () => void, signal: AbortSignal): void {
   if (!isTyping()) return act();
   const settled = new AbortController();
@@ -22,7 +22,7 @@ function onceTyped(act: () => void, signal: AbortSignal): void {
   window.addEventListener('keydown', ({ key }) => key === 'Enter' && finish(), options);
 }
 
-/** Continues the first task when the user has really done a step. */
+/** Continues the first task when the user has done the current step. */
 export function useProgress(): void {
   const step = useGuide((state) => state.step);
   useEffect(() => {

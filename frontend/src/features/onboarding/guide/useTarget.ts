@@ -4,7 +4,7 @@ import type { Rect } from './place';
 
 const LOOK_AGAIN_MS = 250;
 
-/** Where each step is done, the best place first; the last is where it can be done in any layout. */
+/** The places where each step is done, the best first; the last one exists in every layout. */
 const PLACES: Record<Step, readonly string[]> = {
   block: ['[data-testid="ghost-block"]', '[data-testid="palette"]'],
   fill: [
@@ -16,7 +16,7 @@ const PLACES: Record<Step, readonly string[]> = {
 const CANVAS = '[data-testid="canvas"]';
 
 export interface Target extends Rect {
-  /** The place itself is out of sight, and the canvas stands for it. */
+  /** Whether the place itself is not visible, so that the canvas is marked instead. */
   readonly isFarOff: boolean;
 }
 
@@ -43,7 +43,7 @@ const isSame = (a: Target | null, b: Target | null): boolean =>
   a === b ||
   (a !== null && b !== null && (Object.keys(a) as (keyof Target)[]).every((key) => a[key] === b[key]));
 
-/** The place where a step is done; panels move and scroll, so it is looked for again and again. */
+/** Returns the place where a step is done. It is searched repeatedly, since panels move and scroll. */
 export function useTarget(step: Step | null): Target | null {
   const [target, setTarget] = useState<Target | null>(null);
   useEffect(() => {

@@ -22,7 +22,8 @@ export function dismiss({ kind, fault }: StripMessage): void {
 }
 
 /**
- * Returns the role of this page in its session as a key: with another key, the notice about the role is new.
+ * Returns a key for the role of this page in its session; when the key changes, the notice about the role is
+ * new.
  */
 export function viewerKey(): string {
   const { introspection, wasTakenOver } = useSessionStore.getState();

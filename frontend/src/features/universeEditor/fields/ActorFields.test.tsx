@@ -30,7 +30,7 @@ describe('the fields of a person', () => {
 
   it('make the person walk to and fro instead of in a loop', async () => {
     const { thing } = fields();
-    await user.click(screen.getByRole('switch', { name: 'Round and round' }));
+    await user.click(screen.getByRole('switch', { name: 'In a loop' }));
     expect(thing('walker')).toMatchObject({ loop: false });
   });
 
@@ -49,7 +49,7 @@ describe('the fields of a person', () => {
 
   it('select a point, after which the next one is added', async () => {
     const { editor, thing } = fields();
-    const second = screen.getByRole('button', { name: 'Point 2 of the way' });
+    const second = screen.getByRole('button', { name: 'Point 2 of the path' });
     expect(second).toHaveAttribute('aria-pressed', 'false');
     await user.click(second);
     expect(editor.store.getState()).toMatchObject({ selection: ['walker'], waypoint: 1 });
@@ -100,7 +100,7 @@ describe('the fields of a person', () => {
       ),
     );
     expect(screen.getByTestId('add-waypoint')).toBeDisabled();
-    expect(screen.getByRole('switch', { name: 'Round and round' })).toBeDisabled();
+    expect(screen.getByRole('switch', { name: 'In a loop' })).toBeDisabled();
     for (const button of screen.getAllByRole('button', { name: 'Remove this point' }))
       expect(button).toBeDisabled();
   });

@@ -15,7 +15,7 @@ import { WorkerHost } from './WorkerHost';
 // <Canvas> does this on the page.
 extend(THREE as unknown as Parameters<typeof extend>[0]);
 
-/** The drawing side of a 3D view, in a worker: it draws what the page's messages say. */
+/** The part of a 3D view that runs in a worker: it draws what the page's messages request. */
 export class Drawing {
   private readonly host: WorkerHost;
   private root: ReconcilerRoot<OffscreenCanvas> | null = null;

@@ -75,7 +75,8 @@ export class RemoteStage {
     const forward = (frame: Extract<ToWorker, { kind: 'frame' }>['frame']) =>
       this.post({ kind: 'frame', frame });
     this.stops.push(frames.listen('scene', forward));
-    // A frame has only the poses that changed, and a scene those of its beginning.
+    // A frame contains only the poses that changed, and a scene only the initial ones, so the current poses
+    // are sent too.
     this.post({ kind: 'past', poses: [...currentPoses], trail: trail.keep() });
     this.stops.push(frames.listen('poses', forward), frames.listen('scan', forward));
   }

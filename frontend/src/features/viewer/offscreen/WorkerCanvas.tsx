@@ -8,7 +8,7 @@ interface WorkerCanvasProps extends Reports {
   readonly label: string;
 }
 
-/** A canvas of the whole panel on which a worker draws the world. */
+/** A canvas that fills the panel, on which a worker draws the world. */
 export function WorkerCanvas({ view, label, ...reports }: WorkerCanvasProps) {
   const parent = useRef<HTMLDivElement>(null);
   const stage = useRef<RemoteStage | null>(null);

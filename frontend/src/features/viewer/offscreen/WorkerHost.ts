@@ -9,7 +9,7 @@ interface Waiting {
   readonly refused: (error: Error) => void;
 }
 
-/** The host of a stage in a worker: it asks the page by messages. */
+/** The host of a stage in a worker: it sends requests to the page as messages. */
 export class WorkerHost implements StageHost {
   readonly proxy: ElementProxy;
   readonly keys = new EventTarget();
@@ -21,7 +21,7 @@ export class WorkerHost implements StageHost {
     this.proxy = new ElementProxy((cursor) => post({ kind: 'cursor', cursor }));
   }
 
-  /** The proxy has all of an element that the controls and tools use. */
+  /** The proxy has all members of an element that the controls and tools use. */
   get element(): HTMLElement {
     return this.proxy as unknown as HTMLElement;
   }

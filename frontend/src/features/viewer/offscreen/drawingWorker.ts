@@ -1,4 +1,4 @@
-/** Draws the world beside the page, so that the editor stays quick. */
+/** Draws the world in a worker, so that the page stays responsive. */
 import { Drawing } from './Drawing';
 import type { ToWorker } from './messages';
 

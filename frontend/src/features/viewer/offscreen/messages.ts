@@ -4,7 +4,7 @@ import type { Pose } from '@/store/session/poses';
 import type { BodyPose } from '../scene/DraggedBody';
 import type { ViewOptions } from '../viewOptions';
 
-/** What the page knows and the drawing depends on. */
+/** The state of the page that the drawing depends on. */
 export interface View {
   readonly options: ViewOptions;
   readonly isDark: boolean;
@@ -15,7 +15,7 @@ export interface View {
   readonly measuring: { readonly isOn: boolean; readonly points: readonly Point[] };
 }
 
-/** The size of the canvas in CSS pixels, and the pixels of the picture for each of them. */
+/** The size of the canvas in CSS pixels, and the number of picture pixels for each of them. */
 export interface Size {
   readonly width: number;
   readonly height: number;
@@ -27,11 +27,14 @@ export type SentEvent = { readonly type: string } & Readonly<Record<string, stri
 
 export type ToWorker =
   | { readonly kind: 'begin'; readonly canvas: OffscreenCanvas; readonly size: Size }
-  /** A new request to move the camera has another number, since a copied request is always another object. */
+  /**
+   * The number changes with each request to move the camera. The worker cannot compare request objects, since
+   * messages are copied.
+   */
   | { readonly kind: 'view'; readonly view: View; readonly viewpoint: number }
   | { readonly kind: 'size'; readonly size: Size }
   | { readonly kind: 'frame'; readonly frame: Frame }
-  /** What the page recorded before this view was opened. */
+  /** The poses and the trail that the page recorded before this view was opened. */
   | { readonly kind: 'past'; readonly poses: readonly (readonly [number, Pose])[]; readonly trail: string }
   | { readonly kind: 'event'; readonly to: 'element' | 'keys'; readonly event: SentEvent }
   /** The answer to `move`; the error is null if the session moved the body. */

@@ -12,5 +12,8 @@ export const rootOptions = (isVisible: boolean, isSimple: boolean) => ({
   },
 });
 
-/** The pixels of the picture for each CSS pixel: [least, most]. A processor draws fewer of them. */
+/**
+ * The range of picture pixels for each CSS pixel, as [lowest, highest]. It is lower if the processor draws
+ * the picture.
+ */
 export const dprRange = (isSimple: boolean): [number, number] => (isSimple ? [0.8, 0.8] : [1, 2]);

@@ -27,7 +27,7 @@ function decodeInWorker(jpeg: Blob, anisotropy: number, done: (texture: THREE.Te
   createImageBitmap(jpeg, { imageOrientation: 'flipY' }).then(
     (bitmap) => {
       const texture = new THREE.Texture(bitmap);
-      texture.flipY = false; // the bitmap has been turned, since WebGL cannot turn it
+      texture.flipY = false; // The bitmap is already flipped, since WebGL cannot flip bitmaps.
       texture.needsUpdate = true;
       done(repeating(texture, anisotropy));
     },

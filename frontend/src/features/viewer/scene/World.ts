@@ -14,8 +14,8 @@ interface Moving {
 }
 
 /**
- * The distance in m above which a movement counts as a reset or a drag, which is shown at once without a
- * motion.
+ * The distance in m above which a movement counts as a reset or a drag, which is shown at once without
+ * animation.
  */
 const JUMP_M = 1;
 

@@ -1,11 +1,14 @@
 import type { Point } from '../measuring';
 import type { BodyPose } from './DraggedBody';
 
-/** What the stage needs from its page. The page implements it, and so does the worker that draws for it. */
+/**
+ * The functions that the stage needs from its page. The page implements them, and so does the worker that
+ * draws for it.
+ */
 export interface StageHost {
   /** The element whose pointer events turn the view and drag bodies; null: the canvas. */
   readonly element: HTMLElement | null;
-  /** Where key presses arrive. */
+  /** The target at which key events arrive. */
   readonly keys: EventTarget;
   /** Returns whether bodies can be dragged now. */
   canMove(): boolean;

@@ -16,7 +16,7 @@ export class MaterialCache {
   constructor(
     private readonly isSimple: boolean,
     readonly textures: Pictures | null = null,
-    /** The factor of all opacities. */
+    /** The factor by which all opacities are multiplied. */
     private readonly opacity = 1,
   ) {}
 

@@ -9,7 +9,7 @@ const SAME = 1e-4;
 
 interface Following {
   readonly isOn: boolean;
-  /** A new object is a new view, in which the robot need not be in the middle. */
+  /** A new object means a new view, in which the robot need not be in the middle. */
   readonly view: object;
   /** Called when the user turns or moves the camera; zooming keeps the robot where it is. */
   readonly onMoved: () => void;

@@ -17,7 +17,7 @@ function filesOf(fragment: Fragment): Record<string, string> {
   const sources: Record<string, string> = {};
   for (const path of Object.keys(files)) {
     const tree = treeIdOf(path);
-    // A tree that cannot be read cannot come along.
+    // A tree that cannot be read is not copied.
     if (tree === null ? !/^actions\/[^/]+\.py$/.test(path) : !(tree in diagrams)) continue;
     const text = currentText(path);
     if (text !== null) sources[path] = text;
@@ -54,7 +54,10 @@ export async function copySelection(): Promise<boolean> {
   return true;
 }
 
-/** Copies a tree: pasting it adds a block that calls it, in another project with all that it uses. */
+/**
+ * Copies a tree as a block that calls it; pasted into another project, the block brings all that the tree
+ * uses.
+ */
 export function copyTree(tree: string): Promise<void> {
   return toClipboard(textOf({ tops: ['tree'], nodes: { tree: { type: 'SubTree', tree } } }));
 }
@@ -111,8 +114,9 @@ function isDelivery({ origin }: Copied): boolean {
 }
 
 /**
- * Pastes blocks; those from another project bring the trees and actions that they use, after a look at them.
- * Answers what the text was: blocks, blocks whose files cannot be read, or nothing that can be pasted.
+ * Pastes blocks. Blocks from another project bring the trees and actions that they use, after the user has
+ * reviewed them. Returns the kind of the text: blocks, blocks whose files cannot be read, or nothing that can
+ * be pasted.
  */
 export function pasteText(text: string): 'blocks' | 'damaged' | 'nothing' {
   const copied = readCopied(text);

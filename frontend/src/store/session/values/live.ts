@@ -15,11 +15,14 @@ export interface LiveValue {
   readonly samples: readonly number[];
 }
 
-/** Blocks show at most four new values in a second; the samples are those of the last ten. */
+/** The shortest time in ms between two values of a block; 40 samples at this interval cover ten seconds. */
 export const INTERVAL_MS = 250;
 const MOST_SAMPLES = 40;
 
-/** The values of the ports that are shown in blocks, as the run has them now, or had them at its end. */
+/**
+ * The values of the ports that are shown in blocks: the current ones, or the last ones of a run that has
+ * ended.
+ */
 export const useLiveValues = create<{ readonly values: ReadonlyMap<ShownPort, LiveValue> }>(() => ({
   values: new Map(),
 }));
@@ -28,7 +31,7 @@ let takenAt = -Infinity;
 let tree: readonly TreeNode[] | null = null;
 let timer: ReturnType<typeof setTimeout> | undefined;
 
-/** The SubTrees around a node, the innermost first. */
+/** Returns the SubTrees around a node, the innermost first. */
 function enclosing(node: TreeNode, byUid: ReadonlyMap<number, TreeNode>): Enclosing[] {
   const found: Enclosing[] = [];
   for (let each = byUid.get(node.parent); each; each = byUid.get(each.parent)) {
@@ -37,7 +40,7 @@ function enclosing(node: TreeNode, byUid: ReadonlyMap<number, TreeNode>): Enclos
   return found;
 }
 
-/** The entry of a port; of a tree that is called several times, in its first call. */
+/** Returns the entry of a port; for a tree that is called several times, the entry in its first call. */
 function rowOf(shown: ShownPort, session: SessionData, byUid: ReadonlyMap<number, TreeNode>) {
   const { tree, node: id, port } = partsOf(shown);
   const { diagrams, vocabulary } = useProjectStore.getState();
@@ -60,7 +63,7 @@ const numberOf = (value: unknown): number | null =>
 function next(row: BlackboardRow, before: LiveValue | undefined, goesOn: boolean): LiveValue {
   const { key, value, changedAt } = row;
   const isSame = before?.changedAt === changedAt && before.key === key;
-  // Paused time leaves no samples.
+  // No samples are taken while time is paused.
   if (isSame && !goesOn) return before;
   const number = numberOf(value);
   const earlier = before?.key === key ? before.samples : [];
@@ -77,7 +80,7 @@ function take(session: SessionData, now: number): void {
   timer = undefined;
   takenAt = now;
   const { values } = useLiveValues.getState();
-  // A new tree is a new run, whose samples begin again.
+  // A new tree means a new run, so the samples start empty.
   const before = session.tree === tree ? values : new Map<ShownPort, LiveValue>();
   tree = session.tree;
   const byUid = new Map(session.tree.map((node) => [node.uid, node]));
@@ -90,7 +93,7 @@ function take(session: SessionData, now: number): void {
   if (taken.size > 0 || values.size > 0) useLiveValues.setState({ values: taken });
 }
 
-/** Takes the values after a batch of messages, now or when the next ones are due. */
+/** Updates the values after a batch of messages, now or when the next update is due. */
 export function feedValues(read: () => SessionData): void {
   if (useShownValues.getState().ports.size === 0 && useLiveValues.getState().values.size === 0) return;
   const now = performance.now();
@@ -102,7 +105,7 @@ export function feedValues(read: () => SessionData): void {
     }, wait);
 }
 
-/** Forgets the values of a session that ended. */
+/** Clears the values of a session that has ended. */
 export function forgetValues(): void {
   clearTimeout(timer);
   timer = undefined;

@@ -7,7 +7,7 @@ export type ShownPort = string;
 
 export const shownPort = (tree: string, node: NodeId, port: string): ShownPort => `${tree}/${node}/${port}`;
 
-/** The tree, block and port of a key; names of trees can contain the separator. */
+/** Returns the tree, block and port of a key; names of trees can contain the separator. */
 export function partsOf(shown: ShownPort): { tree: string; node: NodeId; port: string } {
   const parts = shown.split('/');
   const [node = '', port = ''] = parts.slice(-2);
@@ -30,10 +30,13 @@ interface ShownValues {
   readonly ports: ReadonlySet<ShownPort>;
 }
 
-/** The ports whose values are shown in their blocks; kept in this browser for each project, not in the tree. */
+/**
+ * The ports whose values are shown in their blocks. They are stored in this browser for each project, not in
+ * the tree.
+ */
 export const useShownValues = create<ShownValues>(() => ({ projectId: null, ports: new Set() }));
 
-/** Reads the choice of the project that is open now. */
+/** Loads the stored choice for the open project. */
 function follow(projectId: string | null): void {
   if (useShownValues.getState().projectId === projectId) return;
   useShownValues.setState({ projectId, ports: projectId === null ? new Set() : kept(projectId) });
@@ -62,7 +65,7 @@ export function showValues(ports: readonly ShownPort[], isShown: boolean): void 
   keep(next);
 }
 
-/** Keeps the values of a renamed tree shown. */
+/** Keeps showing the values of a tree that was renamed. */
 export function followTreeRename(from: string, to: string): void {
   const { ports } = useShownValues.getState();
   const next = [...ports].map((each) => {

@@ -1,6 +1,7 @@
-"""Files outside of a project that its Python uses: Python's own library, installed packages, and stubs.
+"""The environment of a language server for Python, and the files outside of a project that it may name.
 
-The page may read them, and no others. Each folder has a label, which the page sees instead of the path:
+The same for a server on localhost and in a session's container, which share no other package. The page may
+read these files, and no others. Each folder has a label, which the page sees instead of the path:
 
     python     the standard library
     packages   the installed packages
@@ -10,6 +11,7 @@ The page may read them, and no others. Each folder has a label, which the page s
 
 from __future__ import annotations
 
+import os
 import sysconfig
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -23,10 +25,22 @@ MAX_BYTES: Final = 2 * 1024 * 1024
 TYPESHED: Final = ".cache/ty/vendored/typeshed"
 
 
+def environment_of(home: Path) -> dict[str, str]:
+    """Returns the environment of a language server, without any variable of the program that starts it."""
+    return {
+        "PATH": os.defpath,
+        "HOME": str(home),
+        "LANG": "C.UTF-8",
+        "TY_CONFIG_FILE": str(home / "ty.toml"),
+        "TY_MAX_PARALLELISM": "1",
+    }
+
+
 def source_roots(home: Path, library: Path) -> dict[str, str]:
     """Returns the folders that may be read, by label, for a language server with this home folder."""
     # The language server names the targets of links.
-    linked = {f"modules/{each.name}": str(each.resolve()) for each in library.iterdir() if each.is_symlink()}
+    entries = library.iterdir() if library.is_dir() else ()
+    linked = {f"modules/{each.name}": str(each.resolve()) for each in entries if each.is_symlink()}
     return {
         "python": sysconfig.get_path("stdlib"),
         "packages": sysconfig.get_path("purelib"),
@@ -43,6 +57,6 @@ def read_source(path: str, roots: Iterable[str]) -> str | None:
         if not is_below or real.suffix not in SUFFIXES or not real.is_file():
             return None
         data = real.read_bytes() if real.stat().st_size <= MAX_BYTES else None
-    except (OSError, ValueError, RuntimeError):  # a null character; a circle of links
+    except (OSError, ValueError, RuntimeError):  # the path has a null character, or the links form a circle
         return None
     return None if data is None else data.decode(errors="replace")

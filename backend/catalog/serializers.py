@@ -6,7 +6,7 @@ from typing import Any
 
 from rest_framework import serializers
 
-from backend.projects.api.serializers import ObjectField
+from backend.projects.api.serializers import ActionSerializer, ObjectField
 
 
 class NodesSerializer(serializers.Serializer[Any]):
@@ -102,3 +102,15 @@ class BehaviourListSerializer(serializers.Serializer[Any]):
     """The built-in library."""
 
     items = BehaviourSerializer(many=True)
+
+
+class OfferedActionSerializer(ActionSerializer):
+    """A node of Nav2 as its source declares it, with the source."""
+
+    text = serializers.CharField(help_text="The text of `path` in a project that takes the node.")
+
+
+class OfferedActionListSerializer(serializers.Serializer[Any]):
+    """The nodes of Nav2 that the palette offers."""
+
+    items = OfferedActionSerializer(many=True)

@@ -14,6 +14,7 @@ router.register("catalog/robots", views.Robots, basename="robots")
 
 urlpatterns = [
     *router.urls,
+    path("catalog/actions", views.OfferedActions.as_view()),
     path("catalog/nodes", views.Nodes.as_view()),
     path("catalog/behaviours", views.Behaviours.as_view()),
     path("catalog/templates", views.Templates.as_view()),

@@ -13,7 +13,7 @@ from rest_framework.response import Response
 from rest_framework.views import APIView
 
 from backend.accounts.api.viewsets import ResourceViewSet
-from backend.catalog import library, queries
+from backend.catalog import library, offered, queries
 from backend.catalog import serializers as s
 from backend.core.problems import NotFoundError
 from backend.projects.documents.templates import templates
@@ -153,6 +153,19 @@ class Behaviours(APIView):
     def get(self, request: Request) -> Response:
         """Lists the built-in library, with every file of each behaviour."""
         return Response({"items": [asdict(behaviour) for behaviour in library.behaviours()]})
+
+
+class OfferedActions(APIView):
+    """Actions that the palette offers."""
+
+    open_to_guests = True
+
+    @extend_schema(
+        operation_id="list_offered_actions", responses=s.OfferedActionListSerializer, tags=["catalog"]
+    )
+    def get(self, request: Request) -> Response:
+        """Lists the nodes of Nav2, each with the source that a project takes."""
+        return Response({"items": offered.offered_actions()})
 
 
 def _text(path: Path | None, content_type: str, missing: str) -> HttpResponse:

@@ -236,7 +236,7 @@ def _tools(story, teacher):
     tree = {"diagram": json.dumps(TREE)}
     answer = story.ask(teacher, "POST", "trees/xml", tree)
     story.ask(teacher, "POST", "trees/diagram", tree | {"xml": answer["xml"].replace("0.3", "0.6")})
-    for name in ("nodes", "universes", "robots", "templates", "behaviours"):
+    for name in ("nodes", "actions", "universes", "robots", "templates", "behaviours"):
         story.ask(teacher, "GET", f"catalog/{name}")
     universe = story.ask(teacher, "GET", "catalog/universes")["items"][0]["id"]
     robot = story.ask(teacher, "GET", "catalog/robots")["items"][0]["id"]

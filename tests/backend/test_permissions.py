@@ -102,6 +102,7 @@ POLICY = {
     ("post", "/api/v1/trees/diagram"): PERSONAL,
     ("post", "/api/v1/python/format"): CONTAINED,
     ("post", "/api/v1/python/lint"): CONTAINED,
+    ("get", "/api/v1/catalog/actions"): OPEN,
     ("get", "/api/v1/catalog/behaviours"): OPEN,
     ("get", "/api/v1/catalog/nodes"): OPEN,
     ("get", "/api/v1/catalog/universes"): OPEN,

@@ -21,6 +21,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/catalog/actions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Lists the nodes of Nav2, each with the source that a project takes. */
+        get: operations["list_offered_actions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/catalog/behaviours": {
         parameters: {
             query?: never;
@@ -1428,6 +1445,25 @@ export interface components {
             items: components["schemas"]["Offer"][];
             next_offset: number | null;
         };
+        /** @description A node of Nav2 as its source declares it, with the source. */
+        OfferedAction: {
+            name: string;
+            path: string;
+            doc: string;
+            kind: string;
+            children: components["schemas"]["Children"];
+            open: boolean;
+            line: number;
+            ports: components["schemas"]["Port"][];
+            imports: string[];
+            diagnostics: components["schemas"]["Diagnostic"][];
+            /** @description The text of `path` in a project that takes the node. */
+            text: string;
+        };
+        /** @description The nodes of Nav2 that the palette offers. */
+        OfferedActionList: {
+            items: components["schemas"]["OfferedAction"][];
+        };
         /** @enum {string} */
         OnErrorEnum: "stop" | "failure";
         /** @enum {string} */
@@ -1774,6 +1810,34 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Action"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_offered_actions: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OfferedActionList"];
                 };
             };
             /** @description A problem document. */

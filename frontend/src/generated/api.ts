@@ -1391,7 +1391,7 @@ export interface components {
         /** @description The user and the server's version. */
         Me: {
             mode: components["schemas"]["ModeEnum"];
-            /** @description Empty for a guest, who came by a read-only link. */
+            /** @description Empty for a guest, who opened a read-only link. */
             user: string;
             name: string;
             email: string;

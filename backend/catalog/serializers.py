@@ -6,7 +6,7 @@ from typing import Any
 
 from rest_framework import serializers
 
-from backend.projects.api.serializers import ObjectField
+from backend.projects.api.serializers import ActionSerializer, ObjectField
 
 
 class NodesSerializer(serializers.Serializer[Any]):
@@ -15,6 +15,35 @@ class NodesSerializer(serializers.Serializer[Any]):
     format = serializers.CharField()
     version = serializers.IntegerField()
     nodes = serializers.ListField(child=ObjectField())
+
+
+class InterfaceNameSerializer(serializers.Serializer[Any]):
+    """An interface of ROS."""
+
+    name = serializers.CharField(help_text="Such as `nav2_msgs/action/NavigateToPose`.")
+    kind = serializers.ChoiceField(choices=["action", "msg", "srv"])
+
+
+class InterfaceListSerializer(serializers.Serializer[Any]):
+    """Interfaces, sorted by name."""
+
+    items = InterfaceNameSerializer(many=True)
+
+
+class FieldSerializer(serializers.Serializer[Any]):
+    """A field of an interface, as a port."""
+
+    port = serializers.CharField(help_text="Its path, such as `goal__pose__pose__position__x`.")
+    direction = serializers.ChoiceField(choices=["input", "output"])
+    type = serializers.CharField(help_text="As in the catalogue of nodes; `any` for messages.")
+    ros = serializers.CharField(help_text="As ROS writes it.")
+
+
+class InterfaceSerializer(serializers.Serializer[Any]):
+    """The fields of an interface; a message comes before its own fields."""
+
+    name = serializers.CharField()
+    ports = FieldSerializer(many=True)
 
 
 class NamedSerializer(serializers.Serializer[Any]):
@@ -73,3 +102,15 @@ class BehaviourListSerializer(serializers.Serializer[Any]):
     """The built-in library."""
 
     items = BehaviourSerializer(many=True)
+
+
+class OfferedActionSerializer(ActionSerializer):
+    """A node of Nav2 as its source declares it, with the source."""
+
+    text = serializers.CharField(help_text="The text of `path` in a project that takes the node.")
+
+
+class OfferedActionListSerializer(serializers.Serializer[Any]):
+    """The nodes of Nav2 that the palette offers."""
+
+    items = OfferedActionSerializer(many=True)

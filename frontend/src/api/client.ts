@@ -2,6 +2,7 @@ import type { components, operations } from '@/generated/api';
 import { dataOf, done, rest, urlOf } from './http';
 import type {
   ActionModel,
+  OfferedAction,
   ChangesResult,
   CheckResult,
   FileChange,
@@ -139,6 +140,8 @@ export const api = {
     done(rest.DELETE('/api/v1/sessions/{session_id}', { params: { path: { session_id } } })),
 
   templates: async (): Promise<TemplateInfo[]> => (await dataOf(rest.GET('/api/v1/catalog/templates'))).items,
+  offeredActions: async (): Promise<OfferedAction[]> =>
+    (await dataOf(rest.GET('/api/v1/catalog/actions'))).items,
   behaviours: async () => (await dataOf(rest.GET('/api/v1/catalog/behaviours'))).items,
   universes: async (): Promise<UniverseInfo[]> => (await dataOf(rest.GET('/api/v1/catalog/universes'))).items,
   universeText: (universe_id: string) =>

@@ -81,6 +81,8 @@ export type PackagePreview = Omit<Server['PackagePreview'], 'diagnostics'> & { d
 export type TemplateInfo = Needs<Server['Template'], 'id' | 'name' | 'description'>;
 /** A behaviour of the built-in library, with its texts by language. */
 export type BehaviourInfo = Server['Behaviour'];
+/** A node of Nav2 that a project can take, with its source. */
+export type OfferedAction = ActionModel & Pick<Server['OfferedAction'], 'text'>;
 /** A universe or a robot that can be chosen; `preview` is the address of its picture. */
 export type UniverseInfo = Needs<Server['Entry'], 'id' | 'name'>;
 export type Me = Server['Me'];

@@ -2,6 +2,7 @@ import { useEffect, useState } from 'react';
 import { api } from '@/api/client';
 import { watchPython } from '@/store/problems/lint';
 import { useProjectStore } from '@/store/project';
+import { loadOffered } from '@/store/project/offered';
 import { startAutosave, stopAutosave } from '@/store/saving/autosave';
 import { restoreDraft } from '@/store/saving/conflicts';
 import { followRevisions } from '@/store/saving/live';
@@ -27,6 +28,7 @@ export function useProject(projectId: string): Opening {
         setOpening({ kind: 'open' });
         unfollow = followRevisions(projectId, notifyRemoteSave, showServerNotice);
         void reattach(projectId);
+        void loadOffered();
       },
       (error: Error) => {
         if (error.name !== 'AbortError') setOpening({ kind: 'failed', error });

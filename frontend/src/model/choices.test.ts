@@ -48,6 +48,17 @@ describe('choices', () => {
     expect(fit({ for: 'morph', node: 'r' })).not.toContain('Turn');
     expect(fit({ for: 'add' })).toContain('Turn');
   });
+  it('end with the offered actions, which a search finds by a part of the name', () => {
+    const turn = vocabulary.specs.get('Turn');
+    const offered = [{ ...turn!, type: 'TurnBack', source: 'offered' as const }];
+    const found = (search: string) =>
+      searchChoices(allChoices(diagram, vocabulary, offered), search).map(({ label }) => label);
+    expect(found('tur').slice(0, 2)).toEqual(['Turn', 'TurnBack']);
+    expect(found('tbk')).not.toContain('TurnBack');
+    expect(found('')).not.toContain('TurnBack');
+    const all = allChoices(diagram, vocabulary, [turn!]).filter(({ label }) => label === 'Turn');
+    expect(all).toHaveLength(1);
+  });
   it('score exact names highest', () => {
     expect(matchScore('Turn', 'turn')).toBeGreaterThan(matchScore('TurnAround', 'turn'));
     expect(matchScore('Turn', 'x')).toBe(0);

@@ -9,8 +9,15 @@ export interface Choice {
   readonly label: string;
 }
 
-/** Returns every type of block that this tree may contain: built-ins, actions, and subtrees by name. */
-export function allChoices(diagram: Pick<Diagram, 'id'> | null, vocabulary: Vocabulary): Choice[] {
+/**
+ * Returns every type of block that this tree may contain: built-ins, actions, subtrees by name, and last the
+ * offered actions that the project has not taken.
+ */
+export function allChoices(
+  diagram: Pick<Diagram, 'id'> | null,
+  vocabulary: Vocabulary,
+  offered: readonly NodeSpec[] = [],
+): Choice[] {
   const choices: Choice[] = [];
   for (const spec of vocabulary.specs.values()) {
     if (spec.type === 'SubTree') continue;
@@ -23,6 +30,9 @@ export function allChoices(diagram: Pick<Diagram, 'id'> | null, vocabulary: Voca
       const spec = description === '' ? subtree : { ...subtree, summary: description };
       if (isKindLegal(diagram, kind, vocabulary)) choices.push({ kind, spec, label: tree });
     }
+  }
+  for (const spec of offered) {
+    if (!vocabulary.specs.has(spec.type)) choices.push({ kind: { type: spec.type }, spec, label: spec.type });
   }
   return choices;
 }
@@ -63,8 +73,21 @@ export function matchScore(text: string, search: string): number {
 
 const FAMILY_ORDER = ['action', 'condition', 'control', 'decorator', 'subtree'] as const;
 
+/** A search finds an offered action by a part of its name, not by single letters. */
+const LEAST_OFFERED = 3;
+
+function nameScore({ label, spec }: Choice, search: string): number {
+  const score = matchScore(label, search);
+  return spec.source === 'offered' && score < LEAST_OFFERED ? 0 : score;
+}
+
+/** Returns whether a search means the name of a choice; an empty search means every one. */
+export const isNamed = (choice: Choice, search: string): boolean =>
+  search === '' || nameScore(choice, search) > 0;
+
 /**
- * Returns the choices whose name or summary, as the page shows it, matches: the user's own actions first, then by family in the order of the catalogue.
+ * Returns the choices whose name or summary, as the page shows it, matches: the user's own actions first, then
+ * by family in the order of the catalogue, and last the offered actions, which only a search shows.
  */
 export function searchChoices(
   choices: readonly Choice[],
@@ -73,7 +96,7 @@ export function searchChoices(
 ): Choice[] {
   return choices
     .map((choice, index) => {
-      const named = matchScore(choice.label, search);
+      const named = nameScore(choice, search);
       const told =
         search.length > 2 && summaryOf(choice).toLowerCase().includes(search.toLowerCase()) ? 1 : 0;
       return { choice, index, score: Math.max(named * 2, told) };
@@ -82,6 +105,7 @@ export function searchChoices(
     .sort(
       (a, b) =>
         b.score - a.score ||
+        Number(a.choice.spec.source === 'offered') - Number(b.choice.spec.source === 'offered') ||
         Number(b.choice.spec.source === 'action') - Number(a.choice.spec.source === 'action') ||
         FAMILY_ORDER.indexOf(a.choice.spec.family) - FAMILY_ORDER.indexOf(b.choice.spec.family) ||
         a.index - b.index,

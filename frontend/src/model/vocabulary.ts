@@ -15,7 +15,8 @@ export interface NodeSpec {
   readonly summary: string;
   /** Whether the node accepts any port name. */
   readonly open: boolean;
-  readonly source: 'builtin' | 'action' | 'subtree';
+  /** `offered`: an action of Nav2 that the project has not taken yet. */
+  readonly source: 'builtin' | 'action' | 'subtree' | 'offered';
   /** Whether the Python of the action has a syntax error now: then this is its last valid declaration. */
   readonly outdated?: boolean;
 }
@@ -99,7 +100,8 @@ function ownFamily(kind: string): keyof typeof OWN {
   return family === 'condition' || family === 'control' || family === 'decorator' ? family : 'action';
 }
 
-function actionSpec(action: ActionDescription): NodeSpec {
+/** Returns the spec of an action of the project. */
+export function actionSpec(action: ActionDescription): NodeSpec {
   const family = ownFamily(action.kind);
   const { min, max } = action.children ?? OWN[family];
   return {

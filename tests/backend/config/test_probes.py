@@ -20,7 +20,7 @@ pytestmark = pytest.mark.django_db(transaction=True)
 
 
 class Busy(Threads):
-    """Threads of which none has been free for a while."""
+    """A pool of threads of which none has been free for a while."""
 
     def __init__(self, *, full_s=0.0, stuck_s=0.0):
         super().__init__(1, "busy")
@@ -29,7 +29,7 @@ class Busy(Threads):
 
 
 async def ask(path, *, client=("127.0.0.1", 5), headers=(), inner=None, threads=None):
-    """Status and body of an answer."""
+    """Returns status and body of an answer."""
     sent = []
 
     async def send(message):

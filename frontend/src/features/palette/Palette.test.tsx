@@ -1,6 +1,7 @@
-import { fireEvent, screen, within } from '@testing-library/react';
+import { act, fireEvent, screen, within } from '@testing-library/react';
 import { beforeEach, describe, expect, it } from 'vitest';
 import { useProjectStore } from '@/store/project';
+import { offer } from '@/store/project/offered';
 import { useEditorStore } from '@/store/project/editor';
 import { action, openProject, show, user, watchNavigation } from '../../../harness/testing';
 import { Palette } from './Palette';
@@ -56,6 +57,18 @@ describe('Palette', () => {
     expect(names()).toEqual(['Grasp']);
     await user.type(search, 'x');
     expect(screen.getByText('No node has this name.')).toBeInTheDocument();
+  });
+
+  it('offers the nodes of Nav2, folded, and lists them by kind once the project has them', async () => {
+    const node = action('RecoveryNode', { kind: 'control', children: { min: 2, max: 2 } });
+    act(() => offer([{ ...node, text: 'class RecoveryNode(ControlNode):\n    pass\n' }]));
+    expect(screen.queryByRole('button', { name: 'Add RecoveryNode' })).toBeNull();
+    await user.click(group(/^Nav2/));
+    await user.click(screen.getByRole('button', { name: 'Add RecoveryNode' }));
+    expect(nodes()[1]).toMatchObject({ type: 'RecoveryNode' });
+    expect(screen.queryByRole('button', { name: /^Nav2/ })).toBeNull();
+    expect(screen.getByRole('button', { name: 'Add RecoveryNode' })).toBeInTheDocument();
+    act(() => offer([]));
   });
 
   it('folds a group, until a search opens it', async () => {

@@ -3,16 +3,18 @@ import { IconPlus, IconSearch } from '@tabler/icons-react';
 import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { shippedChoice } from '@/i18n/shipped';
-import { allChoices, matchScore, type Choice } from '@/model/choices';
+import { allChoices, isNamed, type Choice } from '@/model/choices';
 import { useProjectStore } from '@/store/project';
+import { useOfferedStore } from '@/store/project/offered';
 import { NewAction } from './NewAction';
 import { PaletteGroup } from './PaletteGroup';
 import classes from './Palette.module.css';
 
-const GROUPS = ['action', 'condition', 'control', 'decorator', 'subtree', 'builtin'] as const;
+const GROUPS = ['action', 'condition', 'control', 'decorator', 'subtree', 'builtin', 'nav2'] as const;
 type Group = (typeof GROUPS)[number];
 
 function groupOf({ spec }: Choice): Group {
+  if (spec.source === 'offered') return 'nav2';
   const isLeaf = spec.family === 'action' || spec.family === 'condition';
   return isLeaf && spec.source === 'builtin' ? 'builtin' : spec.family;
 }
@@ -23,15 +25,16 @@ export function Palette() {
   const vocabulary = useProjectStore((state) => state.vocabulary);
   // The blocks that may be added depend on the tree's id, not on its content.
   const tree = useProjectStore((state) => state.diagrams[state.activeTree ?? '']?.id ?? null);
+  const offered = useOfferedStore((state) => state.specs);
   const [search, setSearch] = useState('');
   const [isNaming, setIsNaming] = useState(false);
   const choices = useMemo(
-    () => allChoices(tree === null ? null : { id: tree }, vocabulary),
-    [tree, vocabulary],
+    () => allChoices(tree === null ? null : { id: tree }, vocabulary, offered),
+    [tree, vocabulary, offered],
   );
   const shown = choices.filter(
     (choice) =>
-      matchScore(choice.label, search.trim()) > 0 ||
+      isNamed(choice, search.trim()) ||
       (search.length > 2 && shippedChoice(choice).toLowerCase().includes(search.toLowerCase())),
   );
   return (
@@ -75,6 +78,7 @@ export function Palette() {
             title={t(`families.${group}`)}
             choices={shown.filter((choice) => groupOf(choice) === group)}
             isSearching={search !== ''}
+            startsFolded={group === 'nav2'}
             {...(group === 'action' ? { empty: t('noActions') } : {})}
           />
         ))}

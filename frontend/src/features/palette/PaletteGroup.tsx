@@ -8,13 +8,21 @@ interface PaletteGroupProps {
   readonly title: string;
   readonly choices: readonly Choice[];
   readonly isSearching: boolean;
+  /** For a long group that few projects need. */
+  readonly startsFolded?: boolean;
   /** The text for an empty group while the search is empty. */
   readonly empty?: string;
 }
 
 /** A family of the palette, which can be folded; a search unfolds it. */
-export function PaletteGroup({ title, choices, isSearching, empty }: PaletteGroupProps) {
-  const [isOpen, setIsOpen] = useState(true);
+export function PaletteGroup({
+  title,
+  choices,
+  isSearching,
+  startsFolded = false,
+  empty,
+}: PaletteGroupProps) {
+  const [isOpen, setIsOpen] = useState(!startsFolded);
   if (choices.length === 0 && (empty === undefined || isSearching)) return null;
   const open = isOpen || isSearching;
   return (

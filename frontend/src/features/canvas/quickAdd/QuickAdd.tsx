@@ -8,6 +8,7 @@ import { createAction } from '@/store/project/edits/actionTemplate';
 import { achieve } from '@/store/project/edits/blocks';
 import { setEditor, type QuickAdd as QuickAddState } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
+import { useOfferedStore } from '@/store/project/offered';
 import { kindsFor } from './actionKinds';
 import { ChoiceRow } from './ChoiceRow';
 import classes from './QuickAdd.module.css';
@@ -37,6 +38,7 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
   const { t } = useTranslation('canvas');
   const diagram = useProjectStore((state) => state.diagrams[request.tree]);
   const vocabulary = useProjectStore((state) => state.vocabulary);
+  const offered = useOfferedStore((state) => state.specs);
   const [search, setSearch] = useState(request.text);
   /** The chosen row. It is null until the user moves the choice; then the most likely row counts. */
   const [index, setIndex] = useState<number | null>(null);
@@ -51,11 +53,11 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
     if (!diagram) return [];
     const purpose = purposeOf(request);
     return searchChoices(
-      allChoices(diagram, vocabulary).filter((choice) => suits(choice, diagram, purpose)),
+      allChoices(diagram, vocabulary, offered).filter((choice) => suits(choice, diagram, purpose)),
       search,
       shippedChoice,
     );
-  }, [diagram, vocabulary, request, search]);
+  }, [diagram, vocabulary, offered, request, search]);
   const canCreate = request.goal.does === 'add' && isPythonName(search) && !vocabulary.specs.has(search);
   const made = canCreate ? kindsFor(search) : [];
   const count = found.length + made.length;

@@ -32,6 +32,7 @@ import {
   type Placement,
 } from '@/model/rules';
 import type { QuickAddGoal } from '../editor';
+import { filesFor, offeredSpec } from '../offered';
 import { useProjectStore } from '../index';
 import { liveKey, useLiveStore } from '../live';
 import { problemsOf } from '../problems';
@@ -67,7 +68,7 @@ export function addAt(kind: Kind, place: Placement): NodeId | null {
   const diagram = activeDiagram();
   if (!diagram) return null;
   const id = freshId(diagram.nodes);
-  change('add', [addNode(id, kindNode(kind), place)], { select: [id] });
+  change('add', [addNode(id, kindNode(kind), place)], { select: [id], ...filesFor(kind) });
   return id;
 }
 
@@ -88,13 +89,13 @@ export function achieve(goal: QuickAddGoal, kind: Kind): void {
       return;
     case 'wrap': {
       const id = freshId(diagram.nodes);
-      change('wrap', [wrap(goal.nodes, id, kind)], { select: [id] });
+      change('wrap', [wrap(goal.nodes, id, kind)], { select: [id], ...filesFor(kind) });
       return;
     }
     case 'morph': {
-      const spec = store().vocabulary.specs.get(kind.type);
+      const spec = store().vocabulary.specs.get(kind.type) ?? offeredSpec(kind.type);
       const keeps = (name: string) => spec?.open !== false || spec.ports.some((port) => port.name === name);
-      change('morph', [morph(goal.node, kind, keeps)], { select: [goal.node] });
+      change('morph', [morph(goal.node, kind, keeps)], { select: [goal.node], ...filesFor(kind) });
     }
   }
 }

@@ -1,0 +1,46 @@
+import { create } from 'zustand';
+import { api } from '@/api/client';
+import type { OfferedAction } from '@/api/types';
+import type { Kind } from '@/model/rules';
+import { actionSpec, type NodeSpec } from '@/model/vocabulary';
+import { useProjectStore } from './index';
+import { actionPath } from './state';
+
+interface OfferedState {
+  /** What the palette offers, by name. */
+  readonly specs: readonly NodeSpec[];
+  /** The source of each offered action, by its name. */
+  readonly sources: ReadonlyMap<string, string>;
+}
+
+/** The nodes of Nav2 that a project can take: a block that is added brings the source of its action. */
+export const useOfferedStore = create<OfferedState>()(() => ({ specs: [], sources: new Map() }));
+
+export function offer(actions: readonly OfferedAction[]): void {
+  useOfferedStore.setState({
+    specs: actions.map((action) => ({ ...actionSpec(action), source: 'offered' })),
+    sources: new Map(actions.map(({ name, text }) => [name, text])),
+  });
+}
+
+/** Asks the server once what is offered; without an answer the palette has no such family. */
+export async function loadOffered(): Promise<void> {
+  if (useOfferedStore.getState().specs.length > 0) return;
+  try {
+    offer(await api.offeredActions());
+  } catch {
+    // The next opening of a project asks again.
+  }
+}
+
+export const offeredSpec = (type: string): NodeSpec | undefined =>
+  useOfferedStore.getState().specs.find((spec) => spec.type === type);
+
+/** Returns the file that a new block of this kind brings; nothing if the project knows the kind. */
+export function filesFor({ type }: Kind): { readonly files?: Readonly<Record<string, string>> } {
+  const { vocabulary, files } = useProjectStore.getState();
+  const source = useOfferedStore.getState().sources.get(type);
+  const path = actionPath(type);
+  if (source === undefined || vocabulary.specs.has(type) || path in files) return {};
+  return { files: { [path]: source } };
+}

@@ -1,5 +1,6 @@
 import { keepPreviousData, useQuery } from '@tanstack/react-query';
 import { api } from '@/api/client';
+import { shippedDoc } from '@/i18n/shipped';
 import { useMe } from '@/features/accounts/useMe';
 import type { BehaviourInfo } from '@/api/types';
 import { parseDiagram } from '@/model/serialize';
@@ -70,7 +71,7 @@ function treesOf(origin: Origin): readonly Offer[] {
     return {
       ...reusable,
       group: 'project',
-      summary: descriptionOf(diagram) || (isMain ? description : ''),
+      summary: shippedDoc(reusable.id, descriptionOf(diagram)) || (isMain ? description : ''),
       doc: '',
       diagram,
       project: name,

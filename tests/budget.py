@@ -1,4 +1,4 @@
-"""Counts of the tests that can run for as long as one likes."""
+"""Numbers of cases for tests that could run for any time."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ IS_FULL = os.environ.get("BT_STUDIO_FULL") == "1"
 
 
 def count(name: str) -> int:
-    """How many cases the counted test `name` runs in this run.
+    """Returns how many cases the counted test `name` runs this time.
 
     Raises:
         KeyError: `tests/budget.toml` has no such table.

@@ -12,8 +12,8 @@ from tests.budget import IS_FULL
 if TYPE_CHECKING:
     import pytest
 
-# How long an example takes is the machine's affair. The short run tries the same ones each time: what it
-# says is about the change. The long run looks for new ones.
+# The duration of an example depends on the machine. The short run tries the same examples each time, so its
+# result depends on the change alone; the long run searches for new ones.
 hypothesis.settings.register_profile(
     "bt_studio",
     deadline=None,
@@ -26,5 +26,5 @@ BROWSER_TESTS = Path(__file__).parent / "e2e"
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Run the browser's tests last: Playwright's event loop keeps the main thread to itself."""
+    """Runs the browser's tests last: Playwright's event loop occupies the main thread."""
     items.sort(key=lambda item: BROWSER_TESTS in item.path.parents)

@@ -1,4 +1,4 @@
-"""Set-up on machines that lack something: one sentence that says what, and the remedy."""
+"""Set-up on machines that lack something: it reports in one sentence what is missing, and the remedy."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def setup() -> ModuleType:
 
 
 def program(folder: Path, name: str, output: str) -> None:
-    """Puts a program on the path that prints `output`."""
+    """Puts a program that prints `output` on the path."""
     path = folder / name
     path.write_text(f"#!/bin/sh\necho '{output}'\n")
     path.chmod(0o755)

@@ -38,7 +38,7 @@ def group(group_id: UUID, *, user: User, own: bool = False) -> Group:
     if found is None:
         raise NotFoundError("There is no such group.")
     if own and found.owner_id != user.pk and not user.is_superuser:
-        raise TeacherRequiredError(f"“{found.name}” is looked after by {found.owner.username}.")
+        raise TeacherRequiredError(f"“{found.name}” is managed by {found.owner.username}.")
     return found
 
 
@@ -84,7 +84,7 @@ def remove_member(group_id: UUID, name: str, *, acting_user: User) -> None:
     found = group(group_id, user=acting_user, own=not leaving)
     gone, _ = GroupMember.objects.filter(group=found, user__username=name).delete()
     if not gone:
-        raise NotFoundError("Nobody of this name is in the group.")
+        raise NotFoundError("The group has no member of this name.")
     note("group.remove_member", actor=acting_user, subject=found.name, subject_id=found.id, member=name)
 
 

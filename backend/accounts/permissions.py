@@ -37,7 +37,7 @@ class AccountRequiredError(StudioError):
 
     status = 403
     code = "account_required"
-    title = "This takes an account"
+    title = "This requires an account"
 
 
 class TeacherRequiredError(StudioError):
@@ -68,7 +68,7 @@ class MayAsk(BasePermission):
             request.method == "POST" and getattr(view, "guests_post", False)
         )
         if user.is_guest and not (reads and is_open):
-            raise AccountRequiredError("You came by a read-only link.", hint="Sign in to do this.")
+            raise AccountRequiredError("You opened a read-only link.", hint="Sign in to do this.")
         return True
 
 

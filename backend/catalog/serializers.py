@@ -17,6 +17,35 @@ class NodesSerializer(serializers.Serializer[Any]):
     nodes = serializers.ListField(child=ObjectField())
 
 
+class InterfaceNameSerializer(serializers.Serializer[Any]):
+    """An interface of ROS."""
+
+    name = serializers.CharField(help_text="Such as `nav2_msgs/action/NavigateToPose`.")
+    kind = serializers.ChoiceField(choices=["action", "msg", "srv"])
+
+
+class InterfaceListSerializer(serializers.Serializer[Any]):
+    """Interfaces, sorted by name."""
+
+    items = InterfaceNameSerializer(many=True)
+
+
+class FieldSerializer(serializers.Serializer[Any]):
+    """A field of an interface, as a port."""
+
+    port = serializers.CharField(help_text="Its path, such as `goal__pose__pose__position__x`.")
+    direction = serializers.ChoiceField(choices=["input", "output"])
+    type = serializers.CharField(help_text="As in the catalogue of nodes; `any` for messages.")
+    ros = serializers.CharField(help_text="As ROS writes it.")
+
+
+class InterfaceSerializer(serializers.Serializer[Any]):
+    """The fields of an interface; a message comes before its own fields."""
+
+    name = serializers.CharField()
+    ports = FieldSerializer(many=True)
+
+
 class NamedSerializer(serializers.Serializer[Any]):
     """An item with a name in all languages."""
 

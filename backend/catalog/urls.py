@@ -8,6 +8,7 @@ from backend.accounts.api.viewsets import resource_router
 from backend.catalog import views
 
 router = resource_router()
+router.register("catalog/interfaces", views.Interfaces, basename="interfaces")
 router.register("catalog/universes", views.Universes, basename="universes")
 router.register("catalog/robots", views.Robots, basename="robots")
 

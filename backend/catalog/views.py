@@ -17,6 +17,7 @@ from backend.catalog import library, offered, queries
 from backend.catalog import serializers as s
 from backend.core.problems import NotFoundError
 from backend.projects.documents.templates import templates
+from translator.ros_interfaces import interface_fields, interface_names
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -33,6 +34,28 @@ class Nodes(APIView):
     def get(self, request: Request) -> Response:
         """Lists every built-in node with its ports."""
         return Response(queries.nodes())
+
+
+class Interfaces(ResourceViewSet):
+    """The interfaces of ROS that are installed on this server."""
+
+    lookup_url_kwarg = "interface"
+    lookup_value_converter = "path"
+    open_to_guests = True
+
+    @extend_schema(operation_id="list_interfaces", responses=s.InterfaceListSerializer, tags=["catalog"])
+    def list(self, request: Request) -> Response:
+        """Lists every installed interface: messages, services and actions."""
+        names = interface_names()
+        return Response({"items": [{"name": name, "kind": kind} for name, kind in names]})
+
+    @extend_schema(operation_id="get_interface", responses=s.InterfaceSerializer, tags=["catalog"])
+    def retrieve(self, request: Request, interface: str) -> Response:
+        """Returns the fields of an interface, each as a port of a block."""
+        fields = interface_fields(interface)
+        if fields is None:
+            raise NotFoundError(f"There is no interface {interface!r} on this server.")
+        return Response({"name": interface, "ports": [asdict(field) for field in fields]})
 
 
 class Universes(ResourceViewSet):

@@ -51,10 +51,10 @@ def create(  # noqa: PLR0913, PLR0917 - one parameter an option
         bool, typer.Option("--password-stdin", help="Read the password from the standard input.")
     ] = False,
     if_missing: Annotated[  # noqa: FBT002
-        bool, typer.Option("--if-missing", help="Be content if the account exists.")
+        bool, typer.Option("--if-missing", help="Do nothing if the account exists.")
     ] = False,
     first: Annotated[  # noqa: FBT002
-        bool, typer.Option("--first", help="Be content if there is an administrator who can sign in.")
+        bool, typer.Option("--first", help="Do nothing if there is an administrator who can sign in.")
     ] = False,
 ) -> None:
     """Makes an account: an administrator, unless --user or --teacher says otherwise.

@@ -73,7 +73,7 @@ class Environment(TeamSettings):
     session_idle_minutes: float = Field(
         default=0,
         ge=0,
-        description="An executor that nobody told anything for so long is ended, after a warning. 0: never.",
+        description="An executor that is not used for so long is ended, after a warning. 0: never.",
     )
     published_on_loopback: bool = Field(
         default=False,
@@ -114,7 +114,7 @@ class Environment(TeamSettings):
     min_free_bytes: int = Field(
         default=512 * MEBIBYTE,
         ge=0,
-        description="What temporary files leave free of the disk of the data folder.",
+        description="The space on the disk of the data folder that temporary files leave free.",
     )
     work_deadline_s: float = Field(
         default=10.0,

@@ -41,23 +41,23 @@ class TeamSettings(BaseSettings):
     database_url: SecretStr = Field(
         default=SecretStr(""),
         description="`postgresql://user:password@host:5432/name`; without it SQLite in the data folder. "
-        "Team mode wants one (`sqlite:////folder/file` will do for a few users).",
+        "Team mode needs one (`sqlite:////folder/file` will do for a few users).",
     )
     redis_url: SecretStr = Field(
         default=SecretStr(""),
         description="`redis://:password@host:6379/0`: what web servers share (login attempts, notices). "
-        "Team mode with PostgreSQL wants one.",
+        "Team mode with PostgreSQL needs one.",
     )
     secret_key: SecretStr = Field(
         default=SecretStr(""),
         description="Signs cookies and links; the same for all web servers, 32 characters or more. "
-        "Team mode wants one; on localhost it is a file of the data folder.",
+        "Team mode needs one; on localhost it is a file of the data folder.",
     )
     proxy_hops: int = Field(
         default=0,
         ge=0,
         le=5,
-        description="Number of reverse proxies in front whose `X-Forwarded-For` is believed.",
+        description="Number of reverse proxies in front whose `X-Forwarded-For` is trusted.",
     )
     hsts_days: int = Field(
         default=365,

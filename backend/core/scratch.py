@@ -105,7 +105,7 @@ class Scratch:
     def _require(self, size: int) -> None:
         if self._used + size > self._most:
             raise NoRoomError(
-                "The large files that are on their way take all the room that there is for them.",
+                "The large files that are being sent take all the space that is reserved for them.",
                 hint="Try again in a minute.",
             )
         if shutil.disk_usage(self.folder).free - size < self._reserve:

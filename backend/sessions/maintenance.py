@@ -151,7 +151,7 @@ async def one_round(rounds_held: Iterator[int]) -> None:
     attendance.keep_warned(soon)
     for session_id, minutes in soon.items():
         await attendance.warn(
-            session_id, f"Nobody uses this session. It ends in {minutes} min; do something to keep it."
+            session_id, f"This session is not being used. It ends in {minutes} min unless you use it."
         )
 
 
@@ -195,7 +195,7 @@ def end_idle() -> None:
     for session, left in _unused():
         if left <= timedelta(0):
             log.info("session %s is idle and is ended", session.id)
-            writes.end_session(session, "It was ended since nobody used it.")
+            writes.end_session(session, "It was ended because it was not used.")
 
 
 def ending_soon() -> dict[UUID, int]:

@@ -190,7 +190,7 @@ def _opened(answer: bytearray | Exception) -> tuple[Any, Exception | None]:
     try:
         message = msgspec.msgpack.decode(answer)
     except msgspec.DecodeError:
-        return None, WorkFailedError("The work ended in disorder.", hint=SMALLER)
+        return None, WorkFailedError("The worker ended unexpectedly.", hint=SMALLER)
     if "error" in message:
         log.error("a job failed\n%s", message["error"])
         return None, WorkFailedError(

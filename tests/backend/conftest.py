@@ -23,7 +23,7 @@ HOST = "127.0.0.1:8000"
 
 
 class Api:
-    """A browser that has opened the link, reduced to JSON."""
+    """A browser that has opened the link, reduced to JSON requests."""
 
     def __init__(self):
         self.client = Client(HTTP_HOST=HOST)
@@ -35,7 +35,7 @@ class Api:
             {} if body is None else {"data": json.dumps(body), "content_type": "application/json"}
         )
         response = self.client.generic(method, address, headers=headers, **data)
-        content = response.getvalue()  # of a file that is sent, too
+        content = response.getvalue()  # also for a file that is sent
         assert response.status_code == expect, (response.status_code, content[:2000])
         self.response = response
         is_json = "json" in response.headers.get("Content-Type", "")
@@ -64,7 +64,7 @@ class Api:
 
 @pytest.fixture(scope="session")
 def django_db_modify_db_settings(tmp_path_factory):
-    """A file, as in use: SQLite's memory databases lock whole tables among threads."""
+    """A file, as in production: SQLite's databases in memory lock whole tables among threads."""
     if environment().is_postgresql:
         return
     settings.DATABASES["default"]["TEST"]["NAME"] = str(tmp_path_factory.mktemp("database") / "test.sqlite3")
@@ -78,7 +78,7 @@ def _the_local_user():
 
 @pytest.fixture(autouse=True)
 def _handlers_end(monkeypatch):
-    """Threads of a handler keep a connection each: PostgreSQL drops no database that somebody uses."""
+    """The threads of a handler keep one connection each, and PostgreSQL drops no database that is in use."""
     made, make = [], ThreadedHandler.__init__
 
     def made_and_noted(handler, *args, **kwargs):
@@ -94,7 +94,7 @@ def _handlers_end(monkeypatch):
 
 async def _without_connections(threads):
     number = len(threads._threads)
-    together = threading.Barrier(number)  # so that each thread gets one
+    together = threading.Barrier(number)  # so that each thread gets one task
 
     def close():
         together.wait()

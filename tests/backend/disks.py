@@ -1,4 +1,4 @@
-"""A disk that is soon full, for tests of what a server does then."""
+"""A small disk, for tests of a server whose disk becomes full."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ MEBIBYTE = 1024 * 1024
 
 
 class SmallDisk:
-    """A folder with little room: a tmpfs where this user may mount one, else a limit on the size of files."""
+    """A folder with little space: a tmpfs if this user may mount one, otherwise a limit on file sizes."""
 
     def __init__(self, folder, mebibytes, *, mounted):
         self.folder = folder
         self.mounted = mounted
-        # What a program has to be started with to feel the limit.
+        # The command before a program that makes the limit apply to it.
         self.prefix = () if mounted else ("prlimit", f"--fsize={mebibytes * MEBIBYTE // 4}")
 
     def grow(self, mebibytes):
@@ -38,7 +38,7 @@ def may_mount():
 
 @contextmanager
 def small_disk(folder, mebibytes):
-    """Makes the folder; what is in it is gone afterwards."""
+    """Makes the folder, and removes it with its content afterwards."""
     folder.mkdir()
     options = ["-t", "tmpfs", "-o", f"size={mebibytes}m", "bts-test"]
     mounted = (

@@ -34,7 +34,7 @@ class Cluster:
         self.start()
 
     def start(self):
-        """Starts the server, unless it runs, and waits until it answers; also if it was about to end."""
+        """Starts the server, unless it runs, and waits until it answers; also if it is about to end."""
         ready = [_program("pg_isready"), "-q", "-h", self._folder, "-U", "bts"]
         deadline = time.monotonic() + TIMEOUT_S
         while not self._runs() or not _answers(ready):

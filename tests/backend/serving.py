@@ -60,7 +60,7 @@ def await_ready(process, ready_file):
 
 @contextmanager
 def serving(folder, *arguments, prefix=(), program=PROGRAM, **environment):
-    """A server on a free port, ended in the end."""
+    """A server on a free port, which is stopped at the end."""
     ready_file = Path(folder) / "ready.json"
     ready_file.unlink(missing_ok=True)
     own = ("--port", "0", "--ready-file", str(ready_file))

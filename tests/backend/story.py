@@ -1,6 +1,6 @@
-"""A story that meets every endpoint: a teacher's project is made, written, shared, run and deleted.
+"""A story that uses every endpoint: a teacher's project is made, written, shared, run and deleted.
 
-It is played against the real views. What was asked and answered are the examples of the OpenAPI document.
+It runs against the real views. Its requests and answers are the examples of the OpenAPI document.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def _pattern(template):
 
 
 class Story:
-    """Asks, and writes down what was answered under the name of the operation."""
+    """Makes requests, and records the answers under the name of the operation."""
 
     def __init__(self, document):
         self.told = {}
@@ -70,7 +70,7 @@ class Story:
         self._ids = {}
 
     def ask(self, who, method, path, body=None, *, status=200, file=None):
-        """One request; its answer as JSON, or as it is."""
+        """Makes one request; returns its answer as JSON, or unchanged."""
         address = f"/api/v1/{path}"
         if file is not None:
             response = who.client.post(address, {"file": SimpleUploadedFile(*file)})
@@ -100,7 +100,7 @@ class Story:
         return max(found)[-1]
 
     def _plain(self, value, key=""):
-        """The same in every recording, and short enough to read."""
+        """Returns an answer that is the same in every recording, and short enough to read."""
         if isinstance(value, dict):
             kept = list(value.items())
             if key in {"nodes", "files"}:
@@ -124,13 +124,13 @@ class Story:
 
 
 def play(story, teacher, student, stranger, guest):
-    """All of it.
+    """Plays the whole story.
 
     Args:
-        story: who writes down.
+        story: records requests and answers.
         teacher: someone who may make groups.
         student: someone with an account.
-        stranger: nobody is signed in.
+        stranger: a browser in which nobody is signed in.
         guest: makes a browser that opened a read-only link.
     """
     one = _project(story, teacher, stranger)

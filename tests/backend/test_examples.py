@@ -1,4 +1,4 @@
-"""The examples of the OpenAPI document are what a server answers; BT_STUDIO_RECORD=1 records them again."""
+"""The examples of the OpenAPI document are a server's answers; BT_STUDIO_RECORD=1 records them again."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_the_story_meets_every_endpoint_and_is_answered_as_the_examples_show(tol
 
 
 def shape(value):
-    """Which members there are; texts and numbers may change."""
+    """Returns the names of the members; texts and numbers may differ."""
     if isinstance(value, dict):
         return {key: shape(inner) for key, inner in value.items()}
     return [shape(inner) for inner in value] if isinstance(value, list) else None

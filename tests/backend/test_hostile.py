@@ -1,4 +1,4 @@
-"""A read-only guest attacks a server for a team with all they have, while another user works."""
+"""A guest with a read-only link attacks a team's server in every way, while another user works."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def attacked_site(served, cookie):
 
 
 async def watched(process, attack):
-    """The most threads that the server had while it was attacked, and what came of the attack."""
+    """Returns the largest number of threads during the attack, and the results of the attack."""
     most, attacking = 0, asyncio.ensure_future(attack)
     while not attacking.done():
         most = max(most, process.num_threads())
@@ -68,7 +68,7 @@ async def watched(process, attack):
 
 
 async def read_all(page):
-    """As a browser does; who does not read answers no ping, and is taken for gone."""
+    """Reads as a browser does; a client that does not read answers no ping, and is disconnected."""
     async for _ in page:
         pass
 

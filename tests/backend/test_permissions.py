@@ -26,7 +26,7 @@ from tests.backend.accounts.conftest import PUBLIC, Person, person, stranger, te
 ROLES = ("nobody", "guest", "other", "viewer", "editor", "owner")
 TREE = b'{"format": "bt-studio/diagram", "version": 1, "id": "MainTree", "root": null, "nodes": {}}'
 
-# What each role is answered, in the order of ROLES. 404: the project might as well not exist.
+# The status for each role, in the order of ROLES. 404: as if the project did not exist.
 READ = (401, 200, 404, 200, 200, 200)
 COPY = (401, 403, 404, 201, 201, 201)
 WRITE = (401, 403, 404, 403, 200, 200)
@@ -38,9 +38,9 @@ MANAGE_NEW = (401, 403, 404, 403, 403, 201)
 MANAGE_GONE = (401, 403, 404, 403, 403, 204)
 RUN = (401, 403, 404, 200, 200, 200)
 CHECK = (401, 403, 404, 200, 200, 200)
-NOT_OWNED = (401, 403, 404, 404, 404, 404)  # a session, group or invitation of somebody else
+NOT_OWNED = (401, 403, 404, 404, 404, 404)  # a session, group or invitation of another user
 PERSONAL = (401, 403, 200, 200, 200, 200)
-CONTAINED = (401, 403, 503, 503, 503, 503)  # this server has no containers to read Python in
+CONTAINED = (401, 403, 503, 503, 503, 503)  # this server has no containers for reading Python
 OPEN = (401, 200, 200, 200, 200, 200)
 NEW = (401, 403, 201, 201, 201, 201)
 BROKEN = (401, 422, 404, 422, 422, 422)  # the empty project has no root to translate
@@ -143,7 +143,7 @@ BODIES = {
 
 @pytest.fixture
 def world(person, monkeypatch):  # noqa: F811
-    """One project, shared in every way, and everybody's browser."""
+    """One project, shared in every way, and the browsers of all roles."""
     people = {name: person(name) for name in ("other", "viewer", "editor", "owner", "teacher")}
     teacher = people["teacher"].user
     teacher.is_teacher = True

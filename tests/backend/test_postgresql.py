@@ -14,7 +14,8 @@ from tests.backend.serving import REPOSITORY, TIMEOUT_S, serving
 from tests.budget import count
 
 PASSWORD = "Correct-horse-9"
-# What rests on the database itself: storage, locks, what is kept after a commit, shares, numbers of queries.
+# The parts that depend on the database: storage, locks, caches after a commit, shares, and numbers of
+# queries.
 PART = (
     "tests/backend/projects/storage",
     "tests/backend/projects/storage/test_writes.py",
@@ -22,7 +23,7 @@ PART = (
     "tests/backend/accounts/test_sharing.py",
     "tests/backend/test_query_budgets.py",
 )
-# All of storage, permissions, concurrency, accounts. The kill storm starts servers of its own, on SQLite.
+# All of storage, permissions, concurrency and accounts. The kill storm starts its own servers, on SQLite.
 WHOLE = (
     "tests/backend/projects",
     "tests/backend/accounts",
@@ -80,7 +81,7 @@ def test_two_web_servers_share_one_database_and_a_killed_one_loses_nothing(tmp_p
             saved = browser.post(f"{first.base}/api/v1/projects/{project}/changes", json=change)
             assert saved.status_code == 200
             first.process.kill()
-            # Signed in there is signed in here, and what was acknowledged is here.
+            # A sign-in at one server is valid at the other, and an acknowledged save is visible there.
             browser.headers["Origin"] = second.base
             found = browser.get(f"{second.base}/api/v1/projects/{project}/files/a.txt")
             assert found.text == "kept"

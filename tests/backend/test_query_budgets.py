@@ -54,7 +54,7 @@ def test_no_endpoint_asks_the_database_more_often_than_its_budget_says(api):
     if os.environ.get("BT_STUDIO_RECORD") == "1":
         BUDGETS.write_text(json.dumps(found, indent=2) + "\n")
     budgets = json.loads(BUDGETS.read_text())
-    if connection.vendor == "postgresql":  # which is asked for several things at once
+    if connection.vendor == "postgresql":  # PostgreSQL is asked for several things in one query
         assert {name for name in found if found[name] > budgets[name]} == set()
     else:
         assert found == budgets

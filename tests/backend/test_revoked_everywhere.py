@@ -1,8 +1,8 @@
 """An account that is revoked, changed or signed out is refused at its next request by every web server.
 
-Two real servers on one PostgreSQL and one Redis. Both have served the account just before, so that whatever
-they keep in memory about its session is there. The change comes through the first server, or from a third
-process that can notify neither of them.
+There are two real servers on one PostgreSQL and one Redis. Both have served the account just before, so that
+their caches contain its session. The change comes through the first server, or from a third process that can
+notify neither of them.
 """
 
 from __future__ import annotations
@@ -99,7 +99,7 @@ class Team:
         )
 
     def edit(self, account, **rights):
-        """Sets the rights of an account on its administration page; those not named are taken."""
+        """Sets the rights of an account on its administration page; all others are removed."""
         fields = dict.fromkeys(("first_name", "last_name", "email", "max_bytes", "max_projects"), "")
         page = f"{self._page_of[account.name]}change/"
         self.root.form(self.first, page, username=account.name, **fields, **rights)

@@ -1,4 +1,4 @@
-"""Saves of Python files by eight clients at once: each answer is the true one."""
+"""Saves of Python files by eight clients at the same time: each answer is correct."""
 
 from __future__ import annotations
 

@@ -28,8 +28,8 @@ SCHEMA = schemathesis.openapi.from_dict(document())
 SCHEMA.app = WSGIHandler()
 OPERATIONS = [(path, method) for path, methods in document()["paths"].items() for method in methods]
 HEADERS = {"Host": "127.0.0.1:8000", "Authorization": f"Bearer {guard.keys().token}"}
-# A refusal of what the schema allows is fine when it is a problem: names and revisions have more rules
-# than a schema can say.
+# A refusal of a request that the schema allows must be a problem document: names and revisions have more
+# rules than a schema can express.
 CHECKS = [
     schemathesis.checks.not_a_server_error,
     checks.status_code_conformance,
@@ -75,7 +75,7 @@ def test_every_operation_on_a_server_with_accounts(settings_of, monkeypatch):
 
 
 def ask_anything(path, method, known_project, headers, times):
-    """Sends generated requests of one operation, and looks at the answers."""
+    """Sends generated requests of one operation, and checks the answers."""
     operation = SCHEMA[path][method]
 
     @hypothesis.settings(

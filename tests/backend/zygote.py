@@ -18,7 +18,7 @@ from tests.backend.serving import REPOSITORY, TIMEOUT_S, Served, await_ready
 
 
 class Zygote:
-    """The process that forks, seen from a test."""
+    """The client of the process that forks."""
 
     def __init__(self, process, folder):
         self._process = process
@@ -46,7 +46,7 @@ class Forked(Served):
         self.status = None
 
     def end(self, how=15):
-        """Sends the signal, and waits for the end; once is enough."""
+        """Sends the signal, and waits for the end; a second call does nothing."""
         if self.status is None:
             os.kill(self._pid, how)
             self.status = int(self.process.stdout.readline())

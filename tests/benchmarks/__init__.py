@@ -1,1 +1,1 @@
-"""The benchmarks: `make bench` runs all of them, each beside its rival in the same run."""
+"""The benchmarks: `make bench` runs all of them, each beside its competitor in the same run."""

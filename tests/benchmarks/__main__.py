@@ -1,4 +1,4 @@
-"""`make bench`: every benchmark in one run, so that ratios are of the same machine and hour."""
+"""`make bench`: every benchmark in one run, so that ratios come from one machine at one time."""
 
 from __future__ import annotations
 

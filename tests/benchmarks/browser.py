@@ -1,4 +1,4 @@
-"""The editor in Chromium: work of the page's main thread for what a user does with 100, 600 and 2,000 blocks.
+"""The editor in Chromium: the main thread's work for user actions with 100, 600 and 2,000 blocks.
 
 Everything is read from traces of the built front end on the real server. Rasterising is left out: without a
 GPU the processor does it, in other threads.
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 SIZES = (100, 600, 2000)
 STEPS = 60
-# A frame of a screen lasts 17 ms: every step of the hand gets one, and leaves time for what comes later.
+# A frame of a screen lasts 17 ms: so each step of a gesture gets a frame, with time left for later work.
 STEP_MS = 40
 LIVE_BLOCKS = 600
 LIVE_S = 10
@@ -81,7 +81,7 @@ def wide_tree(count: int) -> dict[str, Any]:
 
 
 def busy_tree(groups: int) -> dict[str, Any]:
-    """A tree of five blocks a group: all groups run at once, and each changes at its own times."""
+    """Returns a tree of groups of five blocks: all groups run at once, and change at different times."""
     nodes: dict[str, Any] = {"all": {"type": "Parallel", "children": [f"g{i}" for i in range(groups)]}}
     for i in range(groups):
         nodes[f"g{i}"] = {"type": "Repeat", "ports": {"num_cycles": "-1"}, "children": [f"g{i}s"]}
@@ -99,7 +99,7 @@ def diagram(root: str, nodes: dict[str, Any]) -> dict[str, Any]:
 
 
 def new_project(client: Client, tree: dict[str, Any]) -> str:
-    """A project made from the template with this as its main tree."""
+    """Makes a project from the template, with this tree as its main tree."""
     project = client.call("POST", "/projects", {"template": TEMPLATE})
     path = f"trees/{tree['id']}.json"
     revision = next(file["revision"] for file in project["files"] if file["path"] == path)
@@ -110,7 +110,7 @@ def new_project(client: Client, tree: dict[str, Any]) -> str:
 
 @contextmanager
 def page_of(browser: Browser, client: Client, *, counts: bool = False) -> Iterator[Page]:
-    """The start page in a fresh profile; `counts` tells which blocks render, and makes rendering dearer."""
+    """The start page in a fresh profile; `counts` counts rendered blocks, which slows rendering down."""
     context = browser.new_context(viewport={"width": 1440, "height": 900})
     context.set_default_timeout(120_000)
     if counts:
@@ -127,7 +127,7 @@ def open_project(page: Page, client: Client, project: str) -> Locator:
     page.goto(f"{client.server.origin}/projects/{project}")
     canvas = page.get_by_test_id("canvas")
     canvas.locator("[data-type=Forward], [data-type=Sleep]").first.wait_for()
-    # What is left to do when nothing else is: panels that come later, the check, the first autosave.
+    # Waits for work that is done later: panels that load late, the check, the first autosave.
     page.wait_for_timeout(2000)
     page.evaluate("() => new Promise((done) => requestIdleCallback(done))")
     return canvas
@@ -139,7 +139,7 @@ def p95(values: list[float]) -> float:
 
 
 def handling(browser: Browser, client: Client, size: int) -> None:
-    """Opens a tree, pans, drags, and does what the keyboard does."""
+    """Opens a tree, pans, drags, and uses the keyboard."""
     project = new_project(client, wide_tree(size))
     with page_of(browser, client) as page:
         cdp = page.context.new_cdp_session(page)
@@ -166,7 +166,7 @@ def row(size: int, text: str) -> None:
 
 
 def frames(page: Page, cdp: CDPSession, canvas: Locator, what: str) -> None:
-    """Script, style and layout for each step of the hand."""
+    """Measures script, style and layout for each step of a gesture."""
     seen = canvas.locator(".react-flow__node").count()
     for gesture in (hands.pan, hands.drag):
         with traced(cdp) as trace:
@@ -181,7 +181,7 @@ def frames(page: Page, cdp: CDPSession, canvas: Locator, what: str) -> None:
 
 
 def most_renders(page: Page, canvas: Locator, gesture: Gesture) -> tuple[int, int]:
-    """Blocks, and React Flow's frames around them, that render in the worst step."""
+    """Returns the blocks, and React Flow's frames around them, that render in the worst step."""
     most = (0, 0)
     for step, _ in enumerate(gesture(page, canvas, STEPS // 2)):
         page.wait_for_timeout(STEP_MS)
@@ -192,7 +192,7 @@ def most_renders(page: Page, canvas: Locator, gesture: Gesture) -> tuple[int, in
 
 
 def interactions(page: Page, cdp: CDPSession, canvas: Locator, size: int) -> None:
-    """From the key or the button to the next picture, and with all that comes after: draft, save, answer."""
+    """Measures from the key or button to the next picture, and with all later work: draft, save, answer."""
     slowest: dict[str, tuple[float, float]] = {}
     keys = hands.use_keys(page, canvas)
     while True:
@@ -207,7 +207,7 @@ def interactions(page: Page, cdp: CDPSession, canvas: Locator, size: int) -> Non
 
 
 def live(browser: Browser, client: Client) -> None:
-    """Runs 601 blocks at 20 Hz in the simulator, the 3D view put aside, and watches the canvas."""
+    """Runs 601 blocks at 20 Hz in the simulator, without the 3D view, and measures the canvas."""
     project = new_project(client, busy_tree(LIVE_BLOCKS // 5))
     for counts in (False, True):
         with page_of(browser, client, counts=counts) as page:
@@ -227,7 +227,7 @@ def live(browser: Browser, client: Client) -> None:
 
 
 def ticks_of(page: Page) -> list[dict[str, Any]]:
-    """The list to which every tick is added that the session will tell this page."""
+    """Returns a list that receives every tick that the session sends to this page."""
     ticks: list[dict[str, Any]] = []
 
     def note(text: str | bytes) -> None:
@@ -239,7 +239,7 @@ def ticks_of(page: Page) -> list[dict[str, Any]]:
 
 
 def weigh_live(page: Page, ticks: list[dict[str, Any]]) -> None:
-    """The main thread's share of a core."""
+    """Returns the main thread's share of a core."""
     cdp = page.context.new_cdp_session(page)
     for what in ("as opened", "all in view"):
         if what == "all in view":
@@ -260,7 +260,7 @@ def weigh_live(page: Page, ticks: list[dict[str, Any]]) -> None:
 
 
 def see_all(page: Page) -> None:
-    """Zooms out until the whole tree is in view, or as far as it goes."""
+    """Zooms out until the whole tree is in view, or as far as possible."""
     for _ in range(8):
         page.get_by_role("button", name="Zoom out").click()
         page.wait_for_timeout(200)
@@ -268,7 +268,7 @@ def see_all(page: Page) -> None:
 
 
 def count_live(page: Page, ticks: list[dict[str, Any]]) -> None:
-    """Blocks rendered beside blocks that the session told to have changed."""
+    """Counts the rendered blocks, and the blocks that changed according to the session."""
     see_all(page)
     seen = page.locator(".react-flow__node").count()
     rendered(page)

@@ -1,4 +1,4 @@
-"""Simulated editors for `load`: users of the API with a connection that stays, and what they measured."""
+"""Simulated editors for `load`: users of the API with a permanent connection, and their measurements."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ EXTRA = {"list": 0.1, "open": 0.1}
 
 @dataclass
 class Measured:
-    """Times by kind of request, and what went wrong."""
+    """Times by kind of request, and the errors."""
 
     times_ms: dict[str, list[float]] = field(default_factory=dict)
     errors: dict[str, int] = field(default_factory=dict)
 
     def add(self, kind: str, seconds: float, status: int) -> None:
-        """Notes one answer."""
+        """Adds one answer."""
         if status >= 400:
             self.errors[f"{kind} {status}"] = self.errors.get(f"{kind} {status}", 0) + 1
         self.times_ms.setdefault(kind, []).append(1000 * seconds)
 
 
 class Editor:
-    """One user of the API; `credentials` is the header that says who."""
+    """One user of the API; `credentials` is the header that identifies the user."""
 
     def __init__(self, number: int, port: int, credentials: tuple[str, str], measured: Measured) -> None:
         self._number, self._port, self._measured = number, port, measured
@@ -39,7 +39,7 @@ class Editor:
         self._head = f"Host: 127.0.0.1:{port}\r\n{credentials[0]}: {credentials[1]}\r\n"
 
     async def open(self) -> None:
-        """Connects, and makes a project."""
+        """Connects, and creates a project."""
         await self._connect()
         body = {"name": f"Load {self._number}", "template": "laser_bump_and_go"}
         self._project = await self._ask("create", "POST", "projects", body)
@@ -53,7 +53,7 @@ class Editor:
         await self._writer.wait_closed()
 
     def look(self) -> connect:
-        """A socket that waits for news of the project."""
+        """Opens a socket that waits for notices of the project."""
         uri = f"ws://127.0.0.1:{self._port}/ws/projects/{self._project['id']}/notices"
         headers = dict([self._credentials])
         return connect(
@@ -61,7 +61,7 @@ class Editor:
         )
 
     async def save(self) -> None:
-        """A block is moved, and the tree saved."""
+        """Moves a block, and saves the tree."""
         self._diagram["nodes"]["n1"]["position"] = [CHANCE.randrange(2000), CHANCE.randrange(2000)]
         content = json.dumps(self._diagram)
         change = {"path": "trees/MainTree.json", "content": content, "base_revision": self._revision}
@@ -71,7 +71,7 @@ class Editor:
         self._revision = answer.get("revision", self._revision)
 
     async def work(self, until: float, pace_s: float) -> None:
-        """Saves every `pace_s`, each editor at a moment of its own; without a pause where that is 0."""
+        """Saves every `pace_s`, each editor at a different moment; without pauses if that is 0."""
         await asyncio.sleep(CHANCE.random() * pace_s)
         while time.monotonic() < until:
             started = time.monotonic()
@@ -89,7 +89,7 @@ class Editor:
         return (await self.asked(kind, method, path, body))[1]
 
     async def asked(self, kind: str, method: str, path: str, body: object = None) -> tuple[int, dict]:
-        """One request: its status, and the answer as JSON."""
+        """Makes one request; returns its status, and the answer as JSON."""
         data = b"" if body is None else json.dumps(body).encode()
         head = f"{method} /api/v1/{path} HTTP/1.1\r\n{self._head}Content-Length: {len(data)}\r\n"
         head += "Content-Type: application/json\r\n\r\n"
@@ -105,7 +105,7 @@ class Editor:
         return status, json.loads(answer) if answer else {}
 
     async def _sent(self, request: bytes) -> bytes:
-        """The head of the answer; a connection that was closed while idle is opened again."""
+        """Returns the head of the answer; reopens a connection that was closed while idle."""
         try:
             self._writer.write(request)
             return await self._reader.readuntil(b"\r\n\r\n")

@@ -69,7 +69,7 @@ def document(xml: str) -> str:
 
 
 def race(*functions: Callable[[], object], least_s: float = 0.03, rounds: int = 7) -> list[float]:
-    """Microseconds of processor time a call of each function: the best of rounds in which all take turns."""
+    """Returns microseconds of processor time for a call of each function: the best of alternating rounds."""
     calls = []
     for function in functions:
         function()
@@ -234,7 +234,7 @@ def _load(xml: str) -> tuple[float, float, float]:
 
 
 def memory(size: int = 10_000) -> tuple[float, float, float]:
-    """Bytes a node: our whole tree, what of it are the leaves' own behaviours, and stock py_trees."""
+    """Returns bytes for each node: our whole tree, the leaves' own behaviours in it, and stock py_trees."""
     text = document(body(size))
 
     def bytes_of(make: Callable[[], object]) -> float:

@@ -1,4 +1,4 @@
-"""Effect of one client's flood of commands on another: a viewer sends 20,000 while the driver drives.
+"""The effect of one client's flood of commands on another: a viewer sends 20,000 while the driver drives.
 
 Both are clients of a session that runs, first at the manager itself, then through the web server. The flood
 comes from a process of its own and is sent as fast as it is accepted.
@@ -55,7 +55,7 @@ def opened(url: str, headers: Headers) -> connect:
 
 
 async def flood(url: str, headers: Headers) -> Counter[str]:
-    """Sends all commands, and counts how they were answered."""
+    """Sends all commands, and counts the kinds of answers."""
     answers: Counter[str] = Counter()
     async with opened(url, headers) as socket:
 
@@ -103,14 +103,14 @@ async def repeated(
 
 
 def told(what: str, times: list[float]) -> str:
-    """One figure with its spread."""
+    """Returns one figure with its spread."""
     ordered = sorted(times)
     worst, late = ordered[-1], ordered[int(0.99 * (len(ordered) - 1))]
     return f"{what} median {statistics.median(ordered):.1f} ms, p99 {late:.1f} ms, worst {worst:.1f} ms"
 
 
 async def measure(where: str, url: str, headers: Headers, health: str) -> None:
-    """Drives without and with a flood beside it, and prints both."""
+    """Drives without and with a simultaneous flood, and prints both."""
 
     def ask_health() -> None:
         with urllib.request.urlopen(health, timeout=60) as reply:
@@ -146,7 +146,7 @@ async def measure(where: str, url: str, headers: Headers, health: str) -> None:
 
 
 async def at_the_manager() -> None:
-    """Without a web server."""
+    """Measures without a web server."""
     async with manager_process() as process:
         port = process.ready["port"]
         url, headers = f"ws://127.0.0.1:{port}/control", {"Authorization": f"Bearer {TOKEN}"}
@@ -154,7 +154,7 @@ async def at_the_manager() -> None:
 
 
 def through_the_web_server() -> None:
-    """As browsers do."""
+    """Measures through the web server, as browsers do."""
     with tempfile.TemporaryDirectory() as folder, serving(Path(folder)) as server:
         client = Client(server)
         project = client.call("POST", "/projects", {"template": "laser_bump_and_go"})["id"]

@@ -17,7 +17,7 @@ SETTLED_MS = 600
 
 
 def pan(page: Page, canvas: Locator, steps: int) -> Iterator[None]:
-    """Moves the tree with the wheel, to and fro."""
+    """Moves the tree with the wheel, back and forth."""
     box = canvas.bounding_box()
     assert box
     page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 60)
@@ -45,7 +45,7 @@ def drag(page: Page, canvas: Locator, steps: int) -> Iterator[None]:
 
 
 def leaf_of(canvas: Locator) -> tuple[float, float]:
-    """The middle of the leaf that lies nearest to the middle of the canvas."""
+    """Returns the middle of the leaf that is nearest to the middle of the canvas."""
     x, y = canvas.evaluate(
         """(canvas) => {
           const middle = (element) => {

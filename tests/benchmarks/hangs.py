@@ -1,4 +1,4 @@
-"""Stops processes and measures when that is reported: `python -m tests.benchmarks.hangs --rounds 5`.
+"""Stops processes, and measures when that is reported: `python -m tests.benchmarks.hangs --rounds 5`.
 
 A world and an application are stopped (SIGSTOP) in every state, the waiting ones included; a manager in every
 state too, which continues after a while: then it must blame nobody. Prints after how many seconds each was
@@ -67,7 +67,7 @@ async def stop_children(rounds: int, times: Times, failed: list[str]) -> None:
 
 
 async def stop_managers(rounds: int, failed: list[str]) -> None:
-    """Stops the manager in each state; once it continues it must not take its own absence for a child's."""
+    """Stops the manager in each state; it must not take its own pause for a hang of a child."""
     async with hanging_session() as session:
         for number in range(rounds):
             for state in State:
@@ -83,7 +83,7 @@ async def stop_managers(rounds: int, failed: list[str]) -> None:
 
 
 async def watch_managers(rounds: int, times: Times, failed: list[str]) -> None:
-    """Stops the manager of a session of its own in each state, and leaves it to the web server's watch."""
+    """Stops the manager of a separate session in each state, and leaves it to the web server's watch."""
     for number in range(rounds):
         for state in State:
             async with hanging_session() as session:
@@ -101,7 +101,7 @@ async def watch_managers(rounds: int, times: Times, failed: list[str]) -> None:
 
 
 async def stop_manager(session: HangingSession) -> tuple[float, float]:
-    """Stops a manager; returns the seconds until the watch noted that, and until it ended the manager."""
+    """Stops a manager; returns the seconds until the watch noticed, and until it ended the manager."""
     from backend.sessions import watch, writes
 
     writes.manager_token = lambda session: TOKEN
@@ -143,7 +143,7 @@ def tell(times: Times) -> list[str]:
 
 @contextlib.contextmanager
 def busy_processors(count: int) -> Iterator[None]:
-    """Keeps as many processors busy."""
+    """Keeps this many processors busy."""
     burners = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(count)]
     try:
         yield
@@ -154,7 +154,7 @@ def busy_processors(count: int) -> Iterator[None]:
 
 
 async def count_false_faults(minutes: float) -> int:
-    """Runs, pauses, resets and restarts on a busy machine; returns how many faults there were."""
+    """Runs, pauses, resets and restarts on a busy machine; returns the number of faults."""
     end_s, faults, cycles = time.monotonic() + minutes * 60, 0, 0
     async with hanging_session() as session:
         while time.monotonic() < end_s:

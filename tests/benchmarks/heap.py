@@ -26,7 +26,7 @@ SETTLED_S = 120
 
 
 def main() -> None:
-    """Prints each look, and how fast the heap grew after the first two minutes."""
+    """Prints each sample, and the growth of the heap after the first two minutes."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--minutes", type=float, default=10.0)
     minutes = parser.parse_args().minutes
@@ -43,7 +43,7 @@ def main() -> None:
 
 
 def looks(page: Page, minutes: float) -> list[tuple[float, float]]:
-    """Times in s, and the heap in MB that is in use after a collection of garbage."""
+    """Returns times in s, and the used heap in MB after a garbage collection."""
     cdp = page.context.new_cdp_session(page)
     began = time.monotonic()
     found: list[tuple[float, float]] = []
@@ -65,7 +65,7 @@ def heap_mb(cdp: CDPSession) -> float:
 
 
 def slope_of(found: list[tuple[float, float]]) -> None:
-    """A straight line through the looks after the first minutes."""
+    """Fits a straight line to the samples after the first minutes."""
     settled = [(at, used) for at, used in found if at >= SETTLED_S] or found
     slope = statistics.linear_regression(*zip(*settled, strict=True)).slope
     first, last = settled[0][1], settled[-1][1]

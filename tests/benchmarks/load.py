@@ -1,4 +1,4 @@
-"""200 editors who save every 3 s: how long they wait, how many saves there can be, and what one costs.
+"""200 editors who save every 3 s: their waiting times, the possible rate of saves, and the cost of one.
 
 `python -m tests.benchmarks.load [--editors 200] [--seconds 30] [--local] [--sqlite] [--workers N]`. The
 server is one for a team, with PostgreSQL and Redis, and each editor has an account and is signed in; with
@@ -50,7 +50,7 @@ def cpu_s() -> dict[str, float]:
 
 
 async def measure(port: int, people: list[tuple[str, str]], seconds: float) -> None:
-    """The editors at their pace, then a fifth of them as fast as they can."""
+    """Measures the editors at their normal pace, then a fifth of them at full speed."""
     measured = Measured()
     everyone = [Editor(number, port, person, measured) for number, person in enumerate(people)]
     for some in range(0, len(everyone), 10):
@@ -117,7 +117,7 @@ def settings_of(services: dict[str, str]) -> tuple[dict[str, str], int]:
 
 
 def sign_in(folder: Path, settings: dict[str, str], number: int) -> list[tuple[str, str]]:
-    """Makes accounts that are signed in; the cookie of each. No password is hashed for it."""
+    """Makes accounts that are signed in, without hashing a password; returns the cookie of each."""
     environment = os.environ | settings | {"BT_STUDIO_DATA_DIR": str(folder)}
     command = [sys.executable, "-m", "tests.benchmarks.people", str(number)]
     made = subprocess.run(
@@ -127,7 +127,7 @@ def sign_in(folder: Path, settings: dict[str, str], number: int) -> list[tuple[s
 
 
 def main() -> None:
-    """Starts database and server, keeps them off the editors' core, and measures."""
+    """Starts database and server on another core than the editors', and measures."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--editors", type=int, default=200)
     parser.add_argument("--seconds", type=float, default=30)

@@ -1,4 +1,4 @@
-"""The time to open a project of 500 files: the server's part, from the request to the whole answer.
+"""The time to open a project of 500 files: the server's part, from the request to the complete answer.
 
 `python -m tests.benchmarks opening [--files 500]`. Cold is the first time after the start of the server, when
 nothing of the project has been read yet; warm is every other time. The processor time is printed too, since
@@ -48,7 +48,7 @@ TIMES = 15
 
 
 def project_files(number: int) -> list[dict[str, object]]:
-    """As many files: two fifths actions, one fifth trees that use them, the rest notes."""
+    """Returns this many files: two fifths actions, one fifth trees that use them, the rest notes."""
     actions = [f"Drive{n}" for n in range(2 * number // 5)]
     files = {f"actions/{name}.py": ACTION.format(name=name, number=n) for n, name in enumerate(actions)}
     for n in range(number // 5):
@@ -57,19 +57,19 @@ def project_files(number: int) -> list[dict[str, object]]:
             nodes[f"n{m}"] = {"type": actions[(3 * n + m) % len(actions)]}
         head = {"format": "bt-studio/diagram", "version": 1, "id": f"Tree{n}", "root": "n1"}
         files[f"trees/Tree{n}.json"] = json.dumps(head | {"nodes": nodes})
-    for n in range(number - len(files) - 2):  # the new project has two
+    for n in range(number - len(files) - 2):  # the new project already has two
         files[f"notes/{n}.txt"] = f"Note {n}. " * 40
     return [{"path": path, "base_revision": 0, "content": text} for path, text in files.items()]
 
 
 def used_s(server: Served) -> float:
-    """Processor time of the server so far."""
+    """Returns the processor time of the server so far."""
     times = psutil.Process(server.process.pid).cpu_times()
     return float(times.user + times.system)
 
 
 def opened(server: Served, project: str) -> tuple[float, float, int]:
-    """Time to the whole answer and processor time, in ms; and the size of the answer."""
+    """Returns the time to the complete answer and the processor time, in ms, and the size of the answer."""
     before, started = used_s(server), time.perf_counter()
     answer = requests.get(f"{server.base}/api/v1/projects/{project}", headers=server.headers, timeout=60)
     took = time.perf_counter() - started
@@ -92,7 +92,7 @@ def main() -> None:
             changes: Any = {"files": project_files(options.files)}
             ask.post(f"{base}/{project}/changes", json=changes, timeout=60).raise_for_status()
         with serving(folder) as server:
-            # The first request of all pays for imports; that is no matter of this project.
+            # The very first request pays for imports, which is independent of this project.
             small = {"name": "Small"}
             requests.post(f"{server.base}/api/v1/projects", json=small, headers=server.headers, timeout=60)
             took, used, size = opened(server, project)

@@ -9,7 +9,7 @@ from importlib import import_module
 
 
 def main() -> None:
-    """As many as the argument says."""
+    """Makes as many accounts as the argument says."""
     os.environ.setdefault("DJANGO_SETTINGS_MODULE", "backend.config.settings")
     import django
 

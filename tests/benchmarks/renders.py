@@ -35,7 +35,7 @@ window.__REACT_DEVTOOLS_GLOBAL_HOOK__ = {
 
 
 def count_renders(context: BrowserContext) -> None:
-    """Counts in all pages that this context opens from now on."""
+    """Counts in all pages that this context opens later."""
     context.add_init_script(_HOOK)
 
 

@@ -1,4 +1,4 @@
-"""Processor time of the web process for a save, with each of its fast pieces and without it.
+"""Processor time of the web process for a save, with and without each of its fast paths.
 
 `python -m tests.benchmarks.save_cost [--pieces NAME …] [--rounds 10] [--saves 120] [--editors 40]`. One
 server for each piece that is left out (`without.py`), one with all pieces and one without any, on one
@@ -49,7 +49,7 @@ class Server:
         return times.user + times.system
 
     async def open(self, people: list[tuple[str, str]], own: int, measured: Measured) -> None:
-        """Connects the editors, and lets them save until everything is known."""
+        """Connects the editors, and lets them save until all caches are warm."""
         numbers = range(own * len(people), (own + 1) * len(people))
         self.editors = [
             Editor(number, self.served.port, person, measured)
@@ -60,7 +60,7 @@ class Server:
         await self.save(WARM_UP)
 
     async def save(self, each: int) -> None:
-        """Saves of all editors at once, so many of each."""
+        """Makes this many saves for each editor, all editors at the same time."""
 
         async def work(editor: Editor) -> None:
             for _ in range(each):
@@ -69,14 +69,14 @@ class Server:
         await asyncio.gather(*map(work, self.editors))
 
     async def measure(self, each: int) -> None:
-        """Notes what a save costs."""
+        """Records the cost of a save."""
         before = self.cpu_s()
         await self.save(each)
         self.ms_a_save.append(1000 * (self.cpu_s() - before) / (each * len(self.editors)))
 
 
 async def rounds(servers: list[Server], number: int, each: int) -> None:
-    """Each server once a round, each time another one first."""
+    """Runs each server once in each round, with a different one first each time."""
     for start in range(number):
         first = start % len(servers)
         for server in servers[first:] + servers[:first]:
@@ -84,7 +84,7 @@ async def rounds(servers: list[Server], number: int, each: int) -> None:
 
 
 def report(servers: list[Server], measured: Measured) -> None:
-    """Prints what each piece gives."""
+    """Prints the gain of each fast path."""
     full = servers[0].ms_a_save
     print(f"load average {os.getloadavg()[0]:.1f}, nice {os.nice(0)}; errors: {measured.errors or 'none'}")
     print(f"{'without':22} {'ms a save':>10} {'more':>7} {'ratio':>6}   least to most")
@@ -116,7 +116,7 @@ def main() -> None:
     options, _ = parser.parse_known_args()
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
-        # What waits for the disk costs the web process nothing.
+        # The web process does not pay for waiting for the disk.
         database = postgresql(fsync="off", max_connections=CONNECTIONS * (len(options.pieces) + 2))
         services = {
             "BT_STUDIO_DATABASE_URL": stack.enter_context(database),

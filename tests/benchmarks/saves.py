@@ -1,4 +1,4 @@
-"""Saves of Python files by eight clients at once, each answer of which is looked at.
+"""Saves of Python files by eight clients at the same time; every answer is checked.
 
 `python -m tests.benchmarks.saves [--saves 100000] [--clients 8] [--workers N]`. The server is one for a
 team, with PostgreSQL and Redis. Half of the clients have a project of their own, the others share one. Each
@@ -57,7 +57,7 @@ DAMAGES = (
 
 
 def source(name: str, number: int, chance: random.Random) -> tuple[str, bool]:
-    """An action that nobody has saved before, and whether it is Python."""
+    """Returns an action that was never saved before, and whether it is valid Python."""
     is_whole = chance.random() >= BROKEN
     body = chance.choice(BODIES).replace("{n}", str(number)).replace("{{", "{").replace("}}", "}")
     damage = "" if is_whole else chance.choice(DAMAGES)
@@ -68,7 +68,7 @@ def source(name: str, number: int, chance: random.Random) -> tuple[str, bool]:
 
 @dataclass
 class Answers:
-    """Counts of the answers, and of all that should not have come."""
+    """Counts of the answers, and of all unexpected ones."""
 
     saved: int = 0
     conflicts: int = 0
@@ -77,12 +77,12 @@ class Answers:
     false: list[str] = field(default_factory=list)
 
     def lie(self, *what: object) -> None:
-        """Notes a false answer."""
+        """Records a wrong answer."""
         self.false.append(" ".join(map(str, what))[:400])
 
 
 class Saver(Editor):
-    """A client with files of its own in one project."""
+    """A client with its own files in one project."""
 
     def __init__(self, number: int, port: int, who: tuple[str, str], answers: Answers, *, seed: int) -> None:
         super().__init__(number, port, who, Measured())
@@ -98,7 +98,7 @@ class Saver(Editor):
         return str(self._project["id"])
 
     async def join(self, other: Saver, name: str) -> None:
-        """Shares another's project, whose owner lets `name` in."""
+        """Joins the project of another client, whose owner gives `name` access."""
         await self._connect()
         await other.asked(
             "share", "POST", f"projects/{other.project}/shares", {"name": name, "role": "editor"}
@@ -106,7 +106,7 @@ class Saver(Editor):
         self._project = {"id": other.project}
 
     async def save_next(self) -> None:
-        """Saves one file, with a base that is right or, on purpose, stale."""
+        """Saves one file, with a base that is either correct or intentionally stale."""
         self._saves += 1
         name = f"{self._prefix}{self._saves % FILES}"
         path = f"actions/{name}.py"
@@ -146,7 +146,7 @@ class Saver(Editor):
             self._answers.lie("whole" if is_whole else "broken", "but:", path, errors[:2])
 
     async def read_back(self) -> None:
-        """Compares all that the server has with what was saved last."""
+        """Compares all files on the server with the last saved ones."""
         _, opened = await self.asked("open", "GET", f"projects/{self.project}")
         found = {file["path"]: (file["revision"], file["content"]) for file in opened["files"]}
         for path, stored in self._stored.items():
@@ -155,7 +155,7 @@ class Saver(Editor):
 
 
 async def storm(port: int, people: list[tuple[str, str]], saves: int, *, seed: int = 1) -> Answers:
-    """So many saves by as many clients as there are people, the names of whose accounts are `editor…`."""
+    """Makes this many saves, with one client for each account `editor…`."""
     answers = Answers()
     clients = [Saver(number, port, who, answers, seed=seed) for number, who in enumerate(people)]
     half = (len(clients) + 1) // 2
@@ -177,7 +177,7 @@ async def storm(port: int, people: list[tuple[str, str]], saves: int, *, seed: i
 
 
 def main() -> None:
-    """Starts a server for a team, and saves."""
+    """Starts a team's server, and saves."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--saves", type=int, default=100_000)
     parser.add_argument("--clients", type=int, default=8)

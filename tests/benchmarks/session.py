@@ -1,4 +1,4 @@
-"""A whole session through the real server: time from Run to motion, and what it keeps up with.
+"""A whole session through the real server: the time from Run to motion, and the rates that it sustains.
 
 Two clients watch: one takes the 3D stream, one the camera's pictures, each in a process's thread that
 decodes every message, as a browser would.
@@ -50,7 +50,7 @@ class Client:
 
 
 def run_to_motion_s(client: Client, template: str) -> tuple[float, Observer, str]:
-    """Seconds from the Run request (no process of the session lives yet) to the first changed pose."""
+    """Returns the seconds from the Run request, with no process of the session, to the first changed pose."""
     project = client.call("POST", "/projects", {"template": template})["id"]
     pressed = time.monotonic()
     app = client.call("GET", f"/projects/{project}/app")
@@ -63,7 +63,7 @@ def run_to_motion_s(client: Client, template: str) -> tuple[float, Observer, str
 
 
 def moved(observer: Observer) -> bool:
-    """Whether the robot has left its place."""
+    """Returns whether the robot has moved."""
     return "robot" in observer.objects and observer.distance_travelled("robot") > 0.002
 
 

@@ -39,7 +39,7 @@ class Sample:
 
 @dataclass
 class Soak:
-    """One session and what was measured of it."""
+    """One session and its measurements."""
 
     client: SessionClient
     manager: psutil.Process
@@ -69,7 +69,7 @@ class Soak:
             raise SystemExit(f"{command} was refused: {reply}")
 
     async def drift_s(self) -> float:
-        """Simulated less real seconds over one stretch of running, from the world's own reports."""
+        """Returns simulated minus real seconds over one period of running, from the world's own reports."""
         start = len(self.client.events)
         first = await self.client.event("sim", lambda d: not d["paused"], after=start)
         start = len(self.client.events)
@@ -82,7 +82,8 @@ class Soak:
         used = 0
         for process in family:
             with contextlib.suppress(psutil.Error):
-                # Its own alone: what of a library it shares depends on who else runs on the machine.
+                # Counts private memory only: the shared part of a library depends on the other programs of
+                # the machine.
                 memory = process.memory_info()
                 used += memory.rss - memory.shared
         return Sample(
@@ -95,7 +96,7 @@ class Soak:
         )
 
     def verdict(self) -> list[str]:
-        """Returns what grew."""
+        """Returns the resources that grew."""
         warm = self.samples[WARM_CYCLES:]
         third = max(1, len(warm) // 3)
         early, late = warm[:third], warm[-third:]
@@ -112,7 +113,7 @@ class Soak:
 
 
 def _segments(family: list[psutil.Process]) -> set[str]:
-    """The shared memory of Fast DDS that the session's processes have mapped; others' is not counted."""
+    """Returns the shared memory of Fast DDS that the session's own processes have mapped."""
     found: set[str] = set()
     for process in family:
         with contextlib.suppress(psutil.Error):

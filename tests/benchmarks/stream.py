@@ -53,7 +53,7 @@ async def _main() -> None:
 
 @contextlib.asynccontextmanager
 async def session(app: str, *streams: dict[str, Any], universe: str = UNIVERSE) -> AsyncIterator[Session]:
-    """A session that runs, with one client that follows some streams."""
+    """Runs a session with one client that subscribes to some streams."""
     async with manager_process() as process:
         client = await SessionClient(process.ready["port"]).open()
         for stream in streams:
@@ -104,7 +104,7 @@ async def views() -> None:
 
 
 async def latency() -> None:
-    """From a command of the client's hand to the first picture at the client that shows its effect."""
+    """Measures the time from a client's command to its first picture that shows the effect."""
     app = app_zip(**{name: IDLE.format(name=name) for name in ("Forward", "Turn")})
     for stream, kind in (("view", View), ("camera", Camera)):
         wanted = {"stream": stream, "max_hz": 30.0}

@@ -27,14 +27,14 @@ FOLLOW_PERSON = "visual_follow_person"
 
 
 class Hand:
-    """A user's hand: does, and counts."""
+    """A user's hand: it acts, and counts its steps."""
 
     def __init__(self, studio: Studio) -> None:
         self.studio = studio
         self.steps = 0
 
     def click(self, target: Locator | str) -> None:
-        """Clicks an element, or what has a test id."""
+        """Clicks an element, given as such or by its test id."""
         self.steps += 1
         (self.studio.at(target) if isinstance(target, str) else target).click()
 
@@ -54,7 +54,7 @@ class Hand:
         self.studio.page.keyboard.insert_text(text)
 
     def run(self) -> None:
-        """Presses Run; waiting is no step."""
+        """Presses Run; waiting is not a step."""
         self.steps += 1
         self.studio.run()
 

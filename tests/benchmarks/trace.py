@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 CATEGORIES = ["devtools.timeline", "toplevel", "__metadata", "v8"]
 # Every task of the thread, whatever it does inside.
 TASK = "ThreadControllerImpl::RunTask"
-# Script, style and layout: what a page's author answers for. What they call is inside of them.
+# Script, style and layout: the work that a page's author can influence. Nested calls are included.
 WORK = frozenset(
     {
         "EventDispatch",
@@ -31,7 +31,7 @@ WORK = frozenset(
         "Layout",
     }
 )
-# What the main thread does for the picture after that; other threads rasterise it.
+# The main thread's later work for the picture; other threads rasterise it.
 PAINT = frozenset({"PrePaint", "Paint", "Layerize", "Commit"})
 Event = dict[str, Any]
 
@@ -43,7 +43,7 @@ class Trace:
     events: list[Event] = field(default_factory=list)
 
     def begins(self, kinds: frozenset[str]) -> list[float]:
-        """When the first DOM event of each input arrived, in ms: one for each frame that a hand makes."""
+        """Returns the time in ms of the first DOM event of each input: one for each frame of a gesture."""
         return [
             event["ts"] / 1000
             for event in self.events
@@ -51,9 +51,9 @@ class Trace:
         ]
 
     def work_ms(self, names: frozenset[str] = WORK) -> list[tuple[float, float]]:
-        """When such work began and how long it took, what is inside of other such work left out, in ms.
+        """Returns start and duration in ms of each piece of this work, without nested pieces.
 
-        It is the thread's own time where the browser measured it: another process on its core is no work.
+        It is the thread's own time if the browser measured it: other processes on its core do not count.
         """
         spans = []
         end = 0.0
@@ -66,18 +66,18 @@ class Trace:
         return spans
 
     def total_ms(self, names: frozenset[str] = WORK) -> float:
-        """All of such work together."""
+        """Returns the total of this work in ms."""
         return sum(duration for _, duration in self.work_ms(names))
 
     def to_paint_ms(self, kinds: frozenset[str]) -> float:
-        """Work and paint from the first of these inputs to the first picture after the last of them."""
+        """Returns work and paint from the first of these inputs to the first picture after the last one."""
         begins = self.begins(kinds)
         pictures = (event["ts"] / 1000 for event in self.events if event["name"] in PAINT)
         picture = next((each for each in pictures if each > begins[-1]), math.inf)
         return sum(own for start, own in self.work_ms(WORK | PAINT) if begins[0] <= start <= picture)
 
     def by_step_ms(self, begins: list[float]) -> list[float]:
-        """Work between each input and the next."""
+        """Returns the work between each input and the next."""
         sums = [0.0] * len(begins)
         at = -1
         for start, duration in self.work_ms():
@@ -118,6 +118,6 @@ def _of_main_thread(chunks: list[Event]) -> list[Event]:
     for event in chunks:
         if event["ph"] == "X" and (event["pid"], event["tid"]) in mains:
             by_thread[event["pid"], event["tid"]].append(event)
-    # The browser may keep a spare renderer: it does nearly nothing.
+    # The browser may keep a spare renderer, which does nearly nothing.
     busiest = max(by_thread.values(), key=len)
     return sorted(busiest, key=lambda event: (event["ts"], -event["dur"]))

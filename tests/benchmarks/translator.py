@@ -1,4 +1,4 @@
-"""The translator on trees of 10 to 10,000 nodes: time and memory, and that a node costs the same in all.
+"""The translator on trees of 10 to 10,000 nodes: time and memory; the cost of a node must not grow.
 
 Run alone with `python -m tests.benchmarks translator`.
 """
@@ -90,7 +90,7 @@ def works(size: int) -> dict[str, Callable[[], object]]:
 
 
 def main() -> None:
-    """Prints a line a work and size."""
+    """Prints a line for each kind of work and size."""
     print(f"{'work':22} {'nodes':>7} {'ms':>9} {'µs/node':>9} {'peak MB':>9}")
     works(10)["package"]()  # fills the caches of templates and engine files
     for name in works(10):

@@ -1,6 +1,6 @@
-"""A web server without some of its fast pieces: `python -m tests.benchmarks.without PIECE,… serve …`.
+"""A web server without some of its fast paths: `python -m tests.benchmarks.without PIECE,… serve …`.
 
-Each piece is replaced by what a Django project has of itself. `save_cost` measures what that costs.
+Each of them is replaced by the usual way of a Django project. `save_cost` measures the difference.
 """
 
 from __future__ import annotations
@@ -52,18 +52,18 @@ class PlainThreads:
     def run(
         self, loop: asyncio.AbstractEventLoop, work: Callable[[], Any], _: str | None = None
     ) -> asyncio.Future[Any]:
-        """Does the work in one of them."""
+        """Runs the work in one of the threads."""
         return loop.run_in_executor(self._pool, work)
 
     def full_for_s(self) -> float:
-        """Nobody knows."""
+        """Returns 0, since this pool does not measure it."""
         return 0.0
 
     stuck_for_s = full_for_s
 
 
 def handler() -> None:
-    """Django's ASGI handler: it makes a thread for each request, so that connections cannot stay."""
+    """Django's ASGI handler: it makes a thread for each request, so connections cannot stay open."""
     from django.core.handlers.asgi import ASGIHandler
     from django.db import connections
 
@@ -94,7 +94,7 @@ def lists() -> None:
 
 
 def prepared() -> None:
-    """PostgreSQL reads and plans each statement again, and psycopg puts the values into its text."""
+    """Makes PostgreSQL parse and plan each statement again, with the values in its text."""
     from django.db import connections
 
     options = connections.settings["default"]["OPTIONS"]
@@ -110,7 +110,7 @@ def serializers() -> None:
 
 
 def pages() -> None:
-    """Django's middleware for sessions, languages, users and messages, for the API as well."""
+    """Adds Django's middleware for sessions, languages, users and messages to the API, too."""
     from backend.accounts.sign_in.middleware import OnPages
 
     OnPages.__call__ = lambda self, request: super(OnPages, self).__call__(request)  # type: ignore[method-assign, misc]
@@ -137,12 +137,12 @@ def notices() -> None:
 
 
 def frozen() -> None:
-    """The garbage collector looks through all that was imported, again and again."""
+    """Makes the garbage collector scan all imported objects again and again."""
     gc.freeze = lambda: None
 
 
 def switching() -> None:
-    """Threads give way after 5 ms."""
+    """Makes threads switch after 5 ms only."""
     from backend.config import server
 
     server.SWITCH_S = 0.005  # type: ignore[misc]
@@ -182,7 +182,7 @@ def leave_out(names: str) -> None:
 
 
 def main() -> None:
-    """Serves."""
+    """Serves without the named fast paths."""
     names = sys.argv.pop(1)
     from backend.config import server
 

@@ -1,4 +1,4 @@
-"""The simulated world: pictures against TinyRenderer, physics, lock-step, start, discovery, delivery."""
+"""The simulated world: pictures beside TinyRenderer's, physics, lock-step, start, discovery, delivery."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def main() -> None:
 
 
 def median_ms(act: Callable[[], object], count: int) -> float:
-    """Returns the median time of an act."""
+    """Returns the median duration of a function in ms."""
     times = []
     for _ in range(count):
         began_s = time.perf_counter()
@@ -49,7 +49,7 @@ def median_ms(act: Callable[[], object], count: int) -> float:
 
 
 def pictures() -> None:
-    """Draws the robot's camera with both renderers, turn by turn, the world moving in between."""
+    """Draws the robot's camera with both renderers in turn, while the world moves."""
     for universe in ("person_in_green", "warehouse"):
         world = BulletWorld(load_builtin(universe))
         shapes = sum(len(thing.shapes) for thing in world.scene.objects)

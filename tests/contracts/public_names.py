@@ -87,7 +87,7 @@ def strings(tree: ast.AST) -> Iterator[str]:
 
 
 def files(*names: str) -> list[Path]:
-    """The files with these names, and those in folders with these names."""
+    """Returns the files with these names, and those in folders with these names."""
     paths = [ROOT / name for name in names]
     inside = [path for folder in paths for path in sorted(folder.rglob("*")) if path.is_file()]
     return [path for path in paths + inside if path.is_file() and "__pycache__" not in path.parts]
@@ -302,7 +302,7 @@ def django_migrations() -> list[str]:
 
 
 def entry_points() -> list[str]:
-    """Modules that images and manifests start, and those that servers and installers are given."""
+    """Returns the modules that images and manifests start, and those that servers and installers receive."""
     found = ["backend.config.asgi:application", "backend.config.settings"]
     form = re.compile(r"""-m['"]?,?\s+['"]?((?:backend|executor|translator|tree_gardener)(?:\.\w+)*)""")
     for text in texts("docker", ".ci", ".github", "backend/sessions/keeper"):
@@ -425,7 +425,7 @@ def read() -> Names:
 
 
 def main(arguments: list[str]) -> int:
-    """Compares, prints or writes the list. Returns 1 where names are gone that may not go."""
+    """Compares, prints or writes the list. Returns 1 if names have disappeared that must not."""
     found = collect()
     if "--print" in arguments:
         print(json.dumps(found))

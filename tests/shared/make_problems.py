@@ -1,4 +1,4 @@
-"""Writes `problems.json`: what the translator's check says of projects, for the editor's check to agree with.
+"""Writes `problems.json`: the translator's findings in projects, which the editor's check must match.
 
 python -m tests.shared.make_problems
 """
@@ -112,7 +112,7 @@ def action_source(name: str, direction: str, type_: str) -> str:
 
 
 def own_source(name: str, base: str, children: str = "") -> str:
-    """A control node or decorator of the project."""
+    """Returns the source of a control node or decorator of the project."""
     return (
         f"from tree_gardener import {base}\n\n\nclass {name}({base}):\n{children}"
         "    INPUT_PORTS = {}\n\n    def update(self):\n        return self.tick_child(0)\n"
@@ -159,7 +159,7 @@ def judged(project: Project, trees: Trees, codes: set[str]) -> list[list[str]]:
 
 
 def in_a_row(nodes: list[tuple[str, dict[str, Any]]]) -> Trees:
-    """One tree with the nodes, each with the children that it needs, under one Sequence."""
+    """Returns one tree with the nodes, each with the children that it needs, under one Sequence."""
     rows: Nodes = {"r": {"type": "Sequence", "children": [f"n{index}" for index in range(len(nodes))]}}
     for index, (type_, ports) in enumerate(nodes):
         model = builtins().get(type_)
@@ -170,7 +170,7 @@ def in_a_row(nodes: list[tuple[str, dict[str, Any]]]) -> Trees:
 
 
 def counts_of(model: NodeModel) -> Iterator[tuple[str, Trees]]:
-    """A kind of node without ports, with no child up to one too many."""
+    """Returns trees with a kind of node without ports, with no child up to one too many."""
     most = model.max_children if model.max_children is not None else model.min_children + 1
     for count in range(most + 2):
         children = [f"c{number}" for number in range(count)]

@@ -29,7 +29,7 @@ LEFT_OUT: Final = {"__init__", "__main__", "apps", "urls", "manage", "index", "m
 FOLDERS_LEFT_OUT: Final = {"migrations", "behaviours", "setup", "generated", "locales", "test"}
 # Modules below are imported by their own names: actions find them so.
 ON_PATH: Final = "executor.ros_python."
-# What an expression without logic consists of.
+# The parts of an expression without logic.
 PLAIN: Final = (
     *(ast.Constant, ast.Name, ast.Attribute, ast.Tuple, ast.List, ast.Dict, ast.JoinedStr),
     *(ast.FormattedValue, ast.expr_context),
@@ -75,7 +75,7 @@ def is_declaration(path: Path) -> bool:
 
 
 def _is_plain(statement: ast.stmt) -> bool:
-    """Whether a statement of a function only stores or hands out what is given."""
+    """Returns whether a statement of a function only stores or returns its arguments."""
     match statement:
         case ast.Pass() | ast.Expr(ast.Constant()) | ast.Expr(ast.Call(ast.Attribute(attr="__init__"))):
             return True
@@ -110,7 +110,7 @@ def _imports_python(test: Path, module: Path) -> bool:
 
 
 def _brings(node: ast.AST, module: str, file: Path) -> bool:
-    """Whether a statement imports a module, something of it, or what a package above exports of it."""
+    """Returns whether a statement imports a module, or something of it, directly or through a package."""
     if isinstance(node, ast.Import):
         return any(alias.name == module for alias in node.names)
     if isinstance(node, ast.ImportFrom) and node.module:

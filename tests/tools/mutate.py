@@ -29,7 +29,7 @@ ROOT: Final = Path(__file__).resolve().parents[2]
 LIMIT_S: Final = 90
 BASELINE_S: Final = 1200
 NO_TESTS: Final = "No test files found"
-# What is searched in a line, and what stands there in the mutant. All keep the syntax valid.
+# The pattern that is searched in a line, and its replacement in the mutant. All keep the syntax valid.
 CHANGES: Final[tuple[tuple[re.Pattern[str], str], ...]] = tuple(
     (re.compile(search), replacement)
     for search, replacement in (
@@ -53,7 +53,7 @@ CHANGES: Final[tuple[tuple[re.Pattern[str], str], ...]] = tuple(
         (r"^(\s*)return (?![(]$).+;$", r"\1return undefined as never;"),
     )
 )
-# Lines that are no behaviour: imports, types, comments, classes of style.
+# Lines without behaviour: imports, types, comments, style classes.
 PASSED_OVER: Final = re.compile(r"^\s*(?:import|export type|type|interface|//|\*|/\*)|className=|from '")
 
 

@@ -51,7 +51,7 @@ def find(source: str) -> list[Sleep]:
 
 def _calls(node: ast.AST, outer: list[ast.AST]) -> Iterator[tuple[ast.Call, list[ast.AST]]]:
     for child in ast.iter_child_nodes(node):
-        # What a function does is not waited for by the loop that the function is defined in.
+        # A call in a function that is defined inside a loop is not part of that loop.
         around = [] if isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda) else outer
         if isinstance(child, ast.Call) and _is_sleep(child.func):
             yield child, around

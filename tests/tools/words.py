@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 ROOT: Final = Path(__file__).resolve().parents[2]
 LIST: Final = Path(__file__).with_name("words.toml")
 FOLDERS_LEFT_OUT: Final = {"node_modules", "__pycache__", "dist", "locales"}
-# Spans that nobody wrote as our own prose; what they are replaced with keeps the lines.
+# Spans that are not our own prose; their replacement keeps the line breaks.
 QUOTED: Final = re.compile(r"```.*?```|``[^`]*``|`[^`]*`|“[^”]*”|„[^“]*“|«[^»]*»", re.DOTALL)
 BLOCK_QUOTE: Final = re.compile(r"^\s*>.*$", re.MULTILINE)
 SCRIPT_COMMENT: Final = re.compile(r"/\*.*?\*/|(?<![:\w'\"`/])//[^\n]*", re.DOTALL)
@@ -125,7 +125,7 @@ def json_texts(source: str) -> Iterator[Text]:
 
 
 def markdown_texts(source: str) -> Iterator[Text]:
-    """Yields the whole page; code and quotations are passed over by `find`."""
+    """Yields the whole page; `find` skips code and quotations."""
     yield Text(1, source)
 
 
@@ -166,7 +166,7 @@ def files(names: list[str], words: Words) -> Iterator[Path]:
         if not top.exists():
             raise SystemExit(f"{LIST.name}: there is no {name}; `clean` names files and folders that exist")
         for path in [top] if top.is_file() else sorted(top.rglob("*")):
-            # A file that is named is checked wherever it is: the English texts of the page, for example.
+            # A file that is named explicitly is always checked, for example the English texts of the page.
             inner = path.relative_to(top).parts
             is_prose = path.is_file() and reader(path) is not None and not FOLDERS_LEFT_OUT & set(inner)
             if is_prose and not _is_skipped(path.relative_to(ROOT), words):

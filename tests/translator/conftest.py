@@ -67,7 +67,7 @@ def example(request):
 
 @pytest.fixture
 def make_project():
-    """Makes a project of trees given as dicts of nodes; actions `Act` (typed ports) and `Open` are there."""
+    """Makes a project of trees given as dicts of nodes, with the actions `Act` (typed ports) and `Open`."""
 
     def make(nodes, *, trees=None, actions=None, files=None, **settings):
         sources = {

@@ -10,7 +10,7 @@ from translator.catalog import builtins
 from translator.tree import Node, Tree
 
 KEYS = ("a", "speed", "goal")
-# What both engines load whatever stands below: no ports, or ports with a default.
+# Nodes that both engines load with any children: without ports, or with default values.
 CONTROLS = (
     "Sequence",
     "Fallback",
@@ -73,7 +73,7 @@ def nodes(draw, node_id, type_, children=(), *, plain=False):
 
 @st.composite
 def trees(draw, *, tree_id="MainTree", leaves=(*LEAVES, "Script", "Open"), plain=False, largest=25):
-    """A tree whose nodes have the child counts that they need."""
+    """Returns a tree whose nodes have valid numbers of children."""
     budget = draw(st.integers(1, largest))
     made: dict[str, Node] = {}
     count = 0
@@ -87,7 +87,7 @@ def trees(draw, *, tree_id="MainTree", leaves=(*LEAVES, "Script", "Open"), plain
             if count < budget and depth < 12
             else "leaf"
         )
-        made[node_id] = Node(node_id, "")  # keeps the order of ids that of the tree
+        made[node_id] = Node(node_id, "")  # keeps the ids in the order of the tree
         if kind == "control":
             children = [grow(depth + 1) for _ in range(draw(st.integers(1, 4)))]
             type_ = draw(st.sampled_from(CONTROLS))

@@ -38,7 +38,7 @@ REPAIRED = {
     "R-model-subtree-noid": "BT0717",
     "R-model-port-digit": "BT0718",
 }
-# Refused by BehaviorTree.CPP only when it is ticked; the editor reports it earlier.
+# BehaviorTree.CPP refuses it only when it is ticked; the editor reports it earlier.
 TOLD_EARLIER = {"R-ok-ite-one-child"}
 
 

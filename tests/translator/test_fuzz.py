@@ -15,7 +15,7 @@ from translator import TranslatorError, check, from_xml, load, self_contained, t
 from translator.jderobot.graph import GraphOptions, read_graph
 from translator.jderobot.self_contained import is_old_form, read_old_form, write_old_form
 
-LONGEST_S = 20.0  # far above what any of these small documents takes; a hang, not a slow machine
+LONGEST_S = 20.0  # far longer than any of these small documents needs: only a hang exceeds it
 SPICE = [
     "",
     "{",

@@ -89,7 +89,7 @@ def test_a_text_beside_the_canvas_has_no_more_nodes_either(small):
 
 
 def test_the_largest_project_is_within_all_limits_of_those_that_take_it_on():
-    """A project within the limits is not refused by the engine, the manager or the server's own settings."""
+    """The engine, the manager and the server's settings do not refuse a project within the limits."""
     assert limits.NODES_PER_PROJECT < engine.MAX_ELEMENTS
     assert limits.XML_BYTES <= engine.MAX_BYTES
     assert limits.NODES_PER_PROJECT <= limits.XML_ELEMENTS

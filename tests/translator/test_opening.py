@@ -1,4 +1,4 @@
-"""A project is opened from whatever files there are."""
+"""A project is opened from any set of files."""
 
 from __future__ import annotations
 

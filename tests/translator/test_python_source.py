@@ -1,4 +1,4 @@
-"""Python is read by one thread at a time, and in one place."""
+"""Python is parsed by one thread at a time, and in one module."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def parsed_by_threads(read, *, rounds):
 
 
 def parsed_while_another_does(read, *, patience_s):
-    """Reads, and in the middle of it waits until another thread, deeper in its stack, has read, too."""
+    """Parses, and in the middle waits until another thread, deeper in its stack, has parsed too."""
     begin, done = threading.Event(), threading.Event()
     reader = threading.current_thread()
 

@@ -33,7 +33,7 @@ def project_of(tree: Tree) -> Project:
 
 
 def same(tree: Tree) -> Tree:
-    """The normal form: vertical is the layout that goes without saying, and only what runs is in XML."""
+    """Returns the normal form: vertical is the default layout, and only the running part is in XML."""
     return replace(tree, layout="" if tree.layout == "vertical" else tree.layout)
 
 

@@ -119,7 +119,7 @@ class Trial:
     Args:
         cls: The node.
         ports: Its ports as XML.
-        children: What its child returns, a letter a tick.
+        children: The results of its child, one letter for each tick.
         ros: The ROS node.
         entries: The blackboard.
     """
@@ -140,11 +140,11 @@ class Trial:
         self.tree.setup(node=ros)
 
     def tick(self) -> str:
-        """The letter of a tick after a reset, as under a parent that has ended."""
+        """Returns the letter of a tick after a reset, as under a parent that has ended."""
         return self.tree.tick_exactly_once().letter
 
     def again(self) -> str:
-        """The letter of a tick of the node that is still active, as under a parent that runs."""
+        """Returns the letter of a tick while the node is still active, as under a parent that is RUNNING."""
         self.tree.nodes[0].status = Status.RUNNING
         return self.tick()
 

@@ -1,4 +1,4 @@
-"""Control nodes and decorators of users: what `update` may do, and what comes of each of its results."""
+"""Control nodes and decorators of users: what `update` may do, and the effect of each result."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The corpus of Nav2's control nodes: what it has in it, and that it finds a rule that is broken."""
+"""The corpus of Nav2's control nodes: its content, and that it detects a broken rule."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ def test_random_trees_run_as_in_behaviortree_cpp(capsys: pytest.CaptureFixture[s
                 pytest.fail(report(case))
             compared += reference is not None
             refused += reference == [{"load": "refused"}]
-    # A generator that makes nothing but refused trees or crashes would prove nothing.
+    # A generator that makes only refused trees or crashes would prove nothing.
     assert compared >= 0.97 * total
     assert refused <= 0.05 * total
 

@@ -1,4 +1,4 @@
-"""A tree file run as a node, as exported packages do: its parameters, and what it says of wrong ones."""
+"""A tree file run as a node, as exported packages do: its parameters, and errors about wrong ones."""
 
 from __future__ import annotations
 
@@ -135,7 +135,7 @@ def test_a_wrong_parameter_is_said_with_its_place(
     status, _, err = run(file, *words)
     assert status == 1
     assert said.replace("FILE", str(tmp_path / "params.yaml")) in err
-    # Where an action raised, its lines are for who wrote it.
+    # If an action raised an exception, its lines help its author.
     assert "Traceback" not in err or "gain" in said
 
 

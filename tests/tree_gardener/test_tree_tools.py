@@ -38,7 +38,7 @@ def test_the_older_contract_reads_unset_entries_as_nothing_and_writes_no_literal
     tree.tick_once()
     assert tree.blackboard["to"] == ""
     assert load('<Copy source="1" target="text"/>', nodes={"Copy": Legacy}).tick_once() is Status.FAILURE
-    # A text that was taken apart belongs to the tree that was made last.
+    # A text that was split belongs to the tree that was made last.
     tree_tools.set_port_content("{" + "plain}", 3)
     assert tree_tools.get_port_content("{plain}") == 3
     assert tree_tools.get_port_content("literal") == "literal"

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from translator.catalog import did_you_mean, nearest
 from translator.check.script import scripts_of
+from translator.ros_nodes import with_fields
 from translator.script_names import script_names
 from translator.tree import Node, Tree, pointer
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 class _Use:
     node: Node
     port: str
-    inner: str = ""  # for a use inside a called tree: its name there
+    inner: str = ""  # for a use inside a called tree: the name there
 
 
 @dataclass(slots=True)
@@ -88,6 +89,7 @@ def _keys_of(context: Context, tree: Tree, keys: dict[str, _Keys]) -> _Keys:
 
 def _add_ports(context: Context, own: _Keys, node: Node) -> None:
     model = context.model(node.type)
+    model = None if model is None else with_fields(model, node)
     if node.type in {"SetBlackboard", "UnsetBlackboard"}:
         target = node.ports.get("output_key", "")
         own.written.setdefault(pointer(target) or target, _Use(node, ""))

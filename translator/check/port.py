@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from translator.catalog import NodeModel, PortModel, builtins, did_you_mean
+from translator.catalog import NodeModel, PortModel, builtins, did_you_mean, nearest
+from translator.ros_interfaces import full_name, has_package, interface_fields, interface_names
+from translator.ros_nodes import ROS_NODES, with_fields
 from translator.text import is_xml_name
 from translator.tree import BLANKS, Node, Tree, pointer
 from translator.values import Fit, describe, fit, outside
@@ -14,6 +16,11 @@ if TYPE_CHECKING:
     from translator.check.context import Context
 
 RESERVED = {"name", "ID"}
+EXAMPLES = {
+    "action": "nav2_msgs/action/NavigateToPose",
+    "srv": "std_srvs/srv/Trigger",
+    "msg": "geometry_msgs/msg/Twist",
+}
 
 
 def check_ports(context: Context) -> None:
@@ -24,9 +31,12 @@ def check_ports(context: Context) -> None:
             model = context.model(node.type)
             if model is None or node.is_subtree:
                 continue
-            _check_names(context, tree, node, model)
-            for port in model.ports.values():
+            typed = with_fields(model, node)
+            _check_interface(context, tree, node)
+            _check_names(context, tree, node, typed)
+            for port in typed.ports.values():
                 _check_port(context, tree, node, port)
+            for port in model.ports.values():  # fields convert values: they fix no type of an entry
                 _check_entry(context, tree, node, port, entries)
 
 
@@ -42,6 +52,20 @@ def _check_names(context: Context, tree: Tree, node: Node, model: NodeModel) -> 
             context.report("BT0209", tree, node, name, port=name)
         else:
             check_braces(context, tree, node, name, text)
+
+
+def _check_interface(context: Context, tree: Tree, node: Node) -> None:
+    """Reports a type of a ROS node that is not the name of one, or that its package has not."""
+    ros = ROS_NODES.get(node.type)
+    text = node.ports.get(ros.type, "") if ros is not None else ""
+    if ros is None or not text or pointer(text, ros.type) is not None:
+        return
+    name = full_name(text, ros.kind)
+    if name is not None and (interface_fields(name) is not None or not has_package(name)):
+        return  # a package that is not here may be where the tree runs
+    near = nearest(name or text, [each for each, kind in interface_names() if kind == ros.kind])
+    wanted = f"an installed type of this kind, such as {near or EXAMPLES[ros.kind]}"
+    context.report("BT0204", tree, node, ros.type, port=ros.type, value=text, wanted=wanted)
 
 
 def _check_port(context: Context, tree: Tree, node: Node, port: PortModel) -> None:

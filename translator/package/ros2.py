@@ -36,6 +36,7 @@ from translator.package.launch_files import (
 from translator.package.naming import package_name, require_name
 from translator.package.rosdep import dependencies
 from translator.package.zip import write_zip
+from translator.ros_nodes import ros_endpoints, ros_packages
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -160,7 +161,7 @@ class _Builder:
         self.found.extend(found)
         own_launch = [self.own_launch_name(path) for path in self.launch_files]
         always = {"ament_index_python", "launch", "launch_ros", *ENGINE_DEPENDENCIES, ENGINE}
-        always |= dependencies_of(project_files)
+        always |= dependencies_of(project_files) | ros_packages(self.project.trees.values())
         opened = self.endpoints()
         return {
             "name": self.name,
@@ -190,15 +191,16 @@ class _Builder:
         }
 
     def endpoints(self) -> list[Endpoint]:
-        """Returns the endpoints of the actions and the programs, in order of file and line."""
+        """Returns the endpoints of the trees, the actions and the programs, in order of file and line."""
         paths = {path: path for path in self.sources} | {
             path: f"scripts/{name}" for path, name in self.programs.items()
         }
-        return [
+        opened = [
             item
             for path, shown in paths.items()
             for item in endpoints(self.project.files[path].decode("utf-8-sig", "replace"), shown)
         ]
+        return [*ros_endpoints(self.project.trees.values()), *opened]
 
     def data_files(self, own_launch: list[str]) -> Iterator[tuple[str, list[str]]]:
         """Yields the files to install below `share`, by folder."""

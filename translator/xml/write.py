@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from translator.catalog import NodeModel, PortModel, builtins
+from translator.ros_nodes import direction_of
 from translator.text import is_xml_name
 from translator.tree import SUBTREE, Node, Tree
 from translator.xml.attributes import COMMENT, is_free, to_attributes
@@ -136,7 +137,11 @@ def _ports_seen(trees: list[Tree]) -> dict[str, dict[str, None]]:
 def _all_ports(model: NodeModel, seen: Iterable[str]) -> list[PortModel]:
     ports = list(model.ports.values())
     if model.open:
-        ports += [PortModel(name) for name in sorted(seen) if name not in model.ports and is_xml_name(name)]
+        ports += [
+            PortModel(name, direction_of(model.type, name) or "input")
+            for name in sorted(seen)
+            if name not in model.ports and is_xml_name(name)
+        ]
     return ports
 
 

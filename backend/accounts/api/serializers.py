@@ -13,7 +13,7 @@ class MeSerializer(serializers.Serializer[Any]):
     """The user and the server's version."""
 
     mode = serializers.ChoiceField(choices=["local", "team"])
-    user = serializers.CharField(help_text="Empty for a guest, who came by a read-only link.")
+    user = serializers.CharField(help_text="Empty for a guest, who opened a read-only link.")
     name = serializers.CharField()
     email = serializers.CharField()
     role = serializers.ChoiceField(choices=["local", "administrator", "teacher", "user", "guest"])

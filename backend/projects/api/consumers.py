@@ -82,4 +82,4 @@ async def _until_left(receive: ASGIReceiveCallable) -> Closed | None:
     """
     if (await receive())["type"] == "websocket.disconnect":
         return None
-    return Closed(POLICY_VIOLATION, "Nothing is said on this socket.")
+    return Closed(POLICY_VIOLATION, "This socket accepts no messages.")

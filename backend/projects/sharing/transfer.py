@@ -45,7 +45,7 @@ def transfer_project(project_id: UUID, name: str, *, acting_user: User, if_match
         raise InvalidInputError("The project is yours already.", field="name")
     if person is None or not person.is_active or not _is_editor(project, person):
         raise InvalidInputError(
-            f"“{names.shown(name)}” is no editor of this project.",
+            f"“{names.shown(name)}” is not an editor of this project.",
             hint="Share the project with them as an editor first.",
             field="name",
         )

@@ -79,13 +79,13 @@ def gate(project: Project | None, *, user: User, need: Need) -> Project:
         raise NotFoundError(NOT_FOUND)
     if role < need.role:
         raise RoleTooLowError(
-            f"You are {_article(role)} of “{project.name}”; this takes {_article(need.role)}.",
+            f"You are {_article(role)} of “{project.name}”; this requires {_article(need.role)}.",
             hint="Ask the owner to share the project with more rights, or work on a copy of your own.",
             role=role.label,
         )
     if need.account and user.is_guest:
         raise RoleTooLowError(
-            "You read this project by a link; this takes an account.",
+            "You are reading this project by a link; this requires an account.",
             hint="Sign in, then open the link again.",
             role=role.label,
         )

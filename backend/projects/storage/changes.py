@@ -175,7 +175,7 @@ def _refuse_collisions(current: Mapping[str, Existing], result: Plan) -> None:
         other = owners.setdefault(names.key(path), path)
         if other is not path:
             raise InvalidInputError(
-                f"“{names.shown(path)}” and “{names.shown(other)}” have one name where case does not count.",
+                f"“{names.shown(path)}” and “{names.shown(other)}” are the same name if case is ignored.",
                 field="files",
             )
     for key, path in owners.items():

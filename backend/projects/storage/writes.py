@@ -332,11 +332,11 @@ def _store_manifest(project: Project, manifest: Manifest) -> None:
 
 def _manifest_after(result: Plan) -> Manifest | None:
     if MANIFEST in result.removed:
-        raise InvalidInputError("A project cannot be without project.json.", field="files")
+        raise InvalidInputError("A project must have a project.json.", field="files")
     for written in result.written:
         if written.path == MANIFEST:
             if written.content is None:
-                raise InvalidInputError("project.json cannot come about by renaming.", field="files")
+                raise InvalidInputError("No file can be renamed to project.json.", field="files")
             return read(written.content.data)
     return None
 

@@ -30,7 +30,7 @@ def check_socket(path: str) -> None:
         return
     if found.st_mode & GROUP_MAY != GROUP_MAY:
         mode = f"{stat.S_IMODE(found.st_mode):04o}"
-        raise _refusal("keeper_group", f"The mode {mode} of {path} shuts its group {found.st_gid} out.")
+        raise _refusal("keeper_group", f"The mode {mode} of {path} excludes its group {found.st_gid}.")
     groups = ", ".join(str(group) for group in sorted({os.getgid(), *os.getgroups()}))
     raise _refusal(
         "keeper_group",

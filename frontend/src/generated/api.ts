@@ -55,6 +55,40 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/catalog/interfaces": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Lists every installed interface: messages, services and actions. */
+        get: operations["list_interfaces"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/catalog/interfaces/{interface}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Returns the fields of an interface, each as a port of a block. */
+        get: operations["get_interface"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/catalog/nodes": {
         parameters: {
             query?: never;
@@ -1142,8 +1176,6 @@ export interface components {
             newer: number;
             files: components["schemas"]["FileDiff"][];
         };
-        /** @enum {string} */
-        DirectionEnum: "input" | "output" | "inout";
         /** @description A draft: text that this user has typed and not saved. */
         Draft: {
             path: string;
@@ -1178,6 +1210,18 @@ export interface components {
         EntryList: {
             items: components["schemas"]["Entry"][];
         };
+        /** @description A field of an interface, as a port. */
+        Field: {
+            /** @description Its path, such as `goal__pose__pose__position__x`. */
+            port: string;
+            direction: components["schemas"]["FieldDirectionEnum"];
+            /** @description As in the catalogue of nodes; `any` for messages. */
+            type: string;
+            /** @description As ROS writes it. */
+            ros: string;
+        };
+        /** @enum {string} */
+        FieldDirectionEnum: "input" | "output";
         /** @description A current file; `content` is null if the file is not text. */
         File: {
             path: string;
@@ -1296,6 +1340,21 @@ export interface components {
             source: string;
             filename: string;
         };
+        /** @description The fields of an interface; a message comes before its own fields. */
+        Interface: {
+            name: string;
+            ports: components["schemas"]["Field"][];
+        };
+        /** @description Interfaces, sorted by name. */
+        InterfaceList: {
+            items: components["schemas"]["InterfaceName"][];
+        };
+        /** @description An interface of ROS. */
+        InterfaceName: {
+            /** @description Such as `nav2_msgs/action/NavigateToPose`. */
+            name: string;
+            kind: components["schemas"]["KindEnum"];
+        };
         /** @description An invitation with its link. */
         Invitation: {
             /** Format: uuid */
@@ -1313,6 +1372,8 @@ export interface components {
             /** @default 30 */
             max_uses?: number;
         };
+        /** @enum {string} */
+        KindEnum: "action" | "msg" | "srv";
         /** @description A read-only link. */
         Link: {
             /** Format: uuid */
@@ -1330,7 +1391,7 @@ export interface components {
         /** @description The user and the server's version. */
         Me: {
             mode: components["schemas"]["ModeEnum"];
-            /** @description Empty for a guest, who came by a read-only link. */
+            /** @description Empty for a guest, who opened a read-only link. */
             user: string;
             name: string;
             email: string;
@@ -1455,12 +1516,14 @@ export interface components {
         /** @description A port that an action declares. */
         Port: {
             name: string;
-            direction: components["schemas"]["DirectionEnum"];
+            direction: components["schemas"]["PortDirectionEnum"];
             type: string;
             default: string | null;
             required: boolean;
             description: string;
         };
+        /** @enum {string} */
+        PortDirectionEnum: "input" | "output" | "inout";
         /** @description An error as a problem document (RFC 9457). */
         Problem: {
             type: string;
@@ -1803,6 +1866,64 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["BehaviourList"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_interfaces: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["InterfaceList"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_interface: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                interface: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Interface"];
                 };
             };
             /** @description A problem document. */

@@ -1,4 +1,4 @@
-"""A server with accounts, in the process of the tests: people who sign in through the real pages."""
+"""A server with accounts, in the process of the tests; users sign in through the real pages."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PASSWORD = "Correct-horse-9"
 
 
 class Person(Api):
-    """Someone's browser on a server with accounts."""
+    """The browser of one user on a server with accounts."""
 
     def __init__(self, user=None):
         self.user = user
@@ -40,7 +40,7 @@ class Person(Api):
         return self.form("/accounts/login/", login=name or self.user.username, password=password, **options)
 
     def quick(self):
-        """Signed in without the page, whose hashing takes its time."""
+        """Signs the user in without the page, whose password hashing is slow."""
         self.client.force_login(self.user)
         return self
 
@@ -58,7 +58,7 @@ def team(settings_of, db, tmp_path):
     settings_of(
         mode="team",
         public_url=f"http://{PUBLIC}",
-        # The database is the tests' own; the setting must be there.
+        # The database is that of the tests; only the setting must exist.
         database_url=os.environ.get("BT_STUDIO_DATABASE_URL", f"sqlite:///{tmp_path}/unused"),
         secret_key="s" * 40,
     )
@@ -76,7 +76,7 @@ def team(settings_of, db, tmp_path):
 
 @pytest.fixture
 def person(team):
-    """Makes accounts, signed in."""
+    """Makes accounts that are signed in."""
 
     def make(name, **rights):
         user = create_account(name, email=f"{name}@example.org", password=PASSWORD, **rights)
@@ -87,5 +87,5 @@ def person(team):
 
 @pytest.fixture
 def stranger(team):
-    """A browser that nobody has signed in with."""
+    """A browser in which nobody is signed in."""
     return Person()

@@ -1,4 +1,4 @@
-"""The log forgets, and localhost keeps none."""
+"""The log drops old entries, and a server on localhost has no entries."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A session is good at each request, and never for longer than the database says."""
+"""A session is checked at each request, and is never valid for longer than the database says."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from backend.accounts.models import User
 
 
 def known(person):
-    """Someone whose session was read before; and a function that reads it."""
+    """A user whose session was read before, and a function that reads it."""
     ada = person("ada")
     cookies = {name: morsel.value for name, morsel in ada.client.cookies.items()}
 

@@ -15,7 +15,7 @@ def test_an_invitation_brings_people_into_a_group_until_it_is_used_up(person):
     made = invitations.invite(acting_user=tina, group=group, days=1, max_uses=1)
     token = links.token_of("join", made.id)
     assert invitations.of_token(token) == made
-    for _ in range(2):  # someone who is a member already uses nothing up
+    for _ in range(2):  # a user who already is a member does not use up the invitation
         invitations.accept(token, acting_user=person("ben").user if _ == 0 else tina, new_account=False)
     assert invitations.of_token(token) is None
 

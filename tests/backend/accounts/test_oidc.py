@@ -1,4 +1,4 @@
-"""Sign-in by a university's provider: who comes in, and that their browser is known from then on."""
+"""Sign-in by a university's provider: who may sign in, and that the browser is known from then on."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def provider(team):
 
 
 def comes(browser, provider, **person):
-    """Signs in there and is sent back; returns where to."""
+    """Signs in at the provider; returns the address of the redirect."""
     provider.person = TINA | person
     token = browser.page("/accounts/login/") and browser.client.cookies[settings.CSRF_COOKIE_NAME].value
     started = browser.client.post(SIGN_IN, {"csrfmiddlewaretoken": token})
@@ -52,7 +52,7 @@ def test_who_comes_from_the_provider_is_in_and_their_browser_is_known(provider):
 
 
 def test_that_browser_gets_in_by_password_whatever_others_guess(provider):
-    """The user of the cookie: a teacher who signed in by the provider once, and also has a password."""
+    """The cookie belongs to a teacher who signed in by the provider once, and also has a password."""
     tina = Person()
     comes(tina, provider)
     tina.form("/accounts/logout/")

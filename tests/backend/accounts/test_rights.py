@@ -1,4 +1,4 @@
-"""Rights that become fewer are announced."""
+"""A loss of rights is announced to open sockets."""
 
 from __future__ import annotations
 

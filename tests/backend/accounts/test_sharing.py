@@ -1,4 +1,4 @@
-"""Sharing as users see it: what a link shows and when it ends, what the log keeps, leaving for good."""
+"""Sharing as users see it: what a link shows, when it ends, what is logged, and the end of an account."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def test_a_project_gets_another_owner_with_its_history(person):
     shares = owner.post(f"projects/{one}/transfer", {"name": "fred@example.org"})
     assert shares["owner"]["username"] == "fred"
     assert [(p["username"], p["role"]) for p in shares["people"]] == [("olga", "editor"), ("otto", "viewer")]
-    # Fred had one of this name; the project's own file says the new one, too.
+    # Fred had a project of this name; the project's own file has the new name, too.
     found = owner.get(f"projects/{one}")
     assert (found["name"], found["role"], found["owner"]) == ("Robot 2", "editor", "fred")
     assert found["settings"]["name"] == "Robot 2"

@@ -1,4 +1,4 @@
-"""Signing in and up through the pages: who gets in, who does not, what the log says."""
+"""Sign-in and sign-up through the pages: who is admitted or refused, and what is logged."""
 
 from __future__ import annotations
 
@@ -132,7 +132,7 @@ def test_an_invitation_lets_people_in_as_often_as_it_says(person):
     assert b"Robotics 1" in browser.page(path).content
     browser.form("/accounts/signup/", username="sam", email="sam@x.example", password1=NEW, password2=NEW)
     assert [group["name"] for group in browser.get("groups")["items"]] == ["Robotics 1"]
-    assert browser.get("groups")["items"][0]["members"] == []  # for the teacher alone
+    assert browser.get("groups")["items"][0]["members"] == []  # only the teacher sees the members
     assert [m["username"] for m in teacher.get(f"groups/{group['id']}")["members"]] == ["sam"]
     assert Person().page(path).status_code == 404
     assert ("sam", "invitation.accept") in log()
@@ -169,7 +169,7 @@ def test_a_link_sets_a_new_password_once(person):
     form = browser.page(path)["Location"]
     browser.form(form, password1=NEW, password2=NEW)
     assert Person().sign_in("ada", NEW)["Location"] == "/"
-    assert Person().page(path).status_code == 200  # says that it is used up
+    assert Person().page(path).status_code == 200  # the page says that the link is used up
     assert ("ada", "password.reset") in log()
     assert ada.problem("GET", "me", 401) == "sign_in_required"  # old sessions have ended
 

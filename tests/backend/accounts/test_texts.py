@@ -1,4 +1,4 @@
-"""The words of the pages that Django draws."""
+"""The texts of the pages that Django renders."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Runs every behaviour of the library in a world that shows what it does, and prints what came of it as JSON.
+"""Runs every behaviour of the library in a suitable world, and prints the results as JSON.
 
-A process of its own: ROS reads its environment once, and the runs share what is slow to load.
+It is a separate process: ROS reads its environment once, and the runs share modules that load slowly.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ LINE: Models = [
     for i in range(4)
 ]  # fmt: skip
 
-# behaviour, its ports, what stands in the world, and for how long it may run, in simulated s
+# For each behaviour: its name, its ports, the models of the world, and the limit of its run in simulated s.
 RUNS: tuple[tuple[str, dict[str, str], Models, float], ...] = (
     ("DriveForward", {"distance": "1.5", "speed": "0.4"}, [], 12),
     ("TurnBy", {"angle": "-270.0", "speed": "1.2"}, [], 12),
@@ -58,7 +58,7 @@ RUNS: tuple[tuple[str, dict[str, str], Models, float], ...] = (
 
 
 def project(behaviour: str, ports: dict[str, str], models: Models) -> dict[str, bytes]:
-    """A project whose main tree waits for the first pictures and then is the behaviour."""
+    """Returns a project whose main tree waits for the first pictures, and then is the behaviour."""
     manifest = {
         "format": "bt-studio/project", "version": 1, "name": "run", "main_tree": "Main", "tick_hz": 20,
         "universe": "here", "on_finish": "stop", "on_error": "stop",

@@ -1,4 +1,4 @@
-"""The built-in library: that each behaviour does what it says, in simulation, and that nothing is missing."""
+"""The built-in library: each behaviour works as described, in simulation, and no file is missing."""
 
 from __future__ import annotations
 
@@ -32,7 +32,10 @@ def test_every_behaviour_is_described_in_both_languages_and_has_its_files(api: A
 
 
 def test_examples_hold_the_librarys_files_as_they_are() -> None:
-    """An example is a project of its own, so it has copies; a repair of the library belongs in them, too."""
+    """An example is a separate project with copies of the files.
+
+    A correction of the library must be made there, too.
+    """
     library = {path: text for behaviour in behaviours() for path, text in behaviour.files.items()}
     copies = {
         file: file.relative_to(example).as_posix()
@@ -201,7 +204,7 @@ def test_wait_topic_succeeds_with_the_first_message(runs: Runs) -> None:
 
 
 def ended(run: dict[str, Any], status: str) -> tuple[float, float, float]:
-    """Where the robot was at the end, of a run that ended as it should."""
+    """Returns the final position of the robot, after a run that ended as expected."""
     assert run["root_status"] == status
     _, x, y, yaw = run["trajectory"][-1]
     return x, y, yaw

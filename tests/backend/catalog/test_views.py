@@ -15,6 +15,19 @@ def test_the_nodes_are_those_of_the_one_table(api):
     assert api.get("catalog/nodes") == json.loads(NODES.read_text())
 
 
+def test_installed_interfaces_are_listed_and_described(api):
+    names = {each["name"]: each["kind"] for each in api.get("catalog/interfaces")["items"]}
+    assert names["nav2_msgs/action/NavigateToPose"] == "action"
+    ports = api.get("catalog/interfaces/nav2_msgs/action/NavigateToPose")["ports"]
+    assert {
+        "port": "goal__pose__pose__position__x",
+        "direction": "input",
+        "type": "double",
+        "ros": "double",
+    } in ports
+    assert api.client.get("/api/v1/catalog/interfaces/no_msgs/msg/Nothing").status_code == 404
+
+
 def test_universes_and_robots_have_an_id_and_a_name(api):
     universes = {entry["id"]: entry for entry in api.get("catalog/universes")["items"]}
     assert {"walled_room", "person_in_green"} <= set(universes)
@@ -78,6 +91,6 @@ def test_every_view_of_the_catalogue_only_reads():
     found = [
         view for view in vars(views).values() if isinstance(view, type) and view.__module__ == views.__name__
     ]
-    assert len(found) == 5
+    assert len(found) == 7
     writes = {"post", "put", "patch", "delete", "create", "update", "partial_update", "destroy"}
     assert not [view for view in found if writes & set(vars(view))]

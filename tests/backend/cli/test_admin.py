@@ -50,7 +50,7 @@ def test_the_first_administrator_is_made_once_and_has_a_link_until_a_password(pe
     commands.create("ada", first=True)
     made = capsys.readouterr().out
     assert made.startswith("ada is made.")
-    # Anyone who missed the link gets another, whatever name is given, and no second administrator.
+    # A user who lost the link gets another one, whatever name is given, and no second administrator is made.
     commands.create("otto", first=True)
     again = capsys.readouterr().out
     assert again.startswith("ada is an administrator.")

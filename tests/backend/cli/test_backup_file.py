@@ -1,4 +1,4 @@
-"""Backups: everything comes back, and what is not whole or not ours is refused with nothing changed."""
+"""Backups: all data are restored; a damaged or foreign file is refused without any change."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def test_everything_comes_back(api, project, archive):
     assert counts["projects.changeset"] == 2
     assert api.get(f"projects/{project['id']}")["files"] == files
     assert api.get(f"projects/{project['id']}/revisions") == revisions
-    # New rows get numbers of their own.
+    # New rows get new numbers.
     api.post("projects", {"name": "After"}, expect=201)
 
 

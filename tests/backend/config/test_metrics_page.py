@@ -10,7 +10,7 @@ from backend.core.processes.metrics import BUCKETS_S, Counter, Histogram
 
 pytestmark = pytest.mark.django_db
 
-# Dashboards and alerts of users go by these.
+# Users' dashboards and alerts depend on these names.
 SERIES = {
     **{("bt_studio_requests_total", "status", f"{n}xx"): "counter" for n in range(1, 6)},
     **{("bt_studio_request_seconds_bucket", "le", str(b)): "histogram" for b in (*BUCKETS_S, "+Inf")},

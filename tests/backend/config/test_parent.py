@@ -1,4 +1,4 @@
-"""A parent and its workers, which are small programs here: who dies or hangs is replaced, and nobody else."""
+"""A parent and its workers, which are small programs here: only a worker that ends or hangs is replaced."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ WORKER = """
 """
 
 
-# The pool ends when its input does.
+# The pool ends when its input closes.
 ENDS = "threading.Thread(target=lambda: (sys.stdin.read(), os._exit(0)), daemon=True).start()\n"
 POOL = "9"
 
@@ -93,7 +93,7 @@ def test_who_dies_is_started_again_and_nobody_else(caplog):
 
 @pytest.mark.parametrize("how", ["time.sleep(1000)", "put(3, 1000); serve()"])
 def test_who_hangs_is_replaced(monkeypatch, caplog, how):
-    monkeypatch.setattr(parent, "HUNG_S", 3.0)  # on a busy machine one starts so much later
+    monkeypatch.setattr(parent, "HUNG_S", 3.0)  # on a busy machine, a program starts so much later
     family = Small("serve()", f"wait_for_the_server()\nif lives < 2:\n    {how}\nserve()", until="011")
     family.run()
     assert family.log.count("0") == 1

@@ -20,7 +20,7 @@ pytestmark = pytest.mark.django_db(transaction=True)
 
 
 class Busy(Threads):
-    """Threads of which none has been free for a while."""
+    """A pool of threads of which none has been free for a while."""
 
     def __init__(self, *, full_s=0.0, stuck_s=0.0):
         super().__init__(1, "busy")
@@ -29,7 +29,7 @@ class Busy(Threads):
 
 
 async def ask(path, *, client=("127.0.0.1", 5), headers=(), inner=None, threads=None):
-    """Status and body of an answer."""
+    """Returns status and body of an answer."""
     sent = []
 
     async def send(message):
@@ -150,6 +150,24 @@ async def test_a_request_that_fails_is_counted_as_such():
     with pytest.raises(RuntimeError):
         await ask("/api", inner=broken)
     assert metrics.requests.totals() == before | {"5xx": before["5xx"] + 1}
+
+
+async def test_a_request_is_counted_once_before_its_client_has_all_of_the_answer():
+    before, counts = metrics.requests.totals(), []
+
+    async def send(message):
+        if message["type"] == "http.response.body":
+            counts.append(metrics.requests.totals()["2xx"] - before["2xx"])
+
+    async def in_pieces(scope, receive, send):
+        await send({"type": "http.response.start", "status": 200, "headers": []})
+        await send({"type": "http.response.body", "body": b"a", "more_body": True})
+        await send({"type": "http.response.body", "body": b"b"})
+
+    scope: Any = {"type": "http", "path": "/api", "method": "GET", "client": ("127.0.0.1", 5), "headers": []}
+    await probes.probed(in_pieces, Busy())(scope, None, send)
+    assert counts == [0, 1]
+    assert metrics.requests.totals() == before | {"2xx": before["2xx"] + 1}
 
 
 def test_a_log_line_is_one_json_object_with_its_facts():

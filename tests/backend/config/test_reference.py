@@ -1,4 +1,4 @@
-"""The generated reference pages are those that the code writes."""
+"""The stored reference pages equal the generated ones."""
 
 from __future__ import annotations
 

@@ -26,14 +26,14 @@ ROOT = Path(__file__).resolve().parents[3]
 
 
 def failed(process):
-    """Exit status and stderr of a server that did not start."""
+    """Returns exit status and stderr of a server that did not start."""
     _, said = process.communicate(timeout=60)
     return process.returncode, said
 
 
 @pytest.fixture(scope="module")
 def running(tmp_path_factory):
-    """A server that several tests look at, with its data folder."""
+    """A server that several tests use, with its data folder."""
     folder = tmp_path_factory.mktemp("served")
     with serving(folder, BT_STUDIO_TOKEN="") as server:
         yield folder, server
@@ -70,7 +70,7 @@ def test_a_server_serves_and_ends_cleanly(tmp_path, running):
 
 
 def test_an_interrupt_that_python_would_drop_ends_a_server_that_starts():
-    """In the callback of a weak reference an exception is printed and dropped."""
+    """An exception in the callback of a weak reference is printed and dropped."""
     script = """
 import os, signal, weakref
 from backend.config.server import ended_by_interrupt

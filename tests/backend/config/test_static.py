@@ -80,7 +80,7 @@ def test_a_compressed_form_is_no_file_of_its_own(built):
 
 
 def test_the_build_compresses_each_script_and_style_sheet(settings):
-    """Holds for the build that a browser gets: made by Vite, on localhost as in the image of a team."""
+    """This applies to the build that a browser gets: on localhost, and in the image of a team's server."""
     assets = settings.ENVIRONMENT.frontend_dir / "assets"
     files = [path for path in assets.iterdir() if path.suffix in {".js", ".css"}]
     large = [path for path in files if path.stat().st_size > 1024]

@@ -1,4 +1,4 @@
-"""Settings of a server with accounts: what is missing or wrong ends the start, by name."""
+"""Settings of a server with accounts: a missing or wrong one ends the start, and is named."""
 
 from __future__ import annotations
 

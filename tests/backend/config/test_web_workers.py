@@ -35,7 +35,7 @@ pytestmark = pytest.mark.timeout(300)
 
 
 def until(holds, *, within_s=TIMEOUT_S):
-    """Waits for something to hold, and returns it."""
+    """Waits for a condition, and returns its value."""
     deadline = time.monotonic() + within_s
     while not (found := holds()):
         assert time.monotonic() < deadline, "it never came"
@@ -50,7 +50,7 @@ def folder_of(worker):
 
 
 def made_to_wait(docker):
-    """Makes executors of a fake engine come to the gate when they may: when this event is set."""
+    """Makes the executors of a fake engine wait until this event is set before they come to the gate."""
     may_run, run = threading.Event(), docker.run
 
     def run_when_it_may(name, container):
@@ -88,7 +88,7 @@ class Several:
 
     @contextmanager
     def only(self, number):
-        """Connections that are made meanwhile come to this worker: the others are stopped."""
+        """Stops the other workers, so that new connections come to this worker."""
         others = [process for own, process in self.workers.items() if own != number]
         for process in others:
             process.suspend()
@@ -99,7 +99,7 @@ class Several:
                 process.resume()
 
     def at(self, number):
-        """The browser, on a connection to this worker that stays."""
+        """Returns a browser with a permanent connection to this worker."""
         browser = requests.Session()
         browser.headers.update(self.browser.headers)
         browser.cookies.update(self.browser.cookies)
@@ -128,19 +128,19 @@ class Several:
         return answer.json()
 
     def counted(self, browser, name):
-        """A number of `/metrics`, as this worker says it."""
+        """Returns a number of `/metrics` from this worker."""
         text = browser.get(f"{self.base}/metrics", timeout=60).text
         return float(next(row.split()[1] for row in text.splitlines() if row.startswith(name)))
 
     def holder(self):
-        """The process that looks after the sessions."""
+        """Returns the process that maintains the sessions."""
         row = self.database.execute(
             "SELECT owner FROM executor_sessions_lease WHERE name = 'care'"
         ).fetchone()
         return int(row[0].split()[-2]) if row else None
 
     def living_holder(self):
-        """The same, if it is a worker that runs; the lease of one that was killed lasts a while."""
+        """Returns the same process if it is a running worker; the lease of a killed one lasts for a while."""
         holder = self.holder()
         return holder if holder in {process.pid for process in self.workers.values()} else None
 
@@ -192,7 +192,7 @@ def test_a_killed_worker_alone_is_replaced_and_its_counts_stay(several):
     dying = several.at(1)
     for _ in range(3):
         dying.get(f"{several.base}/api/v1/me", timeout=60)
-    # What one worker says is what all have counted: the one request of `at`, and three.
+    # Each worker reports the sum over all workers: one request of `at`, and three others.
     assert several.counted(asking, path) == counted + 4
     assert several.counted(dying, path) == counted + 4
     before[1].kill()
@@ -269,7 +269,7 @@ def test_a_closed_account_is_refused_by_every_worker_at_once(several):
                 assert browser.get(f"{several.base}/api/v1/me", timeout=60).status_code == 401
             several.database.execute("UPDATE accounts_user SET is_active = true WHERE username = 'bob'")
             assert browsers[1].get(f"{several.base}/api/v1/me", timeout=60).status_code == 200
-            # Signing out through one worker closes what is open at the other.
+            # Signing out through one worker closes the sockets at the other one.
             page = browsers[0].get(f"{several.base}/accounts/logout/", timeout=60)
             token = page.text.partition('name="csrfmiddlewaretoken" value="')[2].partition('"')[0]
             fields = {"csrfmiddlewaretoken": token}
@@ -284,7 +284,7 @@ def test_a_closed_account_is_refused_by_every_worker_at_once(several):
 
 def test_one_worker_looks_after_all_and_the_other_when_it_was_killed(several):
     holder = until(several.living_holder)
-    # The garbage of both was collected by one of them: who did not must ask again a day later.
+    # Only one of the two collected the garbage; the other one asks again a day later.
     rows = several.database.execute("SELECT owner FROM executor_sessions_lease WHERE name = 'garbage'")
     assert len(rows.fetchall()) == 1
     session = several.session(several.at(0), several.project("Looked after"))
@@ -293,7 +293,7 @@ def test_one_worker_looks_after_all_and_the_other_when_it_was_killed(several):
     until(lambda: browser.get(address, timeout=60).json()["state"] == "ready")
     os.kill(holder, signal.SIGKILL)
     until(lambda: several.living_holder() not in {None, holder})
-    # Nobody asks for the session; who has the lease now notes its end.
+    # No page requests the session; the holder of the lease notes its end.
     several.host.docker.end(next(iter(several.host.docker.containers)), 3)
     state = "SELECT state FROM executor_sessions_session WHERE id = %s"
     until(lambda: several.database.execute(state, [session["id"]]).fetchone() == ("failed",))

@@ -13,7 +13,7 @@ from tests.backend.config.test_team import WHOLE
 
 @pytest.fixture
 def machine(monkeypatch, settings_of):
-    """A team's server with so many cores and connections to its database."""
+    """A team's server with this many cores and connections to its database."""
 
     def make(cores, connections=100, **changes):
         settings_of(**(WHOLE | {"launcher": "docker"} | changes))

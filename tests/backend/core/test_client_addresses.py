@@ -1,4 +1,4 @@
-"""One module says from which address a request comes; nobody else looks at connections or headers for it."""
+"""Only one module determines the address of a client; no other module reads connections or headers for it."""
 
 from __future__ import annotations
 

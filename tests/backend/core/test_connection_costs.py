@@ -1,4 +1,4 @@
-"""Connections of an owner over their share are read later; unfinished messages of one owner are bounded."""
+"""Connections of an owner over their share are read later; their unfinished messages are limited in size."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def budgets(monkeypatch):
 
 
 async def application(scope, receive, send):
-    """Answers requests, and takes messages of any size from sockets; their path is their owner."""
+    """Answers requests, and accepts messages of any size from sockets; the path is the owner."""
     if scope["type"] == "websocket":
         known(scope, scope["path"])
         await receive()
@@ -128,7 +128,10 @@ async def open_socket(connect, owner):
 
 
 async def ended(reader):
-    """Waits for the end. What the client still sends may overtake the close frame, which is then lost."""
+    """Waits for the end of the connection.
+
+    Data that the client still sends may overtake the close frame, which is then lost.
+    """
     with contextlib.suppress(ConnectionResetError):
         async with asyncio.timeout(60):
             said = await reader.read()

@@ -22,7 +22,7 @@ async def application(scope, receive, send):
 
 @contextlib.asynccontextmanager
 async def connected():
-    """A connection to a server that hears it by our protocol."""
+    """A connection to a server that uses our protocol."""
     config = uvicorn.Config(application, http=PatientProtocol, lifespan="off", log_config=None)
     config.load()
     server = uvicorn.Server(config)
@@ -92,7 +92,7 @@ async def test_the_next_request_has_its_own_time_and_empty_lines_are_none(monkey
         await asyncio.sleep(0.1)  # the time is the test: the head arrives in two pieces
         writer.write(b"\r\n")
         await answered(reader)
-        writer.write(b"\r\n")  # it ends the wait for the next request, and begins none
+        writer.write(b"\r\n")  # this ends the wait for the next request, but does not begin one
         assert await whole(reader) == b""
 
 

@@ -1,4 +1,4 @@
-"""Notices from any thread reach the consumers that wait in the server's loop; a lost one does no harm."""
+"""Notices from any thread reach the consumers in the server's loop; a lost one does no harm."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Temporary files: bounded all together, with a reserve of the disk, and nothing is left of them."""
+"""Temporary files: their total size is limited, some disk space stays free, and no file remains."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def test_files_count_what_they_take_until_they_are_closed(tmp_path):
         second.write(b"x" * 41)
     second.write(b"x" * 40)
     first.seek(0)
-    first.write(b"y" * 60)  # over what is there
+    first.write(b"y" * 60)  # overwrites existing bytes
     assert room.used == 100
     with pytest.raises(NoRoomError):
         room.file(expected=1)
@@ -78,7 +78,7 @@ def test_what_has_no_room_beside_the_others_is_refused_before_it_is_sent(setting
         others.write(b"x" * 4 * MEBIBYTE)
         assert refused(parts(6), streamed(3 * MEBIBYTE), IMPORT) == (503, "busy", 0)
         assert refused(parts(40), head(transfer_encoding="chunked"))[:2] == (503, "busy")
-        # What needs no file is served.
+        # A request that needs no file is answered.
         assert refused([body(b"{}")], head(content_length="2"))[0] == 201
     assert scratch.scratch().used == 0
     # A file that would never fit is refused with another error.
@@ -124,7 +124,7 @@ def test_files_of_forms_count_too(settings_of, monkeypatch, api):
 
 
 def test_a_file_of_a_form_is_there_until_its_request_is_answered():
-    """Its thread is given back while it is unpacked; what the key stands for is read after that."""
+    """Its thread is released while the file is unpacked; the data for the key are read after that."""
     data = archive_of(5 * MEBIBYTE)
     start = b'--cut\r\nContent-Disposition: form-data; name="file"; filename="p.zip"\r\n\r\n'
     whole = start + data + b"\r\n--cut--\r\n"

@@ -1,4 +1,4 @@
-"""Limits of a socket that sends nothing, or nothing yet: frames sent by hand to the real server."""
+"""Limits of a socket that sends nothing, or nothing yet: the test sends raw frames to the real server."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ async def opened(notices):
 
 
 async def read(reader):
-    """The next frame of the server: what it is and what it holds."""
+    """Returns the kind and the content of the server's next frame."""
     async with asyncio.timeout(60):
         first, length = await reader.readexactly(2)
         if length == 126:
@@ -63,7 +63,7 @@ async def test_a_few_pings_are_answered(notices):
 async def test_frames_that_say_nothing_end_the_socket(notices, idle):
     async with opened(notices) as (reader, writer):
         begun = frame(b"", is_last=False) if idle[0] & 15 == MORE else b""
-        writer.write(begun + idle * (IDLE_FRAMES + 5))  # as much as is read at once
+        writer.write(begun + idle * (IDLE_FRAMES + 5))  # as much as is read in one step
         assert await close_code(reader) == 1008
 
 

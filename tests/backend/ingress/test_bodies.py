@@ -1,4 +1,4 @@
-"""Bodies: headers are judged before anything is read, what comes is bounded, and clients read the answer."""
+"""Bodies: headers are checked before anything is read, bodies are limited, and clients get the answer."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def head(browser=None, **more):
 
 
 def refused(messages, headers, path="/api/v1/projects", **more):
-    """Status and code of the answer, and how many parts of the body had been read when it was given."""
+    """Returns status and code of the answer, and the number of parts of the body that were read before it."""
     waiting, sent, read = list(messages), [], None
 
     async def receive():
@@ -213,7 +213,7 @@ def test_large_bodies_are_written_by_threads_and_leave_nothing(monkeypatch, sett
 
 
 def archive_of(*sizes):
-    """A project zip that no compression makes smaller."""
+    """Returns a project zip that compression does not make smaller."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as packed:
         packed.writestr("project.json", '{"format": "bt-studio/project", "version": 1, "name": "Large"}')
@@ -262,7 +262,7 @@ def test_an_archive_that_is_sent_again_with_its_key_is_imported_once():
 
 
 def exchange(port, head_text, data=b"", *, chunked=False):
-    """Sends all of a request as a simple client does, which reads only then; returns what was answered."""
+    """Sends a whole request like a simple client, which reads only afterwards; returns the answer."""
     with socket.create_connection(("127.0.0.1", port), timeout=60) as connection:
         connection.sendall(head_text.encode())
         try:
@@ -289,7 +289,7 @@ def test_a_client_that_sends_first_and_reads_later_reads_the_refusal(tmp_path):
         assert b" 413 " in huge.partition(b"\r\n")[0]
         assert b'"request_too_large"' in huge
         assert b"application/problem+json" in huge
-        # The server reads no more of it than it throws away.
+        # The server reads no more of it than it discards.
         endless = exchange(
             served.port, f"{start}Transfer-Encoding: chunked\r\n\r\n", b"x" * (80 * MEBIBYTE), chunked=True
         )

@@ -1,4 +1,4 @@
-"""HTTP by threads that stay: what goes in and comes out, and what must not stay with a thread."""
+"""HTTP by a fixed pool of threads: requests, answers, and data that must not stay with a thread."""
 
 from __future__ import annotations
 

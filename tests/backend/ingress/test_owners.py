@@ -1,4 +1,4 @@
-"""For whom something scarce is taken: nobody becomes another by what they send."""
+"""Owners of shared resources: a client cannot become another owner by the data that it sends."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Bodies over real connections: without a length, with a false one, too slow, too large, of no use."""
+"""Bodies over real connections: without a length, with a wrong one, too slow, too large, or invalid."""
 
 from __future__ import annotations
 
@@ -37,13 +37,13 @@ def chunks(data, size=65536):
 
 
 def send(connection, data):
-    """Sends as much as the server takes."""
+    """Sends as much as the server accepts."""
     with suppress(BrokenPipeError, ConnectionResetError):
         connection.sendall(data)
 
 
 def answer(connection):
-    """Status, headers, body, and whether the server says that it closes the connection."""
+    """Returns status, headers, body, and whether the server says that it closes the connection."""
     data = b""
     while b"\r\n\r\n" not in data:
         more = connection.recv(65536)
@@ -61,11 +61,11 @@ def answer(connection):
     length = int(headers["content-length"])
     while len(body) < length:
         body += connection.recv(65536)
-    return status, headers, body[:length], is_closed  # what follows answers what was sent behind the request
+    return status, headers, body[:length], is_closed  # the rest answers data that were sent after the request
 
 
 def whole(chunked):
-    """The body that came in chunks."""
+    """Returns a body that came in chunks."""
     body = b""
     while size := int(chunked.partition(b"\r\n")[0], 16):
         _, _, rest = chunked.partition(b"\r\n")
@@ -82,7 +82,7 @@ def exchange(served, data, *, ends=False):
 
 
 def is_served(served):
-    """Whether somebody else is."""
+    """Returns whether another client is served."""
     with connected(served) as connection:
         send(connection, head_of(served, "GET", "/api/v1/projects"))
         return answer(connection)[0] == 200
@@ -113,7 +113,7 @@ def test_after_a_refusal_the_connection_is_closed(served):
     with connected(served) as connection:
         send(connection, head_of(served, "POST", "/api/v1/projects", "Content-Length: 3000000"))
         assert refused(answer(connection), 413, "request_too_large")
-        send(connection, b"x" * 3_000_000)  # what still comes is thrown away
+        send(connection, b"x" * 3_000_000)  # the server discards the rest of the body
         assert connection.recv(1) == b""
 
 
@@ -121,7 +121,7 @@ def test_a_length_that_is_too_large_is_refused_at_once(served):
     for path in ("/api/v1/projects", "/api/v1/projects/import", "/accounts/login/", "/nothing/at/all"):
         with connected(served) as connection:
             send(connection, head_of(served, "POST", path, "Content-Length: 1500000000"))
-            # Nothing was sent, and yet there is an answer.
+            # Nothing was sent, but there is an answer.
             assert refused(answer(connection), 413, "request_too_large")
 
 
@@ -129,7 +129,7 @@ def test_a_length_that_is_too_small_says_where_the_body_ends(served):
     start = head_of(
         served, "POST", "/api/v1/projects", "Content-Length: 18", "Content-Type: application/json"
     )
-    # What follows is no request, which ends the connection, before the answer perhaps.
+    # The data after it are not a request; this ends the connection, perhaps before the answer.
     assert exchange(served, start + b'{"name": "Length"}' + b"x" * 100_000)[0] in {201, 400}
     assert is_served(served)
 
@@ -156,7 +156,7 @@ def test_a_body_that_ends_too_early_is_forgotten(served):
     ],
 )
 def test_two_lengths_or_none_that_is_one_are_no_request(served, lines):
-    """Else a proxy and the server could see two different requests in the same bytes."""
+    """Otherwise a proxy and the server could see two different requests in the same bytes."""
     status, *_ = exchange(served, head_of(served, "POST", "/api/v1/projects", *lines) + b"12345")
     assert status == 400
     assert is_served(served)
@@ -174,7 +174,7 @@ def test_routes_that_take_no_body_have_the_same_bounds(served):
 
 
 def test_many_who_send_slowly_hold_up_nobody(served):
-    """They wait in the event loop: no thread is theirs before their body is whole."""
+    """These requests wait in the event loop: they get a thread only when their body is complete."""
     start = head_of(
         served, "POST", "/api/v1/projects", "Content-Length: 1000", "Content-Type: application/json"
     )

@@ -1,4 +1,4 @@
-"""Open sockets and running robots end when the right to them ends."""
+"""Open sockets and running robots end when the user loses the right to them."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def scope_of(browser, path):
 
 
 def closed_after(browser, project, deed):
-    """The code with which the socket of an open project ends when something is done."""
+    """Returns the code with which the socket of an open project closes after an action."""
 
     async def listen():
         heard: asyncio.Queue[Any] = asyncio.Queue()
@@ -57,7 +57,7 @@ def closed_after(browser, project, deed):
         await sync_to_async(deed)()
         told = await heard.get()
         await serving
-        await sync_to_async(connections.close_all)()  # of the thread that served, which nobody else ends
+        await sync_to_async(connections.close_all)()  # of the serving thread, since nothing else closes them
         return told["type"], told["code"]
 
     kind, code = asyncio.run(listen())

@@ -1,4 +1,4 @@
-"""Requests of an owner over their share: one behind the other, each after its rest."""
+"""Requests of an owner over their share run one after the other, each after its wait."""
 
 from __future__ import annotations
 

@@ -100,7 +100,7 @@ class Page:
         )
 
     def ended(self):
-        """The code of the close, after whatever else is still told."""
+        """Returns the close code, after any other messages."""
         try:
             while True:
                 self.socket.recv(timeout=60)

@@ -64,7 +64,7 @@ def test_an_editor_knows_neighbours_follows_revisions_and_leaves_nothing(
         [name] = keeper.docker.containers
         assert name.startswith("stack-tools-")
 
-    # The same container formats, and one that has gone is replaced unseen.
+    # The same container formats; a container that has ended is replaced without the user noticing.
     answer = {"source": 'x = {"a": 1}\n', "findings": []}
     asked = {"source": "x = {  'a':1 }\n", "filename": "actions/Go.py"}
     assert api.post("python/format", asked) == answer

@@ -1,4 +1,4 @@
-"""Where help with Python comes from."""
+"""The selection of the support for Python."""
 
 from __future__ import annotations
 

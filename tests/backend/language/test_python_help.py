@@ -73,7 +73,7 @@ class Document:
         self.page.notify("textDocument/didChange", textDocument=document, contentChanges=[{"text": text}])
 
     def ask(self, method, needle, offset=0, **more):
-        """Asks about a place that many characters after the beginning of a text."""
+        """Sends a request about the position this many characters after the beginning of a text."""
         before = self.text[: self.text.index(needle) + offset]
         place = {"line": before.count("\n"), "character": len(before) - before.rfind("\n") - 1}
         return self.page.ask(f"textDocument/{method}", textDocument={"uri": self.uri}, position=place, **more)
@@ -82,7 +82,7 @@ class Document:
         return self.ask("hover", needle, offset)["contents"]["value"]
 
     def offered(self, typed):
-        """The names that are offered after what is typed at HERE."""
+        """Returns the completions for the text that is typed at HERE."""
         before = self.text
         self.change(before.replace("HERE", typed))
         found = self.ask("completion", f"        {typed}", 8 + len(typed))
@@ -188,7 +188,7 @@ def test_definitions_and_names_of_the_project_are_followed(editor):
     "path", [*TEMPLATES, *EXAMPLES, *BEHAVIOURS], ids=lambda path: f"{path.parents[1].name}-{path.stem}"
 )
 def test_the_python_that_we_ship_is_understood(editor, path):
-    """Without findings, and each import known."""
+    """There are no findings, and each import is known."""
     text = path.read_text(encoding="utf-8")
     document = editor(text, path.stem)
     assert document.findings() == []

@@ -65,7 +65,7 @@ SHIPPED = sorted(
 
 
 def test_what_is_shipped_stays_as_it_is_when_a_user_formats_it():
-    """A save of an example, a behaviour of the library or a node of Nav2 changes nothing by itself."""
+    """Saving an example, a behaviour of the library or a node of Nav2 changes nothing by itself."""
     assert len(SHIPPED) > 20
     changed = []
     for path in SHIPPED:

@@ -27,7 +27,7 @@ def fails(error):
 
 
 def fails_later(error):
-    """Work that fails when it is at work."""
+    """A task that fails while it runs."""
     failed: Future[Any] = Future()
     failed.set_exception(error)
     return lambda *_, **__: failed
@@ -107,7 +107,7 @@ def test_other_writes_and_looks_are_answered_too(api, one, monkeypatch, write):
 
 @pytest.mark.parametrize("write", ["settings", "duplicate", "create"])
 def test_what_cannot_be_answered_is_not_written(api, one, monkeypatch, write):
-    """The answer reads its data in the transaction: an error means that nothing was stored."""
+    """The answer reads its data in the transaction, so an error means that nothing was stored."""
     monkeypatch.setattr(presentation, "opened", fails(DOWN))
     before = api.get("projects")["items"]
     calls = {"settings": ("PATCH", f"projects/{one}", {"base_revision": 1, "name": "New"})}

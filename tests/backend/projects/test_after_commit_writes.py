@@ -1,7 +1,7 @@
-"""Every route that writes, on a server of which nothing works any more once the write is committed.
+"""Every route that writes, on a server on which everything fails after the commit.
 
-Database, pool, notices: all of it fails from the commit on until the answer is there. The answer must say
-that it was done, and it must have been.
+Database, pool and notices all fail from the commit until the answer is complete. The answer must say that the
+write was done, and it must be stored.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ SAFE = {"GET", "HEAD", "OPTIONS", "TRACE"}
 
 @contextmanager
 def dead_after_commit(monkeypatch):
-    """From the first commit on, everything fails that the answer could still want."""
+    """From the first commit on, everything fails that the answer could still need."""
     dead = [False]
     commit: Any = BaseDatabaseWrapper._commit  # type: ignore[attr-defined]
 
@@ -66,7 +66,7 @@ def change(path="actions/Go.py", base=0, **more):
     return {"message": "m", "files": [{"path": path, "base_revision": base, "content": "x = 1\n"} | more]}
 
 
-# What is asked, and how one sees afterwards that it was done; `one` is a project at revision 2.
+# The requests, each with a check that its effect is stored; `one` is a project at revision 2.
 WRITES = {
     "create_project": lambda one: ("POST", "projects", {"name": "Other"}),
     "edit_project": lambda one: ("PATCH", f"projects/{one}", {"base_revision": 2, "name": "New"}),
@@ -179,7 +179,7 @@ def test_what_is_taken_back_is_said_to_be_taken_back(owner, one, monkeypatch):
 
 
 def test_every_route_that_writes_is_here_or_named():
-    """A new one fails this test until it is tried above, or does not belong there."""
+    """A new route fails this test until it is either tested above or listed here."""
     elsewhere = {
         "restore_project",  # as archive_project: one function, one transaction
         "unarchive_project",
@@ -193,7 +193,7 @@ def test_every_route_that_writes_is_here_or_named():
         "revoke_invitation",
         "import_project",  # above
         "delete_my_account",
-        "start_session",  # asked again, it answers with the session that is there
+        "start_session",  # a repeated request is answered with the existing session
         "end_session",
         # These store nothing.
         "check_project",

@@ -1,4 +1,4 @@
-"""The server is killed in a storm of saves, or its disk fills up: what it acknowledged is there, whole."""
+"""The server is killed during many saves, or its disk becomes full: all acknowledged saves are complete."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ WRITERS = 3
 
 
 class Storm:
-    """Writers that save three files at a time, each save with one text, and note what was acknowledged."""
+    """Writers that save three files at a time, each save with one text, and record what was acknowledged."""
 
     def __init__(self, server, name, projects, enough):
         self.server = server
@@ -67,7 +67,7 @@ class Storm:
 
 
 def reached(ask, address, **options):
-    """An answer; where the database is out of reach for a while (503), it is asked for again."""
+    """Returns an answer; while the database cannot be reached (503), the request is repeated."""
     deadline = time.monotonic() + TIMEOUT_S
     while True:
         answer = ask(address, **{"timeout": TIMEOUT_S} | options)
@@ -80,12 +80,12 @@ def reached(ask, address, **options):
 
 
 def answered(ask, address, **options):
-    """The JSON of such an answer."""
+    """Returns the JSON of such an answer."""
     return reached(ask, address, **options).json()
 
 
 def check(server, project, acknowledged, since):
-    """Every acknowledged revision is there, whole; at most one more was written and not acknowledged.
+    """Checks that every acknowledged revision is complete, and that at most one other revision was written.
 
     `since` is the revision before; returns the one that the project has now.
     """
@@ -93,7 +93,7 @@ def check(server, project, acknowledged, since):
         session.headers.update(server.headers)
         address = f"{server.base}/api/v1/projects/{project}"
         newest = answered(session.get, address)
-        known = max(acknowledged, default=since)  # a writer may have come to no save before the kill
+        known = max(acknowledged, default=since)  # the kill may come before the first save of a writer
         assert known <= newest["revision"] <= known + 1
         now = {f["path"]: f["content"] for f in newest["files"]}
         assert len({now.get(path) for path in FILES}) == 1
@@ -159,7 +159,7 @@ def assert_sound(folder):
 
 
 def fill(server, project):
-    """Saves until there is no room; returns what was acknowledged, and the answer that was not."""
+    """Saves until the disk is full; returns the acknowledged saves, and the answer that was a refusal."""
     address = f"{server.base}/api/v1/projects/{project}/changes"
     acknowledged: dict[int, str] = {}
     revision = 0
@@ -174,7 +174,7 @@ def fill(server, project):
 
 
 def written(server, project, revision, ask=requests.get):
-    """The text that all files of a revision have, each after its own name."""
+    """Returns the text that all files of a revision contain, each after its own name."""
     found = set()
     for path in FILES:
         address = f"{server.base}/api/v1/projects/{project}/revisions/{revision}/files/{path}"
@@ -230,13 +230,13 @@ def fill_and_make_room(server, database, disk, *, log_too):
     assert again["revision"] == newest + 1
 
 
-if may_mount():  # else the report says that this was not tried
+if may_mount():  # otherwise the report says that this was not tested
 
     @pytest.mark.parametrize("log_too", [True, False][: count("backend_full_postgresql")])
     def test_no_acknowledged_save_is_lost_when_the_disk_of_postgresql_is_full(tmp_path, log_too):
-        """Without room for its log, too, PostgreSQL may end; then it is started again."""
+        """Without disk space for its log, PostgreSQL may end too; it is then started again."""
         with tempfile.TemporaryDirectory(prefix="bts-") as name, small_disk(Path(name) / "disk", 52) as disk:
-            Path(name).chmod(0o755)  # PostgreSQL's own user finds its way
+            Path(name).chmod(0o755)  # PostgreSQL's own user must be able to enter the folder
             places = {"data": disk.folder / "data", "log": None if log_too else Path(name) / "log"}
             small = {"segment_mb": 1, "min_wal_size": "2MB", "max_wal_size": "6MB"}
             with (

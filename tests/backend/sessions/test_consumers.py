@@ -180,7 +180,7 @@ def test_a_program_may_show_the_token(relay, session):
 
 
 def when_it_stops_growing(file, *, limit):
-    """The size of the file once it has not changed for a while: all buffers on the way are full."""
+    """Returns the size of the file once it has not changed for a while: all buffers are full then."""
     size = -1
     while (now := file.stat().st_size) != size:
         assert now <= limit, "the relay takes what its browser does not"
@@ -205,7 +205,7 @@ def test_a_browser_that_does_not_read_holds_the_manager_up_and_fills_no_queue(
 
 
 async def test_messages_that_are_there_already_leave_other_sockets_their_turn():
-    """Neither taking a message that waits nor sending one that fits waits for anything."""
+    """Neither receiving a message that has arrived nor sending one that fits waits for anything."""
     messages, turns = 1600, 0
     left = messages
 

@@ -1,4 +1,4 @@
-"""Work of one server for all."""
+"""Work that one server does for all."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The queue of a full server, and the end of what nobody uses."""
+"""The queue of a full server, and the end of unused sessions."""
 
 from __future__ import annotations
 
@@ -118,12 +118,12 @@ def test_the_idle_are_warned_and_then_ended(api, start, fake_manager, settings_o
     assert maintenance.ending_soon() == {session.id: 3}
     maintenance.note_used({session.id: 60.0})
     assert maintenance.ending_soon() == {}
-    maintenance.note_used({session.id: 27 * 60.0})  # through another server, and longer ago
+    maintenance.note_used({session.id: 27 * 60.0})  # used through another server, and longer ago
     assert maintenance.ending_soon() == {}
     Session.objects.update(used_at=now - timedelta(minutes=31))
     maintenance.maintain()
     ended = api.get(f"sessions/{started['id']}")
-    assert (ended["state"], ended["error"]) == ("ended", "It was ended since nobody used it.")
+    assert (ended["state"], ended["error"]) == ("ended", "It was ended because it was not used.")
 
 
 def test_the_dead_are_noted_without_anyone_asking(api, start, fake_manager):

@@ -1,4 +1,4 @@
-"""Executors that are alive and do not answer: noticed, ended, and their sessions failed with the reason."""
+"""Executors that are alive but do not answer are detected and ended; their sessions fail with the reason."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from tests.executor.session_client import TOKEN, manager_process
 
 @pytest.fixture
 def quick(monkeypatch):
-    """Gives up sooner. Only for managers that are to be given up: a busy machine is late by more."""
+    """Gives up sooner. Use it only for managers that do not answer: a busy machine is delayed for longer."""
     monkeypatch.setattr(watch, "PING_EVERY_S", 0.1)
     monkeypatch.setattr(watch, "NOTED_S", 0.3)
     monkeypatch.setattr(watch, "longest_s", lambda: 1.0)

@@ -1,4 +1,4 @@
-"""Sessions over HTTP: one for a project, started once, ended for good."""
+"""Sessions over HTTP: one for each project, started once, and ended completely."""
 
 from __future__ import annotations
 

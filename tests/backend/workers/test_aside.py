@@ -1,4 +1,4 @@
-"""Threads beside those of requests: work is done in turn, errors arrive, too much is refused."""
+"""Threads beside those of requests: work is done in turn, errors are passed on, and too much is refused."""
 
 from __future__ import annotations
 
@@ -36,10 +36,10 @@ def test_one_owner_leaves_threads_to_the_others_and_too_much_is_refused():
 
     first = aside.ask("a", work)
     assert begun.wait(60)
-    second = aside.ask("a", work)  # waits for the first, though a thread is free
+    second = aside.ask("a", work)  # waits for the first call, although a thread is free
     assert aside.ask("b", lambda: "done").result(60) == "done"
     with pytest.raises(BusyError):
-        aside.ask("a", work)  # one owner has half of the room at most
+        aside.ask("a", work)  # one owner can use at most half of the queue
     begun.clear()
     third = aside.ask("c", work)
     assert begun.wait(60)
@@ -51,7 +51,7 @@ def test_one_owner_leaves_threads_to_the_others_and_too_much_is_refused():
 
 
 def test_a_formatter_that_hangs_holds_no_thread_of_requests(monkeypatch):
-    """As in tools that their user has stopped."""
+    """This is the case if the user has stopped their tools."""
     monkeypatch.setitem(handler.THREADS, "local", 1)
     go = threading.Event()
     monkeypatch.setattr(views, "checker", lambda user: lambda *_: (0, "[]") if go.wait(60) else (None, ""))

@@ -1,4 +1,4 @@
-"""Requests that wait for a worker: their threads are free, and their answers as any other."""
+"""Requests that wait for a worker: their threads are free, and their answers equal all others."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def one(monkeypatch):
 
 @pytest.fixture
 def held(monkeypatch):
-    """Work that the test does itself."""
+    """Work that the test itself completes."""
     work: Future[Any] = Future()
     monkeypatch.setattr(Lanes, "ask", lambda *_, **__: work)
     return work
@@ -67,7 +67,7 @@ def held(monkeypatch):
 
 async def test_many_requests_wait_for_workers_and_hold_no_thread(project, one, held):
     waiting = [asyncio.ensure_future(ask(one, f"projects/{project['id']}/xml")) for _ in range(20)]
-    for _ in range(3):  # with the only thread
+    for _ in range(3):  # with a single thread
         assert (await ask(one, "projects"))[0] == 200
     assert not any(task.done() for task in waiting)
     held.set_result({"text": "<root/>"})
@@ -112,7 +112,7 @@ async def test_too_much_work_is_refused_with_when_to_ask_again(one, project, mon
     monkeypatch.setattr(Lanes, "ask", busy)
     status, headers, body = await ask(one, f"projects/{project['id']}/xml")
     assert (status, headers[b"retry-after"], json.loads(body)["code"]) == (503, b"5", "busy")
-    assert (await ask(one, f"projects/{project['id']}"))[0] == 200  # it opens, unchecked
+    assert (await ask(one, f"projects/{project['id']}"))[0] == 200  # the project opens without being checked
 
 
 def test_a_handler_that_cannot_wait_gets_whole_answers(api, project):

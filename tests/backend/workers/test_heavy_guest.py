@@ -53,7 +53,7 @@ async def ask(handling, browser, path):
 
 @pytest.fixture
 def patient(monkeypatch):
-    """A pool as on a team server of four processors, whose deadline a busy machine does not meet."""
+    """A pool as on a team server with four processors, but with a deadline that a busy machine can meet."""
     made = Pool(Limits(workers=4, per_owner=2, waiting=16, deadline_s=300, memory_bytes=MEMORY_BYTES))
     monkeypatch.setattr("backend.projects.documents.checking.pool", lambda: made)
     yield made

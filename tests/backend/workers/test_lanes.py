@@ -1,4 +1,4 @@
-"""Small work beside large work: each has processes of its own, and gives way or does not."""
+"""Small jobs beside large ones: each kind has its own processes and priority."""
 
 from __future__ import annotations
 

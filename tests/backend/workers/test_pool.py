@@ -1,4 +1,4 @@
-"""The pool with real processes: what comes back, what is bounded, and what survives what."""
+"""The pool with real processes: its results, its limits, and the failures that it survives."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def make_pool():
 
 
 def pack(pool, size, owner="someone"):
-    """Work that takes longer the larger it is, and differs by its size."""
+    """Returns work that takes longer the larger it is, and differs by its size."""
     return pool.ask(owner, "pack", files={"a": bytes(size)})
 
 
@@ -79,7 +79,7 @@ def test_the_same_question_is_answered_once(make_pool):
     first = pack(pool, 10_000_000)
     assert pack(pool, 10_000_000, owner="another") is first
     result = first.result(PATIENCE_S)
-    os.kill(pids(pool)[0], signal.SIGSTOP)  # it could not answer again
+    os.kill(pids(pool)[0], signal.SIGSTOP)  # the process could not answer again
     try:
         assert pack(pool, 10_000_000).result(0) == result
     finally:

@@ -1,4 +1,4 @@
-"""One pool for several web workers: asked over a socket, with the same answers and the same bounds."""
+"""One pool for several web workers: used over a socket, with the same answers and limits."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ FILES = {"project.json": b'{"format": "bt-studio/project", "version": 1, "name":
 
 
 class Served:
-    """A pool behind a socket, and two that ask it."""
+    """A pool behind a socket, and two clients."""
 
     def __init__(self, path, **limits):
         self.pool = Pool(Limits(**{
@@ -33,7 +33,7 @@ class Served:
         self.askers = [RemotePool(path), RemotePool(path)]
 
     def close(self):
-        self.listener.shutdown(socket.SHUT_RDWR)  # wakes who accepts
+        self.listener.shutdown(socket.SHUT_RDWR)  # this wakes the thread that accepts
         self.listener.close()
         self.pool.close()
 

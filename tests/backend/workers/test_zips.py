@@ -1,4 +1,4 @@
-"""Zips: the same bytes for the same files, and quick where files are large."""
+"""Zips: equal bytes for equal files, and fast for large files."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def test_what_does_not_shrink_is_stored(data, kind):
 
 
 def test_the_largest_project_is_packed_within_the_memory_of_a_worker():
-    """Also twice, when the worker has its last answer behind it."""
+    """Also twice, while the worker still holds its last answer."""
     noise = os.urandom(FILE_BYTES)
     files = {f"assets/{n}.bin": noise for n in range(PROJECT_BYTES // FILE_BYTES)}
     pool = Pool(Limits(workers=1, per_owner=1, waiting=2, deadline_s=300, memory_bytes=MEMORY_BYTES))

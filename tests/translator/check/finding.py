@@ -33,7 +33,7 @@ def find(one: Callable[[Context], None], project: Project, code: str) -> Diagnos
 def is_found_at_its_place(
     one: Callable[[Context], None], make_project: Callable[..., Project], case: Case
 ) -> None:
-    """A case's finding names the node, its line and what to do."""
+    """Checks that a case's finding names the node, its line, and what to do."""
     code, nodes, node = case
     found = find(one, make_project(nodes, trees={"Other": {"n1": LEAF}}), code)
     assert (found.place.tree, found.place.node) == ("MainTree", node)

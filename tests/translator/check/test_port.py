@@ -7,6 +7,11 @@ import pytest
 from tests.translator.check.finding import LEAF, find, is_found_at_its_place
 from translator.check.port import check_ports
 
+GOING = "nav2_msgs/action/NavigateToPos"
+ROS = {
+    "type": "RosAction",
+    "ports": {"action_name": "/go", "action_type": "nav2_msgs/action/NavigateToPose"},
+}
 CASES = {
     "missing port": ("BT0201", {"n1": {"type": "Delay", "children": ["a"]}, "a": LEAF}, "n1"),
     "unknown port": ("BT0202", {"n1": {"type": "Act", "ports": {"sped": "1"}}}, "n1"),
@@ -23,6 +28,22 @@ CASES = {
     "empty key": ("BT0207", {"n1": {"type": "Act", "ports": {"speed": "{}"}}}, "n1"),
     "bad key": ("BT0208", {"n1": {"type": "Act", "ports": {"speed": "{a}{b}"}}}, "n1"),
     "bad port name": ("BT0209", {"n1": {"type": "Open", "ports": {"1st": "x"}}}, "n1"),
+    "no field of the interface": (
+        "BT0202",
+        {"n1": {**ROS, "ports": {**ROS["ports"], "goal__pos": "1"}}},
+        "n1",
+    ),
+    "no number for a field": (
+        "BT0204",
+        {"n1": {**ROS, "ports": {**ROS["ports"], "goal__pose__pose__position__x": "far"}}},
+        "n1",
+    ),
+    "no such interface": ("BT0204", {"n1": {**ROS, "ports": {**ROS["ports"], "action_type": GOING}}}, "n1"),
+    "a service as an action": (
+        "BT0204",
+        {"n1": {**ROS, "ports": {**ROS["ports"], "action_type": "std_srvs/srv/Trigger"}}},
+        "n1",
+    ),
     "two types": (
         "BT0210",
         {

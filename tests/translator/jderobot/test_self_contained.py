@@ -1,4 +1,4 @@
-"""The self-contained form of 2024, in and out."""
+"""The self-contained form of 2024, read and written."""
 
 from __future__ import annotations
 

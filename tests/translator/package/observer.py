@@ -36,7 +36,7 @@ def main(full_name: str) -> None:
 
 
 def parameters(me, full_name):
-    """The parameters that the node has; a request for one that it has not would give none."""
+    """Returns the parameters of the node; a request for a missing one would return nothing."""
     listed = ask(me, ListParameters, f"{full_name}/list_parameters", ListParameters.Request())
     names = sorted(NAMES & set(listed.result.names))
     got = ask(me, GetParameters, f"{full_name}/get_parameters", GetParameters.Request(names=names))

@@ -1,4 +1,4 @@
-"""The packages are really built by colcon, sourced and started; another process hears what they publish."""
+"""The packages are really built by colcon, sourced and started; another process receives their messages."""
 
 from __future__ import annotations
 
@@ -138,7 +138,7 @@ def test_the_installed_program_publishes(workspace, name):
 
 
 def turning_speed(name):
-    """Returns the speed of the example's Turn: without sensors, both examples turn."""
+    """Returns the speed of the example's Turn: both examples turn if there are no sensors."""
     (turn,) = [node for node in load(example_files(name)).main.walk() if node.type == "Turn"]
     return float(turn.ports["ang_speed"])
 
@@ -166,7 +166,7 @@ def test_an_older_engine_is_refused_by_name(workspace):
 
 @pytest.fixture
 def launched(workspace, monkeypatch):
-    """Works out what a launch file starts with arguments."""
+    """Returns what a launch file starts with these arguments."""
 
     def start(name, **arguments):
         monkeypatch.setenv("AMENT_PREFIX_PATH", f"{workspace}/install/{name}")

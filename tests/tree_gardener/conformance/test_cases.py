@@ -28,7 +28,7 @@ FILES = {
 REJECTS = {case["name"]: case for case in map(json.loads, (CASES / "rejects.jsonl").read_text().splitlines())}
 TREE_B = '</BehaviorTree><BehaviorTree ID="B"><AlwaysSuccess/></BehaviorTree></root>'
 
-# What has to change in each refused document, and nothing else, for it to load.
+# The only change that makes each refused document load.
 REPAIRS: dict[str, tuple[tuple[str, str], ...]] = {
     "R-unclosed": (("</BehaviorTree>", "<AlwaysSuccess/></Sequence></BehaviorTree>"),),
     "R-unquoted-attr": (("BTCPP_format=4", 'BTCPP_format="4"'),),

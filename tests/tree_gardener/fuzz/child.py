@@ -21,7 +21,8 @@ def main() -> None:
     out = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)
     for case in pickle.load(sys.stdin.buffer):  # noqa: S301 - our own parent wrote it
-        # Some trees never end in tickOnce: two that yield under a reactive node wake each other without end.
+        # Some trees never end in tickOnce: two nodes that yield under a reactive node wake each other
+        # forever.
         signal.alarm(ENDLESS_S)
         out.write(json.dumps(run_reference(case)) + "\n")
         out.flush()

@@ -1,4 +1,4 @@
-"""Compares cases in both engines and makes those that differ small."""
+"""Compares cases in both engines, and reduces those that differ."""
 
 from __future__ import annotations
 

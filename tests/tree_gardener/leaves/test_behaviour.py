@@ -1,4 +1,4 @@
-"""py_trees behaviours as leaves: what is called when, and what their errors say."""
+"""py_trees behaviours as leaves: which methods are called when, and their errors."""
 
 from __future__ import annotations
 

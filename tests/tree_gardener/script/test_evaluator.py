@@ -28,7 +28,7 @@ _way = {"now": "evaluated"}
 
 @pytest.fixture(params=WAYS, autouse=True, scope="module")
 def way(request: pytest.FixtureRequest) -> None:
-    """Runs each test in both ways."""
+    """Runs each test with the evaluator and with compiled scripts."""
     _way["now"] = request.param
 
 

@@ -42,7 +42,9 @@ it('announces the name, the type and the place of the selected block', () => {
 
 it('announces its problem, and that it is disabled', () => {
   select('Main', 'b');
-  expect(text()).toBe('Nap, Sleep, child 2 of 2 of Work, It is wrong. Press Control and full stop to see the fixes.');
+  expect(text()).toBe(
+    'Nap, Sleep, child 2 of 2 of Work, It is wrong. Press Control and full stop to see the fixes.',
+  );
   select('Main', 'a');
   expect(text()).toBe('Sleep, Sleep, child 1 of 2 of Work, disabled');
 });

@@ -58,7 +58,9 @@ describe('a file that comes', () => {
   it('says that the tree into which it comes stays', () => {
     useProjectStore.getState().setActiveTree('Main');
     open('trees/Main.json', 'rename', oneBlock('Main', 'AlwaysSuccess'), 'trees/Main2.json');
-    expect(screen.getByText('You are inserting into Main, so the incoming one is named Main2.')).toBeInTheDocument();
+    expect(
+      screen.getByText('You are inserting into Main, so the incoming one is named Main2.'),
+    ).toBeInTheDocument();
     expect(screen.queryByRole('radio')).toBeNull();
   });
 });

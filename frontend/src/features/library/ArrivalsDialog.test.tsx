@@ -71,7 +71,9 @@ describe('what comes', () => {
     expect(await screen.findByRole('textbox', { name: 'actions/Turn.py, incoming' })).toHaveTextContent(
       'theirs',
     );
-    expect(screen.getByRole('textbox', { name: 'actions/Turn.py in this project' })).toHaveTextContent('mine');
+    expect(screen.getByRole('textbox', { name: 'actions/Turn.py in this project' })).toHaveTextContent(
+      'mine',
+    );
     await user.click(screen.getByRole('button', { name: 'Same' }));
     expect(await screen.findByTestId('action-source')).toHaveTextContent('class Same: ...');
     await user.click(screen.getByRole('button', { name: 'Dock' }));

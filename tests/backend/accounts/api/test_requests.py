@@ -1,4 +1,4 @@
-"""Requests are read by serializers that stay: the same is accepted and refused as by new ones."""
+"""Serializers that are reused accept and refuse the same requests as new ones."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ FILE = {"path": "a.txt", "base_revision": 0, "content": "x"}
 
 
 def read(body):
-    """Returns what a new serializer makes of a body."""
+    """Returns what a new serializer reads from a body."""
     serializer = ChangesSerializer(data=body)
     serializer.is_valid(raise_exception=True)
     return dict(serializer.validated_data)

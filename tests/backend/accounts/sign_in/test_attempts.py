@@ -1,4 +1,7 @@
-"""Guessers are slowed down, teachers and classes get in; and one function says where a request comes from."""
+"""Attackers who guess passwords are slowed down, but teachers and classes can sign in.
+
+One function determines the address of a client.
+"""
 
 from __future__ import annotations
 
@@ -27,14 +30,14 @@ ELSEWHERE = "203.0.113.7"
 
 
 def at(address):
-    """A browser on another machine."""
+    """Returns a browser on another machine."""
     made = Person()
     made.client.defaults["REMOTE_ADDR"] = address
     return made
 
 
 def signs_in(browser, name, password=PASSWORD):
-    """Whether it is in afterwards."""
+    """Returns whether the user is signed in after an attempt."""
     page = browser.form(
         "/accounts/login/", login=name, password=password, expect=(200, 302)[password == PASSWORD]
     )
@@ -56,7 +59,7 @@ def test_who_signed_in_before_gets_in_whatever_others_guess(team):
     for n in range(60):
         guesser = at(f"198.51.100.{n}")
         guesser.form("/accounts/login/", login="tina", password="wrong", expect=200)
-    assert refused(at(ELSEWHERE), "tina")  # fifty were wrong: browsers that nobody knows wait
+    assert refused(at(ELSEWHERE), "tina")  # after fifty wrong passwords, unknown browsers must wait
     assert signs_in(tina, "TINA@example.org")
 
 

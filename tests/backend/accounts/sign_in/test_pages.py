@@ -1,4 +1,4 @@
-"""The look and the words of the pages that Django draws."""
+"""The appearance and the texts of the pages that Django renders."""
 
 from __future__ import annotations
 

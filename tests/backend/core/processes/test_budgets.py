@@ -1,4 +1,4 @@
-"""The share of an owner: a burst, then a rate, and only while others work."""
+"""The share of an owner: a burst, then a rate, and only while others use the server."""
 
 from __future__ import annotations
 

@@ -13,14 +13,14 @@ from backend.core.processes.siblings import Family, _Siblings, least_s, siblings
 
 @pytest.fixture
 def pages(tmp_path):
-    """The pages of three workers, as a family of which this process is the second."""
+    """The pages of three workers, of which this process is the second."""
     family = Family(tmp_path, 3, 1)
     return family, [make_page(path) for path in family.pages()]
 
 
 @pytest.fixture
 def joined(pages, monkeypatch):
-    """This process as one of three."""
+    """This process as one of three workers."""
     family, found = pages
     for name in ("_own", "_all"):
         monkeypatch.setattr(numbers, name, getattr(numbers, name))
@@ -66,7 +66,7 @@ def test_the_worker_that_is_best_off_answers_for_all(joined):
     now = time.monotonic()
     assert least_s(FULL, 70.0) == 70.0  # the others have not started
     joined[0][STARTED], joined[0][BEAT], joined[0][FULL] = 1, now - 500, 0
-    assert least_s(FULL, 70.0) == 70.0  # that one said nothing for long
+    assert least_s(FULL, 70.0) == 70.0  # that worker has not reported for long
     joined[2][STARTED], joined[2][BEAT], joined[2][FULL] = 1, now, 5.0
     assert least_s(FULL, 70.0) == 5.0
     assert least_s(FULL, 0.0) == 0.0

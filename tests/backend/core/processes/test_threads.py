@@ -1,4 +1,4 @@
-"""Threads that stay: who works next, what comes back, and how they end."""
+"""The fixed pool of threads: which thread works next, what callers receive, and how the threads end."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_one_owner_has_a_share_and_the_others_find_a_free_thread():
         assert (threads.full_for_s(), len(threads._waiting)) == (pytest.approx(0, abs=60), 18)
         gates["other"].set()
         await asyncio.gather(*other)
-        # Two are free again, and not for the greedy one.
+        # Two threads are free again, but not for the owner who has too many calls.
         assert await asyncio.gather(*(threads.run(loop, partial(int, n), f"user {n}") for n in range(9)))
         assert await threads.run(loop, lambda: "nobody's") == "nobody's"
         assert (len(threads._waiting), threads.full_for_s()) == (18, 0.0)

@@ -1,4 +1,4 @@
-"""A new revision is announced to all who have the project open."""
+"""A new revision is announced to all pages that have the project open."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A user's own room and data."""
+"""The disk use and the data of a user."""
 
 from __future__ import annotations
 

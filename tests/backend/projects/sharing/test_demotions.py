@@ -1,4 +1,4 @@
-"""A role that ends or becomes lower is noticed by whatever way."""
+"""Every way in which a role ends or becomes lower is noticed."""
 
 from __future__ import annotations
 

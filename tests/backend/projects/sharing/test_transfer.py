@@ -14,7 +14,7 @@ from tests.backend.accounts.test_sharing import project_of
 def test_an_editor_becomes_the_owner_and_the_owner_an_editor(person):  # noqa: F811
     olga, fred = person("olga"), person("fred")
     one = project_of(olga)
-    with pytest.raises(InvalidInputError, match="no editor"):
+    with pytest.raises(InvalidInputError, match="not an editor"):
         transfer_project(one, "fred", acting_user=olga.user)
     olga.post(f"projects/{one}/shares", {"name": "fred", "role": "editor"})
     transfer_project(one, "fred", acting_user=olga.user)

@@ -22,7 +22,7 @@ STEPS = 12
 
 
 def rows_of(project):
-    """All that a project has in the database, without keys and times, which differ in any case."""
+    """Returns all rows of a project, without keys and times, which always differ."""
     changes = ChangeSet.objects.filter(project=project).order_by("number")
     revisions = FileRevision.objects.filter(change__project=project).exclude(path=MANIFEST)
     files = CurrentFile.objects.filter(project=project).exclude(path=MANIFEST).order_by("path")
@@ -49,7 +49,7 @@ def times_of(project):
 
 
 def a_change(chance, files, revision):
-    """Writes, moves, removals of some files, now and then of more than fit in one statement."""
+    """Returns writes, moves and removals of some files, sometimes more than fit in one statement."""
     wanted, most = [], chance.choice([1, 2, 5, at_once.FILES, at_once.FILES + 3])
     for path in chance.sample(sorted(files), min(len(files), most // 2)):
         kind = chance.choice(["write", "move", "move and write", "remove"])
@@ -68,7 +68,7 @@ def content(chance):
 @pytest.mark.parametrize("seed", range(4))
 def test_the_same_saves_leave_the_same_rows(api, user, monkeypatch, seed):
     chance = random.Random(seed)  # noqa: S311 - it chooses what is saved
-    # Names of one length, so that the sizes are the same.
+    # The names have the same length, so that the sizes are equal.
     ours, theirs = (api.post("projects", {"name": name}, expect=201)["id"] for name in ("Save A", "Save B"))
     for step in range(STEPS):
         now = CurrentFile.objects.filter(project=ours).exclude(path=MANIFEST)

@@ -1,4 +1,4 @@
-"""Trees do not grow beyond the limits, by whatever way they come; what is larger already is not lost."""
+"""Trees do not grow beyond the limits, in whatever way they arrive; larger ones are not lost."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def test_bytes_of_all_trees_are_bounded(api, one, monkeypatch):
 def test_what_is_no_tree_is_not_counted(api, one, small):
     many = json.dumps({"nodes": {f"n{n}": {"type": "A"} for n in range(50)}})
     api.save(one, {"path": "assets/data.json", "base_revision": 0, "content": many})
-    # A word that nodes have is no node.
+    # A word that also occurs in nodes does not count as a node.
     odd = json.loads(diagram("Odd", 2)) | {"ports": [{"name": "p", "type": "int"}] * 30}
     api.save(one, {"path": "trees/Odd.json", "base_revision": 0, "content": json.dumps(odd)})
 

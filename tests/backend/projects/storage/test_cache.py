@@ -1,4 +1,4 @@
-"""Contents and lists that are kept in memory: the right ones, and not too many."""
+"""Contents and lists in the cache: they are correct, and their number is limited."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from backend.projects.storage.changes import Content
 
 @pytest.fixture
 def fresh(monkeypatch):
-    """Caches that are empty, and as large as a test says."""
+    """Empty caches of a size that a test chooses."""
 
     def make(*, room=cache.ROOM, files=cache.FILES):
         monkeypatch.setattr(cache, "kept_contents", LRUCache(room, getsizeof=len))

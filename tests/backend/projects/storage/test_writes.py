@@ -25,7 +25,7 @@ paths = st.sampled_from(PATHS)
 
 
 class TwoClients(RuleBasedStateMachine):
-    """Each client adds a line of its own to what it knows of a file; the file must keep every line."""
+    """Each client adds its own line to its version of a file; the file must keep every line."""
 
     @initialize()
     def begin(self):

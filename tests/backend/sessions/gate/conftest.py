@@ -1,4 +1,4 @@
-"""A gate as it runs: a process of its own, and what the keeper and sessions do with it."""
+"""A gate in its own process, and functions that act as the keeper and as sessions."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Gate:
         return True
 
     def open_door(self, session="s", timeout_s=60):
-        """Does what the keeper does for a session; returns the door and the socket that comes through it."""
+        """Acts as the keeper for a session; returns the door, and the socket that comes through it."""
         ours, handed = (self._kept.enter_context(one) for one in socket.socketpair())
         return self._kept.enter_context(Door(self.control, handed, session, TOKEN).open(timeout_s)), ours
 
@@ -67,11 +67,11 @@ class Gate:
         return self.doors / door.path
 
     def connect(self, path, count=1):
-        """Connections that say nothing."""
+        """Opens connections that send nothing."""
         made = []
         for _ in range(count):
             one = self._kept.enter_context(socket.socket(socket.AF_UNIX))
-            one.connect(str(path))  # waits where many do
+            one.connect(str(path))  # waits if there are many connections
             one.settimeout(60)
             made.append(one)
         return made
@@ -85,12 +85,12 @@ class Gate:
 
 
 def show(caller, *, session="s", token=TOKEN):
-    """Shows a token at a door."""
+    """Sends a token at a door."""
     caller.sendall(json.dumps({"session": session, "token": token}).encode() + b"\n")
 
 
 def fetch(caller):
-    """Returns the words that the gate answers, and whether it handed something out."""
+    """Returns the words of the gate's answer, and whether it passed a socket."""
     words, descriptors, _, _ = socket.recv_fds(caller, 64, 1)
     for descriptor in descriptors:
         socket.socket(fileno=descriptor).close()

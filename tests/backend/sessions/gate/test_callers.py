@@ -1,4 +1,4 @@
-"""Connections that have not yet said what they want."""
+"""Connections that have not sent a request yet."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The gate as a process: nothing that connections do ends it, or keeps a session out."""
+"""The gate as a process: no connection can end it, or keep a session out."""
 
 from __future__ import annotations
 
@@ -203,7 +203,7 @@ class Clock:
 
 @pytest.fixture
 def stepped(stopped_gate: Any) -> Any:
-    """A gate whose rounds and time the test makes."""
+    """A gate whose rounds and time the test controls."""
     clock = Clock()
     server = GateServer(Doors(stopped_gate.doors), stopped_gate.control, Limits(doors=2), clock)
     stopped_gate.clock = clock
@@ -214,7 +214,7 @@ def stepped(stopped_gate: Any) -> Any:
 
 
 def opened(stepped: Any, name: str):
-    """A door of the stepped gate, as the keeper asks for it; what it answers is in the connection."""
+    """A door of the stepped gate, opened as the keeper does; the answer is in the connection."""
     [ours] = stepped.connect(stepped.control)
     asked = f'{{"door": "{name}", "session": "s", "token": "{TOKEN}"}}\n'.encode()
     with socket.socket() as handed:

@@ -21,7 +21,7 @@ from tests.fakes.docker import FakeDocker, control_of, gate_of
 
 
 class Host:
-    """Everything that stands beside a web server."""
+    """All services beside a web server."""
 
     def __init__(self, folder, image, max_sessions, patience_s):
         self.folder = folder / "keeper"

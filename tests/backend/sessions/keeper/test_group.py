@@ -1,4 +1,4 @@
-"""Whether the keeper may use Docker's socket, and what it says when it may not."""
+"""Whether the keeper may use Docker's socket, and its message if it may not."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def docker_socket(tmp_path, monkeypatch):
 
 @pytest.fixture
 def shut_out(monkeypatch):
-    """As one who is no root and not in the group."""
+    """Acts as a user who is neither root nor in the group."""
     monkeypatch.setattr(os, "access", lambda *_: False)
 
 

@@ -151,7 +151,7 @@ def test_more_requests_than_there_are_places_for_are_refused_and_the_keeper_live
     silent = [socket.socket(socket.AF_UNIX) for _ in range(40)]
     for client in silent:
         client.connect(str(host.folder / "keeper.sock"))
-    # The last has been closed without an answer: all places are taken by those that say nothing.
+    # The last connection was closed without an answer: all places are taken by silent connections.
     silent[-1].settimeout(60)
     assert silent[-1].recv(1) == b""
     for client in silent:
@@ -243,7 +243,7 @@ def test_a_storm_of_processes_is_ended_from_outside(host_of):
     host.keeper.end_crowded()
     assert host.launcher.poll(started.state) == 137
     assert "256 processes" in host.launcher.explain(started.state)
-    # A caller gets the same answer after somebody else has cleared up.
+    # A caller gets the same answer after another one has removed the container.
     host.launcher.stop(started.state, timeout_s=1)
     assert host.docker.containers == {}
     assert "256 processes" in host.launcher.explain(started.state)

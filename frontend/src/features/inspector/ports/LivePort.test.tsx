@@ -49,5 +49,7 @@ it('gives the reason why the program does not take a value', () => {
 it('tells while a value is typed how the running program gets it', async () => {
   await openSession();
   open(undefined, { isTyping: true });
-  expect(screen.getByRole('status')).toHaveTextContent('Press Enter to send this value to the running program.');
+  expect(screen.getByRole('status')).toHaveTextContent(
+    'Press Enter to send this value to the running program.',
+  );
 });

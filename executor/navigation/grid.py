@@ -49,15 +49,19 @@ class Grid:
             self.origin[1] + (row + 0.5) * self.resolution,
         )
 
-    def clearance(self) -> NDArray[np.float64]:
-        """Returns the distance in m from the centre of each cell to that of the next occupied cell."""
+    def clearance(self, most: float = math.inf) -> NDArray[np.float64]:
+        """Returns the distance in m from the centre of each cell to that of the next occupied cell.
+
+        Larger distances than `most` are given as `most`, which saves time.
+        """
+        shifts = int(min(most / self.resolution + 1, max(self.occupied.shape)))
         squares = np.where(self.occupied, 0.0, FAR)
-        squares = _along_columns(squares)
-        squares = _along_columns(squares.T).T
-        return np.sqrt(np.minimum(squares, FAR)) * self.resolution
+        squares = _along_columns(squares, shifts)
+        squares = _along_columns(squares.T, shifts).T
+        return np.minimum(np.sqrt(squares) * self.resolution, most)
 
 
-def _along_columns(squares: NDArray[np.float64]) -> NDArray[np.float64]:
+def _along_columns(squares: NDArray[np.float64], shifts: int) -> NDArray[np.float64]:
     """Returns the least of `squares` plus the squared distance along each column.
 
     One shift after the other; it ends when a further shift cannot make any cell nearer.
@@ -67,7 +71,7 @@ def _along_columns(squares: NDArray[np.float64]) -> NDArray[np.float64]:
     finite = best[best < FAR]
     if not finite.size:
         return best
-    for shift in range(1, rows):
+    for shift in range(1, min(rows, shifts + 1)):
         square = float(shift * shift)
         if square >= best.max():
             break

@@ -16,6 +16,8 @@ _STEPS: Final = [
 ]
 INFLATION_M: Final = 0.35
 """The width of the zone beside the robot's radius that costs more, so that paths keep away from walls."""
+FREE_M: Final = 1.0
+"""Beyond this distance from the robot's body it does not matter how far an obstacle is."""
 MOST_COST: Final = 6.0
 """How many times as much a cell costs that just lets the robot through."""
 
@@ -26,7 +28,7 @@ class Map:
     def __init__(self, grid: Grid, radius: float) -> None:
         self.grid = grid
         self.radius = radius
-        self.clearance = grid.clearance()
+        self.clearance = grid.clearance(radius + FREE_M)
         self.is_free = self.clearance > radius
         near = np.clip((radius + INFLATION_M - self.clearance) / INFLATION_M, 0.0, 1.0)
         self.cost = 1.0 + (MOST_COST - 1.0) * near**2

@@ -23,6 +23,12 @@ def test_the_clearance_is_the_distance_to_the_next_occupied_cell(occupied: np.nd
             assert math.isclose(found, 0.5 * min(math.dist(cell, place) for place in places), abs_tol=1e-9)
 
 
+@given(st_numpy.arrays(np.bool_, st.tuples(st.integers(1, 12), st.integers(1, 12))), st.floats(0.1, 4.0))
+def test_a_limit_changes_only_what_is_beyond_it(occupied: np.ndarray, most: float) -> None:
+    grid = Grid(occupied, 0.5, (0.0, 0.0))
+    assert np.allclose(grid.clearance(most), np.minimum(grid.clearance(), most))
+
+
 @given(st.floats(-4.99, 4.99), st.floats(-2.99, 2.99))
 def test_a_point_is_in_the_cell_whose_centre_is_near(x: float, y: float) -> None:
     grid = Grid.empty((-5.0, -3.0), (5.0, 3.0), 0.1)

@@ -109,7 +109,7 @@ def _fault(stage: Stage, child: Child, trace: ChildTraced | None) -> messages.Fa
             text = f"{place.text or 'an action'} has not returned {for_s}"
             return _located(text, _LOAD_HINT if vitals.task else _TICK_HINT, place)
         at = f" (at {place.text})" if place.text else ""
-        return _located(f"{name}'s main loop has stood still {for_s}{at}.", frozen_hint, Place())
+        return _located(f"{name}'s main loop has been stuck {for_s}{at}.", frozen_hint, Place())
     if vitals.state == STOPPED:
         text = f"{name} has not answered {for_s}: its process is stopped, as by SIGSTOP."
         return _located(text, frozen_hint, Place())

@@ -38,7 +38,7 @@ class PortModel:
 class NodeModel:
     """A kind of node: control, decorator, action, condition or subtree; its ports and child counts.
 
-    `group` is `ros` for built-in nodes that BehaviorTree.CPP has not.
+    `group` is `ros` for built-in nodes that BehaviorTree.CPP does not have.
     """
 
     type: str

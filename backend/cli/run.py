@@ -44,7 +44,7 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the report as JSON.")] = False,  # noqa: FBT002
 ) -> None:
-    """Runs a project; exit status 1 if it cannot be run, an action raised, or one is an unwritten stub."""
+    """Runs a project; exit status 1 if it cannot run, an action raised, or an action is an unwritten stub."""
     from backend.cli import _translation as cli
     from backend.cli.errors import CliError
     from translator import TranslatorError

@@ -94,19 +94,29 @@ async def _http(
         return
     started = time.perf_counter()
     status = 500
+    is_counted = False
+
+    def count() -> None:
+        nonlocal is_counted
+        if not is_counted:
+            is_counted = True
+            metrics.requests.add(f"{status // 100}xx")
+            metrics.request_seconds.observe(time.perf_counter() - started)
 
     async def noting_send(message: Any) -> None:
         nonlocal status
         if message["type"] == "http.response.start":
             status = message["status"]
+        elif message["type"] == "http.response.body" and not message.get("more_body", False):
+            # Before the client has all of it: what it asks for next shows its own count, by any worker.
+            count()
         await send(message)
 
     try:
         await application(scope, receive, noting_send)
     finally:
+        count()
         seconds = time.perf_counter() - started
-        metrics.requests.add(f"{status // 100}xx")
-        metrics.request_seconds.observe(seconds)
         # The query is left out: it may contain a token.
         facts = {"method": scope["method"], "path": path, "status": status, "ms": round(1000 * seconds, 1)}
         log.debug("request", extra={"facts": facts})

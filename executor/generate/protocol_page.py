@@ -59,7 +59,7 @@ _ERRORS: Final = {
     "busy": "another step is under way",
     "cancelled": "the step was cancelled",
     "timeout": "the step took too long and was given up",
-    "bad_archive": "the zip is damaged, too large or names places outside itself",
+    "bad_archive": "the zip is damaged, too large or contains paths outside its own folder",
     "load_failed": "the application cannot be loaded; a `fault` says where",
     "process_died": "the process that the step waited for ended",
     "tick_hangs": "the tick did not return and was ended",

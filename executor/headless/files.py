@@ -20,6 +20,6 @@ def write_files(folder: Path, files: Mapping[str, bytes]) -> None:
     for name, data in files.items():
         path = folder / name
         if not path.resolve().is_relative_to(folder.resolve()):
-            raise ValueError(f"{name!r} leads out of the project")
+            raise ValueError(f"{name!r} lies outside the project")
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)

@@ -241,7 +241,7 @@ class SessionServer:
         self._forget(client)
 
     def _close_soon(self, connection: ServerConnection) -> None:
-        closing = asyncio.create_task(connection.close(REPLACED, "the client came back"))
+        closing = asyncio.create_task(connection.close(REPLACED, "the client opened a new connection"))
         self._closing.add(closing)
         closing.add_done_callback(self._closing.discard)
 

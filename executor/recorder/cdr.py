@@ -54,7 +54,7 @@ def decode(name: str, data: bytes) -> dict[str, Any]:
     """Returns the fields of a message of one of our types.
 
     Raises:
-        CdrError: the bytes are cut off or otherwise no such message.
+        CdrError: the bytes are incomplete, or not such a message.
     """
     reader = _Reader(data[4:])
     try:

@@ -28,7 +28,7 @@ _LINE: Final = re.compile(
 
 
 class DefinitionError(Exception):
-    """The definition of a type is not there."""
+    """The definition of a type does not exist."""
 
 
 class Field(NamedTuple):
@@ -68,7 +68,7 @@ def full_text(name: str) -> str:
     """Returns the definition of a type, followed by those of all types that it uses.
 
     Raises:
-        DefinitionError: one of them is not there.
+        DefinitionError: one of them does not exist.
     """
     parts, seen, open_ = [_text(name)], {_short(name)}, [name]
     while open_:

@@ -1,8 +1,8 @@
 """Reads the records of an MCAP file in their order, within bounds, also of a file that was cut off.
 
-Ready readers refuse a file without its end. This one yields
-all whole records, and tells where it stopped. Sizes in a file are claims: each is compared with a bound
-before anything is unpacked, and counted while it is.
+Existing readers refuse a file without its end. This one yields all complete records, and reports where it
+stopped. Sizes in a file are not trusted: each is compared with a bound before anything is unpacked, and
+counted while it is.
 
     RecordingError    the file is no recording, or hostile; it has a place and a hint
 """

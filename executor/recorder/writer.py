@@ -1,7 +1,8 @@
 """Writes one MCAP file of the profile `ros2`, with chunks of 256 KiB packed by zstd.
 
-Log time is simulated and never decreases; what happens while time stands has the same time and a rising
-sequence. `flush` makes everything written so far readable, also if the process is killed afterwards.
+Log time is simulated and never decreases; messages that are written while time is paused have the same time
+and a rising sequence number. `flush` makes everything written so far readable, also if the process is killed
+afterwards.
 """
 
 from __future__ import annotations
@@ -64,7 +65,7 @@ class RecordingWriter:
         """Writes a message of a type (`sensor_msgs/msg/LaserScan`), as CDR.
 
         Raises:
-            DefinitionError: the definition of the type is not there.
+            DefinitionError: the definition of the type does not exist.
             OSError: the disk is full.
         """
         channel = self._channels.get((topic, kind)) or self._add_channel(topic, kind)

@@ -241,8 +241,8 @@ def _check_names(shown: str, located: Located, document: RobotDocument, urdf: Ur
     for i, driven in enumerate(document.joints):
         joint = urdf.joints.get(driven.joint)
         if joint is not None and (joint.kind not in MOVING or driven.joint in wheels):
-            why = "is a wheel's" if driven.joint in wheels else f"is {joint.kind}"
-            text = f"the joint {driven.joint!r} {why}: no motor can hold it somewhere"
+            why = "drives a wheel" if driven.joint in wheels else f"is {joint.kind}"
+            text = f"the joint {driven.joint!r} {why}, so it cannot be listed under `joints`"
             problems.append(Problem(text, *located.place(("joints", i, "joint")), "BTR003"))
     if problems:
         raise RobotError(problems, shown)

@@ -38,7 +38,7 @@ def mesh_path(name: str, folder: Path) -> Path:
         root = folder
     inside = [path for path in candidates if path.resolve().is_relative_to(root.resolve())]
     if not inside:
-        raise MeshError(f"{name} leads out of the robot's folder")
+        raise MeshError(f"{name} lies outside the robot's folder")
     return next((path for path in inside if path.is_file()), inside[0])
 
 

@@ -108,7 +108,7 @@ class _Model:
         for element in self._model.findall(tag):
             name = element.get("name", "")
             if not name or name in found:
-                text = f"the {tag} {name!r} stands here twice" if name else f"a {tag} needs a name"
+                text = f"the {tag} {name!r} is defined twice" if name else f"a {tag} needs a name"
                 raise self._wrong(text, element)
             found[name] = element
         return found

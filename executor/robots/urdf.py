@@ -140,7 +140,7 @@ def _by_name(root: etree._Element, tag: str, make: Callable[[etree._Element], T]
         name = element.get("name", "")
         if not name or name in found:
             raise _WrongError(
-                f"the {tag} {name!r} stands here twice" if name else f"a {tag} needs a name", element
+                f"the {tag} {name!r} is defined twice" if name else f"a {tag} needs a name", element
             )
         found[name] = make(element)
     return found

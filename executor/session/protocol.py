@@ -344,7 +344,7 @@ class Session:
         for client in self.clients.promote(self.now_s, self.about.promote_s):
             self.introspect(client)
         if self.clients.is_abandoned(self.now_s, self.about.grace_s):
-            self.output.effect(EndSession("no client came back within the grace period"))
+            self.output.effect(EndSession("no client reconnected within the grace period"))
 
     def _ack(self, client: str, request: str) -> None:
         self.output.send(client, messages.Ack(), request)

@@ -30,7 +30,7 @@ DEAF_AGAIN_S: Final = 60.0
 TRACE_CHARACTERS: Final = 4000
 _TICK_HINT: Final = "update() must return soon: let it return RUNNING while work continues."
 _LOAD_HINT: Final = (
-    "What computes may take its time; what only waits is ended after 8 s. "
+    "Code that computes may take long; code that only waits is ended after 8 s. "
     "Wait in update() instead, with RUNNING, for what is not there yet."
 )
 _FROZEN_HINT: Final = f"It is ended if it does not answer within {END_AFTER_S:g} s; then press Run again."
@@ -109,7 +109,7 @@ def _fault(stage: Stage, child: Child, trace: ChildTraced | None) -> messages.Fa
             text = f"{place.text or 'an action'} has not returned {for_s}"
             return _located(text, _LOAD_HINT if vitals.task else _TICK_HINT, place)
         at = f" (at {place.text})" if place.text else ""
-        return _located(f"{name} has not come round {for_s}{at}.", frozen_hint, Place())
+        return _located(f"{name}'s main loop has been stuck {for_s}{at}.", frozen_hint, Place())
     if vitals.state == STOPPED:
         text = f"{name} has not answered {for_s}: its process is stopped, as by SIGSTOP."
         return _located(text, frozen_hint, Place())
@@ -194,7 +194,9 @@ def _listen_for_time(stage: Stage, child: Child, counted_s: float, now_s: float)
         return
     vitals.deaf_s = 0.0
     who = (
-        "the simulated world publishes none" if world.vitals.deaf_s > limit_s / 2 else "it does not hear any"
+        "the simulated world does not publish it"
+        if world.vitals.deaf_s > limit_s / 2
+        else "the application does not receive it"
     )
     text = f"The application runs without simulated time: no /clock for {limit_s:.0f} s, {who}."
     if now_s >= run.deaf_until_s:

@@ -40,7 +40,7 @@ def main(arguments: list[str] | None = None) -> int:
         sys.stderr.write(f"tools: no socket from the gate {options.gate}: {error}\n")
         return 1
     asyncio.run(_serve(ToolsServer(listener, token, grace_s=options.grace)))
-    _log.info("nobody needs these tools any more")
+    _log.info("no client uses these tools any more; they end")
     return 0
 
 

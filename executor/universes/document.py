@@ -114,7 +114,7 @@ class _Reader:
             if not isinstance(key_node, yaml.ScalarNode):
                 raise self._error(key_node, "a key must be a word")
             if key_node.value in result:
-                raise self._error(key_node, f"the key {key_node.value!r} stands here twice")
+                raise self._error(key_node, f"the key {key_node.value!r} appears twice")
             result[key_node.value] = self.read(child, (*path, key_node.value))
         return result
 

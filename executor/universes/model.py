@@ -143,7 +143,7 @@ class Model(_Painted):
     def _size_fits_shape(self) -> Model:
         if self.is_assembly:
             if self.texture:
-                raise ValueError(f"a {self.shape} has colours of its own, and no `texture` here")
+                raise ValueError(f"a {self.shape} has colours of its own; `texture` cannot be set")
             if self.size:
                 raise ValueError(f"a {self.shape} has sizes of its own, and no `size` here")
         elif self.size or self.shape != "mesh":
@@ -248,12 +248,12 @@ class Universe(_Strict):
         for key, (low, high) in self.random.items():
             match = _RANDOM_KEY.match(key)
             if match is None or match["id"] not in things:
-                raise ValueError(f"random: {key!r} names nothing; use <id>.pose.x, <id>.mass or the like")
+                raise ValueError(f"random: {key!r} matches no value; use <id>.pose.x, <id>.mass or the like")
             wanted = "pose" if match["axis"] else match["field"]
             if wanted not in type(things[match["id"]]).model_fields:
                 raise ValueError(f"random: {match['id']!r} has no {wanted}")
             if low > high:
-                raise ValueError(f"random: the range of {key!r} is upside down")
+                raise ValueError(f"random: the range of {key!r} must start with its lower bound")
         return self
 
     def _things(self) -> list[Model | Actor | RobotPlace]:

@@ -152,7 +152,7 @@ class World(Protocol):
         """Restores a state that `dump` returned, of a world of the same universe, robots and seed.
 
         Raises:
-            WorldError: the data are no such state.
+            WorldError: the data are not such a state.
         """
 
     def poses(self) -> NDArray[np.float32]:

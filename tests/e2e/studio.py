@@ -75,6 +75,10 @@ class Studio:
         expect(self.page.get_by_test_id("projects")).to_be_attached()
         expect(self.page.get_by_test_id("fold-templates")).to_be_visible()
 
+    def menu(self, name: str) -> Locator:
+        """Returns the open menu of a button by the button's name: another one may still fade away."""
+        return self.page.get_by_role("menu", name=name, exact=True)
+
     def new_from(self, template: str) -> None:
         """Makes a project from a template and waits for its tree on the canvas."""
         fold = self.at("fold-templates")

@@ -77,7 +77,7 @@ def new(studio: Studio, kind: str, name: str) -> None:
 def rename(studio: Studio, shown: str, name: str) -> None:
     """Renames a file by the explorer's menu."""
     studio.page.get_by_role("button", name=f"More for {shown}", exact=True).click()
-    studio.page.get_by_role("menuitem", name="Rename").click()
+    studio.menu(f"More for {shown}").get_by_role("menuitem", name="Rename").click()
     studio.page.get_by_role("dialog").get_by_role("textbox").fill(name)
     studio.at("file-dialog-ok").click()
 
@@ -335,7 +335,7 @@ def ports_of_an_action_that_declares_none(studio: Studio) -> None:
 def all_of_it_in_spanish(studio: Studio) -> None:
     page = studio.page
     page.get_by_role("button", name="More", exact=True).click()
-    page.get_by_role("menuitem", name="Español").click()
+    studio.menu("More").get_by_role("menuitem", name="Español").click()
     open_editor(studio, "actions/Spin.py")
     expect(page.locator(".flexlayout__tab_button_trailing").first).to_have_attribute("title", "Cerrar")
     expect(page.locator(".flexlayout__tab_button_trailing[title=Close]")).to_have_count(0)

@@ -112,11 +112,11 @@ def truth_choices_and_scripts(studio: Studio) -> None:
 
 def conditions_are_written(studio: Studio) -> None:
     """A condition is chosen, reported as wrong, fixed, seen on the block, and removed."""
-    page, keys = studio.page, studio.page.keyboard
+    keys = studio.page.keyboard
     forward = block(studio, "Forward")
     forward.click()
     inspector(studio).get_by_role("button", name="Add condition").click()
-    page.get_by_role("menuitem", name="Skip if").click()
+    studio.menu("Add condition").get_by_role("menuitem", name="Skip if").click()
     studio.at("condition-_skipIf").click()
     keys.type("tries ==")
     expect(studio.at("condition-_skipIf-error")).to_be_visible()

@@ -295,7 +295,7 @@ def let_a_mesh_turn(studio: Studio) -> None:
 def delete_and_bring_back(studio: Studio, name: str) -> None:
     """A robot is deleted with its URDF and its mesh, and all of it is restored."""
     studio.page.get_by_role("button", name=f"More for {name}", exact=True).click()
-    studio.page.get_by_role("menuitem", name="Delete").click()
+    studio.menu(f"More for {name}").get_by_role("menuitem", name="Delete").click()
     for file in ("robot.yaml", "robot.urdf", "meshes/cup.stl"):
         expect(studio.at(f"file-robots/{name}/{file}")).to_have_count(0)
     studio.page.get_by_role("button", name="Undo", exact=True).last.click()
@@ -308,7 +308,7 @@ def delete_and_bring_back(studio: Studio, name: str) -> None:
 def rename(studio: Studio, name: str, to: str) -> None:
     """The robot's folder gets another name; the project still runs with it."""
     studio.page.get_by_role("button", name=f"More for {name}", exact=True).click()
-    studio.page.get_by_role("menuitem", name="Rename").click()
+    studio.menu(f"More for {name}").get_by_role("menuitem", name="Rename").click()
     studio.page.get_by_role("dialog").get_by_role("textbox").fill(to)
     studio.page.keyboard.press("Enter")
     expect(studio.at(f"file-robots/{to}/meshes/cup.stl")).to_be_visible()

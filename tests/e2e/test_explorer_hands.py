@@ -137,7 +137,7 @@ def the_title_follows(studio: Studio, universe: Locator) -> None:
     name.fill("My walled room")
     name.press("Enter")
     studio.page.get_by_role("button", name="More for my_walled_room.yaml").click()
-    studio.page.get_by_role("menuitem", name="Rename").click()
+    studio.menu("More for my_walled_room.yaml").get_by_role("menuitem", name="Rename").click()
     studio.page.get_by_role("dialog").get_by_role("textbox").fill("big_garden")
     studio.page.keyboard.press("Enter")
     expect(tab.filter(has_text="Big garden")).to_be_visible()

@@ -39,7 +39,7 @@ def test_the_frame_is_as_it_was_left(shared_studio: Studio) -> None:
     studio.at("theme-toggle").click()
     theme = page.locator("html").get_attribute("data-mantine-color-scheme")
     page.get_by_role("button", name="More", exact=True).click()
-    page.get_by_role("menuitem", name="Español").click()
+    studio.menu("More").get_by_role("menuitem", name="Español").click()
     expect(page.get_by_role("tab", name="Esquema", exact=True)).to_be_visible()
     wide = width_of_files(studio)
     page.wait_for_timeout(400)  # the layout is stored a moment after the last change
@@ -55,7 +55,7 @@ def test_the_frame_is_as_it_was_left(shared_studio: Studio) -> None:
     studio.command("inglés")
     expect(explorer).to_be_visible()
     page.get_by_role("button", name="More", exact=True).click()
-    page.get_by_role("menuitem", name="Put the panels back").click()
+    studio.menu("More").get_by_role("menuitem", name="Put the panels back").click()
     wait_until(lambda: abs(width_of_files(studio) - start) < 3, "the panels are as at first")
     wait_until(lambda: middle(outline)[1] < 450, "each is at its first place")
     expect(studio.at("canvas")).to_be_visible()
@@ -124,7 +124,8 @@ def test_the_palette_knows_every_button(shared_studio: Studio) -> None:
     wanted |= labels_of(page.get_by_role("toolbar", name="View of the tree").get_by_role("button"))
     for menu in ("More", "More ways to run"):
         page.get_by_role("button", name=menu, exact=True).click()
-        wanted |= labels_of(page.get_by_role("menuitem"))
+        expect(studio.menu(menu)).to_be_visible()
+        wanted |= labels_of(studio.menu(menu).get_by_role("menuitem"))
         page.keyboard.press("Escape")
     page.keyboard.press("Control+k")
     options = studio.at("command-palette").get_by_role("option")

@@ -60,8 +60,9 @@ def card(studio: Studio, name: str) -> Locator:
 
 def choose(studio: Studio, name: str, item: str) -> None:
     """Opens a card's menu and clicks an item."""
-    card(studio, name).get_by_role("button", name=f"More for {name}").click()
-    studio.page.get_by_role("menuitem", name=item).click()
+    card(studio, name).get_by_role("button", name=f"More for {name}", exact=True).click()
+    # The menu of another card may still fade away.
+    studio.menu(f"More for {name}").get_by_role("menuitem", name=item).click()
 
 
 def drop(studio: Studio, filename: str, data: bytes) -> None:

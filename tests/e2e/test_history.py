@@ -97,7 +97,7 @@ def a_file_goes_back_by_the_explorers_menu(studio: Studio) -> None:
     page = studio.page
     page.get_by_role("tab", name="Explorer", exact=True).click()
     page.get_by_role("button", name="More for MainTree").click()
-    page.get_by_role("menuitem", name="History").click()
+    studio.menu("More for MainTree").get_by_role("menuitem", name="History").click()
     studio.at("revision-1").click()
     studio.at("restore").click()
     studio.at("restore-file").click()

@@ -121,7 +121,7 @@ def a_tree_of_the_menu_is_pasted(source: Studio, studio: Studio) -> None:
 
 
 def an_offered_tree_is_in_every_library(studio: Studio, source: str) -> None:
-    """Nobody needs to know which project offers it."""
+    """The user need not know which project offers it."""
     page = studio.page
     page.locator(".flexlayout__tab_button", has_text="Library").click()
     offered = studio.at("library").get_by_role("list", name="Offered by projects")

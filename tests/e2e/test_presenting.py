@@ -94,7 +94,7 @@ def width_of(element: Locator) -> float:
 def the_robot_comes_beside_it(studio: Studio) -> None:
     page = studio.page
     page.get_by_role("button", name="More", exact=True).click()
-    page.get_by_role("menuitem", name="Present the tree").click()
+    studio.menu("More").get_by_role("menuitem", name="Present the tree").click()
     studio.at("presentation-robot").click()
     view = studio.page.locator("[data-presented=robot]").locator("> *").first
     expect(view).to_be_visible()

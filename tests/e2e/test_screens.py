@@ -70,7 +70,7 @@ def test_every_screen_can_be_used_by_everybody(studio: Studio, scheme: str) -> N
 def everything_is_within_reach_of_a_narrow_window_in_spanish(studio: Studio) -> None:
     page = studio.page
     page.get_by_role("button", name="More", exact=True).click()
-    page.get_by_role("menuitem", name="Español").click()
+    studio.menu("More").get_by_role("menuitem", name="Español").click()
     page.set_viewport_size({"width": 480, "height": 850})
     tabs = page.locator(".flexlayout__tabset_tabbar_outer").last.get_by_role("tab")
     expect(tabs).to_have_count(15)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 class _Use:
     node: Node
     port: str
-    inner: str = ""  # for a use inside a called tree: its name there
+    inner: str = ""  # for a use inside a called tree: the name there
 
 
 @dataclass(slots=True)

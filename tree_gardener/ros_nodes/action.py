@@ -17,7 +17,7 @@ _SUCCEEDED, _CANCELED = 4, 5  # action_msgs/msg/GoalStatus
 
 
 class SentGoal:
-    """A goal that was sent to a server. It is looked at in ticks; nothing waits.
+    """A goal that was sent to a server. Ticks check its state; nothing waits.
 
     Attributes:
         sent_s: when it was sent.
@@ -87,19 +87,19 @@ class RosActionNode(RosLeaf):
         """Fills the goal. Returns another goal to send instead, or False if there is nothing to send."""
 
     def on_feedback(self, _feedback: Any) -> Any:
-        """Looks at the feedback; SUCCESS or FAILURE cancels the goal and ends the node."""
+        """Handles the feedback; SUCCESS or FAILURE cancels the goal and ends the node."""
         return Status.RUNNING
 
     def on_result(self, _result: Any) -> Any:
-        """Looks at the result of a goal that was reached."""
+        """Handles the result of a goal that was reached."""
         return Status.SUCCESS
 
     def on_aborted(self, _result: Any) -> Any:
-        """Looks at the result of a goal that the server gave up."""
+        """Handles the result of a goal that the server gave up."""
         return self.on_failure(ACTION_ABORTED)
 
     def on_cancelled(self, _result: Any) -> Any:
-        """Looks at the result of a goal that someone cancelled."""
+        """Handles the result of a goal that was cancelled."""
         return self.on_failure(ACTION_CANCELLED)
 
     def on_failure(self, _error: str) -> Any:
@@ -206,7 +206,7 @@ class RosActionNode(RosLeaf):
         return (self.on_cancelled if outcome.status == _CANCELED else self.on_aborted)(outcome.result)
 
     def _missed(self, now_s: float, patience_s: float) -> Any:
-        """Returns RUNNING unless the server, which owes a result, has been gone for the timeout."""
+        """Returns RUNNING, or the result of `on_failure` if the server has been gone for the timeout."""
         if self._client.server_is_ready():
             self._seen_s = now_s
         elif 0 <= patience_s < now_s - self._seen_s:

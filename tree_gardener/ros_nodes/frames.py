@@ -13,7 +13,7 @@ DEEPEST: Final = 1000
 
 @dataclasses.dataclass(frozen=True)
 class Transform:
-    """A transform: where a frame is in another, and since when."""
+    """A transform: the pose of a frame in another one, and its time."""
 
     translation: Vector = (0.0, 0.0, 0.0)
     rotation: Quaternion = (0.0, 0.0, 0.0, 1.0)
@@ -41,7 +41,7 @@ class Frames:
         self._parents: dict[str, tuple[str, Transform]] = {}
 
     def received(self, message: Any, *, is_fixed: bool = False) -> None:
-        """Takes the transforms of a message."""
+        """Stores the transforms of a message."""
         for each in message.transforms:
             move, turn = each.transform.translation, each.transform.rotation
             stamp = each.header.stamp

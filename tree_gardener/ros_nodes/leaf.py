@@ -103,7 +103,7 @@ class RosLeaf(Behaviour):
         """Finds ports that the message has no field for, and literals that do not suit their fields.
 
         Raises:
-            PortError: it found one.
+            PortError: there is one.
         """
         for port, path in self.fields(prefix):
             with _named(port):

@@ -38,7 +38,7 @@ class RosServiceNode(RosLeaf):
         """Fills the request. Returns another one to send instead, or False if there is nothing to send."""
 
     def on_response(self, _response: Any) -> Any:
-        """Looks at the answer."""
+        """Handles the response."""
         return Status.SUCCESS
 
     def on_failure(self, _error: str) -> Any:

@@ -22,7 +22,7 @@ _WORD: Final = re.compile(r"[A-Za-z_]\w*")
 
 
 class RosSubscribe(RosLeaf):
-    """Looks at the messages of a topic; their fields are output ports.
+    """Checks the messages of a topic; their fields are output ports.
 
     ``latest`` succeeds if any message came, ``new`` if one came since the last tick, and ``wait`` is RUNNING
     until one comes. With a condition on the fields, only messages that meet it count.

@@ -29,7 +29,7 @@ _WORD: Final = re.compile(r"\w+")
 
 
 class _Holds(Func):
-    """Whether the first bytes hold the second. The database reads the contents, so that they stay there."""
+    """Whether the first bytes contain the second ones; the database searches, so contents are not fetched."""
 
     output_field = BooleanField()
     arity = 2
@@ -37,7 +37,7 @@ class _Holds(Func):
     template = "(instr(%(expressions)s) > 0)"
 
     def as_postgresql(self, compiler: Any, connection: Any, **context: Any) -> Any:
-        """Writes the call as PostgreSQL has it for bytes."""
+        """Returns the call in PostgreSQL's form for bytes."""
         template = '(pg_catalog."position"(%(expressions)s) > 0)'
         return self.as_sql(compiler, connection, template=template, **context)
 
@@ -93,7 +93,8 @@ def _offer(project: Project, files: Mapping[str, str]) -> Offer:
 def _used(offered: list[str], uses: Mapping[str, set[str]], files: Mapping[str, str]) -> set[str]:
     """Returns the files of these trees, and all that they use.
 
-    An action uses each other action that its text names. This may be one too many, never one too few.
+    An action uses each other action that its text names. The result may contain a file too many, but never
+    lacks one.
     """
     actions = {match[1]: path for path in files if (match := _ACTION.fullmatch(path))}
     found: set[str] = set()

@@ -210,7 +210,7 @@ class BulletWorld:
         """Restores a state that `dump` returned, of a world of the same universe, robots and seed.
 
         Raises:
-            WorldError: the data are no such state.
+            WorldError: the data are not such a state.
         """
         content = self._content
         state = load_state(

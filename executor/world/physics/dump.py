@@ -47,7 +47,7 @@ def load_state(data: bytes, universe: str, robots: Sequence[str], actors: Sequen
     """Returns the parts of a state; it must be of this universe, with these robots and actors.
 
     Raises:
-        WorldError: the data are no state, or one of another world.
+        WorldError: the data are not a state, or are that of another world.
     """
     try:
         state = _decode(data)

@@ -104,7 +104,7 @@ def image_size(data: bytes) -> tuple[int, int]:
         if 0xC0 <= marker <= 0xCF and marker not in _MARKERS_WITHOUT_SIZE:
             return int.from_bytes(data[at + 7 : at + 9], "big"), int.from_bytes(data[at + 5 : at + 7], "big")
         at += 2 + int.from_bytes(data[at + 2 : at + 4], "big")
-    raise PaintError("it is no PNG and no JPEG")
+    raise PaintError("the file is neither a PNG nor a JPEG")
 
 
 def _jpeg(bgr: NDArray[np.uint8]) -> bytes:

@@ -115,7 +115,7 @@ class Streams:
             self._adaptations.pop(client, None)
 
     def pace(self, client: str | None, lost: float) -> None:
-        """Adapts a client's pictures to the share of them for which it was too slow.
+        """Adapts a client's pictures to the share of them for which the client was too slow.
 
         Called about twice a second.
         """

@@ -29,7 +29,7 @@ type ProjectPage = Omit<components['schemas']['ProjectList'], 'items'> & { items
 /** The number of projects on one page: it fills a large screen twice. */
 const PAGE = 48;
 
-/** The number of projects whose offers come at once. */
+/** The number of projects on one page of offers. */
 const OFFERS = 20;
 
 const project = (id: string) => `/projects/${encodeURIComponent(id)}`;

@@ -1,4 +1,5 @@
 import i18next from 'i18next';
+import type { Choice } from '@/model/choices';
 
 interface Described {
   readonly doc?: string;
@@ -6,10 +7,11 @@ interface Described {
 }
 
 /**
- * Returns a text of a shipped example's action in the current language. A text that the user changed is shown
+ * Returns a text of a built-in node, or of a shipped action or tree, in the current language. A text that the user changed is shown
  * as it is.
  */
 function shipped(type: string, text: string, pick: (described: Described) => string | undefined): string {
+  if (text === '') return text;
   const ours = (language: string) =>
     i18next.getResource(language, 'shipped', type) as readonly Described[] | undefined;
   const at = (ours('en') ?? []).findIndex((each) => pick(each) === text);
@@ -18,6 +20,10 @@ function shipped(type: string, text: string, pick: (described: Described) => str
 }
 
 export const shippedDoc = (type: string, text: string): string => shipped(type, text, ({ doc }) => doc);
+
+/** Returns what a choice of the palette is for: a tree's own description, or that of its type. */
+export const shippedChoice = ({ kind, spec }: Choice): string =>
+  shippedDoc(kind.tree ?? spec.type, spec.summary);
 
 export const shippedPort = (type: string, port: string, text: string): string =>
   shipped(type, text, ({ ports }) => ports?.[port]);

@@ -29,6 +29,12 @@ describe('choices', () => {
     expect(labels('rus')[0]).toBe('RetryUntilSuccessful');
     expect(labels('qqq')).toEqual([]);
   });
+  it('are found by what the page says of them', () => {
+    const found = searchChoices(allChoices(diagram, vocabulary), 'orden', ({ spec }) =>
+      spec.type === 'Fallback' ? 'Ejecuta sus hijos en orden.' : '',
+    );
+    expect(found.map(({ label }) => label)).toEqual(['Fallback']);
+  });
   it('leave out trees that would contain themselves', () => {
     expect(labels('MainTree')).not.toContain('MainTree');
   });

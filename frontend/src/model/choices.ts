@@ -86,15 +86,19 @@ export const isNamed = (choice: Choice, search: string): boolean =>
   search === '' || nameScore(choice, search) > 0;
 
 /**
- * Returns the matching choices: the user's own actions first, then by family in the order of the catalogue,
- * and last the offered actions, which only a search shows.
+ * Returns the choices whose name or summary, as the page shows it, matches: the user's own actions first, then
+ * by family in the order of the catalogue, and last the offered actions, which only a search shows.
  */
-export function searchChoices(choices: readonly Choice[], search: string): Choice[] {
+export function searchChoices(
+  choices: readonly Choice[],
+  search: string,
+  summaryOf: (choice: Choice) => string = ({ spec }) => spec.summary,
+): Choice[] {
   return choices
     .map((choice, index) => {
       const named = nameScore(choice, search);
       const told =
-        search.length > 2 && choice.spec.summary.toLowerCase().includes(search.toLowerCase()) ? 1 : 0;
+        search.length > 2 && summaryOf(choice).toLowerCase().includes(search.toLowerCase()) ? 1 : 0;
       return { choice, index, score: Math.max(named * 2, told) };
     })
     .filter(({ score }) => score > 0)

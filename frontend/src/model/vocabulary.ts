@@ -66,7 +66,7 @@ interface CatalogDocument {
       readonly description: string;
     }[];
     readonly summary: string;
-    /** `ros` for nodes that BehaviorTree.CPP has not. */
+    /** `ros` for nodes that BehaviorTree.CPP does not have. */
     readonly group?: string;
     readonly open?: boolean;
   }[];

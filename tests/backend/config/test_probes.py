@@ -152,6 +152,24 @@ async def test_a_request_that_fails_is_counted_as_such():
     assert metrics.requests.totals() == before | {"5xx": before["5xx"] + 1}
 
 
+async def test_a_request_is_counted_once_before_its_client_has_all_of_the_answer():
+    before, counts = metrics.requests.totals(), []
+
+    async def send(message):
+        if message["type"] == "http.response.body":
+            counts.append(metrics.requests.totals()["2xx"] - before["2xx"])
+
+    async def in_pieces(scope, receive, send):
+        await send({"type": "http.response.start", "status": 200, "headers": []})
+        await send({"type": "http.response.body", "body": b"a", "more_body": True})
+        await send({"type": "http.response.body", "body": b"b"})
+
+    scope: Any = {"type": "http", "path": "/api", "method": "GET", "client": ("127.0.0.1", 5), "headers": []}
+    await probes.probed(in_pieces, Busy())(scope, None, send)
+    assert counts == [0, 1]
+    assert metrics.requests.totals() == before | {"2xx": before["2xx"] + 1}
+
+
 def test_a_log_line_is_one_json_object_with_its_facts():
     try:
         raise ValueError("two\nlines")

@@ -146,7 +146,7 @@ async def test_an_application_that_hears_no_time_is_started_again_once(tmp_path)
         assert await client.ask("run", run_data(app(source))) == "ack"
         fault = (await client.event("fault"))["data"]
         assert "without simulated time" in fault["message"]
-        assert "does not hear" in fault["message"]
+        assert "does not receive it" in fault["message"]
         await client.event("tick", lambda d: d["n"] > 3)
         assert client.state == "application_running"
         assert len(client.named("fault")) == 1
@@ -158,4 +158,4 @@ async def test_a_world_that_publishes_no_time_is_reported_and_finally_ended():
         await client.event("state-changed", lambda d: d["state"] == "connected" and d["reason"])
         faults = client.named("fault")
         assert [f["kind"] for f in faults] == ["timeout", "timeout"]
-        assert all("the simulated world publishes none" in f["message"] for f in faults)
+        assert all("the simulated world does not publish it" in f["message"] for f in faults)

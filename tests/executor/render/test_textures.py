@@ -156,11 +156,11 @@ def png(width: int, height: int) -> bytes:
     [
         ("no.png", None, "no such file"),
         ("../up.png", b"", "outside of the project"),
-        ("text.png", b"hello", "no PNG and no JPEG"),
+        ("text.png", b"hello", "neither a PNG nor a JPEG"),
         ("cut.png", png(16, 16), "damaged"),
         ("bomb.png", png(100_000, 100_000), "100000 by 100000 pixels"),
         ("empty.png", png(0, 5), "0 by 5 pixels"),
-        ("cut.jpg", b"\xff\xd8\xff\xe0\x00\x10", "no PNG and no JPEG"),
+        ("cut.jpg", b"\xff\xd8\xff\xe0\x00\x10", "neither a PNG nor a JPEG"),
     ],
 )
 def test_a_picture_that_cannot_be_used_is_refused(
@@ -184,7 +184,7 @@ def test_the_size_of_a_jpeg_is_read_without_unpacking_it() -> None:
     [
         ("ground: {texture: marble}", "asphalt, brick"),
         ("ground: {tile: [1, 1]}", "needs a `texture`"),
-        ("models: [{id: a, shape: urdf, file: a.urdf, texture: wood}]", "no `texture` here"),
+        ("models: [{id: a, shape: urdf, file: a.urdf, texture: wood}]", "`texture` cannot be set"),
         ("ground: {texture: wood, tile: [0, 1]}", "greater than 0"),
     ],
 )

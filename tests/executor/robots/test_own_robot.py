@@ -131,7 +131,7 @@ def test_what_is_wrong_in_xacro_is_said_with_its_line(project: Path) -> None:
     ("old", "new", "message"),
     [
         ("meshes/body.obj", "meshes/ghost.obj", "there is no file ghost.obj"),
-        ("meshes/body.obj", "../../../../etc/passwd.obj", "leads out of the robot's folder"),
+        ("meshes/body.obj", "../../../../etc/passwd.obj", "lies outside the robot's folder"),
         ("meshes/body.obj", "meshes/body.blend", "meshes of kind .blend are not read"),
     ],
 )

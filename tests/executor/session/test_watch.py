@@ -369,7 +369,7 @@ def test_without_simulated_time_the_application_is_started_again_once():
     play.goes_on(1)
     (fault,) = play.faults
     assert "without simulated time" in fault.message
-    assert "does not hear" in fault.message
+    assert "does not receive it" in fault.message
     assert play.told("application")[-3:] == ["stop", "start", "resume"]
     assert play.state is State.APPLICATION_RUNNING
     play.goes_on(4)
@@ -385,7 +385,7 @@ def test_a_world_that_publishes_no_time_is_reported():
     play = play_in(State.APPLICATION_RUNNING)
     play.deaf |= {"application", "world"}
     play.goes_on(3)
-    assert "the simulated world publishes none" in play.faults[0].message
+    assert "the simulated world does not publish it" in play.faults[0].message
 
 
 def test_a_slow_world_publishes_time_rarely_and_a_paused_one_maybe_never():

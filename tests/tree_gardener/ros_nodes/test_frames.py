@@ -31,7 +31,7 @@ def test_a_chain_is_composed(frames: Frames) -> None:
     found = frames.lookup("map", "lidar")
     assert found is not None
     assert found.translation == pytest.approx((1.0, 2.5, 0.0))
-    assert found.stamp_s == 5.0  # the oldest that is not fixed
+    assert found.stamp_s == 5.0  # the oldest one that is not static
 
 
 def test_the_other_direction_is_the_inverse(frames: Frames) -> None:

@@ -13,8 +13,15 @@ const onPlace = vi.fn();
 let editor: Editor;
 const what = { kind: 'box', size: 2 };
 
+const webGl = vi.hoisted(() => ({ isThere: false }));
+vi.mock('@/features/viewer/webgl', () => ({
+  hasWebGl: () => webGl.isThere,
+  isSoftwareWebGl: () => false,
+}));
+
 beforeEach(() => {
   vi.clearAllMocks();
+  webGl.isThere = false;
   editor = openUniverse();
   showIn(editor, view, placer);
 });
@@ -73,5 +80,23 @@ describe('the palette of an editor', () => {
     expect(screen.queryByRole('menuitem')).toBeNull();
     await user.click(screen.getByRole('button', { name: 'Robots' }));
     expect(await screen.findByRole('menuitem', { name: 'Rover' })).toBeInTheDocument();
+  });
+
+  it('waits for a view that is loading', async () => {
+    webGl.isThere = true;
+    showIn(editor, null);
+    const box = button();
+    show(
+      <PlaceMenu editor={editor} icon={IconCube} label="Robots" testId="robots" position="right-start">
+        <Menu.Item>Rover</Menu.Item>
+      </PlaceMenu>,
+    );
+    expect(box).toBeDisabled();
+    expect(screen.getByRole('button', { name: 'Robots' })).toBeDisabled();
+    act(() => showIn(editor, view, placer));
+    expect(screen.getByRole('button', { name: 'Robots' })).toBeEnabled();
+    await user.click(box);
+    expect(editor.store.getState().placing).toEqual({ name: 'Box', what });
+    expect(placer.focus).toHaveBeenCalledOnce();
   });
 });

@@ -38,12 +38,14 @@ interface PlaceButtonProps {
 
 /**
  * A button for a thing: after a click its ghost follows the pointer; a drag places it where the pointer is
- * released.
+ * released. It waits for the view: before, the keyboard would stay on the button, and Enter would give up what
+ * was just chosen.
  */
 export function PlaceButton(props: PlaceButtonProps) {
   const { editor, icon: Icon, label, testId, what, onPlace, isPlaceless = false } = props;
   const { t } = useTranslation('editor3d');
   const isChosen = useStore(editor.store, (state) => state.placing?.name === label);
+  const canPlace = useStore(editor.store, (state) => state.canPlace);
   const choice = { name: label, what, place: onPlace };
   return (
     <Tooltip label={label} position="right">
@@ -51,6 +53,7 @@ export function PlaceButton(props: PlaceButtonProps) {
         size="lg"
         aria-label={t('place', { what: label })}
         data-testid={testId}
+        disabled={!canPlace}
         {...(isPlaceless
           ? { onClick: onPlace }
           : {
@@ -80,12 +83,13 @@ interface PlaceMenuProps {
 /** One button for several things that can be placed. */
 export function PlaceMenu({ editor, icon: Icon, label, testId, position, children }: PlaceMenuProps) {
   const isPlacing = useStore(editor.store, ({ placing }) => placing !== null);
+  const canPlace = useStore(editor.store, (state) => state.canPlace);
   return (
     // The view needs the focus for the keys that place.
     <Menu position={position} returnFocus={!isPlacing}>
       <Tooltip label={label} position="right">
         <Menu.Target>
-          <ActionIcon size="lg" aria-label={label} data-testid={testId}>
+          <ActionIcon size="lg" aria-label={label} data-testid={testId} disabled={!canPlace}>
             <Icon size={20} stroke={1.6} />
           </ActionIcon>
         </Menu.Target>

@@ -27,6 +27,7 @@ describe('an editor', () => {
       waypoint: null,
       mode: 'move',
       tool: 'select',
+      canPlace: true,
       viewpoint: { kind: 'default' },
       isTextShown: true,
       shownText: 0,

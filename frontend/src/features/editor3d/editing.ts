@@ -51,6 +51,8 @@ export interface EditorData {
   readonly tool: Tool;
   /** Null: nothing is being placed. */
   readonly placing: Placing | null;
+  /** Whether things can be placed now: not while the view in 3D is loading. */
+  readonly canPlace: boolean;
   readonly grid: number;
   /** A request to move the camera; a new object moves it even to the same place. */
   readonly viewpoint: { readonly kind: 'default' | 'top' | 'selection' };
@@ -98,6 +100,7 @@ export function editorFor(path: string, kind: Kind): Editor {
       mode: 'move',
       tool: 'select',
       placing: null,
+      canPlace: !hasWebGl(),
       grid: kind.grid,
       viewpoint: { kind: 'default' },
       isTextShown: !hasWebGl(),
@@ -125,6 +128,7 @@ export function showIn(editor: Editor, view: ViewHandle | null, placer: Placer |
   editor.view = view;
   editor.placer = placer;
   if (editor.store.getState().placing && !placer) editor.store.setState({ placing: null });
+  editor.store.setState({ canPlace: placer !== null || !hasWebGl() });
 }
 
 /** Records changes from the text editor or from elsewhere as undo steps. */

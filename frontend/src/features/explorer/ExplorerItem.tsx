@@ -2,6 +2,7 @@ import { Tooltip } from '@mantine/core';
 import { IconFileCode, IconFileText, IconGitFork, IconRobot, IconStar, IconWorld } from '@tabler/icons-react';
 import { useState, type MouseEvent } from 'react';
 import { useTranslation } from 'react-i18next';
+import { shippedDoc } from '@/i18n/shipped';
 import { ROBOT_FILE } from '@/store/dialogs/newRobot';
 import { UNIVERSE_FILE } from '@/store/dialogs/newUniverse';
 import type { Worst } from '@/store/problems/list';
@@ -65,7 +66,7 @@ export function ExplorerItem({ path, isTree, isAction, worst }: ExplorerItemProp
         className={classes['open']}
         data-testid={`file-${path}`}
         disabled={isBinary}
-        title={description === '' ? path : `${path}\n${description}`}
+        title={description === '' ? path : `${path}\n${shippedDoc(treeId ?? '', description)}`}
         onContextMenu={onContextMenu}
         onClick={() => openTab(tab)}
       >

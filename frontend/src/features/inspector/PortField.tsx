@@ -33,7 +33,7 @@ interface PortFieldProps {
   readonly onRemove?: (() => void) | undefined;
   /** Present only for a port that all blocks of the type share. */
   readonly onRename?: ((name: string) => void) | undefined;
-  /** Renames the key that the port names, wherever the key is the same entry. */
+  /** Renames the key in the port's text, wherever this key is the same entry. */
   readonly onRenameKey: (key: string) => void;
   /** The difference between the running program and the saved text. */
   readonly mark?: PortMark | undefined;

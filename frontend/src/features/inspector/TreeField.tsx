@@ -1,6 +1,7 @@
 import { Select } from '@mantine/core';
 import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
+import { shippedDoc } from '@/i18n/shipped';
 import { morph } from '@/model/edits';
 import { wouldRecurse } from '@/model/vocabulary';
 import { change } from '@/store/project/edits/blocks';
@@ -20,7 +21,7 @@ export function TreeField({ tree, id, node }: Target) {
   return (
     <Select
       className={classes['pad'] ?? ''}
-      description={description}
+      description={shippedDoc(node.tree ?? '', description)}
       inputWrapperOrder={['label', 'input', 'description']}
       size="xs"
       label={t('tree')}

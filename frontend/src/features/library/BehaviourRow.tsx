@@ -14,7 +14,7 @@ const UpdateDialog = lazyPart(async () => (await import('./UpdateDialog')).Updat
 
 interface BehaviourRowProps {
   readonly offer: Offer;
-  /** Says from which project it comes. */
+  /** Whether the row names the project that the behaviour comes from. */
   readonly namesProject?: boolean;
   /** The version that the project contains; null if it does not contain the behaviour. */
   readonly takenVersion: string | null;

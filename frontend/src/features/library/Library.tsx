@@ -93,7 +93,7 @@ export function Library() {
   const trees = useTreesOf(source === ALL ? null : source);
   const isAll = source === ALL;
   const { data, error, isPending } = isAll ? library : trees;
-  // Both lists come at once, so that none is pushed down by the other.
+  // Both lists appear at the same time, so that neither pushes the other down.
   const isLoading = isPending || (isAll && offered.isLoading);
   // If a project offers some of its trees, its other trees are shown only on demand.
   const curates = (data ?? []).some(({ isOffered }) => isOffered);

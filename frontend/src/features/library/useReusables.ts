@@ -1,5 +1,6 @@
 import { keepPreviousData, useQuery } from '@tanstack/react-query';
 import { api } from '@/api/client';
+import { shippedDoc } from '@/i18n/shipped';
 import { useMe } from '@/features/accounts/useMe';
 import type { BehaviourInfo } from '@/api/types';
 import { parseDiagram } from '@/model/serialize';
@@ -16,7 +17,7 @@ export interface Offer extends Reusable {
   readonly diagram: unknown;
   /** The name of its project; null in the built-in library. */
   readonly project: string | null;
-  /** The owner of its project, if that is somebody else. */
+  /** The owner of its project, if that is another user. */
   readonly owner: string | null;
   /** Whether its project explicitly offers it. */
   readonly isOffered: boolean;
@@ -50,7 +51,7 @@ export function useLibrary(language: string) {
   });
 }
 
-/** A project, as far as its trees are reused. */
+/** The data of a project that its reusable trees need. */
 interface Origin {
   readonly project: string;
   readonly name: string;
@@ -61,7 +62,7 @@ interface Origin {
   readonly files: Sources;
 }
 
-/** Returns the trees of a project with what the panel shows of each. */
+/** Returns the trees of a project with the data that the panel shows. */
 function treesOf(origin: Origin): readonly Offer[] {
   const { project, name, description, owner, revision, main_tree, files } = origin;
   return reusablesOf(project, revision, files).map((reusable) => {
@@ -70,7 +71,7 @@ function treesOf(origin: Origin): readonly Offer[] {
     return {
       ...reusable,
       group: 'project',
-      summary: descriptionOf(diagram) || (isMain ? description : ''),
+      summary: shippedDoc(reusable.id, descriptionOf(diagram)) || (isMain ? description : ''),
       doc: '',
       diagram,
       project: name,

@@ -2,6 +2,7 @@ import { ActionIcon, TextInput, Tooltip } from '@mantine/core';
 import { IconPlus, IconSearch } from '@tabler/icons-react';
 import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { shippedChoice } from '@/i18n/shipped';
 import { allChoices, isNamed, type Choice } from '@/model/choices';
 import { useProjectStore } from '@/store/project';
 import { useOfferedStore } from '@/store/project/offered';
@@ -35,7 +36,7 @@ export function Palette() {
   const shown = choices.filter(
     (choice) =>
       isNamed(choice, search.trim()) ||
-      (search.length > 2 && choice.spec.summary.toLowerCase().includes(search.toLowerCase())),
+      (search.length > 2 && shippedChoice(choice).toLowerCase().includes(search.toLowerCase())),
   );
   return (
     <section className={classes['palette']} aria-label={t('label')} data-testid="palette">

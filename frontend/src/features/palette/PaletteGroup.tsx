@@ -8,7 +8,7 @@ interface PaletteGroupProps {
   readonly title: string;
   readonly choices: readonly Choice[];
   readonly isSearching: boolean;
-  /** For a long group that few projects need. */
+  /** Whether the group is folded at first, since it is long and few projects need it. */
   readonly startsFolded?: boolean;
   /** The text for an empty group while the search is empty. */
   readonly empty?: string;

@@ -1,7 +1,7 @@
 import { Tooltip } from '@mantine/core';
 import { memo } from 'react';
 import { useTranslation } from 'react-i18next';
-import { shippedDoc } from '@/i18n/shipped';
+import { shippedChoice } from '@/i18n/shipped';
 import type { Choice } from '@/model/choices';
 import { addHere } from '@/store/project/edits/blocks';
 import { setEditor } from '@/store/project/editor';
@@ -14,7 +14,7 @@ export const PaletteItem = memo(function PaletteItem({ choice }: { readonly choi
   const { kind, spec, label } = choice;
   return (
     <Tooltip
-      label={shippedDoc(spec.type, spec.summary)}
+      label={shippedChoice(choice)}
       disabled={spec.summary === ''}
       position="right"
       openDelay={500}

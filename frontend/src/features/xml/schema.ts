@@ -1,5 +1,6 @@
 import { xml } from '@codemirror/lang-xml';
 import type { Extension } from '@codemirror/state';
+import { shippedDoc } from '@/i18n/shipped';
 import type { PortSpec } from '@/model/ports';
 import type { NodeSpec, Vocabulary } from '@/model/vocabulary';
 
@@ -26,7 +27,7 @@ function elementOf(spec: NodeSpec, trees: readonly string[]) {
   return {
     name: spec.type,
     attributes: [...target, ...ports, ...COMMON],
-    completion: { detail: spec.summary.split('\n')[0] ?? '' },
+    completion: { detail: shippedDoc(spec.type, spec.summary).split('\n')[0] ?? '' },
     ...(spec.maxChildren === 0 ? { children: [] } : {}),
   };
 }

@@ -7,7 +7,7 @@ import { useProjectStore } from './index';
 import { actionPath } from './state';
 
 interface OfferedState {
-  /** What the palette offers, by name. */
+  /** The specs of the nodes that the palette offers, by name. */
   readonly specs: readonly NodeSpec[];
   /** The source of each offered action, by its name. */
   readonly sources: ReadonlyMap<string, string>;
@@ -23,7 +23,7 @@ export function offer(actions: readonly OfferedAction[]): void {
   });
 }
 
-/** Asks the server once what is offered; without an answer the palette has no such family. */
+/** Asks the server once which nodes are offered; without an answer the palette does not show this family. */
 export async function loadOffered(): Promise<void> {
   if (useOfferedStore.getState().specs.length > 0) return;
   try {

@@ -84,7 +84,7 @@ def test_limits_hold_nonsense_is_refused_and_a_saved_world_pans_on(make_world: M
 
 @pytest.mark.parametrize(
     ("joint", "message"),
-    [("wheel_left_joint", "is a wheel's"), ("camera_joint", "is fixed"), ("pam_joint", "mean 'pan_joint'")],
+    [("wheel_left_joint", "drives a wheel"), ("camera_joint", "is fixed"), ("pam_joint", "mean 'pan_joint'")],
 )
 def test_a_joint_that_no_motor_can_hold_is_refused(tmp_path: Path, joint: str, message: str) -> None:
     folder = tmp_path / "robots" / "mine"

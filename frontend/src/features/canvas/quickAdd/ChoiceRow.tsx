@@ -1,3 +1,4 @@
+import { shippedChoice } from '@/i18n/shipped';
 import type { Choice } from '@/model/choices';
 import { FamilyTile } from '@/ui/FamilyTile';
 import classes from './QuickAdd.module.css';
@@ -25,7 +26,7 @@ export function ChoiceRow({ id, choice, isActive, onChoose }: ChoiceRowProps) {
         <FamilyTile type={choice.spec.type} family={choice.spec.family} size={26} />
         <span className={classes['texts']}>
           <span className={classes['label']}>{choice.label}</span>
-          <span className={classes['summary']}>{choice.spec.summary}</span>
+          <span className={classes['summary']}>{shippedChoice(choice)}</span>
         </span>
       </button>
     </div>

@@ -1,6 +1,7 @@
 import { IconPlus } from '@tabler/icons-react';
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { shippedChoice } from '@/i18n/shipped';
 import { allChoices, matchScore, searchChoices, suits, type Purpose } from '@/model/choices';
 import { isPythonName } from '@/model/pythonNames';
 import { createAction } from '@/store/project/edits/actionTemplate';
@@ -54,6 +55,7 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
     return searchChoices(
       allChoices(diagram, vocabulary, offered).filter((choice) => suits(choice, diagram, purpose)),
       search,
+      shippedChoice,
     );
   }, [diagram, vocabulary, offered, request, search]);
   const canCreate = request.goal.does === 'add' && isPythonName(search) && !vocabulary.specs.has(search);

@@ -16,7 +16,7 @@ export function useInterfaceNames(type: string): readonly string[] | null {
   return (data ?? []).filter(({ kind }) => kind === typePort.kind).map(({ name }) => name);
 }
 
-/** Returns the fields of the interface that a ROS block names; null if there is none that is installed. */
+/** Returns the fields of the interface that a ROS block names; null if it is not installed. */
 export function useInterfaceFields(node: DiagramNode): readonly InterfaceField[] | null {
   const typePort = typePortOf(node.type);
   const name = typePort && fullName(node.ports?.[typePort.port] ?? '', typePort.kind);

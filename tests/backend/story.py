@@ -52,7 +52,7 @@ LINK = re.compile(r"^(http://[^/]+/(?:join|shared)/).*$")
 
 
 def _pattern(template):
-    """Returns a pattern for the addresses of an operation; only names of files and interfaces have slashes."""
+    """Returns a pattern for the addresses of an operation; names of files and interfaces have slashes."""
     holes = re.sub(r"\{(path|interface)\}", "(.+)", template)
     return re.compile(re.sub(r"\{\w+\}", "([^/]+)", holes) + "$")
 

@@ -1,36 +1,31 @@
-"""The interfaces of ROS that are installed here: names and fields, read from their files without ROS.
+"""The interfaces of ROS that blocks may use: names, and fields as ports.
 
-The Python module of an interface holds its fields as a literal; it is parsed, never imported.
+Those that are installed here are read from their files. A web server of a team has no ROS: there,
+`ros_interfaces.json` names what the sessions have. `make generate` writes it.
 """
 
 from __future__ import annotations
 
-import ast
+import json
 import re
-import sys
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from translator.catalog import PortModel
+from translator.installed_interfaces import PARTS, installed, installed_fields, part_class
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-KINDS: Final = ("action", "msg", "srv")
+TABLE: Final = Path(__file__).with_name("ros_interfaces.json")
 SEPARATOR: Final = "__"
 MOST_FIELDS: Final = 600
 DEEPEST: Final = 8
 
 _NAME: Final = re.compile(r"([a-z]\w*)/(?:(msg|srv|action)/)?([A-Z]\w*)")
-_IMPORT: Final = re.compile(r"^from (\w+)\.(msg|srv|action)\.(_\w+) import (\w+)\b", re.MULTILINE)
 _LIST: Final = re.compile(r"sequence<(.+?)(?:, \d+)?>|(.+)\[\d+\]")
-_PARTS: Final = {
-    "action": (("goal", "Goal"), ("result", "Result"), ("feedback", "Feedback")),
-    "srv": (("request", "Request"), ("response", "Response")),
-    "msg": (("message", ""),),
-}
 _WRITTEN: Final = {"result", "feedback", "response"}
 _SCALARS: Final = {
     **dict.fromkeys(("float", "double"), "double"),
@@ -66,14 +61,14 @@ class Field:
 
 @cache
 def interface_names() -> tuple[tuple[str, str], ...]:
-    """Returns the installed interfaces as (name, kind), sorted: ``("nav2_msgs/action/Wait", "action")``."""
-    return tuple(sorted((name, name.split("/")[1]) for name in _modules()))
+    """Returns the interfaces as (name, kind), sorted: ``("nav2_msgs/action/Wait", "action")``."""
+    return tuple(sorted((name, name.split("/")[1]) for name in _known()))
 
 
 def has_package(name: str) -> bool:
-    """Returns whether the package of an interface is installed here."""
+    """Returns whether the package of an interface is known here."""
     package = name.partition("/")[0]
-    return any(each.startswith(f"{package}/") for each in _modules())
+    return any(each.startswith(f"{package}/") for each in _known())
 
 
 def full_name(name: str, kind: str) -> str | None:
@@ -93,16 +88,15 @@ def interface_fields(name: str, *, is_received: bool = False) -> tuple[Field, ..
         is_received: whether a message is received and not published; its fields are outputs then.
 
     Returns:
-        None if the interface is not installed.
+        None if the interface is not known.
     """
-    if name not in _modules():
+    if name not in _known():
         return None
-    _, kind, short = name.split("/")
+    kind = name.split("/")[1]
     found: list[Field] = []
-    for part, suffix in _PARTS[kind]:
+    for part, suffix in PARTS[kind]:
         direction = "output" if part in _WRITTEN or (is_received and part == "message") else "input"
-        owner = f"{short}_{suffix}" if suffix else short
-        for path, ros in _walk(_fields(name, owner), 1):
+        for path, ros in _walk(_fields(name, part_class(name, suffix)), 1):
             found.append(Field(SEPARATOR.join((part, *path)), direction, port_type(ros), ros))
     return tuple(found[:MOST_FIELDS])
 
@@ -131,49 +125,17 @@ def _walk(fields: Mapping[str, str], depth: int) -> Iterator[tuple[tuple[str, ..
 
 
 @cache
-def _modules() -> Mapping[str, Path]:
-    """Returns the Python file of each installed interface."""
-    found: dict[str, Path] = {}
-    for root in dict.fromkeys(sys.path):
-        for kind in KINDS:
-            for index in sorted(Path(root or ".").glob(f"*/{kind}/__init__.py")):
-                for package, its_kind, module, short in _IMPORT.findall(_text(index)):
-                    if its_kind == kind and "_" not in short and package == index.parts[-3]:
-                        found.setdefault(f"{package}/{kind}/{short}", index.with_name(f"{module}.py"))
+def _table() -> dict[str, dict[str, dict[str, str]]]:
+    """Returns the interfaces that a session has, as they were when the table was written."""
+    found: dict[str, dict[str, dict[str, str]]] = json.loads(TABLE.read_bytes())
     return found
 
 
 @cache
+def _known() -> frozenset[str]:
+    return frozenset(installed()) | frozenset(_table())
+
+
 def _fields(name: str, owner: str) -> Mapping[str, str]:
-    """Returns the fields of a class in the file of an interface; none if the file has another form."""
-    path = _modules().get(name)
-    if path is None:
-        return {}
-    try:
-        module = ast.parse(_text(path))
-        for node in module.body:
-            if isinstance(node, ast.ClassDef) and node.name == owner:
-                return _literal(node)
-    except (SyntaxError, ValueError):
-        return {}
-    return {}
-
-
-def _literal(owner: ast.ClassDef) -> Mapping[str, str]:
-    for statement in owner.body:
-        if (
-            isinstance(statement, ast.Assign)
-            and ast.unparse(statement.targets[0]) == "_fields_and_field_types"
-        ):
-            fields: dict[str, str] = ast.literal_eval(statement.value)
-            return {
-                key: value for key, value in fields.items() if key != "structure_needs_at_least_one_member"
-            }
-    return {}
-
-
-def _text(path: Path) -> str:
-    try:
-        return path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError):
-        return ""
+    fields = installed_fields(name, owner)
+    return fields if fields is not None else _table().get(name, {}).get(owner, {})

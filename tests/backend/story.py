@@ -52,8 +52,8 @@ LINK = re.compile(r"^(http://[^/]+/(?:join|shared)/).*$")
 
 
 def _pattern(template):
-    """Returns a pattern for the addresses of an operation; only the path of a file has slashes."""
-    holes = re.sub(r"\{path\}", "(.+)", template)
+    """Returns a pattern for the addresses of an operation; names of files and interfaces have slashes."""
+    holes = re.sub(r"\{(path|interface)\}", "(.+)", template)
     return re.compile(re.sub(r"\{\w+\}", "([^/]+)", holes) + "$")
 
 
@@ -236,8 +236,9 @@ def _tools(story, teacher):
     tree = {"diagram": json.dumps(TREE)}
     answer = story.ask(teacher, "POST", "trees/xml", tree)
     story.ask(teacher, "POST", "trees/diagram", tree | {"xml": answer["xml"].replace("0.3", "0.6")})
-    for name in ("nodes", "actions", "universes", "robots", "templates", "behaviours"):
+    for name in ("nodes", "actions", "interfaces", "universes", "robots", "templates", "behaviours"):
         story.ask(teacher, "GET", f"catalog/{name}")
+    story.ask(teacher, "GET", "catalog/interfaces/geometry_msgs/msg/Twist")
     universe = story.ask(teacher, "GET", "catalog/universes")["items"][0]["id"]
     robot = story.ask(teacher, "GET", "catalog/robots")["items"][0]["id"]
     story.ask(teacher, "GET", f"catalog/universes/{universe}/text")

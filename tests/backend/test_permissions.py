@@ -104,6 +104,8 @@ POLICY = {
     ("post", "/api/v1/python/lint"): CONTAINED,
     ("get", "/api/v1/catalog/actions"): OPEN,
     ("get", "/api/v1/catalog/behaviours"): OPEN,
+    ("get", "/api/v1/catalog/interfaces"): OPEN,
+    ("get", "/api/v1/catalog/interfaces/{interface}"): OPEN,
     ("get", "/api/v1/catalog/nodes"): OPEN,
     ("get", "/api/v1/catalog/universes"): OPEN,
     ("get", "/api/v1/catalog/universes/{universe_id}/preview"): OPEN,
@@ -172,6 +174,7 @@ def world(person, monkeypatch):  # noqa: F811
     values = {
         "project_id": project.id,
         "path": "notes.txt",
+        "interface": "geometry_msgs/msg/Twist",
         "number": 1,
         "username": "teacher",
         "universe_id": queries.universes()[0]["id"],

@@ -14,6 +14,7 @@ ROOT: Final = Path(__file__).resolve().parent.parent.parent
 GENERATORS: Final = (
     [sys.executable, "-m", "tests.tools.version"],
     [sys.executable, "-m", "tests.tree_gardener.reference_page"],
+    [sys.executable, "-m", "tests.tools.interfaces"],
     [sys.executable, "-m", "translator.reference"],
     [sys.executable, "-m", "executor.generate.protocol_page"],
     [sys.executable, "-m", "executor.universes.reference"],

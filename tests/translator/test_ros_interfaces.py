@@ -1,4 +1,4 @@
-"""The interfaces that are installed here, read without ROS."""
+"""The interfaces that blocks may use, with and without ROS."""
 
 from __future__ import annotations
 
@@ -70,5 +70,16 @@ def test_nothing_of_ros_is_imported() -> None:
     code = (
         "import sys; from translator.ros_interfaces import interface_fields as f;"
         "f('geometry_msgs/msg/Twist'); sys.exit('geometry_msgs' in sys.modules or 'rclpy' in sys.modules)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False, timeout=60).returncode == 0
+
+
+def test_a_server_without_ros_knows_what_its_sessions_have() -> None:
+    code = (
+        "import sys; import translator.ros_interfaces as r; sys.path.clear();"
+        "fields = {each.port: each.type for each in r.interface_fields('nav2_msgs/action/NavigateToPose')};"
+        "names = dict(r.interface_names());"
+        "sys.exit(not (r.installed() == {} and fields['goal__pose__pose__orientation__yaw'] == 'double'"
+        " and names['std_srvs/srv/Trigger'] == 'srv' and r.has_package('geometry_msgs/msg/Nothing')))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False, timeout=60).returncode == 0

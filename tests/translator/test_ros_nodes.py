@@ -6,15 +6,13 @@ from translator import from_xml, to_ros2_package, to_xml
 from translator.catalog import builtins
 from translator.ros_nodes import direction_of, interface_of, ros_endpoints, ros_packages, with_fields
 
-GOAL = {
-    "type": "RosAction",
-    "ports": {
-        "action_name": "/navigate_to_pose",
-        "action_type": "nav2_msgs/NavigateToPose",
-        "goal__pose__pose__position__x": "1.5",
-        "result__error_code": "{code}",
-    },
+PORTS = {
+    "action_name": "/navigate_to_pose",
+    "action_type": "nav2_msgs/NavigateToPose",
+    "goal__pose__pose__position__x": "1.5",
+    "result__error_code": "{code}",
 }
+GOAL = {"type": "RosAction", "ports": PORTS}
 
 
 def trees_of(make_project, node):
@@ -36,7 +34,7 @@ def test_the_fields_of_the_type_are_ports(make_project):
 
 def test_a_type_that_is_not_here_or_comes_from_an_entry_leaves_the_node_open(make_project):
     for type_ in ("other_msgs/action/Go", "{type}"):
-        node = node_of(make_project, {**GOAL, "ports": {**GOAL["ports"], "action_type": type_}})
+        node = node_of(make_project, {**GOAL, "ports": {**PORTS, "action_type": type_}})
         assert with_fields(builtins()["RosAction"], node).open
 
 

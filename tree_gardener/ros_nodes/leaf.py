@@ -1,5 +1,6 @@
 """The base of the ROS nodes: their rclpy node, settings that may be ports, and ports for fields."""
 
+import copy
 from collections.abc import Iterator
 from typing import Any, Final
 
@@ -118,8 +119,12 @@ class RosLeaf(Behaviour):
         Raises:
             PortError: a port has no value, or the value does not suit its field.
         """
-        for port, path in sorted(self.fields(prefix), key=lambda each: len(each[1])):
+        fields = sorted(self.fields(prefix), key=lambda each: len(each[1]))
+        for index, (port, path) in enumerate(fields):
             value = get_input(self, port)
+            if any(inner[: len(path)] == path for _, inner in fields[index + 1 :]):
+                # Ports below this one change the value, which may be an entry of the blackboard.
+                value = copy.deepcopy(value)
             with _named(port):
                 message = assign(message, path, value, self.now())
         return message

@@ -5,9 +5,11 @@ import type {
   OfferedAction,
   ChangesResult,
   CheckResult,
+  FieldInfo,
   FileChange,
   PackagePreview,
   ImportedProject,
+  InterfaceName,
   OfferInfo,
   ProjectDetail,
   ProjectSettings,
@@ -142,6 +144,14 @@ export const api = {
   templates: async (): Promise<TemplateInfo[]> => (await dataOf(rest.GET('/api/v1/catalog/templates'))).items,
   offeredActions: async (): Promise<OfferedAction[]> =>
     (await dataOf(rest.GET('/api/v1/catalog/actions'))).items,
+  interfaces: async (): Promise<InterfaceName[]> =>
+    (await dataOf(rest.GET('/api/v1/catalog/interfaces'))).items,
+  interfaceFields: async (name: string): Promise<FieldInfo[]> =>
+    (
+      await dataOf(
+        rest.GET('/api/v1/catalog/interfaces/{interface}', { params: { path: { interface: name } } }),
+      )
+    ).ports,
   behaviours: async () => (await dataOf(rest.GET('/api/v1/catalog/behaviours'))).items,
   universes: async (): Promise<UniverseInfo[]> => (await dataOf(rest.GET('/api/v1/catalog/universes'))).items,
   universeText: (universe_id: string) =>

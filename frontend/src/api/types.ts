@@ -83,6 +83,9 @@ export type TemplateInfo = Needs<Server['Template'], 'id' | 'name' | 'descriptio
 export type BehaviourInfo = Server['Behaviour'];
 /** A node of Nav2 that a project can take, with its source. */
 export type OfferedAction = ActionModel & Pick<Server['OfferedAction'], 'text'>;
+/** An interface of ROS that is installed on the server, and a field of one as a port. */
+export type InterfaceName = Server['InterfaceName'];
+export type FieldInfo = Server['Field'];
 /** A universe or a robot that can be chosen; `preview` is the address of its picture. */
 export type UniverseInfo = Needs<Server['Entry'], 'id' | 'name'>;
 export type Me = Server['Me'];

@@ -1,4 +1,5 @@
 import { displayName, type DiagramNode } from './diagram';
+import { directionOf, shortLabel } from './rosFields';
 import type { NodeSpec } from './vocabulary';
 
 /**
@@ -24,6 +25,8 @@ export interface Size {
 /** A line of a block's ports. */
 export interface PortLine {
   readonly name: string;
+  /** The name as the block shows it. */
+  readonly label: string;
   /** null: the value is not set, so the default applies. */
   readonly value: string | null;
   readonly default: string | null;
@@ -31,10 +34,14 @@ export interface PortLine {
   readonly direction: 'input' | 'output' | 'inout';
 }
 
-/** Returns the declared ports in their order, then the other ports that are set. */
+/**
+ * Returns the declared ports in their order, then the other ports that are set. A ROS block shows what is set,
+ * since its settings would hide its fields.
+ */
 export function portLines(node: DiagramNode, spec: NodeSpec | undefined): PortLine[] {
   const declared = (spec?.ports ?? []).map((port) => ({
     name: port.name,
+    label: port.name,
     value: node.ports?.[port.name] ?? null,
     default: port.default,
     required: port.required,
@@ -43,8 +50,17 @@ export function portLines(node: DiagramNode, spec: NodeSpec | undefined): PortLi
   const known = new Set(declared.map((line) => line.name));
   const extra = Object.entries(node.ports ?? {})
     .filter(([name]) => !known.has(name))
-    .map(([name, value]) => ({ name, value, default: null, required: false, direction: 'input' as const }));
-  return [...declared, ...extra];
+    .map(([name, value]) => ({
+      name,
+      label: spec?.group === 'ros' ? shortLabel(name) : name,
+      value,
+      default: null,
+      required: false,
+      direction: spec?.group === 'ros' ? directionOf(node.type, name) : ('input' as const),
+    }));
+  const shown =
+    spec?.group === 'ros' ? declared.filter((line) => line.required || line.value !== null) : declared;
+  return [...shown, ...extra];
 }
 
 const NARROW = /[iljtfrI.,:;'|()[\]{} ]/;
@@ -88,7 +104,7 @@ function measured(node: DiagramNode, spec: NodeSpec | undefined): Size {
   const title = BLOCK.tile + Math.max(name, type + badges) + 30;
   const ports = lines
     .slice(0, BLOCK.maxPorts)
-    .map((line) => emWidth(line.name) * 12 + (line.direction === 'input' ? 0 : 18) + valueWidth(line) + 100);
+    .map((line) => emWidth(line.label) * 12 + (line.direction === 'input' ? 0 : 18) + valueWidth(line) + 100);
   const width = Math.max(BLOCK.minWidth, Math.min(BLOCK.maxWidth, Math.max(title, ...ports)));
   const rows = Math.min(lines.length, BLOCK.maxPorts) + (lines.length > BLOCK.maxPorts ? 1 : 0);
   const height = BLOCK.header + (rows > 0 ? rows * BLOCK.portRow + BLOCK.portsPadding : 0);

@@ -16,6 +16,8 @@ export interface NodeSpec {
   /** Whether the node accepts any port name. */
   readonly open: boolean;
   /** `offered`: an action of Nav2 that the project has not taken yet. */
+  /** `ros` for built-in nodes that BehaviorTree.CPP has not. */
+  readonly group?: string;
   readonly source: 'builtin' | 'action' | 'subtree' | 'offered';
   /** Whether the Python of the action has a syntax error now: then this is its last valid declaration. */
   readonly outdated?: boolean;
@@ -82,6 +84,7 @@ export function readCatalog(document: CatalogDocument): readonly NodeSpec[] {
     summary: node.summary,
     open: node.kind === 'subtree' || (node.open ?? false),
     source: node.kind === 'subtree' ? 'subtree' : 'builtin',
+    ...(node.group === undefined ? {} : { group: node.group }),
   }));
 }
 

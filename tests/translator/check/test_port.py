@@ -8,10 +8,7 @@ from tests.translator.check.finding import LEAF, find, is_found_at_its_place
 from translator.check.port import check_ports
 
 GOING = "nav2_msgs/action/NavigateToPos"
-ROS = {
-    "type": "RosAction",
-    "ports": {"action_name": "/go", "action_type": "nav2_msgs/action/NavigateToPose"},
-}
+GO = {"action_name": "/go", "action_type": "nav2_msgs/action/NavigateToPose"}
 CASES = {
     "missing port": ("BT0201", {"n1": {"type": "Delay", "children": ["a"]}, "a": LEAF}, "n1"),
     "unknown port": ("BT0202", {"n1": {"type": "Act", "ports": {"sped": "1"}}}, "n1"),
@@ -30,18 +27,22 @@ CASES = {
     "bad port name": ("BT0209", {"n1": {"type": "Open", "ports": {"1st": "x"}}}, "n1"),
     "no field of the interface": (
         "BT0202",
-        {"n1": {**ROS, "ports": {**ROS["ports"], "goal__pos": "1"}}},
+        {"n1": {"type": "RosAction", "ports": {**GO, "goal__pos": "1"}}},
         "n1",
     ),
     "no number for a field": (
         "BT0204",
-        {"n1": {**ROS, "ports": {**ROS["ports"], "goal__pose__pose__position__x": "far"}}},
+        {"n1": {"type": "RosAction", "ports": {**GO, "goal__pose__pose__position__x": "far"}}},
         "n1",
     ),
-    "no such interface": ("BT0204", {"n1": {**ROS, "ports": {**ROS["ports"], "action_type": GOING}}}, "n1"),
+    "no such interface": (
+        "BT0204",
+        {"n1": {"type": "RosAction", "ports": {**GO, "action_type": GOING}}},
+        "n1",
+    ),
     "a service as an action": (
         "BT0204",
-        {"n1": {**ROS, "ports": {**ROS["ports"], "action_type": "std_srvs/srv/Trigger"}}},
+        {"n1": {"type": "RosAction", "ports": {**GO, "action_type": "std_srvs/srv/Trigger"}}},
         "n1",
     ),
     "two types": (

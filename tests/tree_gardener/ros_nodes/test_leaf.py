@@ -57,6 +57,7 @@ def test_ports_fill_a_message_the_whole_before_its_parts() -> None:
     made = leaf(f"{port_name('goal', 'position', 'x')}='1.5' goal='{{whole}}'", whole=whole)
     filled = made.fill(Pose(), "goal")
     assert (filled.position.x, filled.position.y) == (1.5, 3.0)
+    assert whole.position.x == 0.0, "the entry of the blackboard is somebody else's too"
 
 
 def test_ports_receive_fields() -> None:

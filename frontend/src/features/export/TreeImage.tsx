@@ -79,7 +79,7 @@ function BlockImage({ id, node, box, spec, palette }: BlockImageProps) {
         return (
           <g key={port.name}>
             <text x={BLOCK.tile + 10} y={y} fontSize={12} fill={palette('muted')}>
-              {cut(port.name, room * 0.6, 12)}
+              {cut(port.label, room * 0.6, 12)}
             </text>
             <text
               x={box.width - 12}

@@ -12,6 +12,7 @@ import { KeyInput } from './KeyInput';
 import { PortNameInput } from './PortNameInput';
 import { ShowValue } from './ports/ShowValue';
 import { useKeptCaret } from './ports/useKeptCaret';
+import { TypeInput } from './ports/TypeInput';
 import { ValueInput } from './ValueInput';
 import classes from './Inspector.module.css';
 
@@ -40,6 +41,10 @@ interface PortFieldProps {
   readonly onKeep?: () => void;
   /** Restores the saved text. */
   readonly onBack?: (saved: string | null) => void;
+  /** The installed types, for the port that holds the type of a ROS interface. */
+  readonly types?: readonly string[] | undefined;
+  /** The text that is shown for the port's name. */
+  readonly label?: string | undefined;
   /** The names of the other ports. */
   readonly taken: readonly string[];
 }
@@ -93,7 +98,7 @@ export function PortField(props: PortFieldProps) {
           />
         ) : (
           <span className={classes['portLabel']} id={label}>
-            {port.name}
+            {props.label ?? port.name}
           </span>
         )}
         <span className={classes['portType']}>
@@ -167,6 +172,15 @@ export function PortField(props: PortFieldProps) {
           value={value ?? ''}
           keys={keys}
           error={isNew ? null : error}
+          onChange={onChange}
+        />
+      ) : props.types ? (
+        <TypeInput
+          name={port.name}
+          labelledBy={label}
+          value={value ?? ''}
+          types={props.types}
+          error={!isNew && error !== null}
           onChange={onChange}
         />
       ) : (

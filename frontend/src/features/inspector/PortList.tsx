@@ -5,6 +5,7 @@ import { useTranslation } from 'react-i18next';
 import type { NodeId } from '@/model/diagram';
 import { setPort } from '@/model/edits';
 import type { PortSpec } from '@/model/ports';
+import { fieldLabel, fieldPort, firstValue, typePortOf } from '@/model/rosFields';
 import { blackboardKeys } from '@/model/vocabulary';
 import { keyOf } from '@/model/keys/rename';
 import { openRenameKey } from '@/store/dialogs/renameKey';
@@ -18,7 +19,9 @@ import { useProblemText } from '@/ui/useProblemText';
 import { shippedPort } from '@/i18n/shipped';
 import { keepPort } from '@/store/run/livePorts';
 import { usePortMarks } from '@/store/run/portMarks';
+import { FieldPicker } from './ports/FieldPicker';
 import { OutdatedPorts } from './ports/OutdatedPorts';
+import { useInterfaceFields, useInterfaceNames } from './ports/useInterfaces';
 import { PortField } from './PortField';
 import { PortNameInput } from './PortNameInput';
 import { Section } from './Section';
@@ -52,6 +55,13 @@ export function PortList(target: Target) {
   const [fresh, setFresh] = useState<{ readonly id: NodeId; readonly name: string } | null>(null);
   const keys = useMemo(() => [...blackboardKeys(diagram, vocabulary).keys()].sort(), [diagram, vocabulary]);
   const declared = spec?.ports ?? [];
+  const typePort = typePortOf(node.type);
+  const types = useInterfaceNames(node.type);
+  const fields = useInterfaceFields(node);
+  const portOf = (name: string): PortSpec => {
+    const field = fields?.find((each) => each.port === name);
+    return field ? fieldPort(node.type, field) : extraPort(name);
+  };
   const known = new Set(declared.map((port) => port.name));
   const areShared = isShared(target);
   const inUse = areShared ? portsInUse(node.type) : Object.keys(node.ports ?? {});
@@ -93,7 +103,7 @@ export function PortList(target: Target) {
     >
       {spec?.outdated && <OutdatedPorts action={node.type} />}
       {declared.length + extra.length === 0 && !isAdding && <p className={classes['none']}>{t('noPorts')}</p>}
-      {[...declared, ...extra.map(extraPort)].map((port) => (
+      {[...declared, ...extra.map(portOf)].map((port) => (
         <PortField
           key={`${id} ${port.name}`}
           port={{ ...port, description: shippedPort(node.type, port.name, port.description) }}
@@ -106,6 +116,8 @@ export function PortList(target: Target) {
           }}
           error={errorOf(port.name)}
           taken={taken}
+          {...(types && port.name === typePort?.port ? { types } : {})}
+          {...(typePort && port.name.includes('__') ? { label: fieldLabel(port.name) } : {})}
           mark={marks.get(port.name)}
           onKeep={() => keepPort(liveKey(diagram.id, id), port.name, node.ports?.[port.name] ?? null)}
           onBack={(saved) => {
@@ -124,7 +136,20 @@ export function PortList(target: Target) {
           }
         />
       ))}
-      {isAdding && (
+      {isAdding && fields && (
+        <FieldPicker
+          fields={fields}
+          taken={taken}
+          onDone={(field) => {
+            if (field !== null) {
+              setFresh({ id, name: field.port });
+              set(field.port, firstValue(node.type, field));
+            }
+            setIsAdding(false);
+          }}
+        />
+      )}
+      {isAdding && !fields && (
         <PortNameInput
           taken={taken}
           onDone={(name, byKey) => {

@@ -43,6 +43,7 @@ describe('Palette', () => {
       'Decorators',
       'Subtrees',
       'Built-in actions',
+      'ROS',
     ]);
     expect(group(/^Actions/)).toHaveTextContent('Actions1');
   });

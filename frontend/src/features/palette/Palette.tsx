@@ -10,11 +10,12 @@ import { NewAction } from './NewAction';
 import { PaletteGroup } from './PaletteGroup';
 import classes from './Palette.module.css';
 
-const GROUPS = ['action', 'condition', 'control', 'decorator', 'subtree', 'builtin', 'nav2'] as const;
+const GROUPS = ['action', 'condition', 'control', 'decorator', 'subtree', 'builtin', 'ros', 'nav2'] as const;
 type Group = (typeof GROUPS)[number];
 
 function groupOf({ spec }: Choice): Group {
   if (spec.source === 'offered') return 'nav2';
+  if (spec.group === 'ros') return 'ros';
   const isLeaf = spec.family === 'action' || spec.family === 'condition';
   return isLeaf && spec.source === 'builtin' ? 'builtin' : spec.family;
 }

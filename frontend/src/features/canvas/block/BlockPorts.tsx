@@ -77,7 +77,7 @@ export function BlockPorts({ place, node, spec, marks, t }: BlockPortsProps) {
         return (
           <li key={line.name} className={classes['port']}>
             <span className={classes['portName']}>
-              {ARROWS[line.direction]} {line.name}
+              {ARROWS[line.direction]} {line.label}
             </span>
             {wanted.has(line.name) ? (
               <PortValue port={shownPort(place.tree, place.node, line.name)} text={value} />

@@ -162,7 +162,7 @@ class Following:
 
 @dataclass
 class Navigating:
-    """Goes to poses: plans, follows, plans again, and recovers where that fails."""
+    """Visits poses: plans, follows, plans again, and recovers where that fails."""
 
     space: Space
     goals: list[Pose]

@@ -41,7 +41,7 @@ class Motion(Protocol):
 
 
 class Wait:
-    """Stands still for a time."""
+    """Pauses for a time."""
 
     def __init__(self, duration_s: float, now_s: float) -> None:
         self._began_s, self._duration_s = now_s, duration_s

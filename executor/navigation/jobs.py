@@ -1,4 +1,4 @@
-"""What the navigation is asked for: a path, to follow one, to go to a pose. Each continues in small steps."""
+"""The jobs of the navigation: to find a path, to follow one, to visit poses, each in small steps."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ MOST_RECOVERIES: Final = 6
 
 @dataclass
 class State:
-    """How far a job is. `error` is a name of Nav2's error codes; an empty one at the end is success."""
+    """The state of a job. `error` is a name of Nav2's error codes; an empty one at the end is success."""
 
     is_over: bool = False
     error: str = ""

@@ -62,7 +62,7 @@ def test_a_drive_that_takes_too_long_ends() -> None:
     assert (step.error, time_s) == ("timeout", 2.0)
 
 
-def test_a_wait_stands_still_for_its_time() -> None:
+def test_a_wait_pauses_for_its_time() -> None:
     step, pose, time_s = play(Wait(1.0, 0.0))
     assert pose == (0, 0, 0)
     assert time_s == pytest.approx(1.0)

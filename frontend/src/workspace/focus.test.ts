@@ -78,3 +78,15 @@ it('is cancelled by the fields of the block, too', () => {
   vi.advanceTimersByTime(1000);
   expect(document.activeElement).toBe(document.querySelector('input'));
 });
+
+it('leaves the focus to a search that was opened in the text', () => {
+  document.body.innerHTML =
+    '<div data-testid="code-editor" data-path="a.py"><div class="cm-editor">' +
+    '<input><div class="cm-content" tabindex="0"></div></div></div>';
+  focusDocument({ kind: 'file', path: 'a.py' });
+  vi.advanceTimersByTime(50);
+  expect(document.activeElement).toBe(document.querySelector('.cm-content'));
+  document.querySelector('input')!.focus();
+  vi.advanceTimersByTime(1000);
+  expect(document.activeElement).toBe(document.querySelector('input'));
+});

@@ -42,7 +42,9 @@ export function focusDocument(tab: DocumentTab): void {
     const target = focusableOf(tab);
     if (target?.checkVisibility() && !document.querySelector('[role="dialog"][aria-modal="true"]')) {
       firstSeen ??= now;
-      if (!target.contains(document.activeElement)) target.focus({ preventScroll: true });
+      // A search that was opened in the text meanwhile keeps the focus.
+      const editor = target.closest('.cm-editor') ?? target;
+      if (!editor.contains(document.activeElement)) target.focus({ preventScroll: true });
     }
     if (now - (firstSeen ?? now) < SETTLED_MS && now - started < PATIENCE_MS) setTimeout(attempt, RETRY_MS);
     else mine.abort();

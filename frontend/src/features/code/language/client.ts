@@ -134,8 +134,11 @@ class Connection {
     let readySince: number | null = null;
     const socket = openSocket(this.projectId, {
       open: (transport) => {
+        const { initializing } = this.client;
+        // The library's notifications wait for the start, and would throw if it fails.
+        this.client.initializing = initializing.catch(() => new Promise<never>(() => undefined));
         this.client.connect(transport);
-        this.client.initializing.then(
+        initializing.then(
           () => {
             readySince = Date.now();
             if (this.socket === socket) setState({ kind: 'ready' });

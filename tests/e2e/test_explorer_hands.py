@@ -110,8 +110,14 @@ def a_drag_is_given_up(studio: Studio) -> None:
     x, y = box["x"] + box["width"] / 2 + 60, box["y"] + box["height"] / 2
     view.press("Escape")
     expect(studio.at("world-fields")).to_be_visible()
-    mouse.click(x, y)
     fields = studio.at("thing-fields")
+
+    def is_chosen() -> bool:
+        """A thing can be chosen once it is drawn where it was put."""
+        mouse.click(x, y)
+        return fields.is_visible()
+
+    wait_until(is_chosen, "the crate is chosen", every_s=0.5)
     place = [fields.get_by_test_id(f"field-{axis}").input_value() for axis in "xy"]
     view.press("Escape")
     expect(studio.at("world-fields")).to_be_visible()  # nothing is selected, and no handle is in the way
@@ -121,7 +127,7 @@ def a_drag_is_given_up(studio: Studio) -> None:
     keys.press("Escape")
     mouse.up()
     expect(studio.at("world-fields")).to_be_visible()
-    mouse.click(x, y)
+    wait_until(is_chosen, "the crate is chosen again", every_s=0.5)
     assert [fields.get_by_test_id(f"field-{axis}").input_value() for axis in "xy"] == place
 
 

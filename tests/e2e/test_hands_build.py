@@ -317,7 +317,9 @@ def behaviour_is_reused(studio: Studio) -> None:
     edit(studio, "actions/DriveDistance.py", "# mine\n" + library_source("DriveDistance"))
     studio.at("file-trees/MainTree.json").click()
     studio.at("insert-DriveForward").click()
-    expect(studio.at("arrival-actions/DriveDistance.py")).to_contain_text("comes as DriveDistance2")
+    expect(studio.at("arrival-actions/DriveDistance.py")).to_contain_text(
+        "the incoming one is named DriveDistance2"
+    )
     studio.at("take-arrivals").click()
     expect(studio.at("file-trees/DriveForward2.json")).to_be_visible()
     expect(studio.at("file-actions/DriveDistance2.py")).to_be_visible()

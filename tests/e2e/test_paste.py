@@ -87,7 +87,7 @@ def a_clash_is_chosen(studio: Studio) -> None:
     block(studio, "ReactiveSequence").click()
     studio.page.keyboard.press("Control+v")
     row = studio.at("arrival-actions/Turn.py")
-    expect(row).to_contain_text("comes as Turn2")
+    expect(row).to_contain_text("the incoming one is named Turn2")
     row.get_by_role("button", name="Turn", exact=True).click()
     expect(row.locator(".cm-merge-a")).to_contain_text("# mine")
     row.get_by_text("Keep mine").click()

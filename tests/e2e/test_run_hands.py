@@ -158,7 +158,7 @@ def a_universe_is_made_without_a_view(studio: Studio) -> None:
     studio.at("choice-empty").click()
     studio.at("new-universe-name").fill("yard")
     studio.at("new-universe-ok").click()
-    expect(studio.at("universe-view").get_by_role("note")).to_contain_text("changed by their numbers")
+    expect(studio.at("universe-view").get_by_role("note")).to_contain_text("change their numbers")
     studio.at("place-crate").click()
     field = studio.at("thing-fields").get_by_test_id("field-x")
     field.fill("3")

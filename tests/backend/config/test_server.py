@@ -75,6 +75,7 @@ def test_an_interrupt_that_python_would_drop_ends_a_server_that_starts():
 import os, signal, weakref
 from backend.config.server import ended_by_interrupt
 class Module: pass
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background job ignores it
 module = Module()
 watch = weakref.ref(module, lambda _: (os.kill(os.getpid(), signal.SIGINT), sum(range(10_000))))
 {}:

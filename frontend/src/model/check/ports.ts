@@ -1,5 +1,6 @@
 import type { DiagramNode, NodeId } from '../diagram';
 import { pointerOf, readPortText, type PortSpec } from '../ports';
+import { fullName, typePortOf } from '../rosFields';
 import { fit, outside, partRead } from '../values';
 import type { NodeSpec } from '../vocabulary';
 import { atPort, type Problem } from './problem';
@@ -66,10 +67,19 @@ function checkUndeclared(
   return isPortName(name) ? checkBraces(id, name, text) : [atPort('bad-port-name', id, name)];
 }
 
+/** Reports a type of a ROS node that is not the name of one; what is installed is known to the server. */
+function checkInterface(id: NodeId, node: DiagramNode): Problem[] {
+  const typePort = typePortOf(node.type);
+  const text = typePort ? node.ports?.[typePort.port] : undefined;
+  if (!typePort || !text || pointerOf(text) !== null || fullName(text, typePort.kind) !== null) return [];
+  return [atPort('wrong-type', id, typePort.port, { text, type: `package/${typePort.kind}/Name` })];
+}
+
 /** Checks names and values of the ports of a node other than SubTree. */
 export function checkPorts(id: NodeId, node: DiagramNode, spec: NodeSpec): Problem[] {
   const declared = new Set(spec.ports.map((port) => port.name));
   return [
+    ...checkInterface(id, node),
     ...spec.ports.flatMap((port) => checkDeclared(id, node, port, spec)),
     ...Object.entries(node.ports ?? {})
       .filter(([name]) => !declared.has(name))

@@ -1,4 +1,5 @@
-import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { afterEach, beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
+import { openProject } from '../../../../harness/testing';
 import { useLanguageStore } from '@/store/language';
 import { useProjectStore } from '@/store/project';
 import { languageSupport } from './client';
@@ -49,5 +50,19 @@ describe('the connection to the language server', () => {
     SilentSocket.opened.at(-1)?.onopen();
     await vi.advanceTimersByTimeAsync(60_000);
     expect(state()).toEqual({ kind: 'failed', reason: '', willRetry: false });
+  });
+
+  it('leaves no error behind when the project is closed before the server answers', async () => {
+    const thrown = vi.fn();
+    process.on('unhandledRejection', thrown);
+    onTestFinished(() => void process.off('unhandledRejection', thrown));
+    openProject({ texts: { 'actions/Go.py': 'x = 1\n' } });
+    languageSupport('actions/Go.py');
+    SilentSocket.opened.at(-1)?.onopen();
+    useProjectStore.setState({ projectId: null });
+    await vi.advanceTimersByTimeAsync(60_000);
+    vi.useRealTimers();
+    await new Promise((resolve) => setTimeout(resolve));
+    expect(thrown).not.toHaveBeenCalled();
   });
 });

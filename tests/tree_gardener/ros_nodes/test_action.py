@@ -97,6 +97,16 @@ def test_a_halted_node_cancels_its_goal_even_before_the_server_answered(ros: Gra
     ros.spin(lambda: server.cancelled == 1)
 
 
+def test_a_run_that_ends_before_the_server_answered_cancels_its_goal(ros: Graph) -> None:
+    server = Server(ros, waits=True)
+    ros.load(f"{ACTION} goal__order='3'/>")
+    ros.spin(ros.tree.nodes[0].behaviour._client.server_is_ready)
+    assert ros.tree.tick_exactly_once() is Status.RUNNING
+    ros.tree.shutdown()  # nobody hears the answer any more
+    ros.executor.remove_node(ros.tree_node)
+    ros.spin(lambda: server.cancelled == 1)
+
+
 def test_a_goal_that_someone_else_cancels_fails(ros: Graph) -> None:
     server = Server(ros, waits=True)
     ros.load(f"{ACTION} goal__order='3' error='{{why}}'/>")

@@ -97,6 +97,7 @@ def test_a_halted_node_cancels_its_goal_even_before_the_server_answered(ros: Gra
     ros.spin(lambda: server.cancelled == 1)
 
 
+@pytest.mark.filterwarnings("ignore:failed to send response:RuntimeWarning")
 def test_a_run_that_ends_before_the_server_answered_cancels_its_goal(ros: Graph) -> None:
     server = Server(ros, waits=True)
     ros.load(f"{ACTION} goal__order='3'/>")

@@ -186,6 +186,7 @@ class _Run:
         from rclpy.parameter import Parameter  # noqa: PLC0415 - ROS reads the environment when loaded
 
         from executor.headless.waiting import wait_in_simulation  # noqa: PLC0415
+        from executor.navigation.start import make_navigation  # noqa: PLC0415
         from executor.render import make_renderer  # noqa: PLC0415
         from executor.ros.default_context import DefaultContext  # noqa: PLC0415
         from executor.ros.mismatches import Mismatches  # noqa: PLC0415
@@ -207,6 +208,9 @@ class _Run:
         )
         self._stack.append(self._node.close)
         self._stack.append(share_commands(self._node, context))
+        self._navigation = make_navigation(self._world, context)
+        if self._navigation is not None:
+            self._stack.append(self._navigation.close)
         self._application = ActionNode(
             "application",
             context=context,
@@ -280,6 +284,8 @@ class _Run:
             done += count
             self._sensors.changed()
             if done % PERIOD_STEPS == 0 or done == until_step:
+                if self._navigation is not None:
+                    self._navigation.poll()
                 self._node.publish(self._sensors)
                 if self._recorder is not None:
                     self._recorder.look()

@@ -119,6 +119,11 @@ class Following:
         if not path:
             self.state.end("INVALID_PATH", "the path is empty")
 
+    def change(self, path: Sequence[Point], yaw: float | None = None) -> None:
+        """Follows another path from now on; the time without progress continues to count."""
+        self.path, self._index, self._is_turning = list(path), 0, False
+        self._yaw = self._yaw if yaw is None else yaw
+
     def left(self) -> float:
         """Returns the length of the rest of the path."""
         return pursuit.remaining(self.path, self._index)
@@ -178,6 +183,11 @@ class Navigating:
         """Returns the length of the path that is left."""
         return self._following.left() if self._following else 0.0
 
+    @property
+    def path(self) -> list[Point]:
+        """The path that is followed; empty if there is none."""
+        return self._following.path if self._following else []
+
     def step(self, now_s: float, pose: Pose, speed: float, count: int) -> State:
         """Sets the next command; a search expands at most `count` cells."""
         state = self.state
@@ -200,7 +210,7 @@ class Navigating:
             if self._following is None:
                 self._following = Following(planning.points, self.goals[-1][2], now_s, pose)
             else:
-                self._following.path, self._following._index = planning.points, 0
+                self._following.change(planning.points)
         if self._following is None:
             state.linear = state.angular = 0.0
             return state

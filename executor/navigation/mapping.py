@@ -10,17 +10,18 @@ from executor.navigation.grid import Grid
 from executor.world.geometry.transforms import compose, rotation
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
-    from executor.stream_messages import Mesh, Scene, Shape
+    from executor.stream_messages import Mesh, Scene, SceneObject, Shape
 
     Points = NDArray[np.float64]
 
 RESOLUTION_M: Final = 0.05
 HEIGHTS_M: Final = (0.04, 0.4)
 """What is lower is driven over, what is higher is driven under."""
+LEAST_RADIUS_M: Final = 0.1
 BORDER_M: Final = 1.0
 LONGEST_M: Final = 100.0
 """A map is not longer than this along one side."""
@@ -29,10 +30,21 @@ _CIRCLE: Final = np.array([(np.cos(a), np.sin(a)) for a in np.linspace(0, 2 * np
 
 
 def map_of(
-    scene: Scene, *, around: tuple[float, float] = (0.0, 0.0), resolution: float = RESOLUTION_M
+    scene: Scene,
+    *,
+    around: tuple[float, float] = (0.0, 0.0),
+    resolution: float = RESOLUTION_M,
+    poses: Sequence[Sequence[float]] | NDArray[np.float32] | None = None,
 ) -> Grid:
-    """Returns the grid of everything in a scene but its robots. `around` is within the grid."""
-    polygons = [polygon for polygon in _polygons(scene) if len(polygon)]
+    """Returns the grid of everything in a scene but its robots.
+
+    Args:
+        scene: the scene.
+        around: a place within the grid.
+        resolution: the side of a cell in m.
+        poses: the present poses of the scene's objects; with None, those of the scene.
+    """
+    polygons = [polygon for polygon in _polygons(scene, poses) if len(polygon)]
     points = np.vstack([np.asarray([around]), *polygons])
     low = np.maximum(points.min(axis=0) - BORDER_M, np.asarray(around) - LONGEST_M / 2)
     high = np.minimum(points.max(axis=0) + BORDER_M, np.asarray(around) + LONGEST_M / 2)
@@ -42,16 +54,35 @@ def map_of(
     return grid
 
 
-def _polygons(scene: Scene) -> Iterator[Points]:
+def radius_of(scene: Scene, body: str, centre: tuple[float, float]) -> float:
+    """Returns the radius of a circle round a robot's shapes, with its centre between the wheels."""
+    corners = [
+        points
+        for thing in scene.objects
+        if thing.kind == "robot" and thing.body == body
+        for points in _outlines(thing, scene.meshes, thing.pose)
+        if len(points)
+    ]
+    return max((float(np.hypot(*(points - centre).T).max()) for points in corners), default=LEAST_RADIUS_M)
+
+
+def _polygons(
+    scene: Scene, poses: Sequence[Sequence[float]] | NDArray[np.float32] | None
+) -> Iterator[Points]:
     """Yields the corners of the convex outlines on the ground."""
-    for thing in scene.objects:
-        if thing.kind == "robot":
-            continue
-        for shape in thing.shapes:
-            if not shape.ceiling:
-                pose = compose(tuple(thing.pose), tuple(shape.pose))  # type: ignore[arg-type]
-                for points in _parts(shape, scene.meshes):
-                    yield _outline(points @ rotation(pose[3:]).T + np.asarray(pose[:3]))
+    for index, thing in enumerate(scene.objects):
+        if thing.kind != "robot":
+            yield from _outlines(thing, scene.meshes, thing.pose if poses is None else poses[index])
+
+
+def _outlines(
+    thing: SceneObject, meshes: Mapping[str, Mesh], at: Sequence[float] | NDArray[np.float32]
+) -> Iterator[Points]:
+    for shape in thing.shapes:
+        if not shape.ceiling:
+            pose = compose(tuple(map(float, at)), tuple(shape.pose))  # type: ignore[arg-type]
+            for points in _parts(shape, meshes):
+                yield _outline(points @ rotation(pose[3:]).T + np.asarray(pose[:3]))
 
 
 def _parts(shape: Shape, meshes: Mapping[str, Mesh]) -> Iterator[Points]:

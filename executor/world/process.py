@@ -183,6 +183,7 @@ class WorldProcess:
         if message.universe == "none":
             self._start_outside(message)
             return
+        from executor.navigation.start import make_navigation  # noqa: PLC0415
         from executor.ros.mismatches import Mismatches  # noqa: PLC0415 - ROS reads the environment
         from executor.ros.node import WorldNode  # noqa: PLC0415
         from executor.ros.outlet import Outlet  # noqa: PLC0415
@@ -213,6 +214,9 @@ class WorldProcess:
         loop = SimulationLoop(world, sensors, node, self._channel.send, speed=message.speed)
         loop.watchers += [self._topics.poll, Mismatches(node.node, self._channel.send).poll]
         loop.moved = self._moved
+        if (navigation := make_navigation(world, context, outlet)) is not None:
+            self._close.append(navigation.close)
+            loop.parts.append(navigation)
         self._loop = loop
         self._channel.send(child_messages.WorldReady(renderer.name, has_tf(), world.name))
 

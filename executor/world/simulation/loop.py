@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Protocol
 
 from executor.child_messages import Log, Sim
 from executor.world.simulation.adaptation import CameraRates
@@ -20,6 +20,17 @@ if TYPE_CHECKING:
     from executor.world.sensing.sensors import Sensors
 
     Send = Callable[[Sim | Log | Frame], None]
+
+
+class Part(Protocol):
+    """Something that works beside the world, on its time."""
+
+    def poll(self, *, is_paused: bool = False) -> None:
+        """Is called after each period of the world, and now and then while it is paused."""
+
+    def restart(self) -> None:
+        """Is called when simulated time starts again."""
+
 
 PERIOD_STEPS: Final = 4  # steps between polls of the world's topics: 60 Hz
 IDLE_CLOCK_S: Final = 0.05
@@ -60,6 +71,7 @@ class SimulationLoop:
         self.moved: Callable[[int], None] = lambda clocks: None
         """Called after each part of the work, with the number of published times."""
         self.watchers: list[Callable[[float], None]] = []
+        self.parts: list[Part] = []
         self.streams = Streams(world, sensors, send)
 
     def pause(self) -> None:
@@ -88,6 +100,8 @@ class SimulationLoop:
         self._world.reset()
         self._sensors.load_scene()
         self._node.restart()
+        for part in self.parts:
+            part.restart()
         self.streams.scene_changed()
         self._pacer.pause()
         self._steps, self._report = 0, None
@@ -143,6 +157,8 @@ class SimulationLoop:
         if now_s - self._clock_s >= IDLE_CLOCK_S:
             self._clock_s = now_s
             self._node.poll()
+            for part in self.parts:
+                part.poll(is_paused=True)
             self._node.publish_clock()
             self._told_time()
 
@@ -155,6 +171,8 @@ class SimulationLoop:
             self._sensors.changed()
             if self._steps % PERIOD_STEPS == 0:
                 self._node.poll()
+                for part in self.parts:
+                    part.poll()
                 self._node.publish(self._sensors)
                 self._told_time()
         self._tell_collisions()

@@ -73,7 +73,7 @@ describe('ReportContents', () => {
     expect(screen.queryByTestId('import-reason')).toBeNull();
     act(() => useProjectStore.getState().setSettings({ universe: 'line' }));
     expect(screen.getByTestId('import-reason')).toHaveTextContent(
-      /because the actions look with \/camera\/image_raw/,
+      /because the actions use \/camera\/image_raw/,
     );
   });
 

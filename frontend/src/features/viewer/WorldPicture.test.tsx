@@ -25,7 +25,7 @@ const VIEW: View = {
   measuring: { isOn: false, points: [] },
 };
 
-const workers: { onerror: () => void }[] = [];
+const workers: { onerror: () => void; onmessage?: (event: { data: { kind: string } }) => void }[] = [];
 
 beforeEach(() => {
   workers.length = 0;
@@ -62,4 +62,13 @@ it('lets a worker draw, and draws itself if the worker fails', () => {
   expect(first).not.toBeInTheDocument();
   expect(screen.getByRole('img').querySelector('canvas')).toBeInTheDocument();
   expect(workers).toHaveLength(1);
+});
+
+it('says that it loads until the first picture is drawn', async () => {
+  show(<WorldPicture scene={SCENE} view={VIEW} onTurned={vi.fn()} onSlow={vi.fn()} />);
+  expect(await screen.findByText('Loading 3D…')).toBeInTheDocument();
+  act(() => workers[0]!.onmessage!({ data: { kind: 'drawn' } }));
+  expect(screen.queryByText('Loading 3D…')).toBeNull();
+  act(() => workers[0]!.onerror());
+  expect(await screen.findByText('Loading 3D…')).toBeInTheDocument();
 });

@@ -41,6 +41,16 @@ it('fits what is drawn next', async () => {
   end();
 });
 
+it('lets the last wish decide, also before what is drawn next', async () => {
+  const main = recording();
+  const end = shows('Main', main);
+  fitSoon();
+  fitSelection();
+  await new Promise((resolve) => requestAnimationFrame(resolve));
+  expect(main.fitView.mock.calls).toEqual([[expect.objectContaining({ nodes: [{ id: 'r' }, { id: 'a' }] })]]);
+  end();
+});
+
 it('returns whether the tree in front is drawn', () => {
   expect(isTreeShown()).toBe(false);
   zoomIn();

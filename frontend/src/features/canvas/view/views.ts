@@ -19,17 +19,29 @@ export function showsTree(treeId: string, view: View): () => void {
 
 const inFront = (): View | undefined => views.get(useProjectStore.getState().activeTree ?? '');
 
+/** The frame in which the view is fitted by itself. */
+let soon = 0;
+
+/** Returns the view for a wish of the user, which no earlier one may override a frame later. */
+function wishedFor(): View | undefined {
+  cancelAnimationFrame(soon);
+  return inFront();
+}
+
 export const isTreeShown = (): boolean => inFront() !== undefined;
-export const zoomIn = (): void => void inFront()?.zoomIn(FAST);
-export const zoomOut = (): void => void inFront()?.zoomOut(FAST);
-export const zoomReset = (): void => void inFront()?.zoomTo(1, FAST);
-export const fit = (): void => void inFront()?.fitView({ ...FIT, ...SLOW });
+export const zoomIn = (): void => void wishedFor()?.zoomIn(FAST);
+export const zoomOut = (): void => void wishedFor()?.zoomOut(FAST);
+export const zoomReset = (): void => void wishedFor()?.zoomTo(1, FAST);
+export const fit = (): void => void wishedFor()?.fitView({ ...FIT, ...SLOW });
 
 /** Shows the whole tree once React has drawn its new layout. */
-export const fitSoon = (): void => void requestAnimationFrame(fit);
+export function fitSoon(): void {
+  cancelAnimationFrame(soon);
+  soon = requestAnimationFrame(fit);
+}
 
 /** Fits the view to the selected blocks. */
 export function fitSelection(): void {
   const nodes = useProjectStore.getState().selection.map((id) => ({ id }));
-  void inFront()?.fitView({ ...FIT, nodes, ...SLOW });
+  void wishedFor()?.fitView({ ...FIT, nodes, ...SLOW });
 }

@@ -14,7 +14,7 @@ import { useProjectStore } from '@/store/project';
 import { renameKeymap } from './rename';
 import { sanitizeHtml } from './sanitize';
 import { CLOSED, openSocket } from './socket';
-import { referencesKeymap } from './references';
+import { referencesKeys } from './references';
 import { nameOf, pathOf, sourceUriOf, uriOf } from './uris';
 import { textOfSource } from './sources';
 import { ProjectWorkspace } from './workspace';
@@ -73,7 +73,8 @@ function makeClient(): LSPClient {
       serverCompletion(),
       hoverTooltips({ hoverTime: 400 }),
       signatureHelp(),
-      keymap.of([...renameKeymap, ...jumpToDefinitionKeymap, ...referencesKeymap]),
+      keymap.of([...renameKeymap, ...jumpToDefinitionKeymap]),
+      referencesKeys,
     ],
   });
 }

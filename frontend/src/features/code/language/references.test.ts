@@ -1,9 +1,10 @@
 import { EditorState } from '@codemirror/state';
-import { EditorView } from '@codemirror/view';
+import { EditorView, runScopeHandlers } from '@codemirror/view';
 import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import { connectedClient } from '../../../../harness/languageServer';
 import { openProject } from '../../../../harness/testing';
-import { closeReferences, findReferences, referencesKeymap, useReferences } from './references';
+import { basics } from '../basics';
+import { closeReferences, findReferences, referencesKeys, useReferences } from './references';
 import { uriOf } from './uris';
 import { ProjectWorkspace } from './workspace';
 
@@ -20,7 +21,7 @@ async function editor(answer: unknown) {
     { workspace: (of) => new ProjectWorkspace(of, () => undefined) },
     { 'textDocument/references': answer },
   );
-  const extensions = client.plugin(uriOf(GO), 'python');
+  const extensions = [basics('Go.py'), client.plugin(uriOf(GO), 'python'), referencesKeys];
   const view = new EditorView({
     state: EditorState.create({ doc: 'class Go:\n    pass\n', selection: { anchor: 7 }, extensions }),
   });
@@ -37,10 +38,14 @@ describe('findReferences', () => {
     expect(server.sent('textDocument/references')).toMatchObject([
       { textDocument: { uri: uriOf(GO) }, context: { includeDeclaration: true } },
     ]);
-    const leave = referencesKeymap.find(({ key }) => key === 'Escape')?.run;
-    expect(leave?.(view)).toBe(true);
+    view.dispatch({ selection: { anchor: 6, head: 8 } });
+    const press = () => runScopeHandlers(view, new KeyboardEvent('keydown', { key: 'Escape' }), 'editor');
+    expect(press()).toBe(true);
     expect(found()).toBeNull();
-    expect(leave?.(view)).toBe(false);
+    expect(view.state.selection.main.empty).toBe(false);
+    expect(press()).toBe(true);
+    expect(view.state.selection.main.empty).toBe(true);
+    expect(press()).toBe(false);
   });
 
   it('says of a name that nobody uses that there is none, and each search is new', async () => {

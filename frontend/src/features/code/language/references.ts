@@ -1,5 +1,6 @@
 import { LSPPlugin, type LSPClient } from '@codemirror/lsp-client';
-import type { Command, KeyBinding } from '@codemirror/view';
+import { Prec, type Extension } from '@codemirror/state';
+import { keymap, type Command } from '@codemirror/view';
 import { notifications } from '@mantine/notifications';
 import { create } from 'zustand';
 import { groupPlaces, type PlacesInFile, type Range } from './places';
@@ -54,7 +55,8 @@ const leave: Command = () => {
   return isOpen;
 };
 
-export const referencesKeymap: readonly KeyBinding[] = [
-  { key: 'Shift-F12', run: findReferences, preventDefault: true },
-  { key: 'Escape', run: leave },
+/** Escape closes the list even while the word that was gone to is selected, which Escape would only deselect. */
+export const referencesKeys: Extension = [
+  keymap.of([{ key: 'Shift-F12', run: findReferences, preventDefault: true }]),
+  Prec.high(keymap.of([{ key: 'Escape', run: leave }])),
 ];

@@ -1,8 +1,10 @@
 import { useComputedColorScheme } from '@mantine/core';
 import { Canvas } from '@react-three/fiber';
 import { IconCube3dSphere } from '@tabler/icons-react';
-import { useRef, type KeyboardEvent, type ReactNode } from 'react';
+import { useCallback, useRef, useState, type KeyboardEvent, type ReactNode } from 'react';
 import '@/features/viewer/scene/three';
+import { FirstPicture } from '@/features/viewer/scene/FirstPicture';
+import { Loading3d } from '@/features/viewer/pictures/Loading3d';
 import { hasWebGl, isSoftwareWebGl } from '@/features/viewer/webgl';
 import { useVisible } from '@/ui/useVisible';
 import classes from '../editor3d.module.css';
@@ -25,6 +27,8 @@ export function EditorCanvas(props: EditorCanvasProps) {
   const view = useRef<HTMLDivElement>(null);
   const isVisible = useVisible(view);
   const isDark = useComputedColorScheme('light', { getInitialValueInEffect: false }) === 'dark';
+  const [isDrawn, setDrawn] = useState(false);
+  const onDrawn = useCallback(() => setDrawn(true), []);
   const isSimple = isSoftwareWebGl();
 
   return (
@@ -61,8 +65,10 @@ export function EditorCanvas(props: EditorCanvasProps) {
           camera={{ fov: 45, near: props.near, far: 300, up: [0, 0, 1], position: [-4, -4, 4] }}
         >
           {props.stage(isDark)}
+          <FirstPicture onDrawn={onDrawn} />
         </Canvas>
       ) : null}
+      {hasWebGl() && !isDrawn ? <Loading3d /> : null}
       {props.children}
     </div>
   );

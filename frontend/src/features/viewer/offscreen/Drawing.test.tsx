@@ -97,7 +97,7 @@ describe('the drawing in a worker', () => {
     const measuring = { isOn: true, points: [[1, 2, 3] as const] };
     drawing.receive({ kind: 'view', view: view({ canMove: true, measuring }), viewpoint: 1 });
     expect(useMeasuring.getState()).toMatchObject(measuring);
-    const { host, onMoved, onSlow } = shown();
+    const { host, onMoved, onSlow, onDrawn } = shown();
     expect(host.canMove()).toBe(true);
     const heard: string[] = [];
     host.element?.addEventListener('pointerdown', () => heard.push('pointer'));
@@ -110,6 +110,7 @@ describe('the drawing in a worker', () => {
     await moving;
     onMoved();
     onSlow(2);
-    expect(post.mock.calls.map(([{ kind }]) => kind)).toEqual(['move', 'turned', 'slow']);
+    onDrawn();
+    expect(post.mock.calls.map(([{ kind }]) => kind)).toEqual(['move', 'turned', 'slow', 'drawn']);
   });
 });

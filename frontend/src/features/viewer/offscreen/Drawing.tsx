@@ -88,6 +88,7 @@ export class Drawing {
         host={this.host}
         onMoved={this.turned}
         onSlow={this.slow}
+        onDrawn={this.drawn}
       />,
     );
   }
@@ -95,6 +96,8 @@ export class Drawing {
   private readonly turned = (): void => {
     if (this.view?.options.follow) this.post({ kind: 'turned' });
   };
+
+  private readonly drawn = (): void => this.post({ kind: 'drawn' });
 
   private readonly slow = (hz: number): void => this.post({ kind: 'slow', hz });
 }

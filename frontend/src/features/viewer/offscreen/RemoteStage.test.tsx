@@ -38,7 +38,7 @@ function begin() {
     postMessage: (message: ToWorker) => void sent.push(message),
     terminate: vi.fn(),
   };
-  const reports = { onTurned: vi.fn(), onSlow: vi.fn(), onFailed: vi.fn() };
+  const reports = { onTurned: vi.fn(), onSlow: vi.fn(), onDrawn: vi.fn(), onFailed: vi.fn() };
   const stage = new RemoteStage(parent, view(), reports, () => worker as unknown as Worker);
   const canvas = parent.querySelector('canvas')!;
   canvas.setPointerCapture = vi.fn();
@@ -116,6 +116,8 @@ describe('a view that a worker draws', () => {
     expect(useMeasuring.getState().points).toEqual([[1, 2, 3]]);
     tell({ kind: 'turned' });
     tell({ kind: 'slow', hz: 2 });
+    tell({ kind: 'drawn' });
+    expect(reports.onDrawn).toHaveBeenCalledOnce();
     expect(reports.onTurned).toHaveBeenCalledOnce();
     expect(reports.onSlow).toHaveBeenCalledExactlyOnceWith(2);
     const [pose, from] = [

@@ -14,6 +14,8 @@ export interface Reports {
   /** The user has turned or moved the camera. */
   readonly onTurned: () => void;
   readonly onSlow: (hz: number) => void;
+  /** The worker has drawn its first picture. */
+  readonly onDrawn: () => void;
   /** The worker could not begin or has failed; nothing is drawn any more. */
   readonly onFailed: () => void;
 }
@@ -104,6 +106,8 @@ export class RemoteStage {
     switch (message.kind) {
       case 'turned':
         return this.reports.onTurned();
+      case 'drawn':
+        return this.reports.onDrawn();
       case 'slow':
         return this.reports.onSlow(message.hz);
       case 'cursor':

@@ -40,6 +40,7 @@ it('has a worker that draws what is shown, as long as it is there', () => {
       label="The world"
       onTurned={vi.fn()}
       onSlow={vi.fn()}
+      onDrawn={vi.fn()}
       onFailed={vi.fn()}
     />
   );

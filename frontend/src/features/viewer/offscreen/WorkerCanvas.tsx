@@ -14,9 +14,10 @@ export function WorkerCanvas({ view, label, ...reports }: WorkerCanvasProps) {
   const stage = useRef<RemoteStage | null>(null);
   const onTurned = useEffectEvent(reports.onTurned);
   const onSlow = useEffectEvent(reports.onSlow);
+  const onDrawn = useEffectEvent(reports.onDrawn);
   const onFailed = useEffectEvent(reports.onFailed);
   const begin = useEffectEvent(
-    (element: HTMLElement) => new RemoteStage(element, view, { onTurned, onSlow, onFailed }),
+    (element: HTMLElement) => new RemoteStage(element, view, { onTurned, onSlow, onDrawn, onFailed }),
   );
   useEffect(() => {
     if (!parent.current) return;

@@ -43,6 +43,8 @@ export type ToWorker =
 export type FromWorker =
   /** The user has turned or moved the camera. */
   | { readonly kind: 'turned' }
+  /** The first picture is drawn. */
+  | { readonly kind: 'drawn' }
   /** The view draws too slowly, in Hz. */
   | { readonly kind: 'slow'; readonly hz: number }
   | { readonly kind: 'cursor'; readonly cursor: string }

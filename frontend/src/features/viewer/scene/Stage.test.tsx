@@ -52,6 +52,7 @@ function robotAt(x: number, t: number): Poses {
 
 function stage(more: Partial<ViewOptions> = {}) {
   const onMoved = vi.fn();
+  const onDrawn = vi.fn();
   const element = (options: ViewOptions) => (
     <Stage
       scene={SCENE}
@@ -61,13 +62,14 @@ function stage(more: Partial<ViewOptions> = {}) {
       host={pageHost}
       onMoved={onMoved}
       onSlow={vi.fn()}
+      onDrawn={onDrawn}
     />
   );
   let options = { ...loadViewOptions(), ...more };
   const shown = showScene(element(options));
   const change = (part: Partial<ViewOptions>) => shown.rerender(element((options = { ...options, ...part })));
   const robot = () => shown.scene.getObjectByName('robot/base')!;
-  return { ...shown, change, robot };
+  return { ...shown, change, robot, onDrawn };
 }
 
 beforeEach(() => {
@@ -86,6 +88,12 @@ describe('the stage of a world', () => {
     expect(robot().position.x).toBe(0);
     expect(camera.position.x).toBeLessThan(0);
     expect(camera.position.z).toBeGreaterThan(2);
+  });
+
+  it('reports its first picture', async () => {
+    const { draw, onDrawn } = stage();
+    draw();
+    await vi.waitFor(() => expect(onDrawn).toHaveBeenCalledOnce());
   });
 
   it('moves the robot by its poses, frame by frame', () => {

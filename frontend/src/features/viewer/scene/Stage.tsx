@@ -5,6 +5,7 @@ import { frames } from '@/store/session/frames';
 import { forEachPose, type Pose } from '@/store/session/poses';
 import { trail } from '@/store/session/trace/trail';
 import type { StageHost } from './host';
+import { FirstPicture } from './FirstPicture';
 import { FramesView, FrustumView } from './HelperViews';
 import { LidarView } from './LidarView';
 import { MeasureLine } from './MeasureLine';
@@ -34,10 +35,13 @@ interface StageProps {
   readonly onMoved: () => void;
   /** Called with the rate of pictures in Hz when it has been too low for too long. */
   readonly onSlow: (hz: number) => void;
+  /** Called when the first picture is drawn. */
+  readonly onDrawn: () => void;
 }
 
 /** The content of the 3D view: the world, its light, and optional helpers. */
-export function Stage({ scene, options, isDark, isJudged, host, onMoved, onSlow }: StageProps) {
+export function Stage(props: StageProps) {
+  const { scene, options, isDark, isJudged, host, onMoved, onSlow, onDrawn } = props;
   const isSimple = isSoftwareWebGl();
   const invalidate = useThrottledInvalidate();
   const slowness = useSlowness(isJudged, onSlow);
@@ -127,6 +131,7 @@ export function Stage({ scene, options, isDark, isJudged, host, onMoved, onSlow 
       {options.trail ? <primitive object={trailView.line} /> : null}
       {options.frames ? <primitive object={framesView.origin} /> : null}
       <MeasureLine />
+      <FirstPicture onDrawn={onDrawn} />
     </Surroundings>
   );
 }

@@ -83,7 +83,9 @@ def _port(name: str, direction: str, value: ast.expr, report: Report) -> PortMod
         return PortModel(name, direction)
     arguments = dict(zip(POSITIONAL[function], value.args, strict=False))
     arguments.update({keyword.arg: keyword.value for keyword in value.keywords if keyword.arg})
-    type_name = _type(arguments.get("type") or arguments.get("data_type"))
+    annotation = arguments.get("type") or arguments.get("data_type")
+    type_name = _type(annotation)
+    named = _constant(annotation) if type_name == "any" else None
     default = _default(arguments.get("default") or arguments.get("default_value"))
     required = _constant(arguments.get("required"))
     if required is None:
@@ -98,6 +100,7 @@ def _port(name: str, direction: str, value: ast.expr, report: Report) -> PortMod
         default=default,
         required=required is True and default is None,
         description=description if isinstance(description, str) else "",
+        named=named if isinstance(named, str) else "",
     )
 
 

@@ -12,6 +12,7 @@ from tree_gardener.blackboard import Blackboard, Entry
 from tree_gardener.clock import Clock, SystemClock, Timers
 from tree_gardener.controls.custom import CustomControl
 from tree_gardener.deep import DEEP, call_deep
+from tree_gardener.enums import Enums, constants, types
 from tree_gardener.errors import LoadError, TickError, describe
 from tree_gardener.forest import Forest
 from tree_gardener.hooks import After, Before, Hook, Hooks
@@ -89,7 +90,7 @@ class Tree:
         name: str = "tree.xml",
         documents: Sequence[str | bytes] = (),
         blackboard: Blackboard | None = None,
-        enums: Mapping[str, int] | None = None,
+        enums: Enums | None = None,
         substitutions: Mapping[str, Any] | str | None = None,
     ) -> "Tree":
         """Builds a tree from a document.
@@ -103,7 +104,8 @@ class Tree:
             name: the name of the document in messages.
             documents: other documents, whose trees can be used as SubTrees.
             blackboard: the root blackboard; entries in it keep their types.
-            enums: constants for scripts and Switch.
+            enums: constants for scripts and Switch by name, and enumerations by name, which ports can have as
+                their type; they are added to those in the document.
             substitutions: rules that replace nodes, as BehaviorTree.CPP's JSON.
 
         Raises:
@@ -118,7 +120,8 @@ class Tree:
         missing = {action: source for action, source in forest.sources.items() if action not in given}
         if missing:
             given.update(load_actions(missing))
-        registry = build_registry(given)
+        named = {**forest.enums, **(enums or {})}
+        registry = build_registry(given, types(named))
         problems = forest.check(registry)
         if problems:
             raise LoadError(problems)
@@ -126,7 +129,7 @@ class Tree:
         problems = forest.check_cycles(main)
         if problems:
             raise LoadError(problems)
-        tree = cls(clock, blackboard, enums or {})
+        tree = cls(clock, blackboard, constants(named))
         builder = Builder(tree, forest, registry, parse_rules(substitutions or {}))
         tree.nodes = builder.build(main)
         if builder.problems:

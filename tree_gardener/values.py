@@ -299,7 +299,11 @@ def _enumeration(cls: type[enum.Enum]) -> ValueType:
         raise ConversionError(f"'{text}' is not one of {', '.join(cls.__members__)}")
 
     def convert(value: Any) -> enum.Enum:
-        return value if isinstance(value, cls) else parse(to_text(value))
+        if isinstance(value, cls):
+            return value
+        number = as_number(value)  # scripts compute with doubles
+        is_whole = isinstance(number, float) and number.is_integer()
+        return parse(str(int(value)) if is_whole else to_text(value))
 
     return ValueType(f"{cls.__module__}.{cls.__qualname__}", parse, convert)
 

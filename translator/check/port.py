@@ -10,7 +10,7 @@ from translator.ros_interfaces import full_name, has_package, interface_fields, 
 from translator.ros_nodes import ROS_NODES, with_fields
 from translator.text import is_xml_name
 from translator.tree import BLANKS, Node, Tree, pointer
-from translator.values import Fit, describe, fit, outside
+from translator.values import Fit, describe, fit, outside, type_label
 
 if TYPE_CHECKING:
     from translator.check.context import Context
@@ -149,7 +149,7 @@ def _check_entry(context: Context, tree: Tree, node: Node, port: PortModel, entr
             node,
             port.name,
             key=key,
-            type=port.type,
-            other_type=first.type,
+            type=type_label(port.type),
+            other_type=type_label(first.type),
             other=f"{first.node.label} ({first.node.id}), port {first.port}",
         )

@@ -8,6 +8,7 @@ from translator.catalog import NodeModel, PortModel, builtins
 from translator.ros_nodes import direction_of
 from translator.text import is_xml_name
 from translator.tree import SUBTREE, Node, Tree
+from translator.values import type_label
 from translator.xml.attributes import COMMENT, is_free, to_attributes
 from translator.xml.escape import attribute, character_data
 
@@ -172,4 +173,4 @@ def cpp_type(type_: str) -> str | None:
     if type_.startswith("list["):
         inner = CPP_TYPES.get(type_[5:-1])
         return f"std::vector<{inner}>" if inner else None
-    return CPP_TYPES.get(type_, type_ if type_ != "any" else None)
+    return CPP_TYPES.get(type_, type_label(type_) if type_ != "any" else None)

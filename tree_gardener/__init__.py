@@ -16,6 +16,7 @@ from tree_gardener.errors import Diagnostic, LoadError, PortError, PortRefusedEr
 from tree_gardener.observe import BlackboardChange, TickChanges
 from tree_gardener.port_change import PortEffect, set_port
 from tree_gardener.ports import Port, get_input, set_output
+from tree_gardener.registered import register_type
 from tree_gardener.status import Status
 from tree_gardener.tree import Tree
 from tree_gardener.values import SharedQueue
@@ -43,6 +44,7 @@ __all__ = [
     "Tree",
     "__version__",
     "get_input",
+    "register_type",
     "set_output",
     "set_port",
 ]

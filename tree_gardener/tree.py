@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 from tree_gardener import tree_tools
 from tree_gardener.actions import load_actions
-from tree_gardener.blackboard import Blackboard
+from tree_gardener.blackboard import Blackboard, Entry
 from tree_gardener.clock import Clock, SystemClock, Timers
 from tree_gardener.controls.custom import CustomControl
 from tree_gardener.deep import DEEP, call_deep
@@ -367,6 +367,13 @@ class Tree:
             _log.warning("node '%s': %s", node.path, message)
 
     # -- observation and hooks ----------------------------------------------------------------------
+
+    def journal_writes(self, callback: Callable[[Entry, int], None] | None) -> None:
+        """Calls `callback` with each write to the blackboard, in order, while the tree is observed.
+
+        A removed entry is not in its scope any more. None ends it.
+        """
+        self._recorder.writes = callback
 
     def observe(self, callback: Observer, *, node_times: bool = False) -> Callable[[], None]:
         """Calls `callback` after each tick with the changes; returns the function that unsubscribes it.

@@ -31,11 +31,13 @@ class Registered:
     """A registered class.
 
     Attributes:
+        cls: the class.
         name: its name in JSON and in messages.
         kind: the type of its ports.
         to_json: makes a JSON document of a value, with the name of the type; None if it has no such form.
     """
 
+    cls: type
     name: str
     kind: ValueType
     to_json: Callable[[Any], Any] | None
@@ -101,7 +103,7 @@ def register_type(  # noqa: PLR0913 - the four conversions, each of them optiona
         from_json = from_json or (lambda document: _from_fields(cls, document))
         to_json = to_json or _to_fields
     kind = _kind(cls, called, from_string, from_json)
-    entry = Registered(called, kind, _named(called, to_json) if to_json is not None else None)
+    entry = Registered(cls, called, kind, _named(called, to_json) if to_json is not None else None)
     _BY_NAME[called] = _BY_CLASS[cls] = entry
     set_type(cls, kind, to_string)
     return cls

@@ -14,10 +14,10 @@ from tree_gardener.values import ConversionError, to_text, value_type
 
 
 @register_type(
-    from_string=lambda text: Point(*map(float, text.split(","))), to_string=lambda p: f"{p.x},{p.y}"
+    from_string=lambda text: Spot(*map(float, text.split(","))), to_string=lambda p: f"{p.x},{p.y}"
 )
 @dataclasses.dataclass
-class Point:
+class Spot:
     x: float
     y: float = 0.0
 
@@ -26,7 +26,7 @@ class Point:
 @dataclasses.dataclass
 class Named:
     name: str
-    at: Point
+    at: Spot
     tags: list[str] = dataclasses.field(default_factory=list)
 
 
@@ -40,29 +40,29 @@ class Opaque:
 def test_a_dataclass_is_read_by_its_fields() -> None:
     kind = value_type(Named)
     text = 'json:{"name": "dock", "at": {"x": 1, "y": 2}, "tags": ["a"], "more": 3}'
-    assert kind.parse(text) == Named("dock", Point(1.0, 2.0), ["a"])
+    assert kind.parse(text) == Named("dock", Spot(1.0, 2.0), ["a"])
     assert kind.name == "Place"
     known = registered(Named)
     assert known is not None
     assert known.to_json is not None
-    document = known.to_json(Named("dock", Point(1, 2)))
+    document = known.to_json(Named("dock", Spot(1, 2)))
     assert document == {
         "name": "dock",
-        "at": {"x": 1, "y": 2, "__type": "Point"},
+        "at": {"x": 1, "y": 2, "__type": "Spot"},
         "tags": [],
         "__type": "Place",
     }
-    assert kind.convert(f"json:{json.dumps(document)}") == Named("dock", Point(1, 2))
+    assert kind.convert(f"json:{json.dumps(document)}") == Named("dock", Spot(1, 2))
     assert registered_name("Place") is known
 
 
 def test_a_text_has_its_own_form() -> None:
-    kind = value_type(Point)
-    assert kind.parse("1,2") == Point(1, 2)
-    assert to_text(Point(1, 2)) == "1,2"
-    assert value_type(list[Point]).parse('json:[{"x": 1, "y": 2}]') == [Point(1, 2)]
-    assert value_type(list[Point]).parse("1,2;3,4") == [Point(1, 2), Point(3, 4)]
-    assert kind.convert(Point(3)) == Point(3)
+    kind = value_type(Spot)
+    assert kind.parse("1,2") == Spot(1, 2)
+    assert to_text(Spot(1, 2)) == "1,2"
+    assert value_type(list[Spot]).parse('json:[{"x": 1, "y": 2}]') == [Spot(1, 2)]
+    assert value_type(list[Spot]).parse("1,2;3,4") == [Spot(1, 2), Spot(3, 4)]
+    assert kind.convert(Spot(3)) == Spot(3)
 
 
 @pytest.mark.parametrize(
@@ -73,17 +73,17 @@ def test_a_text_has_its_own_form() -> None:
         ('json:{"x": 1}', "field 'y' is missing"),
         ('json:{"x": "1", "y": 2}', "field 'x' is of type double, not a text"),
         ('json:{"x": [], "y": 2}', "field 'x': a value of type list"),
-        ("one", "no Point: ValueError"),
+        ("one", "no Spot: ValueError"),
     ],
 )
 def test_a_text_that_is_no_value_is_refused(text: str, message: str) -> None:
     with pytest.raises(ConversionError, match=message):
-        value_type(Point).parse(text)
+        value_type(Spot).parse(text)
 
 
 def test_a_value_of_another_class_is_refused() -> None:
-    with pytest.raises(ConversionError, match="a value of type int is not a Point"):
-        value_type(Point).convert(3)
+    with pytest.raises(ConversionError, match="a value of type int is not a Spot"):
+        value_type(Spot).convert(3)
 
 
 def test_any_class_can_be_registered_with_its_converters() -> None:

@@ -7,6 +7,7 @@ and without counting as an update.
 
 import math
 from collections.abc import Mapping
+from types import GenericAlias
 from typing import TYPE_CHECKING, Any, Final
 
 from tree_gardener.blackboard import EMPTY, Blackboard
@@ -151,7 +152,9 @@ def _list_of(documents: list[Any]) -> tuple[Any, ValueType | None] | None:
         known = registered_name(first[TYPE]) if isinstance(first.get(TYPE), str) else None
         if known is None or known.kind.from_json is None:
             return None
-        return [known.kind.from_json(each) for each in documents], value_type(list[known.cls])
+        return [known.kind.from_json(each) for each in documents], value_type(
+            GenericAlias(list, (known.cls,))
+        )
     if first is None or isinstance(first, list):
         return None
     kind = _scalar(first)

@@ -8,10 +8,11 @@ from typing import Any, TypeVar
 
 from tree_gardener import tree_tools
 from tree_gardener.actions import load_actions
-from tree_gardener.blackboard import Blackboard
+from tree_gardener.blackboard import Blackboard, Entry
 from tree_gardener.clock import Clock, SystemClock, Timers
 from tree_gardener.controls.custom import CustomControl
 from tree_gardener.deep import DEEP, call_deep
+from tree_gardener.enums import Enums, constants, types
 from tree_gardener.errors import LoadError, TickError, describe
 from tree_gardener.forest import Forest
 from tree_gardener.hooks import After, Before, Hook, Hooks, ResultCount
@@ -87,7 +88,7 @@ class Tree:
         name: str = "tree.xml",
         documents: Sequence[str | bytes] = (),
         blackboard: Blackboard | None = None,
-        enums: Mapping[str, int] | None = None,
+        enums: Enums | None = None,
         substitutions: Mapping[str, Any] | str | None = None,
     ) -> "Tree":
         """Builds a tree from a document.
@@ -101,7 +102,8 @@ class Tree:
             name: the name of the document in messages.
             documents: other documents, whose trees can be used as SubTrees.
             blackboard: the root blackboard; entries in it keep their types.
-            enums: constants for scripts and Switch.
+            enums: constants for scripts and Switch by name, and enumerations by name, which ports can have as
+                their type; they are added to those in the document.
             substitutions: rules that replace nodes, as BehaviorTree.CPP's JSON.
 
         Raises:
@@ -116,7 +118,8 @@ class Tree:
         missing = {action: source for action, source in forest.sources.items() if action not in given}
         if missing:
             given.update(load_actions(missing))
-        registry = build_registry(given)
+        named = {**forest.enums, **(enums or {})}
+        registry = build_registry(given, types(named))
         problems = forest.check(registry)
         if problems:
             raise LoadError(problems)
@@ -124,7 +127,7 @@ class Tree:
         problems = forest.check_cycles(main)
         if problems:
             raise LoadError(problems)
-        tree = cls(clock, blackboard, enums or {})
+        tree = cls(clock, blackboard, constants(named))
         builder = Builder(tree, forest, registry, parse_rules(substitutions or {}))
         tree.nodes = builder.build(main)
         if builder.problems:
@@ -373,6 +376,13 @@ class Tree:
             _log.warning("node '%s': %s", node.path, message)
 
     # -- observation and hooks ----------------------------------------------------------------------
+
+    def journal_writes(self, callback: Callable[[Entry, int], None] | None) -> None:
+        """Calls `callback` with each write to the blackboard, in order, while the tree is observed.
+
+        A removed entry is not in its scope any more. None ends it.
+        """
+        self._recorder.writes = callback
 
     def observe(self, callback: Observer, *, node_times: bool = False) -> Callable[[], None]:
         """Calls `callback` after each tick with the changes; returns the function that unsubscribes it.

@@ -147,6 +147,8 @@ class _Run:
             self._node.poll()
             for note in self._node.take_notes():
                 print(note, file=sys.stderr)  # noqa: T201 - what the console of a session shows
+                if self._recorder is not None:
+                    self._recorder.says("warning", note)
             self._sample(number)
             if progress is not None and number % max(1, round(self._tick_hz)) == 0:
                 progress(self._world.time_s)
@@ -256,8 +258,8 @@ class _Run:
             return None
         from executor.headless.recording import open_recording  # noqa: PLC0415 - few runs are recorded
 
-        universe, seed = options.universe, options.seed
-        recording = open_recording(options.recording, project, universe=universe, seed=seed)
+        universe, robot, seed = options.universe, options.robot, options.seed
+        recording = open_recording(options.recording, project, universe=universe, robot=robot, seed=seed)
         self._stack.append(recording.close)
         return recording
 
@@ -266,7 +268,7 @@ class _Run:
             return None
         from executor.headless.recorder import RunRecorder  # noqa: PLC0415 - few runs are recorded
 
-        return RunRecorder(recording, self._world, self._sensors, self._tree)
+        return RunRecorder(recording, self._world, self._sensors, self._node, self._tree)
 
     # --- running ---
 

@@ -1,4 +1,4 @@
-"""What runs round the ticks of nodes: hooks for debuggers and tests, marks, clocks and counts.
+"""Hooks, marks, clocks and counts round the ticks of nodes.
 
 A hook before a node may return a result; the node is then not ticked. A hook after a node may replace its
 result. Nodes without hooks are ticked exactly as in a tree without hooks.
@@ -34,7 +34,7 @@ class Hook:
 
 @dataclasses.dataclass(slots=True)
 class ResultCount:
-    """How often the ticks of a node had each result; a tick that raised an exception is not counted."""
+    """The number of ticks of a node by result; ticks that raised an exception are not counted."""
 
     success: int = 0
     failure: int = 0

@@ -149,7 +149,7 @@ def ticking(durations_s: list[float]) -> Callable[[], float]:
     return lambda: next(iterator)
 
 
-def test_leaves_are_measured_only_for_one_who_asks() -> None:
+def test_leaves_are_measured_only_with_a_callback_for_overruns() -> None:
     subject = runner(R)
     subject.tick_due(0.0)
     assert subject.tree.slowest == (0.0, 0)

@@ -24,6 +24,7 @@ TYPES = {
     "bool": "bool",
     "Any": "any",
     "any": "any",
+    "AnyTypeAllowed": "any",
     "object": "any",
 }
 _LISTS = ("list", "deque", "SharedQueue")

@@ -26,11 +26,12 @@ from tree_gardener.ports import Port, get_input, set_output
 from tree_gardener.registered import register_type
 from tree_gardener.status import Status
 from tree_gardener.tree import Tree
-from tree_gardener.values import SharedQueue
+from tree_gardener.values import AnyTypeAllowed, SharedQueue
 
 __version__ = "0.1.0"
 
 __all__ = [
+    "AnyTypeAllowed",
     "BlackboardChange",
     "ControlNode",
     "DecoratorNode",

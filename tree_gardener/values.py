@@ -212,6 +212,17 @@ STRING: Final = ValueType("string", _same, to_text)
 BOOL: Final = ValueType("bool", parse_bool, _convert_bool)
 STATUS: Final = ValueType("status", parse_status, _convert_status)
 ANY: Final = ValueType("any", _same, _same, is_strong=False)
+POLYMORPHIC: Final = ValueType("any", _same, _same, is_strong=False)
+"""The type of a port that gives an entry the type of the first value, as `AnyTypeAllowed` asks for."""
+
+
+class AnyTypeAllowed:
+    """The type of a polymorphic port, as in ``OUTPUT_PORTS = {"out": Port(AnyTypeAllowed)}``.
+
+    As BehaviorTree.CPP's. An input takes any value, as with ``Any``. An output gives a new entry the type of
+    the first value, which the entry keeps: later values are converted to it or refused. With ``Any`` an entry
+    holds anything.
+    """
 
 
 @functools.cache
@@ -252,6 +263,7 @@ _BY_CLASS: dict[Any, ValueType] = {
     bool: BOOL,
     Status: STATUS,
     Any: ANY,
+    AnyTypeAllowed: POLYMORPHIC,
     object: ANY,
     None: ANY,
 }
@@ -336,6 +348,21 @@ def _class(cls: type) -> ValueType:
         raise ConversionError(f"a value of type {type_name_of(value)} is not a {cls.__qualname__}")
 
     return ValueType(f"{cls.__module__}.{cls.__qualname__}", parse, convert)
+
+
+def type_of_value(value: Any) -> ValueType:
+    """Returns the type that an entry gets from a value that a polymorphic port writes."""
+    if value is None:
+        return ANY
+    if isinstance(value, list):
+        item = type_of_value(value[0]) if value else ANY
+        return BY_NAME.get(f"list[{item.name}]", ANY)
+    number = None if isinstance(value, enum.Enum) else as_number(value)
+    if isinstance(value, bool) or number is None:
+        return value_type(type(value))
+    if isinstance(number, float):
+        return DOUBLE
+    return INT if INT32[0] <= number <= INT32[1] else INT_64
 
 
 def type_name_of(value: Any) -> str:

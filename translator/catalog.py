@@ -18,7 +18,7 @@ class PortModel:
 
     `type` is a name of the catalogue (int, double, list[int], …), an enumeration with its names
     (Color[RED;GREEN]), or `any`. `named` is the name of a type that the source gives as text and that is not
-    in the catalogue; it may be an enumeration of the project.
+    in the catalogue; it may be an enumeration of the project. `is_object`: the type is a class of the user's.
     """
 
     name: str
@@ -28,6 +28,7 @@ class PortModel:
     required: bool = False
     description: str = ""
     named: str = ""
+    is_object: bool = False
 
     @property
     def is_read(self) -> bool:

@@ -42,7 +42,7 @@ LIVE_S = 10
 TASKS = frozenset({TASK})
 MOVES = frozenset({"pointermove", "wheel"})
 PRESSES = frozenset({"keydown", "click"})
-DROPS = frozenset({"mouseup"})
+DROPS = frozenset({"pointerup"})
 TEMPLATE = "laser_bump_and_go"
 
 

@@ -61,7 +61,7 @@ DROPPED = """(canvas, id) => {
       };
       requestAnimationFrame(look);
     };
-    window.addEventListener('mouseup', onUp, listening);
+    window.addEventListener('pointerup', onUp, listening);
   });
 }"""
 
@@ -84,6 +84,7 @@ NEIGHBOURS = """(canvas) => {
 
 def drop(page: Page, canvas: Locator) -> Iterator[str]:
     """Takes a leaf beyond its sibling, and back; yields while it is held, and when it is let go."""
+    page.wait_for_timeout(SETTLED_MS)
     leaf, sibling = canvas.evaluate(NEIGHBOURS)
     for way in (1, -1):
         held, over = (middle_of(canvas, each["id"]) for each in (leaf, sibling))
@@ -108,7 +109,7 @@ def middle_of(canvas: Locator, block: str) -> tuple[float, float]:
 
 
 def leaf_of(canvas: Locator) -> tuple[float, float]:
-    """Returns the middle of the leaf that is nearest to the middle of the canvas."""
+    """Returns the middle of the leaf that is nearest to the middle of the canvas, and under no tool."""
     x, y = canvas.evaluate(
         """(canvas) => {
           const middle = (element) => {
@@ -117,7 +118,8 @@ def leaf_of(canvas: Locator) -> tuple[float, float]:
           };
           const [x, y] = middle(canvas);
           const far = ([a, b]) => Math.hypot(a - x, b - y);
-          const leaves = [...canvas.querySelectorAll('[data-type=Forward]')].map(middle);
+          const isInReach = (leaf) => leaf.contains(document.elementFromPoint(...middle(leaf)));
+          const leaves = [...canvas.querySelectorAll('[data-type=Forward]')].filter(isInReach).map(middle);
           return leaves.sort((a, b) => far(a) - far(b))[0];
         }"""
     )

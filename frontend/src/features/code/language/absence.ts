@@ -1,7 +1,7 @@
 import { Prec, type Extension } from '@codemirror/state';
 import { keymap, type Command } from '@codemirror/view';
 import { notifications } from '@mantine/notifications';
-import { t } from 'i18next';
+import { t } from '@/i18n';
 import { useLanguageStore } from '@/store/language';
 
 const KEYS = ['F2', 'F12', 'Shift-F12'];

@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from executor.world.physics.bullet import BulletWorld
     from translator import Project
     from tree_gardener import Status, TickError, Tree
-    from tree_gardener.node import Node as TreeNode
 
     Progress = Callable[[float], None]
 
@@ -120,7 +119,6 @@ class _Run:
         self._stack.append(self._world.close)
         self._join_ros()
         self._tree = self._make_tree(project)
-        self._counts = [NodeCount(node.path) for node in self._tree.nodes]
         self._recorder = self._make_recorder(recording)
 
     def play(self, progress: Progress | None, watch: Callable[[BulletWorld], None] | None) -> Report:
@@ -251,7 +249,7 @@ class _Run:
         self._locator.learn(tree)
         tree.setup(node=self._application)
         self._stack.append(tree.shutdown)
-        tree.add_hook(after=self._count)
+        self._counts = tree.count_results()
         return tree
 
     def _open_recording(self, project: Project) -> Recording | None:
@@ -314,13 +312,6 @@ class _Run:
         self._durations.append(time.perf_counter() - began_s)
         return status
 
-    def _count(self, node: TreeNode, status: Status) -> None:
-        count = self._counts[node.uid - 1]
-        count.ticks += 1
-        name = status.name.lower()
-        if hasattr(count, name):
-            setattr(count, name, getattr(count, name) + 1)
-
     def _note_broken(self, error: BaseException) -> None:
         """Stores the exception of a callback."""
         place = self._locator.place_of_error(error)
@@ -371,7 +362,10 @@ class _Run:
         report.real_time_factor = report.sim_time_s / max(report.wall_time_s, 1e-9)
         report.ticks = self._tree.tick_number
         report.tick_ms, report.overruns = quantiles(self._durations), overruns
-        report.nodes = self._counts
+        report.nodes = [
+            NodeCount(node.path, count.ticks, count.success, count.failure, count.running)
+            for node, count in zip(self._tree.nodes, self._counts, strict=True)
+        ]
         report.random = self._world.has_drawn or not self._randomness.is_untouched
         if self._world.robots:
             robot = self._world.robots[0]

@@ -11,6 +11,7 @@ from translator.package.ros2 import Ros2Package, to_ros2_package
 from translator.project import Project, load
 from translator.settings import Settings
 from translator.tree import Node, Tree
+from translator.xml.models import to_models_xml, to_xsd
 
 __all__ = [
     "ActionModel",
@@ -32,6 +33,8 @@ __all__ = [
     "open_path",
     "self_contained",
     "to_app_zip",
+    "to_models_xml",
     "to_ros2_package",
     "to_xml",
+    "to_xsd",
 ]

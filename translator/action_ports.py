@@ -24,6 +24,7 @@ TYPES = {
     "bool": "bool",
     "Any": "any",
     "any": "any",
+    "AnyTypeAllowed": "any",
     "object": "any",
 }
 _LISTS = ("list", "deque", "SharedQueue")
@@ -83,7 +84,9 @@ def _port(name: str, direction: str, value: ast.expr, report: Report) -> PortMod
         return PortModel(name, direction)
     arguments = dict(zip(POSITIONAL[function], value.args, strict=False))
     arguments.update({keyword.arg: keyword.value for keyword in value.keywords if keyword.arg})
-    type_name = _type(arguments.get("type") or arguments.get("data_type"))
+    annotation = arguments.get("type") or arguments.get("data_type")
+    type_name = _type(annotation)
+    named = _constant(annotation) if type_name == "any" else None
     default = _default(arguments.get("default") or arguments.get("default_value"))
     required = _constant(arguments.get("required"))
     if required is None:
@@ -98,6 +101,8 @@ def _port(name: str, direction: str, value: ast.expr, report: Report) -> PortMod
         default=default,
         required=required is True and default is None,
         description=description if isinstance(description, str) else "",
+        named=named if isinstance(named, str) else "",
+        is_object=_is_class(annotation),
     )
 
 
@@ -125,6 +130,14 @@ def _type_name(text: str) -> str | None:
         return f"list[{inner}]" if inner and inner != "any" else "any"
     # A class that the action defines: its values are passed over the blackboard by reference.
     return "any" if text.replace(".", "").replace("_", "").isalnum() else None
+
+
+def _is_class(node: ast.expr | None) -> bool:
+    """Returns whether a type is a class that no catalogue knows, whose literals are in JSON if it has any."""
+    if not isinstance(node, ast.Name | ast.Attribute):
+        return False
+    text = ast.unparse(node).removeprefix("typing.")
+    return text not in TYPES and last_name(node) not in _LISTS
 
 
 def _default(node: ast.expr | None) -> str | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Any
@@ -14,7 +14,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class PortModel:
-    """A port of a kind of node. `type` is a name of the catalogue (int, double, list[int], …) or `any`."""
+    """A port of a kind of node.
+
+    `type` is a name of the catalogue (int, double, list[int], …), an enumeration with its names
+    (Color[RED;GREEN]), or `any`. `named` is the name of a type that the source gives as text and that is not
+    in the catalogue; it may be an enumeration of the project. `is_object`: the type is a class of the user's.
+    """
 
     name: str
     direction: str = "input"
@@ -22,6 +27,8 @@ class PortModel:
     default: str | None = None
     required: bool = False
     description: str = ""
+    named: str = ""
+    is_object: bool = False
 
     @property
     def is_read(self) -> bool:
@@ -80,7 +87,10 @@ def _node_model(row: dict[str, object]) -> NodeModel:
 
 
 def _port_model(row: dict[str, Any]) -> PortModel:
-    return PortModel(**{field.name: row[field.name] for field in fields(PortModel)})
+    port = PortModel(**{field.name: row[field.name] for field in fields(PortModel) if field.name in row})
+    if port.type == "string" and "enum" in row:  # for the engine a string, for the editor a choice
+        return replace(port, type=f"{port.name}[{';'.join(row['enum'])}]")
+    return port
 
 
 def did_you_mean(name: str, known: Iterable[str], *, otherwise: str = "") -> str:

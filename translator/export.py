@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from translator.action import ActionModel, source_text
 from translator.check import check
 from translator.diagnostic import TranslatorError, errors_in
+from translator.enums import enum_lines
 from translator.importer import main_tree_of
 from translator.tree import reachable_trees, used_types
 from translator.xml.escape import attribute, cdata
@@ -121,7 +122,7 @@ def unwritten_actions(project: Project) -> list[str]:
 
 def write_self_contained(project: Project) -> str:
     """Returns the document of `self_contained`, for a project without errors."""
-    return write_document(project, after=_code_lines(project))
+    return write_document(project, after=(*enum_lines(project.enums), *_code_lines(project)))
 
 
 def _code_lines(project: Project) -> Iterator[str]:

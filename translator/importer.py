@@ -12,6 +12,7 @@ from translator.action_kind import LIMITS
 from translator.catalog import NodeModel, builtins, nearest
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.diagram import diagram_path, diagram_text
+from translator.enums import ENUMS_FILE, enums_text
 from translator.limits import NAME_CHARACTERS, XML_INCLUDES, oversize
 from translator.nav2 import nav2_models, nav2_source
 from translator.project import Project, assemble
@@ -113,6 +114,9 @@ def from_xml(  # noqa: PLR0913 - each is a choice of its own, and keyword-only
     files = {f"{IMPORTS}{path}": work.files[path] for path in work.documents}
     files.update(project_files(settings, trees))
     files.update(sources)
+    enums = {name: members for document in documents for name, members in document.enums.items()}
+    if enums:
+        files[ENUMS_FILE] = enums_text(enums).encode()
     project = assemble(settings, (_placed(tree, places) for tree in trees), files)
     found = [item.moved(file=f"{places}{item.place.file}") for item in work.found]
     return replace(project, diagnostics=(*found, *project.diagnostics))

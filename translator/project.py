@@ -13,6 +13,7 @@ from translator.action import KEPT_BYTES, ActionModel, inspect_action
 from translator.catalog import NodeModel, PortModel, builtins
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.diagram import diagram_path, restore
+from translator.enums import ENUMS_FILE, read_enums, with_enums
 from translator.foreign import without_tools
 from translator.limits import DIAGRAM_BYTES_PER_PROJECT, TREES_PER_PROJECT, megabytes, oversize
 from translator.settings import PROJECT_FILE, Settings, read_settings
@@ -35,6 +36,7 @@ class Project:
     actions: Mapping[str, ActionModel]
     files: Mapping[str, bytes] = field(default_factory=dict, repr=False)
     diagnostics: tuple[Diagnostic, ...] = ()
+    enums: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
 
     @property
     def main(self) -> Tree | None:
@@ -97,8 +99,9 @@ def load(files: Mapping[str, bytes]) -> Project:
     found.extend(oversize(trees.values(), Place(PROJECT_FILE, line=1)))
     if PROJECT_FILE not in files and settings.main_tree not in trees and len(trees) == 1:
         settings = settings.model_copy(update={"main_tree": next(iter(trees))})
-    actions = _load_actions(files, used_types(trees.values()), found)
-    return Project(settings, trees, actions, dict(files), tuple(found))
+    enums = _load_enums(files, found)
+    actions = _load_actions(files, used_types(trees.values()), enums, found)
+    return Project(settings, trees, actions, dict(files), tuple(found), enums)
 
 
 def assemble(settings: Settings, trees: Iterable[Tree], files: Mapping[str, bytes]) -> Project:
@@ -106,8 +109,9 @@ def assemble(settings: Settings, trees: Iterable[Tree], files: Mapping[str, byte
     files = without_tools(files)
     found: list[Diagnostic] = []
     placed = {tree.id: tree for tree in trees}
-    actions = _load_actions(files, used_types(placed.values()), found)
-    return Project(settings, placed, actions, dict(files), tuple(found))
+    enums = _load_enums(files, found)
+    actions = _load_actions(files, used_types(placed.values()), enums, found)
+    return Project(settings, placed, actions, dict(files), tuple(found), enums)
 
 
 def _restore(raw: bytes, path: str) -> tuple[Tree | None, tuple[Diagnostic, ...]]:
@@ -121,6 +125,7 @@ def _read_settings(raw: bytes) -> tuple[Settings, tuple[Diagnostic, ...]]:
 
 _restored = lru_cache(maxsize=256)(lambda raw, path: restore(raw, file=path))
 _settings_read = lru_cache(maxsize=256)(read_settings)
+_enums_read = lru_cache(maxsize=256)(read_enums)
 
 
 def _is_diagram(path: str) -> bool:
@@ -182,8 +187,20 @@ def _is_shared_module(model: ActionModel) -> bool:
     return model.name[:1].islower() and any(item.code in {"BT0602", "BT0607"} for item in model.diagnostics)
 
 
+def _load_enums(files: Mapping[str, bytes], found: list[Diagnostic]) -> dict[str, dict[str, int]]:
+    if ENUMS_FILE not in files:
+        return {}
+    raw = files[ENUMS_FILE]
+    enums, problems = (_enums_read if len(raw) <= KEPT_BYTES else read_enums)(raw)
+    found.extend(problems)
+    return enums
+
+
 def _load_actions(
-    files: Mapping[str, bytes], used: Collection[str], found: list[Diagnostic]
+    files: Mapping[str, bytes],
+    used: Collection[str],
+    enums: Mapping[str, Mapping[str, int]],
+    found: list[Diagnostic],
 ) -> dict[str, ActionModel]:
     actions = {}
     for name, path in action_paths(files):
@@ -202,7 +219,7 @@ def _load_actions(
         if name not in used and _is_shared_module(model):
             continue
         found.extend(model.diagnostics)
-        actions[name] = model
+        actions[name] = with_enums(model, enums) if enums else model
     return actions
 
 

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from translator.enums import EnumsDocument
 from translator.settings import Settings
 from translator.tree import CONDITIONS  # noqa: TC001 - Pydantic reads the annotations
 
@@ -68,7 +69,11 @@ class DiagramDocument(_Document):
     layout: str = Field(default="vertical", description="vertical or horizontal.")
 
 
-SCHEMAS: dict[str, type[BaseModel]] = {"diagram": DiagramDocument, "project": Settings}
+SCHEMAS: dict[str, type[BaseModel]] = {
+    "diagram": DiagramDocument,
+    "enums": EnumsDocument,
+    "project": Settings,
+}
 
 
 def json_schema(name: str) -> dict[str, Any]:

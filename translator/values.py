@@ -14,6 +14,7 @@ _REAL = re.compile(
 )
 _BOOLEANS = {"0", "1", "true", "TRUE", "True", "false", "FALSE", "False"}
 _STATUSES = {"SUCCESS", "FAILURE", "SKIPPED", "RUNNING"}
+_NAMES = {"bool": _BOOLEANS, "status": _STATUSES}
 _INT_RANGE = (-(2**31), 2**31 - 1)
 _UINT_RANGE = (0, 2**32 - 1)
 
@@ -42,19 +43,32 @@ def fit(type_: str, text: str) -> Fit:
     """Returns how a literal suits a port's type; types without a check accept all texts."""
     if type_.startswith("list["):
         return _fit_list(type_[5:-1], text)
+    if (names := choices(type_)) is not None:
+        return Fit.GOOD if text in names else _fit_integer("int", text)
     if type_ in {"int", "uint"}:
         return _fit_integer(type_, text)
     if type_ == "double":
         return Fit.RANGE if outside(type_, text) else _fit_prefix(_REAL, text)
-    if type_ == "bool":
-        return Fit.GOOD if text in _BOOLEANS else Fit.BAD
-    if type_ == "status":
-        return Fit.GOOD if text in _STATUSES else Fit.BAD
-    return Fit.GOOD
+    known = _NAMES.get(type_)
+    return Fit.GOOD if known is None or text in known else Fit.BAD
+
+
+def choices(type_: str) -> list[str] | None:
+    """Returns the names of an enumeration's type (`Color[RED;GREEN]`), or None for another type."""
+    if not type_.endswith("]") or type_.startswith("list["):
+        return None
+    return type_[type_.index("[") + 1 : -1].split(";")
+
+
+def type_label(type_: str) -> str:
+    """Returns the name of a type, without the names of an enumeration."""
+    return type_ if choices(type_) is None else type_.partition("[")[0]
 
 
 def describe(type_: str) -> str:
     """Returns the description of a type's values in messages."""
+    if (names := choices(type_)) is not None:
+        return f"one of {', '.join(names)}"
     if type_.startswith("list["):
         return f"a list such as 1;2;3, each {describe(type_[5:-1])}"
     return DESCRIPTIONS.get(type_, "a text")
@@ -68,6 +82,8 @@ def outside(type_: str, text: str) -> tuple[str, str, str] | None:
     if type_ == "double":
         match = _REAL.match(text)
         return _outside_double(match.group()) if match is not None else None
+    if choices(type_) is not None:
+        type_ = "int"
     if type_ not in {"int", "uint"}:
         return None
     match = (_UNSIGNED if type_ == "uint" else _INTEGER).match(text)

@@ -10,19 +10,28 @@ while tree.tick_once() is Status.RUNNING:
 ```
 """
 
+from tree_gardener.backup import backup, restore
+from tree_gardener.board_json import (
+    blackboard_from_json,
+    blackboard_to_json,
+    tree_from_json,
+    tree_to_json,
+)
 from tree_gardener.clock import ManualClock, SystemClock
 from tree_gardener.control_node import ControlNode, DecoratorNode, LoopNode
 from tree_gardener.errors import Diagnostic, LoadError, PortError, PortRefusedError, ScriptError, TickError
 from tree_gardener.observe import BlackboardChange, TickChanges
 from tree_gardener.port_change import PortEffect, set_port
 from tree_gardener.ports import Port, get_input, set_output
+from tree_gardener.registered import register_type
 from tree_gardener.status import Status
 from tree_gardener.tree import Tree
-from tree_gardener.values import SharedQueue
+from tree_gardener.values import AnyTypeAllowed, SharedQueue
 
 __version__ = "0.1.0"
 
 __all__ = [
+    "AnyTypeAllowed",
     "BlackboardChange",
     "ControlNode",
     "DecoratorNode",
@@ -42,7 +51,14 @@ __all__ = [
     "TickError",
     "Tree",
     "__version__",
+    "backup",
+    "blackboard_from_json",
+    "blackboard_to_json",
     "get_input",
+    "register_type",
+    "restore",
     "set_output",
     "set_port",
+    "tree_from_json",
+    "tree_to_json",
 ]

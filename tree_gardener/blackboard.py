@@ -9,7 +9,16 @@ from collections.abc import Callable, Iterator, MutableMapping
 from typing import Any, Final
 
 from tree_gardener.errors import PortError
-from tree_gardener.values import ANY, STRING, ConversionError, ValueType, as_number, type_name_of
+from tree_gardener.values import (
+    ANY,
+    POLYMORPHIC,
+    STRING,
+    ConversionError,
+    ValueType,
+    as_number,
+    type_name_of,
+    type_of_value,
+)
 
 
 class _Empty:
@@ -170,6 +179,8 @@ class Blackboard(MutableMapping[str, Any]):
         entry = self.entries.get(key)
         if entry is None:
             # A string makes no typed entry, because constants of SubTrees come this way.
+            if kind is POLYMORPHIC:
+                kind = type_of_value(value)
             declared = None if kind is STRING or kind is ANY else kind
             self.create(key, declared).write(value, writer)
         else:
@@ -232,21 +243,31 @@ def _kept_kind(entry: Entry, value: Any) -> Any:
     return value if isinstance(value, bool) else int(number)
 
 
+def _converted(entry: Entry, value: Any, kind: ValueType, declared: ValueType) -> Any:
+    """Returns a value of the type `kind` as one of the entry's type `declared`."""
+    try:
+        # Numbers convert to numbers without loss, and a string is parsed; anything else is an error.
+        if kind is not STRING and (declared is STRING or isinstance(entry.value, str)):
+            raise ConversionError(f"a value of type {kind.name} is not a string")
+        return declared.parse(value) if kind is STRING else declared.convert(value)
+    except ConversionError as error:
+        raise PortError(
+            f"entry '{entry.key}' was declared as {declared.name} and is written as {kind.name}: {error}"
+        ) from None
+
+
 def _assign(entry: Entry, value: Any, kind: ValueType | None, writer: int) -> None:
     """Writes a value of the type `kind` to an entry of this scope."""
     declared = entry.type
     if declared is None or not declared.is_strong:
+        if kind is POLYMORPHIC:
+            kind = type_of_value(value)
         entry.type = ANY if kind is None else kind
         entry.write(value, writer)
         return
-    if kind is not None and kind.is_strong and kind is not declared:
-        try:
-            # Numbers convert to numbers without loss, and a string is parsed; anything else is an error.
-            if kind is not STRING and (declared is STRING or isinstance(entry.value, str)):
-                raise ConversionError(f"a value of type {kind.name} is not a string")
-            value = declared.parse(value) if kind is STRING else declared.convert(value)
-        except ConversionError as error:
-            raise PortError(
-                f"entry '{entry.key}' was declared as {declared.name} and is written as {kind.name}: {error}"
-            ) from None
+    if kind is not declared and kind is not None:
+        if kind is POLYMORPHIC:
+            kind = type_of_value(value)
+        if kind.is_strong and kind is not declared:
+            value = _converted(entry, value, kind, declared)
     entry.write(value if kind is None else _kept_kind(entry, value), writer)

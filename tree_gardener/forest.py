@@ -4,6 +4,7 @@ import pathlib
 from collections.abc import Mapping, Sequence
 
 from tree_gardener.document import Document, Element, embedded_sources, parse_document
+from tree_gardener.enums import read_enums
 from tree_gardener.errors import Diagnostic, LoadError
 from tree_gardener.registry import NodeType
 from tree_gardener.structure import Definition, StructureCheck, SubTreeModel, type_of
@@ -16,6 +17,7 @@ class Forest:
         definitions: the trees by ID; if two have the same ID, the last one counts.
         models: the models of the SubTrees, by tree ID.
         sources: the sources of the actions in the documents, by name.
+        enums: the enumerations in the documents, by name.
         main: the document that names the main tree.
     """
 
@@ -24,6 +26,7 @@ class Forest:
         self.definitions: dict[str, Definition] = {}
         self.models: dict[str, SubTreeModel] = {}
         self.sources: dict[str, str] = {}
+        self.enums: dict[str, dict[str, int]] = {}
         self.main: Document | None = None
         self._own_trees: list[str] = []
 
@@ -36,6 +39,7 @@ class Forest:
     ) -> Document:
         document = parse_document(text, name)
         self.sources.update(embedded_sources(document))
+        self.enums.update(read_enums(document))
         for element in document.root.children:
             if element.tag == "include":
                 self._include(document, element, base_path, above)

@@ -1,16 +1,20 @@
-"""Hooks before and after the ticks of nodes: for debuggers, tests and timing.
+"""Hooks, marks, clocks and counts round the ticks of nodes.
 
 A hook before a node may return a result; the node is then not ticked. A hook after a node may replace its
 result. Nodes without hooks are ticked exactly as in a tree without hooks.
+
+Marks, clocks and counts are wanted in every session and every run in lock-step. Each is one small function
+round the node's own, made when the tree is linked, and does only what was asked for.
 """
 
 import dataclasses
+import functools
 import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from tree_gardener.node import Execute, Leaf, Node
-from tree_gardener.status import IDLE, RUNNING, SKIPPED, Status
+from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
 
 if TYPE_CHECKING:
     from tree_gardener.tree import Tree
@@ -28,19 +32,74 @@ class Hook:
     after: After | None
 
 
+@dataclasses.dataclass(slots=True)
+class ResultCount:
+    """The number of ticks of a node by result; ticks that raised an exception are not counted."""
+
+    success: int = 0
+    failure: int = 0
+    running: int = 0
+    skipped: int = 0
+
+    @property
+    def ticks(self) -> int:
+        """The number of ticks with a result."""
+        return self.success + self.failure + self.running + self.skipped
+
+
 class Hooks:
-    """The hooks of a tree."""
+    """The hooks of a tree.
+
+    Attributes:
+        marks_leaves: whether each leaf sets `Tree.current` while it is ticked.
+        times_leaves: whether each leaf is also measured, for `Tree.slowest`.
+        counts: the results of each node, in the order of the nodes, if they are counted.
+    """
 
     def __init__(self, tree: "Tree") -> None:
         self.tree = tree
         self.hooks: list[Hook] = []
+        self.marks_leaves = False
         self.times_leaves = False
+        self.counts: list[ResultCount] | None = None
 
-    def applies(self, node: Node) -> bool:
-        """Returns whether a node must be ticked with hooks."""
-        if self.tree.node_times_s is not None or (self.times_leaves and isinstance(node, Leaf)):
-            return True
-        return any(hook.uid in (None, node.uid) for hook in self.hooks)
+    def entry(self, node: Node, inner: Execute) -> Execute:
+        """Returns the function that ticks a node together with what runs round it."""
+        if self.tree.node_times_s is not None or self._has_hook(node):
+            inner = functools.partial(self.run, node, inner)
+        elif self.marks_leaves and isinstance(node, Leaf):
+            inner = self._timed_leaf(node, inner) if self.times_leaves else self._marked_leaf(node, inner)
+        return inner if self.counts is None else _counted(self.counts[node.uid - 1], inner)
+
+    def _has_hook(self, node: Node) -> bool:
+        return bool(self.hooks) and any(hook.uid in (None, node.uid) for hook in self.hooks)
+
+    def _marked_leaf(self, node: Node, inner: Execute) -> Execute:
+        current, uid = self.tree.current, node.uid
+
+        def execute() -> Status:
+            current[0] = uid
+            status = inner()
+            current[0] = 0
+            return status
+
+        return execute
+
+    def _timed_leaf(self, node: Node, inner: Execute) -> Execute:
+        tree, clock = self.tree, time.perf_counter
+        current, uid = tree.current, node.uid
+
+        def execute() -> Status:
+            current[0] = uid
+            start_s = clock()
+            status = inner()
+            duration_s = clock() - start_s
+            current[0] = 0
+            if duration_s > tree.slowest[0]:
+                tree.slowest = (duration_s, uid)
+            return status
+
+        return execute
 
     def add(self, hook: Hook) -> Callable[[], None]:
         """Installs a hook; returns the function that removes it."""
@@ -72,7 +131,7 @@ class Hooks:
         """Ticks a node, and measures its time if an observer requested times."""
         tree = self.tree
         times = tree.node_times_s
-        is_leaf = self.times_leaves and isinstance(node, Leaf)
+        is_leaf = self.marks_leaves and isinstance(node, Leaf)
         if times is None and not is_leaf:
             return inner()
         if is_leaf:
@@ -84,9 +143,27 @@ class Hooks:
             times[node.uid] = times.get(node.uid, 0.0) + duration_s
         if is_leaf:
             tree.current[0] = 0
-            if duration_s > tree.slowest[0]:
+            if self.times_leaves and duration_s > tree.slowest[0]:
                 tree.slowest = (duration_s, node.uid)
         return status
+
+
+def _counted(count: ResultCount, inner: Execute) -> Execute:
+    """Counts the results of a node."""
+
+    def execute() -> Status:
+        status = inner()
+        if status is SUCCESS:
+            count.success += 1
+        elif status is RUNNING:
+            count.running += 1
+        elif status is FAILURE:
+            count.failure += 1
+        else:
+            count.skipped += 1
+        return status
+
+    return execute
 
 
 def _take(node: Node, status: Status) -> Status:

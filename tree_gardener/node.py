@@ -183,9 +183,7 @@ class Node:
 
     def entry(self) -> Execute:
         """Returns the function that the parent calls to tick this node."""
-        if self.tree.has_hooks(self):
-            return self._execute_hooked
-        return self.execute if self.guard is None else self._execute_guarded
+        return self.tree.entry_of(self, self.execute if self.guard is None else self._execute_guarded)
 
     def link(self) -> None:
         """Looks up how the children are ticked; called again after hooks were added or removed."""
@@ -245,10 +243,6 @@ class Node:
     def status_within(self, before: Status) -> Status:
         """Returns the status that the node had while it was ticked, before its result was set."""
         return RUNNING if before in self.MARKS_RUNNING else before
-
-    def _execute_hooked(self) -> Status:
-        inner = self.execute if self.guard is None else self._execute_guarded
-        return self.tree.run_hooks(self, inner)
 
     # -- ports and errors ---------------------------------------------------------------------------
 

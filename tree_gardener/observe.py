@@ -80,9 +80,10 @@ class Recorder:
     Attributes:
         touched: nodes that started, or whose reported status was reset.
         results: what nodes returned in this tick, except RUNNING, in order.
+        writes: is called with each write to the blackboard as it happens, and the uid of its writer.
     """
 
-    __slots__ = ("entries", "observers", "results", "touched", "tree")
+    __slots__ = ("entries", "observers", "results", "touched", "tree", "writes")
 
     def __init__(self, tree: "Tree") -> None:
         self.tree = tree
@@ -90,6 +91,7 @@ class Recorder:
         self.touched: list[Node] = []
         self.results: list[Mark] = []
         self.entries: dict[int, tuple[Entry, int]] = {}
+        self.writes: Callable[[Entry, int], None] | None = None
 
     def attach(self) -> None:
         """Starts recording. All nodes that are not IDLE, and all entries, count as changed."""
@@ -133,6 +135,8 @@ class Recorder:
     def written(self, entry: Entry, writer: int) -> None:
         """Records that an entry was written or removed."""
         self.entries[id(entry)] = (entry, writer)
+        if self.writes is not None:
+            self.writes(entry, writer)
 
     def tick(self, function: Callable[[], T]) -> T:
         """Ticks the tree and notifies the observers, also when the tick raises."""

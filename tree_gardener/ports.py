@@ -98,8 +98,11 @@ def pointer_key(text: str, port: str) -> str | None:
     return port if key == "=" else key
 
 
-def manifest_of(cls: type) -> dict[str, PortSpec] | None:
-    """Returns the ports that a class declares; None if it is *open*: it declares none and accepts any."""
+def manifest_of(cls: type, types: Mapping[str, ValueType] | None = None) -> dict[str, PortSpec] | None:
+    """Returns the ports that a class declares; None if it is *open*: it declares none and accepts any.
+
+    `types` are those that a port can name, in addition to those of the catalogue.
+    """
     specs: dict[str, PortSpec] = {}
     is_open = True
     for attribute, direction in (("INPUT_PORTS", INPUT), ("OUTPUT_PORTS", OUTPUT), ("INOUT_PORTS", INOUT)):
@@ -109,7 +112,11 @@ def manifest_of(cls: type) -> dict[str, PortSpec] | None:
         is_open = False
         for name, port in declared.items():
             both = name in specs and specs[name].direction != direction
-            specs[name] = _spec(name, INOUT if both else direction, port)
+            spec = _spec(name, INOUT if both else direction, port)
+            given = getattr(port, "type", port)
+            if types and isinstance(given, str) and given in types:
+                spec = dataclasses.replace(spec, type=types[given])
+            specs[name] = spec
     return None if is_open else specs
 
 

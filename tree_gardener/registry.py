@@ -38,7 +38,7 @@ from tree_gardener.leaves.test_node import TestNode
 from tree_gardener.node import Control, Decorator, Kind, Leaf, Node
 from tree_gardener.ports import INOUT, INPUT, OUTPUT, Manifest, PortSpec, manifest_of
 from tree_gardener.ros_nodes import NODES as ROS_NODES
-from tree_gardener.values import STATUS, queue_type, value_type
+from tree_gardener.values import STATUS, ValueType, queue_type, value_type
 
 BUILT_IN: Final[Mapping[str, type[Node]]] = {
     **{
@@ -119,8 +119,10 @@ def _built_in(entry: catalog.CatalogNode) -> NodeType:
     return NodeType(entry.type, kind, None if entry.open else entry.manifest, 0, 0, behaviour)
 
 
-def build_registry(nodes: Mapping[str, Any]) -> dict[str, NodeType]:
-    """Returns the built-in nodes and those given by the user.
+def build_registry(
+    nodes: Mapping[str, Any], types: Mapping[str, ValueType] | None = None
+) -> dict[str, NodeType]:
+    """Returns the built-in nodes and those given by the user, whose ports may have the named `types`.
 
     Raises:
         LoadError: something given is not a class of nodes, or has the name of a built-in one.
@@ -133,7 +135,7 @@ def build_registry(nodes: Mapping[str, Any]) -> dict[str, NodeType]:
             problems.append(Diagnostic("TG601", f"'{name}' is the name of a built-in node", hint, node=name))
             continue
         try:
-            registry[name] = _user_type(name, cls)
+            registry[name] = _user_type(name, cls, types or {})
         except (TypeError, ValueError) as error:
             problems.append(Diagnostic("TG602", f"'{name}' cannot be a node: {error}", node=name))
     if problems:
@@ -141,16 +143,16 @@ def build_registry(nodes: Mapping[str, Any]) -> dict[str, NodeType]:
     return registry
 
 
-def _user_type(name: str, cls: Any) -> NodeType:
+def _user_type(name: str, cls: Any, types: Mapping[str, ValueType]) -> NodeType:
     if not isinstance(cls, type):
         raise TypeError(f"{cls!r} is not a class")
     if issubclass(cls, Node):
-        return _engine_type(name, cls)
+        return _engine_type(name, cls, types)
     if issubclass(cls, LoopNode):
         return NodeType(name, Loop, _loop_manifest(cls), 1, 1)
     own = cls if issubclass(cls, ControlNode) else adapted(cls)
     if own is not None:
-        return _own_type(name, cls, own)
+        return _own_type(name, cls, own, types)
     if not issubclass(cls, Behaviour):
         raise TypeError(
             f"{cls.__name__} is not derived from py_trees.behaviour.Behaviour, "
@@ -160,10 +162,10 @@ def _user_type(name: str, cls: Any) -> NodeType:
     if kind not in LEAF_KINDS:
         raise ValueError(f"its NODE_KIND is {kind!r}, which is not one of {', '.join(LEAF_KINDS)}")
     parameters = inspect.signature(cls.__init__).parameters
-    return NodeType(name, LEAF_KINDS[kind], manifest_of(cls), 0, 0, cls, "ports" in parameters)
+    return NodeType(name, LEAF_KINDS[kind], manifest_of(cls, types), 0, 0, cls, "ports" in parameters)
 
 
-def _own_type(name: str, cls: type, own: type[ControlNode]) -> NodeType:
+def _own_type(name: str, cls: type, own: type[ControlNode], types: Mapping[str, ValueType]) -> NodeType:
     """Returns the type of a user's control node or decorator; `own` is `cls`, or the class that adapts it."""
     is_decorator = issubclass(own, DecoratorNode)
     least, most = own.MIN_CHILDREN, own.MAX_CHILDREN
@@ -175,7 +177,7 @@ def _own_type(name: str, cls: type, own: type[ControlNode]) -> NodeType:
         raise ValueError(f"its MAX_CHILDREN is {most!r} and must be None, or {least} or more")
     takes_ports = "ports" in inspect.signature(own.__init__).parameters
     node_class = CustomDecorator if is_decorator else CustomControl
-    return NodeType(name, node_class, manifest_of(cls), least, most, own, takes_ports)
+    return NodeType(name, node_class, manifest_of(cls, types), least, most, own, takes_ports)
 
 
 def _loop_manifest(cls: type[LoopNode]) -> Manifest:
@@ -187,9 +189,9 @@ def _loop_manifest(cls: type[LoopNode]) -> Manifest:
     }
 
 
-def _engine_type(name: str, cls: type[Node]) -> NodeType:
+def _engine_type(name: str, cls: type[Node], types: Mapping[str, ValueType]) -> NodeType:
     """Returns the type of a node that is written against the engine itself, such as a custom control node."""
-    manifest = manifest_of(cls) or {}
+    manifest = manifest_of(cls, types) or {}
     if issubclass(cls, Decorator):
         return NodeType(name, cls, manifest, 1, 1)
     if issubclass(cls, Control):

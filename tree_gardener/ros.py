@@ -42,10 +42,11 @@ class RosRunner:
         finished: called with the root's last status when the run ends by itself.
         callback_group: the callback group of the timer; by default a separate one, so that an action may spin
             the node within a tick.
+        is_set_up: whether the tree's `setup` was called already.
         more: further arguments of `Runner`.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - all by keyword
         self,
         tree: Tree,
         node: Any,
@@ -53,6 +54,7 @@ class RosRunner:
         tick_hz: float,
         finished: Callable[[Status], None] | None = None,
         callback_group: Any = None,
+        is_set_up: bool = False,
         **more: Any,
     ) -> None:
         from rclpy.callback_groups import MutuallyExclusiveCallbackGroup  # noqa: PLC0415 - as needed here
@@ -63,7 +65,8 @@ class RosRunner:
         more.setdefault("fault", self._log_fault)
         more.setdefault("overrun", self._log_overrun)
         tree.on_warning = self._log_warning
-        tree.setup(node=node)
+        if not is_set_up:
+            tree.setup(node=node)
         self.runner = Runner(tree, tick_hz=tick_hz, finished=finished, **more)
         # Polls several times in each period: the runner itself decides when a tick is due, so that the rate
         # can change.
@@ -73,6 +76,11 @@ class RosRunner:
     def poll(self) -> None:
         """Ticks if a tick is due."""
         self.runner.tick_due(self._clock.now())
+
+    def stop(self) -> None:
+        """Halts the tree and ends the timer; the tree may run again later."""
+        self._node.destroy_timer(self._timer)
+        self.runner.stop()
 
     def shutdown(self) -> None:
         """Halts the tree, which stops the robot, and ends the timer."""

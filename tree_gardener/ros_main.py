@@ -1,4 +1,4 @@
-"""Runs one tree file as a ROS 2 node; exported packages start it."""
+"""Runs a tree file as a ROS 2 node, a server of trees, or a lifecycle node; exported packages start it."""
 
 import contextlib
 import hashlib
@@ -18,7 +18,9 @@ from tree_gardener.errors import LoadError, TickError
 from tree_gardener.ros import RosClock, RosRunner
 from tree_gardener.ros_parameters import (
     ParameterError,
+    Parameters,
     RunParameters,
+    ServerParameters,
     declare_parameters,
     read_arguments,
     sim_time_problem,
@@ -27,7 +29,9 @@ from tree_gardener.status import Status
 from tree_gardener.tree import Tree
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
+
+    from tree_gardener.blackboard import Blackboard
 
 # Many actions use `geometry_msgs.msg` after a mere `import geometry_msgs`: so the submodule is imported here.
 _MESSAGES = (
@@ -40,6 +44,8 @@ _MESSAGES = (
 )
 _POLL_S = 0.1
 _CLOCK_S = 5.0
+_LAST_SPINS = 20
+"""How often a server handles what is ready when it ends: requests for results come, and results go."""
 
 
 def run_tree(  # noqa: PLR0913 - what main.py states of one package
@@ -70,25 +76,105 @@ def run_tree(  # noqa: PLR0913 - what main.py states of one package
     Returns:
         The exit status: 0 when the tree ended or was stopped, 1 after an error.
     """
+    from tree_gardener.ros_node import ActionNode  # noqa: PLC0415 - the engine works without ROS
+
+    def run(node: Any, settings: RunParameters) -> int:
+        return _run(node, settings, actions)
+
+    defaults = RunParameters(pathlib.Path(tree_file), tick_hz, on_finish, on_error)
+    return _on_a_node(node_name, ActionNode, defaults, args, run)
+
+
+def serve_trees(  # noqa: PLR0913 - what main.py states of one package
+    tree_file: "str | pathlib.Path",
+    *,
+    node_name: str,
+    actions: "str | pathlib.Path | None" = None,
+    tick_hz: float = 20.0,
+    on_error: str = "stop",
+    action_name: str = "bt_execution",
+    on_new_goal: str = "preempt",
+    args: "Sequence[str] | None" = None,
+) -> int:
+    """Serves the trees of a document as an action, until the process receives a signal.
+
+    The action is ``btcpp_ros2_interfaces/action/ExecuteTree``, as of ``TreeExecutionServer``
+    in BehaviorTree.ROS2.
+    The parameters are those of `run_tree` without ``on_finish``, and ``action_name`` and ``on_new_goal``.
+
+    Args:
+        tree_file: the document.
+        node_name: the name of the node.
+        actions: a folder of sources, which override those in the document.
+        tick_hz: ticks a second.
+        on_error: ``stop`` aborts the goal when an action raises; ``failure`` makes that action fail.
+        action_name: the name of the action.
+        on_new_goal: ``preempt``, ``queue`` or ``reject``, when a tree runs.
+        args: the command line; that of the process, without the program, if None.
+
+    Returns:
+        The exit status: 0 when the server was stopped, 1 if it cannot start.
+    """
+    from tree_gardener.ros_node import ActionNode  # noqa: PLC0415 - the engine works without ROS
+
+    def serve(node: Any, settings: ServerParameters) -> int:
+        return _serve(node, settings, actions)
+
+    defaults = ServerParameters(pathlib.Path(tree_file), tick_hz, on_error, action_name, on_new_goal)
+    return _on_a_node(node_name, ActionNode, defaults, args, serve)
+
+
+def manage_tree(  # noqa: PLR0913 - what main.py states of one package
+    tree_file: "str | pathlib.Path",
+    *,
+    node_name: str,
+    actions: "str | pathlib.Path | None" = None,
+    tick_hz: float = 20.0,
+    on_finish: str = "stop",
+    on_error: str = "stop",
+    args: "Sequence[str] | None" = None,
+) -> int:
+    """Runs a tree as a lifecycle node, until the process receives a signal.
+
+    The arguments are those of `run_tree`.
+
+    Returns:
+        The exit status: 0 when the node was stopped, 1 if it cannot start.
+    """
+    from tree_gardener.ros_lifecycle import LifecycleActionNode  # noqa: PLC0415 - the engine works without ROS
+
+    def live(node: Any, settings: RunParameters) -> int:
+        return _live(node, settings, actions)
+
+    defaults = RunParameters(pathlib.Path(tree_file), tick_hz, on_finish, on_error)
+    return _on_a_node(node_name, LifecycleActionNode, defaults, args, live)
+
+
+def _on_a_node(
+    name: str,
+    kind: Any,
+    defaults: Parameters,
+    args: "Sequence[str] | None",
+    run: "Callable[[Any, Parameters], int]",
+) -> int:
+    """Makes a node, reads its parameters, and runs something on it; returns the exit status."""
     import rclpy  # noqa: PLC0415 - the engine works without ROS
     from rclpy.logging import get_logger  # noqa: PLC0415
     from rclpy.signals import SignalHandlerOptions  # noqa: PLC0415
 
     _import_messages()
-    defaults = RunParameters(pathlib.Path(tree_file), tick_hz, on_finish, on_error)
     words = list(sys.argv[1:] if args is None else args)
-    log = get_logger(node_name)
+    log = get_logger(name)
     try:
         # rclpy's own handlers would end the context before the tree could stop the robot.
         rclpy.init(args=words, signal_handler_options=SignalHandlerOptions.NO)
-        node = _made(node_name, words)
+        node = _made(name, kind, words, type(defaults))
     except Exception as error:
         log.error(f"the node cannot start: {_in_one_line(error)}")
         rclpy.try_shutdown()
         return 1
     try:
-        settings = declare_parameters(node, defaults, words)
-        return _run(node, settings, actions)
+        return run(node, declare_parameters(node, defaults, words))
     except ParameterError as error:
         log.error(str(error))
         return 1
@@ -97,17 +183,17 @@ def run_tree(  # noqa: PLR0913 - what main.py states of one package
         rclpy.try_shutdown()
 
 
-def _made(name: str, words: "list[str]") -> Any:
+def _made(
+    name: str, kind: Any, words: "list[str]", parameters: "type[RunParameters | ServerParameters]"
+) -> Any:
     from rclpy.exceptions import InvalidParameterTypeException  # noqa: PLC0415
     from rclpy.parameter import Parameter  # noqa: PLC0415
     from rclpy.utilities import remove_ros_args  # noqa: PLC0415
 
-    from tree_gardener.ros_node import ActionNode  # noqa: PLC0415
-
-    given = read_arguments(remove_ros_args(words))
+    given = read_arguments(remove_ros_args(words), parameters)
     overrides = [Parameter(key, value=value) for key, value in given.items()]
     try:
-        return ActionNode(name, parameter_overrides=overrides)
+        return kind(name, parameter_overrides=overrides)
     except InvalidParameterTypeException as error:
         # At this point rclpy has declared parameters of its own only.
         problem = sim_time_problem(words) if "'use_sim_time'" in str(error) else str(error)
@@ -121,6 +207,72 @@ def _in_one_line(error: Exception) -> str:
 
 
 def _run(node: Any, settings: RunParameters, actions: "str | pathlib.Path | None") -> int:
+    with _spinning(node) as (stop, spin):
+        runner = _load(node, settings, actions, stop)
+        if runner is None:
+            return 1
+        while spin():
+            pass
+        failed = runner.runner.error is not None
+        runner.shutdown()
+        return 1 if failed else 0
+
+
+def _serve(node: Any, settings: ServerParameters, actions: "str | pathlib.Path | None") -> int:
+    from tree_gardener.ros_node import MainThreadGroup  # noqa: PLC0415 - the engine works without ROS
+    from tree_gardener.ros_server import TreeServer  # noqa: PLC0415
+
+    def load(name: str, board: "Blackboard") -> Tree:
+        return _tree(node, settings.tree, actions, main_tree=name or None, blackboard=board)
+
+    with _spinning(node) as (_, spin):
+        try:
+            server = TreeServer(
+                node,
+                action_name=settings.action_name,
+                load=load,
+                on_new_goal=settings.on_new_goal,
+                callback_group=MainThreadGroup(),
+                tick_hz=settings.tick_hz,
+                on_error=settings.on_error,
+            )
+        except ModuleNotFoundError as error:
+            node.get_logger().error(
+                f"{error}: put btcpp_ros2_interfaces of github.com/BehaviorTree/BehaviorTree.ROS2 into the"
+                " workspace, build it and source it"
+            )
+            return 1
+        node.get_logger().info(f"trees of {settings.tree.name} run by {settings.action_name}")
+        while spin():
+            server.step()
+        server.stop()
+        for _ in range(_LAST_SPINS):
+            spin()
+        server.close()
+        return 0
+
+
+def _live(node: Any, settings: RunParameters, actions: "str | pathlib.Path | None") -> int:
+    from tree_gardener.ros_lifecycle import TreeLife  # noqa: PLC0415 - the engine works without ROS
+
+    life = TreeLife(
+        node,
+        lambda: _tree(node, settings.tree, actions),
+        tick_hz=settings.tick_hz,
+        on_finish=settings.on_finish,
+        on_error=settings.on_error,
+    )
+    node.manage(life)
+    with _spinning(node) as (_, spin):
+        while spin():
+            life.step()
+        life.cleanup()
+        return 0
+
+
+@contextlib.contextmanager
+def _spinning(node: Any) -> "Iterator[tuple[threading.Event, Callable[[], bool]]]":
+    """Yields an event that ends the run, and the function that spins the node once; signals set the event."""
     import rclpy  # noqa: PLC0415
     from rclpy.executors import SingleThreadedExecutor  # noqa: PLC0415
 
@@ -130,18 +282,17 @@ def _run(node: Any, settings: RunParameters, actions: "str | pathlib.Path | None
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     end_guard = guard_rclpy()
+    patience = _ClockPatience(node)
+
+    def spin() -> bool:
+        if rclpy.ok():
+            executor.spin_once(timeout_sec=0.0 if stop.is_set() else _POLL_S)
+            patience.look()
+        return bool(rclpy.ok()) and not stop.is_set()
+
     try:
         with _handled_signals(stop):
-            runner = _load(node, settings, actions, stop)
-            if runner is None:
-                return 1
-            patience = _ClockPatience(node)
-            while rclpy.ok() and not stop.is_set():
-                executor.spin_once(timeout_sec=_POLL_S)
-                patience.look()
-            failed = runner.runner.error is not None
-            runner.shutdown()
-            return 1 if failed else 0
+            yield stop, spin
     finally:
         end_guard()
         executor.shutdown()
@@ -181,9 +332,7 @@ def _load(
         stop.set()
 
     try:
-        text = path.read_bytes()
-        classes = load_actions(_sources(text, pathlib.Path(actions), log)) if actions is not None else {}
-        tree = Tree.from_xml(text, nodes=classes, clock=RosClock(node), name=str(path))
+        tree = _tree(node, path, actions)
         return RosRunner(
             tree,
             node,
@@ -201,6 +350,23 @@ def _load(
     except TickError as error:  # the `setup` of an action; its traceback is for its author
         log.error(f"{error}\n{error.traceback_text}")
     return None
+
+
+def _tree(
+    node: Any,
+    path: pathlib.Path,
+    actions: "str | pathlib.Path | None",
+    *,
+    main_tree: "str | None" = None,
+    blackboard: "Blackboard | None" = None,
+) -> Tree:
+    """Loads a tree of a document, by the node's time."""
+    text = path.read_bytes()
+    folder = pathlib.Path(actions) if actions is not None else None
+    classes = load_actions(_sources(text, folder, node.get_logger())) if folder is not None else {}
+    return Tree.from_xml(
+        text, nodes=classes, clock=RosClock(node), name=str(path), main_tree=main_tree, blackboard=blackboard
+    )
 
 
 def _sources(text: bytes, folder: pathlib.Path, log: Any) -> "dict[str, str]":

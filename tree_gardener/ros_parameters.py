@@ -10,11 +10,15 @@ import math
 import pathlib
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Final, TypeVar
 
 from tree_gardener.runner import ON_ERROR, ON_FINISH
 
 SIM_TIME = "use_sim_time"
+PREEMPT: Final = "preempt"
+QUEUE: Final = "queue"
+REJECT: Final = "reject"
+ON_NEW_GOAL: Final = (PREEMPT, QUEUE, REJECT)
 
 
 class ParameterError(Exception):
@@ -38,20 +42,49 @@ class RunParameters:
     on_error: str
 
 
+@dataclasses.dataclass(frozen=True)
+class ServerParameters:
+    """The parameters of a server of trees. A goal always ends with its tree, so there is no ``on_finish``.
+
+    Attributes:
+        tree: the XML with the trees.
+        tick_hz: ticks a second.
+        on_error: ``stop`` or ``failure``.
+        action_name: the name of its action.
+        on_new_goal: ``preempt``, ``queue`` or ``reject``.
+    """
+
+    tree: pathlib.Path
+    tick_hz: float
+    on_error: str
+    action_name: str
+    on_new_goal: str
+
+
+Parameters = TypeVar("Parameters", RunParameters, ServerParameters)
+
+
 NAMES = (*(field.name for field in dataclasses.fields(RunParameters)), SIM_TIME)
 
 
-def read_arguments(words: Sequence[str]) -> dict[str, Any]:
+def read_arguments(
+    words: Sequence[str], parameters: type[RunParameters | ServerParameters] = RunParameters
+) -> dict[str, Any]:
     """Returns the parameters that the words of a command line give, without those for ROS.
+
+    Args:
+        words: the command line.
+        parameters: the parameters that there are.
 
     Raises:
         ParameterError: A word is not a parameter, or a switch is neither true nor false.
     """
     values: dict[str, Any] = {}
+    names = (*(field.name for field in dataclasses.fields(parameters)), SIM_TIME)
     for word in words:
         name, sign, text = word.removeprefix("--").partition("=")
-        if not word.startswith("--") or not sign or name not in NAMES:
-            known = ", ".join(f"--{each}=…" for each in NAMES)
+        if not word.startswith("--") or not sign or name not in names:
+            known = ", ".join(f"--{each}=…" for each in names)
             raise ParameterError(f"the argument {word!r} is not known; there are {known}")
         values[name] = text
     if "tick_hz" in values:
@@ -63,7 +96,7 @@ def read_arguments(words: Sequence[str]) -> dict[str, Any]:
     return values
 
 
-def declare_parameters(node: Any, defaults: RunParameters, words: Sequence[str]) -> RunParameters:
+def declare_parameters(node: Any, defaults: Parameters, words: Sequence[str]) -> Parameters:
     """Declares the parameters on a node and returns their values.
 
     They are read-only, since they are read once when the run begins; ``ros2 param set`` reports that.
@@ -86,9 +119,8 @@ def declare_parameters(node: Any, defaults: RunParameters, words: Sequence[str])
     ]
     if problems:
         raise ParameterError("; ".join(problems))
-    return RunParameters(
-        pathlib.Path(values["tree"]), float(values["tick_hz"]), values["on_finish"], values["on_error"]
-    )
+    values |= {"tree": pathlib.Path(values["tree"]), "tick_hz": float(values["tick_hz"])}
+    return dataclasses.replace(defaults, **values)
 
 
 def sim_time_problem(words: Sequence[str]) -> str:
@@ -112,9 +144,11 @@ def _problems(values: Mapping[str, Any]) -> list[tuple[str, str]]:
         found.append(("tick_hz", "a number above 0"))
     if not isinstance(values["tree"], str) or not values["tree"]:
         found.append(("tree", "the path of a file"))
-    for name, choices in (("on_finish", ON_FINISH), ("on_error", ON_ERROR)):
-        if values[name] not in choices:
-            found.append((name, " or ".join(choices)))
+    if "action_name" in values and (not isinstance(values["action_name"], str) or not values["action_name"]):
+        found.append(("action_name", "the name of an action"))
+    for name, choices in (("on_finish", ON_FINISH), ("on_error", ON_ERROR), ("on_new_goal", ON_NEW_GOAL)):
+        if name in values and values[name] not in choices:
+            found.append((name, _listed(choices)))
     return found
 
 
@@ -123,6 +157,11 @@ def _number(text: str) -> "float | str":
         return float(text)
     except ValueError:
         return text  # the text is checked with the other values
+
+
+def _listed(choices: Sequence[str]) -> str:
+    *most, last = choices
+    return f"{', '.join(most)} or {last}"
 
 
 def _shown(value: Any) -> str:

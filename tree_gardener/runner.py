@@ -73,7 +73,7 @@ class Runner:
         on_error: ``stop`` ends the run when an action raises; ``failure`` makes that node fail.
         finished: called once with the root's last status when the run ends by itself.
         fault: called with each error.
-        overrun: called after each tick that took longer than its period.
+        overrun: called after each tick that took longer than its period; only with it are actions measured.
         measure: returns a time in seconds that measures the duration of ticks; it does not determine when
             ticks are due.
     """
@@ -112,7 +112,10 @@ class Runner:
         self._stop_wanted = False
         self._in_tick = False
         tree.on_error = self._count_as_failure if on_error == "failure" else None
-        tree.time_leaves()
+        if overrun is not None:
+            tree.time_leaves()
+        else:
+            tree.mark_leaves()  # a hung action must be named, and nobody asks for the slowest one
 
     @property
     def is_finished(self) -> bool:

@@ -86,7 +86,7 @@ class StructureCheck:
             return
         trees = [element for element in root.children if element.tag == "BehaviorTree"]
         models = [element for element in root.children if element.tag == "TreeNodesModel"]
-        others = [element for element in root.children if element.tag != "Code"]
+        others = [element for element in root.children if element.tag not in ("Code", "Enums")]
         for element in models[1:]:
             self.report(element, "TG202", "there is more than one <TreeNodesModel>", "merge them into one")
         for element in models:

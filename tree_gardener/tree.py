@@ -8,13 +8,14 @@ from typing import Any, TypeVar
 
 from tree_gardener import tree_tools
 from tree_gardener.actions import load_actions
-from tree_gardener.blackboard import Blackboard
+from tree_gardener.blackboard import Blackboard, Entry
 from tree_gardener.clock import Clock, SystemClock, Timers
 from tree_gardener.controls.custom import CustomControl
 from tree_gardener.deep import DEEP, call_deep
+from tree_gardener.enums import Enums, constants, types
 from tree_gardener.errors import LoadError, TickError, describe
 from tree_gardener.forest import Forest
-from tree_gardener.hooks import After, Before, Hook, Hooks
+from tree_gardener.hooks import After, Before, Hook, Hooks, ResultCount
 from tree_gardener.leaves.behaviour import BehaviourLeaf
 from tree_gardener.loader import Builder
 from tree_gardener.node import Execute, Node
@@ -46,8 +47,6 @@ class Tree:
         on_warning: called with a node and a sentence if a mistake is tolerated, once for each node and
             sentence; if None, the sentence goes to the logger ``tree_gardener``.
         tick_number: the number of ticks so far.
-        current: a sequence whose first item is `current_uid`; it may be memory that is shared with another
-            process.
         slowest: duration and uid of the slowest action of the last tick, while leaves are timed.
         node_times_s: the time of each node in the tick, if an observer requested times; else None.
     """
@@ -66,7 +65,7 @@ class Tree:
         self.on_warning: Callable[[Node, str], None] | None = None
         self._warned: set[tuple[int, str]] = set()
         self.tick_number = 0
-        self.current: list[int] | memoryview[int] = [0]
+        self._current: list[int] | memoryview[int] = [0]
         self.slowest: tuple[float, int] = (0.0, 0)
         self.node_times_s: dict[int, float] | None = None
         self._hooks = Hooks(self)
@@ -89,7 +88,7 @@ class Tree:
         name: str = "tree.xml",
         documents: Sequence[str | bytes] = (),
         blackboard: Blackboard | None = None,
-        enums: Mapping[str, int] | None = None,
+        enums: Enums | None = None,
         substitutions: Mapping[str, Any] | str | None = None,
     ) -> "Tree":
         """Builds a tree from a document.
@@ -103,7 +102,8 @@ class Tree:
             name: the name of the document in messages.
             documents: other documents, whose trees can be used as SubTrees.
             blackboard: the root blackboard; entries in it keep their types.
-            enums: constants for scripts and Switch.
+            enums: constants for scripts and Switch by name, and enumerations by name, which ports can have as
+                their type; they are added to those in the document.
             substitutions: rules that replace nodes, as BehaviorTree.CPP's JSON.
 
         Raises:
@@ -118,7 +118,8 @@ class Tree:
         missing = {action: source for action, source in forest.sources.items() if action not in given}
         if missing:
             given.update(load_actions(missing))
-        registry = build_registry(given)
+        named = {**forest.enums, **(enums or {})}
+        registry = build_registry(given, types(named))
         problems = forest.check(registry)
         if problems:
             raise LoadError(problems)
@@ -126,7 +127,7 @@ class Tree:
         problems = forest.check_cycles(main)
         if problems:
             raise LoadError(problems)
-        tree = cls(clock, blackboard, enums or {})
+        tree = cls(clock, blackboard, constants(named))
         builder = Builder(tree, forest, registry, parse_rules(substitutions or {}))
         tree.nodes = builder.build(main)
         if builder.problems:
@@ -174,8 +175,19 @@ class Tree:
 
     @property
     def current_uid(self) -> int:
-        """The uid of the action that is being ticked, while leaves are timed; else 0."""
-        return self.current[0]
+        """The uid of the action that is being ticked, while leaves are marked; else 0."""
+        return self._current[0]
+
+    @property
+    def current(self) -> "list[int] | memoryview[int]":
+        """A sequence whose first item is `current_uid`; it may be memory shared with another process."""
+        return self._current
+
+    @current.setter
+    def current(self, memory: "list[int] | memoryview[int]") -> None:
+        self._current = memory
+        if self._hooks.marks_leaves:
+            self.link()
 
     def use_clock(self, clock: Clock) -> None:
         """Replaces the clock before the first tick, for example by one that needs an rclpy node."""
@@ -365,6 +377,13 @@ class Tree:
 
     # -- observation and hooks ----------------------------------------------------------------------
 
+    def journal_writes(self, callback: Callable[[Entry, int], None] | None) -> None:
+        """Calls `callback` with each write to the blackboard, in order, while the tree is observed.
+
+        A removed entry is not in its scope any more. None ends it.
+        """
+        self._recorder.writes = callback
+
     def observe(self, callback: Observer, *, node_times: bool = False) -> Callable[[], None]:
         """Calls `callback` after each tick with the changes; returns the function that unsubscribes it.
 
@@ -407,18 +426,27 @@ class Tree:
         uid = node.uid if isinstance(node, Node) else node
         return self._hooks.add(Hook(uid, before, after))
 
-    def time_leaves(self, *, on: bool = True) -> None:
-        """Updates `current` and `slowest` at each leaf, so that a slow action can be named."""
-        self._hooks.times_leaves = on
+    def mark_leaves(self, *, on: bool = True) -> None:
+        """Updates `current` at each leaf, so that an action that hangs can be named."""
+        self._hooks.marks_leaves = on
+        self._hooks.times_leaves &= on
         self.link()
 
-    def has_hooks(self, node: Node) -> bool:
-        """Returns whether a node must be ticked through `run_hooks`."""
-        return self._hooks.applies(node)
+    def time_leaves(self, *, on: bool = True) -> None:
+        """Updates `current` and `slowest` at each leaf, so that a slow action can be named."""
+        self._hooks.marks_leaves = self._hooks.times_leaves = on
+        self.link()
 
-    def run_hooks(self, node: Node, inner: Execute) -> Status:
-        """Ticks a node with its hooks."""
-        return self._hooks.run(node, inner)
+    def count_results(self) -> list[ResultCount]:
+        """Counts the results of each node from now on; returns the counts, in the order of `nodes`."""
+        if self._hooks.counts is None:
+            self._hooks.counts = [ResultCount() for _ in self.nodes]
+            self.link()
+        return self._hooks.counts
+
+    def entry_of(self, node: Node, inner: Execute) -> Execute:
+        """Returns the function that ticks a node together with its hooks; `inner` is the node's own."""
+        return self._hooks.entry(node, inner)
 
     def link(self) -> None:
         """Looks up again how each node is ticked, after hooks or observers changed."""

@@ -56,12 +56,14 @@ class ValueType:
         parse: makes a value from a literal; raises ConversionError.
         convert: makes a value of this type from another value; raises ConversionError.
         is_strong: whether an entry of this type refuses others; ``any`` does not.
+        from_json: makes a value from a JSON document, if the type was registered with one.
     """
 
     name: str
     parse: Callable[[str], Any]
     convert: Callable[[Any], Any]
     is_strong: bool = True
+    from_json: Callable[[Any], Any] | None = None
 
 
 def format_number(value: float) -> str:
@@ -78,9 +80,12 @@ def to_text(value: Any) -> str:
     if isinstance(value, str):
         return value
     number = as_number(value)
-    if number is None:
+    if number is not None:
+        return format_number(number)
+    write = _TO_TEXT.get(type(value))
+    if write is None:
         raise ConversionError(f"a value of type {type_name_of(value)} is not a string")
-    return format_number(number)
+    return write(value)
 
 
 def as_number(value: Any) -> int | float | None:
@@ -207,6 +212,17 @@ STRING: Final = ValueType("string", _same, to_text)
 BOOL: Final = ValueType("bool", parse_bool, _convert_bool)
 STATUS: Final = ValueType("status", parse_status, _convert_status)
 ANY: Final = ValueType("any", _same, _same, is_strong=False)
+POLYMORPHIC: Final = ValueType("any", _same, _same, is_strong=False)
+"""The type of a port that gives an entry the type of the first value, as `AnyTypeAllowed` asks for."""
+
+
+class AnyTypeAllowed:
+    """The type of a polymorphic port, as in ``OUTPUT_PORTS = {"out": Port(AnyTypeAllowed)}``.
+
+    As BehaviorTree.CPP's. An input takes any value, as with ``Any``. An output gives a new entry the type of
+    the first value, which the entry keeps: later values are converted to it or refused. With ``Any`` an entry
+    holds anything.
+    """
 
 
 @functools.cache
@@ -219,7 +235,7 @@ def _list_of(item: ValueType) -> ValueType:
                 raise ConversionError(f"'{text}' is not JSON: {error}") from None
             if not isinstance(values, list):
                 raise ConversionError(f"'{text}' is not a list")
-            return [item.convert(value) for value in values]
+            return [(item.from_json or item.convert)(value) for value in values]
         return [item.parse(part) for part in text.split(";")] if text else []
 
     def convert(value: Any) -> Any:
@@ -247,16 +263,30 @@ _BY_CLASS: dict[Any, ValueType] = {
     bool: BOOL,
     Status: STATUS,
     Any: ANY,
+    AnyTypeAllowed: POLYMORPHIC,
     object: ANY,
     None: ANY,
 }
+
+
+_TO_TEXT: dict[type, Callable[[Any], str]] = {}
+"""How values of registered classes become text."""
+
+
+def set_type(cls: type, kind: ValueType, to_text: Callable[[Any], str] | None) -> None:
+    """Makes `kind` the type of a class in ports; `to_text` makes a text of a value."""
+    _BY_CLASS[cls] = kind
+    _TO_TEXT.pop(cls, None)
+    if to_text is not None:
+        _TO_TEXT[cls] = to_text
 
 
 def value_type(annotation: Any) -> ValueType:
     """Returns the type of a Python annotation, as in ``Port(list[float])``.
 
     A name of ``catalog.json`` means the type of that name. Any other class is a separate type: its values are
-    passed by reference, and it has no literals, except for an Enum, whose members are written by name.
+    passed by reference, and it has no literals, except for an Enum, whose members are written by name, and
+    for a class that was registered with `register_type`.
     """
     if isinstance(annotation, ValueType):
         return annotation
@@ -299,7 +329,11 @@ def _enumeration(cls: type[enum.Enum]) -> ValueType:
         raise ConversionError(f"'{text}' is not one of {', '.join(cls.__members__)}")
 
     def convert(value: Any) -> enum.Enum:
-        return value if isinstance(value, cls) else parse(to_text(value))
+        if isinstance(value, cls):
+            return value
+        number = as_number(value)  # scripts compute with doubles
+        is_whole = isinstance(number, float) and number.is_integer()
+        return parse(str(int(value)) if is_whole else to_text(value))
 
     return ValueType(f"{cls.__module__}.{cls.__qualname__}", parse, convert)
 
@@ -314,6 +348,21 @@ def _class(cls: type) -> ValueType:
         raise ConversionError(f"a value of type {type_name_of(value)} is not a {cls.__qualname__}")
 
     return ValueType(f"{cls.__module__}.{cls.__qualname__}", parse, convert)
+
+
+def type_of_value(value: Any) -> ValueType:
+    """Returns the type that an entry gets from a value that a polymorphic port writes."""
+    if value is None:
+        return ANY
+    if isinstance(value, list):
+        item = type_of_value(value[0]) if value else ANY
+        return BY_NAME.get(f"list[{item.name}]", ANY)
+    number = None if isinstance(value, enum.Enum) else as_number(value)
+    if isinstance(value, bool) or number is None:
+        return value_type(type(value))
+    if isinstance(number, float):
+        return DOUBLE
+    return INT if INT32[0] <= number <= INT32[1] else INT_64
 
 
 def type_name_of(value: Any) -> str:

@@ -40,7 +40,7 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     report: Annotated[Path | None, typer.Option(help="File for the report, as JSON.")] = None,
     record: Annotated[
         Path | None,
-        typer.Option(help="File for all that the run says, line by line; .gz compresses."),
+        typer.Option(help="MCAP file (.mcap) for all that happens in the run."),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the report as JSON.")] = False,  # noqa: FBT002
 ) -> None:
@@ -51,12 +51,7 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     from translator.export import unwritten_actions
     from tree_gardener.stubs import stubs_sentence
 
-    if lockstep and viewer:
-        text = "lock-step is too fast to look at; leave out one of the two"
-        raise typer.BadParameter(text, param_hint="--serve-viewer")
-    if lockstep and universe == "none":
-        text = "lock-step needs a simulated world; run against an outside graph in real time"
-        raise typer.BadParameter(text, param_hint="--universe")
+    _refuse_contradictions(record, universe, lockstep=lockstep, viewer=viewer)
     if lockstep:
         _fix_hashes()
     stubs: list[str] = []
@@ -89,6 +84,20 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     faults = [_fault_line(fault) for fault in done.errors]
     if faults or stubs:
         raise CliError(*faults, *(f"actions/{name}.py:1:1: stub {stubs_sentence([name])}" for name in stubs))
+
+
+def _refuse_contradictions(
+    record: Path | None, universe: str | None, *, lockstep: bool, viewer: bool
+) -> None:
+    if lockstep and viewer:
+        text = "lock-step is too fast to look at; leave out one of the two"
+        raise typer.BadParameter(text, param_hint="--serve-viewer")
+    if lockstep and universe == "none":
+        text = "lock-step needs a simulated world; run against an outside graph in real time"
+        raise typer.BadParameter(text, param_hint="--universe")
+    if record is not None and record.suffix != ".mcap":
+        text = f"a recording is an MCAP file, so {record.name!r} must end with .mcap"
+        raise typer.BadParameter(text, param_hint="--record")
 
 
 def _fix_hashes() -> None:

@@ -19,17 +19,27 @@ def translate(  # noqa: PLR0913, PLR0917 - these are the options of formats.md
     form_2024: Annotated[  # noqa: FBT002
         bool, typer.Option("--form-2024", help="Write the self-contained form of JdeRobot's BT Studio.")
     ] = False,
+    models: Annotated[  # noqa: FBT002
+        bool, typer.Option("--models", help="Write the models of the project's nodes alone, as a palette.")
+    ] = False,
+    xsd: Annotated[  # noqa: FBT002
+        bool, typer.Option("--xsd", help="Write an XML Schema of documents with the project's nodes.")
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,  # noqa: FBT002
 ) -> None:
     """Translates a project or a tree to BehaviorTree.CPP v4 XML."""
     from backend.cli import _translation as cli
-    from translator import TranslatorError, check, export_files
+    from translator import TranslatorError, check, export_files, to_models_xml, to_xsd
     from translator import self_contained as write_self_contained
     from translator.jderobot.self_contained import write_old_form
 
     try:
         opened = cli.open_project(project, actions=actions, stubs=actions is None)
-        if form_2024:
+        if models:
+            files = {"models.xml": to_models_xml(opened).encode()}
+        elif xsd:
+            files = {"schema.xsd": to_xsd(opened).encode()}
+        elif form_2024:
             files = {"tree.xml": write_old_form(opened).encode()}
         elif self_contained:
             files = {"tree.xml": write_self_contained(opened).encode()}

@@ -19,8 +19,9 @@ from websockets.exceptions import ConnectionClosed
 from executor import messages
 from executor.headless.errors import HeadlessError
 from executor.headless.lines import mismatch_line
+from executor.headless.live_recorder import LiveRecorder
 from executor.headless.measured import Measured
-from executor.headless.recording import Recording, decode_frame, open_recording
+from executor.headless.recording import open_recording
 from executor.headless.viewer import RunViewer
 from executor.manager.manager import Manager, ManagerSettings
 from executor.universes import BUILTIN_IDS, builtin_path
@@ -36,6 +37,9 @@ __all__ = ["HeadlessError", "HeadlessOptions", "run_headless"]
 
 TRAJECTORY_HZ: Final = 10.0
 VIEW_HZ: Final = 15.0
+_decode_frame: Final = msgspec.msgpack.Decoder(
+    messages.Scene | messages.Poses | messages.Scan | messages.Camera | messages.View
+).decode
 FIGURES_EVERY_S: Final = 0.2
 LOOK_EVERY_S: Final = 1.0
 HANGS_AFTER_S: Final = 6.0
@@ -106,11 +110,11 @@ async def _run(
 
 def _recording(
     project: Project, options: HeadlessOptions
-) -> contextlib.AbstractContextManager[Recording | None]:
+) -> contextlib.AbstractContextManager[LiveRecorder | None]:
     if options.recording is None:
         return contextlib.nullcontext()
-    path, universe, seed = options.recording, options.universe, options.seed
-    return open_recording(path, project, universe=universe, seed=seed)
+    universe, robot, seed = options.universe, options.robot, options.seed
+    return LiveRecorder(open_recording(options.recording, project, universe=universe, robot=robot, seed=seed))
 
 
 class _Runner:
@@ -122,7 +126,7 @@ class _Runner:
         stream: ClientConnection,
         settings: Settings,
         say: Callable[[str], None],
-        recording: Recording | None,
+        recording: LiveRecorder | None,
     ) -> None:
         self._control = control
         self._stream = stream
@@ -267,12 +271,12 @@ class _Runner:
         with contextlib.suppress(ConnectionClosed):
             async for data in self._stream:
                 if isinstance(data, bytes):
-                    frame = decode_frame(data)
+                    frame = _decode_frame(data)
                     self._measured.take_frame(frame)
                     if self._viewer is not None and isinstance(frame, messages.View):
                         self._viewer.show(frame.jpeg)
                     if self._recording is not None:
-                        self._recording.frame(frame)
+                        self._recording.frame(frame, data)
 
 
 def _located(error: dict[str, Any], faults: list[dict[str, Any]]) -> str:

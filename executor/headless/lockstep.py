@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from executor.world.physics.bullet import BulletWorld
     from translator import Project
     from tree_gardener import Status, TickError, Tree
-    from tree_gardener.node import Node as TreeNode
 
     Progress = Callable[[float], None]
 
@@ -120,7 +119,6 @@ class _Run:
         self._stack.append(self._world.close)
         self._join_ros()
         self._tree = self._make_tree(project)
-        self._counts = [NodeCount(node.path) for node in self._tree.nodes]
         self._recorder = self._make_recorder(recording)
 
     def play(self, progress: Progress | None, watch: Callable[[BulletWorld], None] | None) -> Report:
@@ -149,6 +147,8 @@ class _Run:
             self._node.poll()
             for note in self._node.take_notes():
                 print(note, file=sys.stderr)  # noqa: T201 - what the console of a session shows
+                if self._recorder is not None:
+                    self._recorder.says("warning", note)
             self._sample(number)
             if progress is not None and number % max(1, round(self._tick_hz)) == 0:
                 progress(self._world.time_s)
@@ -249,7 +249,7 @@ class _Run:
         self._locator.learn(tree)
         tree.setup(node=self._application)
         self._stack.append(tree.shutdown)
-        tree.add_hook(after=self._count)
+        self._counts = tree.count_results()
         return tree
 
     def _open_recording(self, project: Project) -> Recording | None:
@@ -258,8 +258,8 @@ class _Run:
             return None
         from executor.headless.recording import open_recording  # noqa: PLC0415 - few runs are recorded
 
-        universe, seed = options.universe, options.seed
-        recording = open_recording(options.recording, project, universe=universe, seed=seed)
+        universe, robot, seed = options.universe, options.robot, options.seed
+        recording = open_recording(options.recording, project, universe=universe, robot=robot, seed=seed)
         self._stack.append(recording.close)
         return recording
 
@@ -268,7 +268,7 @@ class _Run:
             return None
         from executor.headless.recorder import RunRecorder  # noqa: PLC0415 - few runs are recorded
 
-        return RunRecorder(recording, self._world, self._sensors, self._tree)
+        return RunRecorder(recording, self._world, self._sensors, self._node, self._tree)
 
     # --- running ---
 
@@ -311,13 +311,6 @@ class _Run:
         status: Status | None = runner.tick_due(self._world.time_s)
         self._durations.append(time.perf_counter() - began_s)
         return status
-
-    def _count(self, node: TreeNode, status: Status) -> None:
-        count = self._counts[node.uid - 1]
-        count.ticks += 1
-        name = status.name.lower()
-        if hasattr(count, name):
-            setattr(count, name, getattr(count, name) + 1)
 
     def _note_broken(self, error: BaseException) -> None:
         """Stores the exception of a callback."""
@@ -369,7 +362,10 @@ class _Run:
         report.real_time_factor = report.sim_time_s / max(report.wall_time_s, 1e-9)
         report.ticks = self._tree.tick_number
         report.tick_ms, report.overruns = quantiles(self._durations), overruns
-        report.nodes = self._counts
+        report.nodes = [
+            NodeCount(node.path, count.ticks, count.success, count.failure, count.running)
+            for node, count in zip(self._tree.nodes, self._counts, strict=True)
+        ]
         report.random = self._world.has_drawn or not self._randomness.is_untouched
         if self._world.robots:
             robot = self._world.robots[0]

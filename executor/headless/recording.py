@@ -1,49 +1,51 @@
-"""Writes the events and frames of a run to a file, line by line.
-
-The first line is `{"format": "bt-studio/recording", "version": 1, …}`. An event is `{"type": "event", "t",
-"tick", "command", "data"}`, a frame as in the stream protocol with its `type` and `t`; bytes are base64. A
-name that ends with `.gz` is compressed. An incomplete recording can still be read.
-"""
+"""The file of a recorded run: an MCAP file, see `executor.recorder`."""
 
 from __future__ import annotations
 
-import gzip
-from typing import TYPE_CHECKING, Any, BinaryIO, Final, Self, cast
+import platform
+from importlib.metadata import PackageNotFoundError, version
+from typing import TYPE_CHECKING, Final, Self
 
-import msgspec
-
-from executor import messages
 from executor.headless.errors import HeadlessError
+from executor.recorder.writer import RecordingWriter
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from translator import Project
 
-__all__ = ["FORMAT", "VERSION", "Recording", "decode_frame", "open_recording"]
+__all__ = ["Recording", "check_name", "open_recording"]
 
-FORMAT: Final = "bt-studio/recording"
-VERSION: Final = 1
-_LEFT_OUT: Final = frozenset({"ack", "error", "introspection", "snapshot", "progress"})
-_KEPT: Final = ("t", "tick", "command", "data")
-_encode = msgspec.json.Encoder().encode
-decode_frame: Final = msgspec.msgpack.Decoder(
-    messages.Scene | messages.Poses | messages.Scan | messages.Camera | messages.View
-).decode
-"""Decodes a message of the stream socket."""
+ENDING: Final = ".mcap"
+MOST_ATTACHED: Final = 8 << 20
+
+
+def check_name(path: Path) -> None:
+    """Refuses a name that is not one of a recording.
+
+    Raises:
+        HeadlessError: the name does not end with `.mcap`.
+    """
+    if path.suffix != ENDING:
+        raise HeadlessError(f"{path}: a recording is an MCAP file, so its name ends with {ENDING}.")
 
 
 class Recording:
     """A recording that is open for writing; use it as a context manager, or close it.
 
+    A full disk stops the recording, not the run.
+
     Raises:
         OSError: the file cannot be written.
     """
 
-    def __init__(self, path: Path, about: dict[str, Any]) -> None:
-        opened = gzip.open if path.suffix == ".gz" else open
-        self._file = cast("BinaryIO", opened(path, "wb"))  # closed by __exit__
-        self._write({"format": FORMAT, "version": VERSION, **about})
+    def __init__(self, path: Path, about: dict[str, str], files: dict[str, bytes]) -> None:
+        self.path = path
+        self._file = path.open("wb")  # closed by close
+        self.writer = RecordingWriter(self._file, about)
+        for name, data in sorted(files.items()):
+            if len(data) <= MOST_ATTACHED:
+                self.writer.attach(name, "application/octet-stream", data)
 
     def __enter__(self) -> Self:
         return self
@@ -52,35 +54,38 @@ class Recording:
         self.close()
 
     def close(self) -> None:
-        """Closes the file."""
-        self._file.close()
-
-    def event(self, message: dict[str, Any]) -> None:
-        """Writes an event of the control socket; replies are left out."""
-        if message["command"] not in _LEFT_OUT:
-            kept = {name: message[name] for name in _KEPT if name in message}
-            self._write({"type": "event"} | kept)
-
-    def frame(self, frame: object) -> None:
-        """Writes a frame of the stream socket."""
-        self._write(frame)
-
-    def packed_frame(self, data: bytes) -> None:
-        """Writes a frame in the encoded form of the stream socket."""
-        self.frame(decode_frame(data))
-
-    def _write(self, line: object) -> None:
-        self._file.write(_encode(line) + b"\n")
+        """Completes and closes the file."""
+        with self._file:
+            self.writer.finish()
 
 
-def open_recording(path: Path, project: Project, *, universe: str | None, seed: int) -> Recording:
-    """Opens the recording of a run.
+def open_recording(
+    path: Path, project: Project, *, universe: str | None, robot: str | None, seed: int
+) -> Recording:
+    """Opens the recording of a run, with the project's files as they run.
 
     Raises:
-        HeadlessError: the file cannot be written.
+        HeadlessError: the file cannot be written, or its name is not one of a recording.
     """
-    about = {"project": project.settings.name, "universe": universe or project.settings.universe}
+    check_name(path)
+    settings = project.settings
+    about = {
+        "project": settings.name,
+        "universe": universe or settings.universe,
+        "robot": robot or settings.robot or "",
+        "seed": str(seed),
+        "bt_studio": _version(),
+        "python": platform.python_version(),
+        "platform": platform.platform(),
+    }
     try:
-        return Recording(path, about | {"seed": seed})
+        return Recording(path, about, {f"project/{name}": data for name, data in project.files.items()})
     except OSError as error:
         raise HeadlessError(f"{path}: cannot be written: {error.strerror}") from error
+
+
+def _version() -> str:
+    try:
+        return version("bt-studio")
+    except PackageNotFoundError:
+        return "unknown"

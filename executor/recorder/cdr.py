@@ -1,8 +1,8 @@
-"""Writes and reads our messages as CDR, the encoding of ROS 2.
+"""Writes messages as CDR, the encoding of ROS 2, and reads ours.
 
-Little-endian; each number is aligned to its size.
-A message is a mapping of its fields. Only what `executor/recorder/msg` uses is known here: numbers, texts,
-`builtin_interfaces/Time`, and lists of numbers and texts. Messages of ROS come as CDR already.
+Little-endian; each number is aligned to its size. ROS's own serializer leaves garbage between and behind the
+values, so that equal messages differ; here the gaps are 0. A message is a mapping of its fields, or an object
+of a ROS class. A `builtin_interfaces/Time` of ours is a time in ns.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import array
 import functools
 import struct
 import sys
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.recorder.definitions import fields_of
@@ -18,14 +19,24 @@ from executor.recorder.definitions import fields_of
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-__all__ = ["CdrError", "decode", "encode", "stamp_of"]
+    from executor.recorder.definitions import Field
+
+    Put = Callable[[bytearray, Any], None]
+
+__all__ = ["CdrError", "decode", "encode", "encode_object", "stamp_of"]
 
 HEADER: Final = b"\x00\x01\x00\x00"
 MOST_ITEMS: Final = 64 << 20
-_SIZES: Final = {"bool": ("B", 1), "uint8": ("B", 1), "int32": ("i", 4), "uint32": ("I", 4)} | {
-    "uint64": ("Q", 8),
-    "float32": ("f", 4),
+_CODES: Final = {"bool": "B", "byte": "B", "char": "B", "uint8": "B", "int8": "b", "int16": "h"} | {
+    "uint16": "H",
+    "int32": "i",
+    "uint32": "I",
+    "int64": "q",
+    "uint64": "Q",
+    "float32": "f",
+    "float64": "d",
 }
+_SIZES: Final = {kind: (code, struct.calcsize(f"<{code}")) for kind, code in _CODES.items()}
 _TIME: Final = "builtin_interfaces/Time"
 
 
@@ -50,6 +61,17 @@ def encode(name: str, message: Mapping[str, Any]) -> bytes:
     return HEADER + bytes(data)
 
 
+def encode_object(name: str, message: Any) -> bytes:
+    """Returns a message of a ROS class as CDR.
+
+    Raises:
+        DefinitionError: the definition of the type is not there.
+    """
+    data = bytearray()
+    _object_writer(name)(data, message)
+    return HEADER + bytes(data)
+
+
 def decode(name: str, data: bytes) -> dict[str, Any]:
     """Returns the fields of a message of one of our types.
 
@@ -66,19 +88,32 @@ def decode(name: str, data: bytes) -> dict[str, Any]:
 
 
 @functools.cache
-def _writers(name: str) -> tuple[tuple[str, Callable[[bytearray, Any], None]], ...]:
-    return tuple((field.name, _writer(field.kind, is_list=field.is_list)) for field in fields_of(name))
+def _writers(name: str) -> tuple[tuple[str, Put], ...]:
+    return tuple(
+        (field.name, _put_time if field.kind == _TIME else _writer(field)) for field in fields_of(name)
+    )
 
 
-def _writer(kind: str, *, is_list: bool) -> Callable[[bytearray, Any], None]:
-    if kind == _TIME:
-        return _put_time
-    if kind == "string":
-        return _put_texts if is_list else _put_text
-    code, size = _SIZES[kind]
-    if kind == "uint8" and is_list:
-        return _put_bytes
-    return functools.partial(_put_numbers if is_list else _put_number, struct.Struct(f"<{code}"), code, size)
+@functools.cache
+def _object_writer(name: str) -> Put:
+    """Returns what writes the fields of an object, in their order."""
+    parts = [(attrgetter(field.name), _writer(field)) for field in fields_of(name)]
+
+    def put(data: bytearray, value: Any) -> None:
+        for get, put_one in parts:
+            put_one(data, get(value))
+
+    return put
+
+
+def _writer(field: Field) -> Put:
+    if field.kind in {"string", "wstring"} or field.kind not in _SIZES:
+        one = _put_text if field.kind == "string" else _object_writer(field.kind)
+        return functools.partial(_put_items, one, field.length) if field.is_list else one
+    code, size = _SIZES[field.kind]
+    if not field.is_list:
+        return functools.partial(_put_number, struct.Struct(f"<{code}"), size)
+    return functools.partial(_put_numbers, code, size, field.length)
 
 
 def _align(data: bytearray, size: int) -> None:
@@ -98,33 +133,38 @@ def _put_text(data: bytearray, text: str) -> None:
     data.append(0)
 
 
-def _put_texts(data: bytearray, texts: Sequence[str]) -> None:
-    _align(data, 4)
-    data.extend(struct.pack("<I", len(texts)))
-    for text in texts:
-        _put_text(data, text)
+def _put_items(one: Put, count: int, data: bytearray, values: Sequence[Any]) -> None:
+    if not count:
+        _align(data, 4)
+        data.extend(struct.pack("<I", len(values)))
+    for value in values:
+        one(data, value)
 
 
-def _put_bytes(data: bytearray, values: bytes) -> None:
-    _align(data, 4)
-    data.extend(struct.pack("<I", len(values)))
-    data.extend(bytes(values))
-
-
-def _put_number(form: struct.Struct, _code: str, size: int, data: bytearray, value: float) -> None:
-    _align(data, size)
+def _put_number(form: struct.Struct, size: int, data: bytearray, value: float) -> None:
+    if size > 1:
+        _align(data, size)
     data.extend(form.pack(value))
 
 
-def _put_numbers(_form: struct.Struct, code: str, size: int, data: bytearray, values: Sequence[int]) -> None:
-    _align(data, 4)
-    data.extend(struct.pack("<I", len(values)))
-    if values:
+def _put_numbers(code: str, size: int, count: int, data: bytearray, values: Any) -> None:
+    if not count:
+        _align(data, 4)
+        data.extend(struct.pack("<I", len(values)))
+    if len(values):
         _align(data, size)
-        packed = array.array(code, values)
-        if sys.byteorder == "big":
-            packed.byteswap()
-        data.extend(packed.tobytes())
+        data.extend(_packed(code, values))
+
+
+def _packed(code: str, values: Any) -> bytes:
+    """Returns numbers as bytes; bytes, arrays and numpy's arrays of the right type without a loop."""
+    if isinstance(values, (bytes, bytearray)):
+        return bytes(values)
+    if isinstance(values, array.array) and values.typecode == code and sys.byteorder == "little":
+        return values.tobytes()
+    if hasattr(values, "astype"):
+        return bytes(values.astype(f"<{code}").tobytes())
+    return struct.pack(f"<{len(values)}{code}", *values)
 
 
 class _Reader:

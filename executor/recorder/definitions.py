@@ -18,6 +18,7 @@ __all__ = ["OURS", "DefinitionError", "Field", "fields_of", "full_text", "names_
 
 OURS: Final = "bt_studio_msgs"
 FOLDER: Final = Path(__file__).with_name("msg")
+BUILT: Final = Path(__file__).parents[1] / "ros" / "interfaces"
 PRIMITIVES: Final = frozenset(
     ("bool", "byte", "char", "float32", "float64", "int8", "uint8", "int16", "uint16", "int32", "uint32")
 ) | {"int64", "uint64", "string", "wstring"}
@@ -32,11 +33,12 @@ class DefinitionError(Exception):
 
 
 class Field(NamedTuple):
-    """One field of a message; `kind` is a primitive or `package/Name`."""
+    """One field of a message; `kind` is a primitive or `package/Name`, `length` that of a fixed list."""
 
     name: str
     kind: str
     is_list: bool
+    length: int = 0
 
 
 def names_of_ours() -> list[str]:
@@ -59,7 +61,9 @@ def fields_of(name: str) -> tuple[Field, ...]:
             kind = match[1]
             if kind not in PRIMITIVES:
                 kind = _short(kind if "/" in kind else f"{package}/{kind}")
-            found.append(Field(match[4], kind, match[3] is not None))
+            digits = (match[3] or "").strip("[]")
+            length = int(digits) if digits.isdigit() else 0
+            found.append(Field(match[4], kind, match[3] is not None, length))
     return tuple(found)
 
 
@@ -97,7 +101,18 @@ def _text(name: str) -> str:
         path = prefix / "share" / package / "msg" / f"{message}.msg"
         if path.is_file():
             return path.read_text(encoding="utf-8")
+    if (text := _of_our_build(package, message)) is not None:
+        return text
     raise DefinitionError(f"the definition of {name} is not there")
+
+
+def _of_our_build(package: str, message: str) -> str | None:
+    """Returns a definition of the packages without a wheel, which set-up builds from one file each."""
+    path = BUILT / f"{package}.txt"
+    if not path.is_file():
+        return None
+    _, mark, rest = f"\n{path.read_text(encoding='utf-8')}".partition(f"\n[msg/{message}]\n")
+    return re.split(r"\n\[(?:msg|srv|action)/", rest)[0] + "\n" if mark else None
 
 
 @functools.cache

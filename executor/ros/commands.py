@@ -59,6 +59,7 @@ class Commands:
         self.topic = topic
         self.types = TYPES[kind]
         self.notes: list[str] = []
+        self.tap: Callable[[str, Any, float], None] | None = None
         self._node = node
         self._timeout_s = timeout_s
         self._second = second
@@ -77,6 +78,9 @@ class Commands:
         if not arrived:
             return None, True
         newest = max(arrived, key=lambda each: each[0])[1] if len(self._subscriptions) > 1 else arrived[-1][1]
+        if self.tap is not None:
+            for _, message in arrived:
+                self.tap(self.topic, message, now_s)
         if isinstance(newest, Twist):
             return Command(newest.linear.x, newest.angular.z, now_s), True
         return self._stamped(newest, now_s)

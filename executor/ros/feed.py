@@ -10,6 +10,8 @@ if TYPE_CHECKING:
 
     from executor.world.sensing.sensors import Sensors
 
+    Tap = Callable[[str, Any, float], None]
+
 
 class Due:
     """A timer of a given rate, counted from the simulated time 0."""
@@ -50,13 +52,20 @@ class Feed:
         """Whether one of the publishers has a subscriber."""
         return any(publisher.get_subscription_count() for publisher in self.publishers)
 
-    def publish(self, sensors: Sensors, now_s: float) -> None:
-        """Measures and publishes to the topics with subscribers."""
+    def publish(self, sensors: Sensors, now_s: float, tap: Tap | None = None) -> None:
+        """Measures and publishes to the topics with subscribers.
+
+        A tap gets all messages of the topics. It counts as a subscriber, but not for cameras.
+        """
         receivers = [publisher for publisher in self.publishers if publisher.get_subscription_count()]
-        if receivers:
-            message = self.make(sensors, now_s)
-            for publisher in receivers:
-                publisher.publish(message)
+        if not receivers and (tap is None or self.of_camera):
+            return
+        message = self.make(sensors, now_s)
+        for publisher in receivers:
+            publisher.publish(message)
+        if tap is not None:
+            for publisher in receivers if self.of_camera else self.publishers:
+                tap(publisher.topic_name, message, now_s)
 
 
 class Feeds:
@@ -68,12 +77,12 @@ class Feeds:
             groups.setdefault((feed.rate_hz, feed.of_camera), []).append(feed)
         self._groups = [(Due(rate_hz), members) for (rate_hz, _), members in groups.items()]
 
-    def publish(self, sensors: Sensors, now_s: float) -> None:
-        """Publishes the feeds that are due."""
+    def publish(self, sensors: Sensors, now_s: float, tap: Tap | None = None) -> None:
+        """Publishes the feeds that are due, also to a tap."""
         for is_due, feeds in self._groups:
             if is_due(now_s):
                 for feed in feeds:
-                    feed.publish(sensors, now_s)
+                    feed.publish(sensors, now_s, tap)
 
     def slow_cameras(self, share: float) -> None:
         """Reduces the rates of cameras to a share of their configured rates."""

@@ -19,6 +19,7 @@ PACKAGES: Final[dict[str, tuple[str, ...]]] = {
     "example_interfaces": ("action_msgs",),
     "control_msgs": ("geometry_msgs", "sensor_msgs", "trajectory_msgs", "action_msgs"),
     "vision_msgs": ("geometry_msgs",),
+    "btcpp_ros2_interfaces": ("action_msgs",),
 }
 # Dependencies of every package, also for services and actions.
 COMMON: Final = ("builtin_interfaces", "std_msgs", "service_msgs", "unique_identifier_msgs")

@@ -26,6 +26,7 @@ from executor.ros.robot_topics import LATCHED_QOS, ODOMETRY_HZ, RobotTopics
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection
 
+    from executor.ros.feed import Tap
     from executor.world.interface import Robot, World
     from executor.world.sensing.sensors import Sensors
 
@@ -75,11 +76,13 @@ class WorldNode:
             for i, robot in enumerate(world.robots)
         ]
         feeds = [feed for robot in self._robots for feed in robot.feeds]
+        self._static: Any = None
         if has_tf():
             feeds.append(self._make_tf())
         self._feeds = Feeds(feeds)
         self._pictures = [feed for feed in feeds if feed.is_picture]
         self.refused_commands = 0
+        self._tap: Tap | None = None
 
     def poll(self) -> None:
         """Reads the commands that arrived, and applies the last one of each robot."""
@@ -90,9 +93,17 @@ class WorldNode:
         now_s = self._world.time_s
         if self._clock_due(now_s):
             self.publish_clock()
-        self._feeds.publish(sensors, now_s)
+        self._feeds.publish(sensors, now_s, self._tap)
         if self._outlet is not None:
             self._outlet.flush()
+
+    def tap(self, tap: Tap) -> None:
+        """Gives each message of the robots' topics to a function, with the topic and the time."""
+        self._tap = tap
+        for robot in self._robots:
+            robot.commands.tap = tap
+        if self._static is not None:
+            tap("/tf_static", self._static, self._world.time_s)
 
     def publish_clock(self) -> None:
         """Publishes the simulated time, also while it is paused."""
@@ -167,7 +178,8 @@ class WorldNode:
 
         self._tf_static = self._publisher(TFMessage, "/tf_static", LATCHED_QOS)
         fixed = [transform for robot in self._robots for transform in robot.fixed_transforms()]
-        self._tf_static.publish(messages.transforms(fixed))
+        self._static = messages.transforms(fixed)
+        self._tf_static.publish(self._static)
         publisher = self._publisher(TFMessage, "/tf", _TF_QOS)
         return Feed(
             [publisher],

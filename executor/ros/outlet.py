@@ -131,6 +131,11 @@ class Piped:
         self._publisher = publisher
         self._outlet = outlet
 
+    @property
+    def topic_name(self) -> str:
+        """The name of the topic."""
+        return str(self._publisher.topic_name)
+
     def publish(self, message: Any) -> None:
         """Queues a message."""
         self._outlet.publish(self._publisher, message)

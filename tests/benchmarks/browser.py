@@ -23,6 +23,7 @@ from tests.benchmarks.session import Client
 from tests.benchmarks.trace import PAINT, TASK, WORK, traced
 from tests.e2e.conftest import CHROMIUM, QUIET, SOFTWARE_WEBGL
 from tests.e2e.server import serving
+from tests.e2e.studio import NO_FIRST_TASK, NO_LESSONS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -35,11 +36,13 @@ SIZES = (100, 600, 2000)
 STEPS = 60
 # A frame of a screen lasts 17 ms: so each step of a gesture gets a frame, with time left for later work.
 STEP_MS = 40
+DROP_ROUNDS = 5
 LIVE_BLOCKS = 600
 LIVE_S = 10
 TASKS = frozenset({TASK})
 MOVES = frozenset({"pointermove", "wheel"})
 PRESSES = frozenset({"keydown", "click"})
+DROPS = frozenset({"pointerup"})
 TEMPLATE = "laser_bump_and_go"
 
 
@@ -113,6 +116,9 @@ def page_of(browser: Browser, client: Client, *, counts: bool = False) -> Iterat
     """The start page in a fresh profile; `counts` counts rendered blocks, which slows rendering down."""
     context = browser.new_context(viewport={"width": 1440, "height": 900})
     context.set_default_timeout(120_000)
+    # A panel beside the canvas would make it narrower, and its tools one button.
+    context.add_init_script(NO_LESSONS)
+    context.add_init_script(NO_FIRST_TASK)
     if counts:
         count_renders(context)
     page = context.new_page()
@@ -149,6 +155,7 @@ def handling(browser: Browser, client: Client, size: int) -> None:
         frames(page, cdp, canvas, f"{size:5d} blocks, as opened")
         hands.read_at_full_size(page, canvas)
         frames(page, cdp, canvas, f"{size:5d} blocks, at 100 %")
+        drops(page, cdp, canvas, size)
         interactions(page, cdp, canvas, size)
     with page_of(browser, client, counts=True) as page:
         canvas = open_project(page, client, project)
@@ -204,6 +211,25 @@ def interactions(page: Page, cdp: CDPSession, canvas: Locator, size: int) -> Non
         slowest[name] = max(slowest.get(name, (0.0, 0.0)), figures)
     told = (f"{name} {paint:.0f} ({total:.0f}) ms" for name, (paint, total) in slowest.items())
     row(size, "to the paint (and all after): " + ", ".join(told))
+
+
+def drops(page: Page, cdp: CDPSession, canvas: Locator, size: int) -> None:
+    """From letting a block go to its picture at the new place: by the clock, and in main-thread work."""
+    clock: list[float] = []
+    work: list[float] = []
+    for _ in range(DROP_ROUNDS):
+        steps = hands.drop(page, canvas)
+        while next(steps, None):
+            with traced(cdp) as trace:
+                next(steps)
+            clock.append(page.evaluate("window.dropped"))
+            work.append(trace.to_paint_ms(DROPS))
+    row(
+        size,
+        f"from the drop to the painted block, median and worst of {len(clock)}: "
+        f"{statistics.median(clock):.0f}, {max(clock):.0f} ms by the clock, "
+        f"{statistics.median(work):.0f}, {max(work):.0f} ms of the main thread",
+    )
 
 
 def live(browser: Browser, client: Client) -> None:

@@ -9,6 +9,7 @@ import contextlib
 import dataclasses
 import gc
 import html
+import itertools
 import sys
 import time
 import tracemalloc
@@ -19,6 +20,7 @@ import py_trees
 from py_trees.common import Status as PyTreesStatus
 
 from tree_gardener import Tree
+from tree_gardener.runner import Runner
 from tree_gardener.script import compiled
 
 if TYPE_CHECKING:
@@ -164,6 +166,59 @@ def rows(sizes: tuple[int, ...] = SIZES, *, rounds: int = 7) -> list[Row]:
     return found
 
 
+@dataclasses.dataclass(frozen=True)
+class UseRow:
+    """One tree as users run it, in microseconds a tick."""
+
+    what: str
+    bare: float
+    observed: float
+    runner: float
+    session: float
+    lockstep: float
+    hooked: float
+
+    def __str__(self) -> str:
+        others = (self.observed, self.runner, self.session, self.lockstep, self.hooked)
+        return f"{self.what:9} {self.bare:9.2f} | " + " ".join(
+            f"{us:9.2f} ({us / self.bare:5.2f}x)" for us in others
+        )
+
+
+SCRIPT = '<ScriptCondition code="1 &lt; 2"/>'
+
+
+def use_rows(size: int = 1_000, *, rounds: int = 7) -> list[UseRow]:
+    """Trees bare, observed, under a Runner, as in a session, in lock-step, with a hook of every node."""
+    trees = {
+        "full": body(size),
+        "resume": body(size, last="Run"),
+        "reactive": body(size, "ReactiveSequence", last="Run"),
+        "parallel": f"<ParallelAll>{'<Run/>' * (size - 1)}</ParallelAll>",
+        "scripts": f"<Sequence>{SCRIPT * (size - 1)}</Sequence>",
+    }
+    found = []
+    for what, xml in trees.items():
+        bare, observed, run, session, lockstep, hooked = (
+            Tree.from_xml(document(xml), NODES) for _ in range(6)
+        )
+        observed.observe(lambda changes: None)
+        session.observe(lambda changes: None)
+        lockstep.count_results()
+        hooked.add_hook(after=lambda node, status: None)
+        ticks = (bare.tick_exactly_once, observed.tick_exactly_once)
+        runs = (_under_runner(tree) for tree in (run, session, lockstep, hooked))
+        found.append(UseRow(what, *race(*ticks, *runs, rounds=rounds)))
+    return found
+
+
+def _under_runner(tree: Tree) -> Callable[[], object]:
+    """Ticks a tree as a session does: by a Runner, at each of its times."""
+    runner = Runner(tree, tick_hz=20, on_finish="repeat")
+    times = itertools.count()
+    return lambda: runner.tick_due(next(times) * 0.05)
+
+
 CONDITIONS = (
     "battery &gt; 20.0",
     "count &lt;= 7 &amp;&amp; ready",
@@ -263,6 +318,11 @@ def main() -> None:
     )
     for row in rows():
         print(row, flush=True)
+    print("\n1,000 nodes as they are run; in brackets the ratio to the bare tick")
+    heads = ("observed", "Runner", "session", "lock-step", "hook of all")
+    print(f"{'tick':9} {'bare':>9} | " + " ".join(f"{head:>18}" for head in heads))
+    for use_row in use_rows():
+        print(use_row, flush=True)
     print(
         f"\n{'1,000 ScriptConditions':24} {'ours':>10} {'evaluator':>10} {'BT.CPP':>10} | evaluator  BT.CPP"
     )

@@ -44,8 +44,72 @@ def drag(page: Page, canvas: Locator, steps: int) -> Iterator[None]:
     page.wait_for_timeout(SETTLED_MS)
 
 
+# Answers once the block that is let go has been painted at its new place, with the ms since it was let go.
+DROPPED = """(canvas, id) => {
+  const at = () => canvas.querySelector(`.react-flow__node[data-id="${id}"]`);
+  const before = at().style.transform;
+  window.dropped = new Promise((done) => {
+    const listening = { capture: true, once: true };
+    const onUp = (event) => {
+      const look = () => {
+        const { transform, translate } = at()?.style ?? { transform: before };
+        if (transform === before || translate) return requestAnimationFrame(look);
+        // What is sent to oneself in a frame arrives after its paint.
+        const { port1, port2 } = new MessageChannel();
+        port1.onmessage = () => done(performance.now() - event.timeStamp);
+        port2.postMessage(null);
+      };
+      requestAnimationFrame(look);
+    };
+    window.addEventListener('pointerup', onUp, listening);
+  });
+}"""
+
+
+# The leaf nearest to the middle of the canvas and its next sibling to the right: id and place of each.
+NEIGHBOURS = """(canvas) => {
+  const all = canvas.getBoundingClientRect();
+  const leaves = [...canvas.querySelectorAll('[data-type=Forward]')].map((leaf) => {
+    const { x, y, width, height } = leaf.getBoundingClientRect();
+    const far = Math.hypot(x + width / 2 - all.x - all.width / 2, y + height / 2 - all.y - all.height / 2);
+    const { id } = leaf.closest('.react-flow__node').dataset;
+    return { id, x: x + width / 2, y: y + height / 2, width, far };
+  });
+  const next = (leaf) =>
+    leaves.find((other) => other.y === leaf.y && other.x > leaf.x && other.x - leaf.x < 1.25 * leaf.width);
+  const pairs = leaves.map((leaf) => [leaf, next(leaf)]).filter(([, right]) => right);
+  return pairs.sort(([a, b], [c, d]) => a.far + b.far - c.far - d.far)[0];
+}"""
+
+
+def drop(page: Page, canvas: Locator) -> Iterator[str]:
+    """Takes a leaf beyond its sibling, and back; yields while it is held, and when it is let go."""
+    page.wait_for_timeout(SETTLED_MS)
+    leaf, sibling = canvas.evaluate(NEIGHBOURS)
+    for way in (1, -1):
+        held, over = (middle_of(canvas, each["id"]) for each in (leaf, sibling))
+        to = (over[0] + way * 0.4 * sibling["width"], over[1])
+        page.mouse.move(*held)
+        page.mouse.down()
+        page.mouse.move(*to, steps=8)
+        page.get_by_test_id("insertion-mark").wait_for()
+        canvas.evaluate(DROPPED, leaf["id"])
+        page.wait_for_timeout(SETTLED_MS)
+        yield "held"
+        page.mouse.up()
+        page.wait_for_timeout(SETTLED_MS)
+        yield "dropped"
+
+
+def middle_of(canvas: Locator, block: str) -> tuple[float, float]:
+    """The middle of a block, in px of the window."""
+    box = canvas.locator(f'.react-flow__node[data-id="{block}"]').bounding_box()
+    assert box
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
 def leaf_of(canvas: Locator) -> tuple[float, float]:
-    """Returns the middle of the leaf that is nearest to the middle of the canvas."""
+    """Returns the middle of the leaf that is nearest to the middle of the canvas, and under no tool."""
     x, y = canvas.evaluate(
         """(canvas) => {
           const middle = (element) => {
@@ -54,7 +118,8 @@ def leaf_of(canvas: Locator) -> tuple[float, float]:
           };
           const [x, y] = middle(canvas);
           const far = ([a, b]) => Math.hypot(a - x, b - y);
-          const leaves = [...canvas.querySelectorAll('[data-type=Forward]')].map(middle);
+          const isInReach = (leaf) => leaf.contains(document.elementFromPoint(...middle(leaf)));
+          const leaves = [...canvas.querySelectorAll('[data-type=Forward]')].filter(isInReach).map(middle);
           return leaves.sort((a, b) => far(a) - far(b))[0];
         }"""
     )

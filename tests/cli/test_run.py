@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gzip
 import json
 import os
 import re
@@ -10,10 +9,13 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
 import pytest
+from mcap.reader import make_reader
+from rosbags.highlevel import AnyReader
 from websockets.sync.client import connect
 from websockets.typing import Origin
 
@@ -118,48 +120,58 @@ def test_a_port_in_use_is_reported_in_one_line():
     assert "Traceback" not in done.stderr
 
 
+def recorded(path):
+    """Returns the messages of a recording by topic, with their times, as another reader finds them."""
+    found: dict[str, list[tuple[int, Any]]] = {}
+    with AnyReader([path]) as reader:
+        for connection, time_ns, data in reader.messages():
+            message = reader.deserialize(data, connection.msgtype)
+            found.setdefault(connection.topic, []).append((time_ns, message))
+    return found
+
+
 @pytest.mark.simulation
-def test_a_run_is_recorded_line_by_line(tmp_path):
-    path = tmp_path / "run.jsonl.gz"
+def test_a_run_is_recorded(tmp_path):
+    path = tmp_path / "run.mcap"
     done = studio("run", EXAMPLE, "--duration", "2", "--record", path)
     assert (done.returncode, done.stderr) == (0, "")
-    with gzip.open(path) as file:
-        head, *lines = [json.loads(line) for line in file]
-    assert (head["format"], head["version"]) == ("bt-studio/recording", 1)
-    assert {line["type"] for line in lines} >= {"event", "scene", "poses", "scan"}
-    commands = [line["command"] for line in lines if line["type"] == "event"]
-    assert {"tree", "tick", "log", "state-changed"} <= set(commands)
-    assert "ack" not in commands
-    times = [line["t"] for line in lines if line["type"] == "poses"]
-    assert times == sorted(times)
+    found = recorded(path)
+    assert {"/bt/tree", "/bt/tick", "/bt/log", "/world/scene", "/world/poses", "/scan"} <= found.keys()
+    assert found["/bt/tree"][0][1].name[0] == "bump and go"
+    assert found["/bt/tick"][-1][1].number > 30
+    assert any("The way is free" in line.text for _, line in found["/bt/log"])
 
 
 @pytest.mark.simulation
 def test_a_run_in_lockstep_is_recorded_the_same_each_time(tmp_path):
-    path = tmp_path / "run.jsonl"
-    options = ["--lockstep", "--duration", "3", "--record", path]
-    recordings = []
-    for _ in range(2):
-        done = studio("run", EXAMPLE, *options)
+    options = ["--lockstep", "--duration", "6", "--record"]
+    runs = []
+    for name in ("a.mcap", "b.mcap"):
+        done = studio("run", EXAMPLE, *options, tmp_path / name)
         assert (done.returncode, done.stderr) == (0, "")
-        recordings.append([json.loads(line) for line in path.read_text().splitlines()])
-    head, *lines = recordings[0]
-    assert (head["format"], head["version"]) == ("bt-studio/recording", 1)
-    assert {line["type"] for line in lines} == {"event", "scene", "poses", "scan"}
-    assert {"tree", "tick"} <= {line["command"] for line in lines if line["type"] == "event"}
-    scans = [line["t"] for line in lines if line["type"] == "scan"]
-    assert len(scans) >= 29
-    assert scans == sorted(scans)
-    for lines in recordings:
-        for line in lines:
-            line.get("data", {}).pop("duration_ms", None)
-    assert recordings[0] == recordings[1]
+        with (tmp_path / name).open("rb") as file:
+            messages = make_reader(file).iter_messages()
+            runs.append([(c.topic, m.log_time, m.data) for _, c, m in messages if c.topic != "/bt/tick"])
+    assert runs[0] == runs[1]
+    found = recorded(tmp_path / "a.mcap")
+    own = {"/bt/tree", "/bt/tick", "/bt/keyframe", "/world/scene", "/world/poses"}
+    assert own | {"/scan", "/odom", "/imu", "/cmd_vel", "/joint_states"} <= found.keys()
+    assert len(found["/scan"]) >= 60
+    assert [time_ns // 10**9 for time_ns, _ in found["/bt/keyframe"]] == [0, 5]
+    assert all(message.world.size for _, message in found["/bt/keyframe"])
+    prints = [
+        [message.fingerprint for _, message in recorded(tmp_path / n)["/bt/tick"]]
+        for n in ("a.mcap", "b.mcap")
+    ]
+    assert prints[0] == prints[1]
+    # The last message is that of the halt after the last tick.
+    assert [tick.number for _, tick in found["/bt/tick"]] == [*range(1, 121), 120]
 
 
 def test_a_recording_that_cannot_be_written_is_reported(tmp_path):
-    done = studio("run", EXAMPLE, "--lockstep", "--record", tmp_path / "missing" / "run.jsonl")
+    done = studio("run", EXAMPLE, "--lockstep", "--record", tmp_path / "missing" / "run.mcap")
     assert done.returncode == 1
-    assert "run.jsonl: cannot be written: No such file or directory" in done.stderr
+    assert "run.mcap: cannot be written: No such file or directory" in done.stderr
     assert "Traceback" not in done.stderr
 
 
@@ -167,6 +179,7 @@ def test_a_recording_that_cannot_be_written_is_reported(tmp_path):
     ("arguments", "text"),
     [
         (["--lockstep", "--universe", "none"], "needs a simulated world"),
+        (["--record", "run.jsonl"], "'run.jsonl' must end with .mcap"),
     ],
 )
 def test_what_lockstep_cannot_do_is_said_at_once(arguments, text):

@@ -10,7 +10,7 @@ import pytest
 
 from backend.cli import main as cli
 from tests.translator.conftest import EXAMPLES, ROOT
-from translator import load, to_xml
+from translator import load, to_models_xml, to_xml, to_xsd
 from translator.archive import read_folder
 
 EXAMPLE = str(ROOT / "examples" / EXAMPLES[0])
@@ -76,6 +76,8 @@ def test_translate(run, tmp_path):
     assert run("translate", EXAMPLE, "-o", tmp_path / "o.xml", "--self-contained") == (0, "", "")
     assert "<Code>" in (tmp_path / "o.xml").read_text()
     assert run("translate", EXAMPLE, "--form-2024")[1].split("\n")[1] == '<Root name="Tree Root">'
+    assert run("translate", EXAMPLE, "--models") == (0, to_models_xml(project), "")
+    assert run("translate", EXAMPLE, "--xsd") == (0, to_xsd(project), "")
     document = json.loads(run("translate", EXAMPLE, "--json")[1])
     assert document["files"] == {"MainTree.xml": to_xml(project)}
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from translator.values import Fit, describe, fit, outside
+from translator.values import Fit, choices, describe, fit, outside, type_label
 
 
 @pytest.mark.parametrize(
@@ -22,6 +22,11 @@ from translator.values import Fit, describe, fit, outside
         ("list[int]", "json:[1]", Fit.GOOD),
         ("list[int]", "json:{}", Fit.BAD),
         ("any", "whatever", Fit.GOOD),
+        ("Color[RED;GREEN]", "GREEN", Fit.GOOD),
+        ("Color[RED;GREEN]", "7", Fit.GOOD),
+        ("Color[RED;GREEN]", "BLUE", Fit.BAD),
+        ("Color[RED;GREEN]", "12x", Fit.LOOSE),
+        ("Color[RED;GREEN]", "99999999999", Fit.RANGE),
     ],
 )
 def test_a_literal_suits_its_type_or_not(type_: str, text: str, suits: Fit) -> None:
@@ -33,3 +38,9 @@ def test_a_number_that_a_type_cannot_hold_is_named_with_the_limits() -> None:
     assert outside("double", "1e-400") == ("1e-400", "4.9e-324", "1.8e308")
     assert outside("double", "inf") is None
     assert describe("list[int]").startswith("a list")
+
+
+def test_an_enumeration_is_named_with_its_names() -> None:
+    assert choices("Color[RED;GREEN]") == ["RED", "GREEN"]
+    assert describe("Color[RED;GREEN]") == "one of RED, GREEN"
+    assert [type_label(each) for each in ("Color[RED]", "list[int]", "int")] == ["Color", "list[int]", "int"]

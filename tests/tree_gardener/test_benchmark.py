@@ -24,6 +24,12 @@ def test_rows_can_be_printed() -> None:
         assert row.ours > 0
 
 
+def test_rows_of_uses_can_be_printed() -> None:
+    for row in engine.use_rows(4, rounds=1):
+        assert row.what in str(row)
+        assert row.bare > 0
+
+
 def test_rows_of_scripts_can_be_printed() -> None:
     for row in engine.script_rows(4, rounds=1):
         assert row.what in str(row)

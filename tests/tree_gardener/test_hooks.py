@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import collections
+from typing import TYPE_CHECKING, Final
 
 import pytest
+from py_trees.behaviour import Behaviour
 from py_trees.common import Status as PyTreesStatus
 
+from tests.tree_gardener.fuzz.generate import generate
+from tests.tree_gardener.test_observe import tree_of
 from tests.tree_gardener.trees import leaf, load, recording
-from tree_gardener import Status
+from tree_gardener import Status, TickError
 from tree_gardener.hooks import Hook, Hooks
 
 if TYPE_CHECKING:
     from tree_gardener.node import Node
 
 R, S, F = PyTreesStatus.RUNNING, PyTreesStatus.SUCCESS, PyTreesStatus.FAILURE
+RESULTS: Final = (Status.SUCCESS, Status.FAILURE, Status.RUNNING, Status.SKIPPED)
+SEEDS: Final = 100
 
 
 def test_a_hook_before_a_node_takes_its_place() -> None:
@@ -74,4 +80,66 @@ def test_a_hook_of_one_node_applies_to_that_alone() -> None:
     tree = load("<Sequence><Succeeding/><Succeeding/></Sequence>")
     hooks = Hooks(tree)
     hooks.hooks.append(Hook(2, None, None))
-    assert [hooks.applies(node) for node in tree.nodes] == [False, True, False]
+    entries = [hooks.entry(node, node.execute) for node in tree.nodes]
+    plain = [node.execute for node in tree.nodes]
+    assert [entry != own for entry, own in zip(entries, plain, strict=True)] == [False, True, False]
+
+
+def test_results_are_counted_as_hooks_see_them() -> None:
+    for seed in range(31_000, 31_000 + SEEDS):
+        case = generate(seed)
+        counted, hooked = tree_of(case), tree_of(case)
+        counts = counted.count_results()
+        assert counted.count_results() is counts
+        seen = collections.Counter[tuple[int, Status]]()
+
+        def note(node: Node, status: Status, seen: collections.Counter[tuple[int, Status]] = seen) -> None:
+            seen[node.uid, status] += 1
+
+        hooked.add_hook(after=note)
+        for _ in range(case.ticks):
+            try:
+                counted.tick_exactly_once()
+            except TickError:
+                with pytest.raises(TickError):
+                    hooked.tick_exactly_once()
+                break
+            hooked.tick_exactly_once()
+        for node, count in zip(counted.nodes, counts, strict=True):
+            one = {status: seen[node.uid, status] for status in RESULTS}
+            found = (count.success, count.failure, count.running, count.skipped)
+            assert found == tuple(one.values()), f"seed {seed}, node {node.uid}"
+            assert count.ticks == sum(one.values())
+
+
+def test_a_count_includes_what_hooks_decided() -> None:
+    tree = load("<Sequence><Succeeding/></Sequence>")
+    counts = tree.count_results()
+    remove = tree.add_hook(before=lambda node: Status.FAILURE, node=2)
+    tree.tick_exactly_once()
+    remove()
+    tree.tick_exactly_once()
+    assert [(count.success, count.failure) for count in counts] == [(1, 1), (1, 1)]
+
+
+def test_leaves_are_marked_in_memory_that_may_be_replaced() -> None:
+    seen: list[tuple[int, int]] = []
+
+    class Asking(Behaviour):
+        def update(self) -> PyTreesStatus:
+            seen.append((tree.current_uid, memory[0]))
+            return PyTreesStatus.RUNNING
+
+    memory = [0]
+    tree = load("<Sequence><Succeeding/><Asking/></Sequence>", nodes={"Asking": Asking})
+    tree.tick_exactly_once()
+    tree.mark_leaves()
+    tree.tick_exactly_once()
+    tree.current = memory
+    tree.tick_exactly_once()
+    tree.add_hook(after=lambda node, status: None)
+    tree.tick_exactly_once()
+    tree.mark_leaves(on=False)
+    tree.tick_exactly_once()
+    assert seen == [(0, 0), (3, 0), (3, 3), (3, 3), (0, 0)]
+    assert (tree.current_uid, tree.slowest) == (0, (0.0, 0))

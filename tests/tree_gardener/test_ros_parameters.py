@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tree_gardener.ros_parameters import NAMES, ParameterError, read_arguments
+from tree_gardener.ros_parameters import ParameterError, ServerParameters, read_arguments
 
 
 def test_the_words_of_a_command_line_are_read() -> None:
@@ -16,4 +16,12 @@ def test_the_words_of_a_command_line_are_read() -> None:
 def test_a_word_that_is_no_parameter_is_refused(word: str) -> None:
     with pytest.raises(ParameterError):
         read_arguments([word])
-    assert "tick_hz" in NAMES
+
+
+def test_a_server_has_parameters_of_its_own() -> None:
+    words = ["--action_name=/run", "--on_new_goal=queue"]
+    assert read_arguments(words, ServerParameters) == {"action_name": "/run", "on_new_goal": "queue"}
+    with pytest.raises(ParameterError, match="--on_new_goal=…"):
+        read_arguments(["--on_finish=repeat"], ServerParameters)
+    with pytest.raises(ParameterError):
+        read_arguments(words)

@@ -149,6 +149,15 @@ def ticking(durations_s: list[float]) -> Callable[[], float]:
     return lambda: next(iterator)
 
 
+def test_leaves_are_measured_only_with_a_callback_for_overruns() -> None:
+    subject = runner(R)
+    subject.tick_due(0.0)
+    assert subject.tree.slowest == (0.0, 0)
+    subject = runner(R, overrun=lambda overrun: None)
+    subject.tick_due(0.0)
+    assert subject.tree.slowest[1] == 1
+
+
 def test_an_overrun_names_the_slow_node() -> None:
     overruns: list[Overrun] = []
     subject = runner(R, overrun=overruns.append, measure=ticking([0.02, 0.35, 0.02]))

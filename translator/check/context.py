@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from translator.diagnostic import Diagnostic, Place, Severity, diagnostic
 from translator.diagram import diagram_path
+from translator.enums import constants
 from translator.tree import Node, Tree, reachable_trees
 
 if TYPE_CHECKING:
@@ -31,6 +32,11 @@ class Context:
         if type_ not in self._models:
             self._models[type_] = self.project.model(type_)
         return self._models[type_]
+
+    @cached_property
+    def constants(self) -> dict[str, int]:
+        """Returns the numbers that scripts know by name."""
+        return constants(self.project.enums)
 
     @cached_property
     def reachable(self) -> set[str]:

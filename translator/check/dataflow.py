@@ -75,10 +75,13 @@ def _keys_of(context: Context, tree: Tree, keys: dict[str, _Keys]) -> _Keys:
     for node in tree.walk():
         for attribute, code in scripts_of(context, node):
             names = script_names(code)
+            known = context.constants
             own.surely.update(names.written)
             for name in names.written:
                 own.written.setdefault(name, _Use(node, ""))
             for name in names.read:
+                if name in known:
+                    continue  # an enumeration's name comes before an entry's
                 own.read.setdefault(name, _Use(node, attribute))
         if node.is_subtree:
             _add_call(own, node, keys.get(node.tree))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,7 @@ from translator.ros_interfaces import full_name, has_package, interface_fields, 
 from translator.ros_nodes import ROS_NODES, with_fields
 from translator.text import is_xml_name
 from translator.tree import BLANKS, Node, Tree, pointer
-from translator.values import Fit, describe, fit, outside
+from translator.values import Fit, describe, fit, outside, type_label
 
 if TYPE_CHECKING:
     from translator.check.context import Context
@@ -88,6 +89,11 @@ def _check_port(context: Context, tree: Tree, node: Node, port: PortModel) -> No
 
 def check_literal(context: Context, tree: Tree, node: Node, port: PortModel, text: str) -> None:
     """Reports a literal that is not of its port's type."""
+    if port.is_object and text.startswith("json:") and not _is_json(text[len("json:") :]):
+        context.report(
+            "BT0204", tree, node, port.name, port=port.name, value=text, wanted="JSON after “json:”"
+        )
+        return
     suits = fit(port.type, text)
     values = {"port": port.name, "value": text, "wanted": describe(port.type)}
     if suits is Fit.RANGE and (found := outside(port.type, text)) is not None:
@@ -97,6 +103,14 @@ def check_literal(context: Context, tree: Tree, node: Node, port: PortModel, tex
         context.report("BT0204", tree, node, port.name, **values)
     elif suits is Fit.LOOSE:
         context.report("BT0206", tree, node, port.name, **values)
+
+
+def _is_json(text: str) -> bool:
+    try:
+        json.loads(text)
+    except (ValueError, RecursionError):
+        return False
+    return True
 
 
 def _names_entry(node: Node, port: PortModel) -> bool:
@@ -149,7 +163,7 @@ def _check_entry(context: Context, tree: Tree, node: Node, port: PortModel, entr
             node,
             port.name,
             key=key,
-            type=port.type,
-            other_type=first.type,
+            type=type_label(port.type),
+            other_type=type_label(first.type),
             other=f"{first.node.label} ({first.node.id}), port {first.port}",
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 EXPLICIT = {"Control": "control", "Decorator": "decorator", "Action": "action", "Condition": "condition"}
-OTHER_TAGS = {"TreeNodesModel", "include", "Code"}
+OTHER_TAGS = {"TreeNodesModel", "include", "Code", "Enums"}
 _TYPE_NAMES = {cpp: name for name, cpp in reversed(CPP_TYPES.items())} | {
     "BT::AnyTypeAllowed": "any",
     "std::string": "string",
@@ -27,6 +28,7 @@ _TYPE_NAMES = {cpp: name for name, cpp in reversed(CPP_TYPES.items())} | {
     "unsigned": "uint",
     "uint32_t": "uint",
 }
+_WHOLE = re.compile(r"-?[0-9]{1,20}")
 _DIRECTIONS = {tag: direction for direction, tag in PORT_TAGS.items()}
 
 
@@ -51,6 +53,7 @@ class Document:
     models: dict[str, NodeModel] = field(default_factory=dict)
     includes: list[Element] = field(default_factory=list)
     code: dict[str, str] = field(default_factory=dict)
+    enums: dict[str, dict[str, int | str]] = field(default_factory=dict)
     kinds: dict[str, str] = field(default_factory=dict)
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
@@ -104,6 +107,8 @@ class _Reader:
                 self.document.includes.append(element)
             elif element.tag == "Code":
                 self.read_code(element)
+            elif element.tag == "Enums":
+                self.read_enums(element)
             elif element.tag not in OTHER_TAGS:
                 self.report("BT0711", element, tag=element.tag)
 
@@ -111,6 +116,12 @@ class _Reader:
         for child in element.children:
             name = child.attributes.get("name", child.tag)
             self.document.code[name] = child.text
+
+    def read_enums(self, element: Element) -> None:
+        for child in element.children:
+            values = [value.attributes for value in child.children]
+            numbers = {value.get("name", ""): _whole(value.get("value", "")) for value in values}
+            self.document.enums[child.attributes.get("name", "")] = numbers
 
     def read_tree(self, element: Element, taken: set[str]) -> None:
         tree_id = element.attributes.get("ID", "")
@@ -233,6 +244,11 @@ def type_name(cpp: str) -> str:
         inner = type_name(cpp[len("std::vector<") : -1])
         return f"list[{inner}]" if inner in {"int", "double", "bool", "string"} else "any"
     return _TYPE_NAMES.get(cpp, "any") if cpp not in {"script", "status"} else cpp
+
+
+def _whole(text: str) -> int | str:
+    """Returns a number of an enumeration; what is none stays a text, which the project's check reports."""
+    return int(text) if _WHOLE.fullmatch(text) else text
 
 
 def _free(name: str, taken: set[str]) -> str:

@@ -8,6 +8,7 @@ from translator.catalog import NodeModel, PortModel, builtins
 from translator.ros_nodes import direction_of
 from translator.text import is_xml_name
 from translator.tree import SUBTREE, Node, Tree
+from translator.values import type_label
 from translator.xml.attributes import COMMENT, is_free, to_attributes
 from translator.xml.escape import attribute, character_data
 
@@ -116,11 +117,11 @@ def model_lines(project: Project, trees: list[Tree]) -> list[str]:
         model = project.model(type_) or project.imported_model(type_)
         if model is not None:
             lines.extend(
-                _model(EXPLICIT_TAGS.get(model.kind, "Action"), type_, _all_ports(model, seen[type_]))
+                model_element(EXPLICIT_TAGS.get(model.kind, "Action"), type_, _all_ports(model, seen[type_]))
             )
     for tree in trees:
         if tree.ports:
-            lines.extend(_model("SubTree", tree.id, list(tree.ports)))
+            lines.extend(model_element("SubTree", tree.id, list(tree.ports)))
     if not lines:
         return []
     return [f"{INDENT}<TreeNodesModel>", *lines, f"{INDENT}</TreeNodesModel>"]
@@ -145,24 +146,27 @@ def _all_ports(model: NodeModel, seen: Iterable[str]) -> list[PortModel]:
     return ports
 
 
-def _model(tag: str, id_: str, ports: list[PortModel]) -> Iterator[str]:
+def model_element(
+    tag: str, id_: str, ports: list[PortModel], *, indent: str = INDENT, any_type: str | None = None
+) -> Iterator[str]:
+    """Yields the lines of one model; a type without a name in C++ is written as `any_type`, or left out."""
     if not ports:
-        yield f'{INDENT * 2}<{tag} ID="{attribute(id_)}"/>'
+        yield f'{indent * 2}<{tag} ID="{attribute(id_)}"/>'
         return
-    yield f'{INDENT * 2}<{tag} ID="{attribute(id_)}">'
+    yield f'{indent * 2}<{tag} ID="{attribute(id_)}">'
     for port in ports:
-        yield _port(port)
-    yield f"{INDENT * 2}</{tag}>"
+        yield indent * 3 + _port(port, any_type)
+    yield f"{indent * 2}</{tag}>"
 
 
-def _port(port: PortModel) -> str:
+def _port(port: PortModel, any_type: str | None) -> str:
     values = {"name": port.name}
-    if (type_ := cpp_type(port.type)) is not None:
+    if (type_ := cpp_type(port.type) or any_type) is not None:
         values["type"] = type_
     if port.default is not None:
         values["default"] = port.default
     tag = PORT_TAGS[port.direction]
-    opening = f"{INDENT * 3}<{tag}{_written(values)}"
+    opening = f"<{tag}{_written(values)}"
     text = character_data(" ".join(port.description.split()))
     return f"{opening}>{text}</{tag}>" if text else f"{opening}/>"
 
@@ -172,4 +176,4 @@ def cpp_type(type_: str) -> str | None:
     if type_.startswith("list["):
         inner = CPP_TYPES.get(type_[5:-1])
         return f"std::vector<{inner}>" if inner else None
-    return CPP_TYPES.get(type_, type_ if type_ != "any" else None)
+    return CPP_TYPES.get(type_, type_label(type_) if type_ != "any" else None)

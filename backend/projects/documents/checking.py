@@ -25,7 +25,7 @@ log = logging.getLogger(__name__)
 
 UNIVERSES: Final = REPOSITORY / "executor" / "universes"
 # A check only needs to know that the other files exist.
-_CHECKED: Final = ("project.json", "trees/", "actions/", "imports/")
+_CHECKED: Final = ("project.json", "enums.json", "trees/", "actions/", "imports/")
 
 
 def answered(

@@ -1,6 +1,6 @@
 /** Port declarations, and the meaning of port values. */
 
-import { STATUSES } from './values';
+import { namesOf, STATUSES } from './values';
 
 export type PortDirection = 'input' | 'output' | 'inout';
 
@@ -8,8 +8,8 @@ export interface PortSpec {
   readonly name: string;
   readonly direction: PortDirection;
   /**
-   * `int`, `uint`, `double`, `bool`, `string`, `status`, `script`, `any`, `list[…]`, or a type that an action
-   * declares.
+   * `int`, `uint`, `double`, `bool`, `string`, `status`, `script`, `any`, `list[…]`, an enumeration with its
+   * names (`Color[RED;GREEN]`), or a type that an action declares.
    */
   readonly type: string;
   readonly default: string | null;
@@ -75,4 +75,5 @@ export function widgetOf(type: string): Widget {
 }
 
 /** Returns the values of an enumerated type. */
-export const choicesOf = (type: string): readonly string[] => (type === 'status' ? STATUSES : []);
+export const choicesOf = (type: string): readonly string[] =>
+  type === 'status' ? STATUSES : (namesOf(type) ?? []);

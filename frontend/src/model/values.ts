@@ -18,6 +18,16 @@ const WORST: readonly Fit[] = ['bad', 'range', 'loose'];
 
 export const STATUSES = ['SUCCESS', 'FAILURE', 'RUNNING', 'SKIPPED'] as const;
 
+/** Returns the names of an enumeration's type (`Color[RED;GREEN]`); null for another type. */
+export function namesOf(type: string): readonly string[] | null {
+  if (!type.endsWith(']') || type.startsWith('list[')) return null;
+  return type.slice(type.indexOf('[') + 1, -1).split(';');
+}
+
+/** Returns the name of a type, without the names of an enumeration. */
+export const typeLabel = (type: string): string =>
+  namesOf(type) === null ? type : (type.split('[')[0] ?? type);
+
 /** Returns the number at the beginning of a literal; null if there is none. */
 function numberIn(type: string, text: string): string | undefined {
   if (type === 'double') return REAL.exec(text)?.[0];
@@ -47,6 +57,7 @@ export function outside(type: string, text: string): Outside | null {
     const found = text.split(';').map((part) => outside(type.slice(5, -1), part));
     return found.find((each) => each !== null) ?? null;
   }
+  if (namesOf(type) !== null) return outside('int', text);
   if (type !== 'int' && type !== 'uint' && type !== 'double') return null;
   const number = numberIn(type, text);
   if (number === undefined) return null;
@@ -58,6 +69,7 @@ export function outside(type: string, text: string): Outside | null {
 
 /** Returns the part of a literal that is read as the value; null if no part is. */
 export function partRead(type: string, text: string): string | null {
+  if (namesOf(type) !== null) return partRead('int', text);
   if (type !== 'int' && type !== 'uint' && type !== 'double') return null;
   return outside(type, text) ? null : (numberIn(type, text) ?? null);
 }
@@ -80,6 +92,8 @@ function fitList(item: string, text: string): Fit {
 /** Returns how well a literal matches a type of the catalogue; a type without a check matches everything. */
 export function fit(type: string, text: string): Fit {
   if (type.startsWith('list[')) return fitList(type.slice(5, -1), text);
+  const names = namesOf(type);
+  if (names !== null) return names.includes(text) ? 'good' : fit('int', text);
   switch (type) {
     case 'int':
     case 'uint':

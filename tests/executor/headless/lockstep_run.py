@@ -21,14 +21,19 @@ def main() -> None:
         away = [math.dist((x, y), actor.position) for actor in world.actors]
         ticks.append([world.time_s, away[0] if away else None, None])
 
-    count = lockstep._Run._count
+    make_tree = lockstep._Run._make_tree
 
-    def note(run: Any, node: Any, status: Any) -> None:
-        count(run, node, status)
-        if node.type == "DetectPerson":
-            ticks[-1][2] = status.name == "SUCCESS"
+    def note(node: Any, status: Any) -> None:
+        ticks[-1][2] = status.name == "SUCCESS"
 
-    lockstep._Run._count = note  # type: ignore[method-assign, assignment]
+    def make_noted(run: Any, project: Any) -> Any:
+        tree = make_tree(run, project)
+        for node in tree.nodes:
+            if node.type == "DetectPerson":
+                tree.add_hook(after=note, node=node)
+        return tree
+
+    lockstep._Run._make_tree = make_noted  # type: ignore[method-assign, assignment]
     with contextlib.redirect_stdout(sys.stderr):
         report = run_lockstep(project, LockstepOptions(duration_s=duration_s, seed=seed), watch=watch)
     print(json.dumps({"report": report.to_json(), "same": report.without_wall_times(), "ticks": ticks}))  # noqa: T201 - the result

@@ -1,23 +1,46 @@
-"""A run as lines of JSON."""
+"""The file of a recorded run."""
 
 from __future__ import annotations
 
-import gzip
-import json
-from typing import TYPE_CHECKING
+from pathlib import Path
 
-from executor.headless.recording import FORMAT, VERSION, Recording
+import pytest
+from mcap.reader import make_reader
 
-if TYPE_CHECKING:
-    from pathlib import Path
+from executor.headless.errors import HeadlessError
+from executor.headless.recording import Recording, check_name, open_recording
+from translator import open_files
+
+FILES = {
+    "project.json": b'{"format":"bt-studio/project","version":1,"name":"P","universe":"empty"}',
+    "a.txt": b"x",
+}
 
 
-def test_events_are_lines_and_replies_are_left_out(tmp_path: Path) -> None:
-    path = tmp_path / "run.jsonl.gz"
-    with Recording(path, {"project": "P"}) as recording:
-        recording.event({"command": "tick", "t": 1.0, "tick": 1, "data": {"n": 1}, "client": "x"})
-        recording.event({"command": "ack", "data": {}})
-    with gzip.open(path) as file:
-        head, event = map(json.loads, file)
-    assert head == {"format": FORMAT, "version": VERSION, "project": "P"}
-    assert event == {"type": "event", "t": 1.0, "tick": 1, "command": "tick", "data": {"n": 1}}
+def test_it_holds_the_files_and_what_ran(tmp_path):
+    path = tmp_path / "run.mcap"
+    project = open_files(FILES)
+    open_recording(path, project, universe=None, robot="rover", seed=4).close()
+    with path.open("rb") as file:
+        reader = make_reader(file)
+        (about,) = (one.metadata for one in reader.iter_metadata())
+        attached = {one.name: one.data for one in reader.iter_attachments()}
+    assert (about["universe"], about["robot"], about["seed"]) == ("empty", "rover", "4")
+    assert {"bt_studio", "python", "platform", "project"} <= about.keys()
+    assert attached["project/a.txt"] == b"x"
+
+
+def test_other_endings_are_refused_in_one_sentence(tmp_path):
+    with pytest.raises(
+        HeadlessError, match=r"run\.jsonl: a recording is an MCAP file, so its name ends with \.mcap\.$"
+    ):
+        check_name(Path("run.jsonl"))
+    with pytest.raises(HeadlessError, match="cannot be written: No such file"):
+        open_recording(tmp_path / "no" / "run.mcap", open_files(FILES), universe=None, robot=None, seed=0)
+
+
+def test_it_is_complete_when_it_is_closed(tmp_path):
+    path = tmp_path / "run.mcap"
+    with Recording(path, {}, {}):
+        pass
+    assert path.read_bytes().endswith(b"\x89MCAP0\r\n")

@@ -32,3 +32,8 @@ def test_constants_are_no_fields():
 def test_a_missing_definition_is_named(name):
     with pytest.raises(DefinitionError, match=r"is not there|is not the name"):
         full_text(name)
+
+
+def test_packages_that_set_up_builds_are_known():
+    assert "MSG: geometry_msgs/TransformStamped" in full_text("tf2_msgs/msg/TFMessage")
+    assert [field.name for field in fields_of("vision_msgs/msg/Point2D")] == ["x", "y"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.translator.check.finding import LEAF, find, is_found_at_its_place
+from tests.translator.check.finding import LEAF, find, findings, is_found_at_its_place
 from translator.check.port import check_ports
 
 GOING = "nav2_msgs/action/NavigateToPos"
@@ -65,3 +65,21 @@ def test_finding_and_its_place(make_project, name):
 def test_the_nearest_name_of_a_port_is_suggested(make_project):
     project = make_project({"n1": {"type": "Act", "ports": {"sped": "1"}}})
     assert "speed" in find(check_ports, project, "BT0202").hint
+
+
+PLACED = """
+import py_trees
+
+from poses import Pose
+from tree_gardener import Port
+
+
+class Placed(py_trees.behaviour.Behaviour):
+    INPUT_PORTS = {"pose": Port(Pose)}
+"""
+
+
+@pytest.mark.parametrize(("text", "codes"), [("json:{", ["BT0204"]), ('json:{"x": 1}', []), ("1,2", [])])
+def test_a_literal_in_json_of_a_class_must_be_json(make_project, text, codes):
+    project = make_project({"n1": {"type": "Placed", "ports": {"pose": text}}}, actions={"Placed": PLACED})
+    assert [found.code for found in findings(check_ports, project)] == codes

@@ -86,6 +86,13 @@ describe('a new file', () => {
     expect(navigator.openFile).toHaveBeenCalledWith('assets/a.md', undefined);
   });
 
+  it('is enums.json with an example', async () => {
+    openNew('file');
+    await name('enums.json');
+    await ok();
+    expect(store().currentText('enums.json')).toContain('"RED": 0');
+  });
+
   it('needs a valid name, and reports that once something was typed', async () => {
     openNew('action');
     expect(screen.queryByText('A name is needed.')).toBeNull();

@@ -2,6 +2,7 @@ import { notifications } from '@mantine/notifications';
 import { Button, Group, Modal, Radio, Stack, TextInput } from '@mantine/core';
 import { useState, type FormEvent } from 'react';
 import { useTranslation } from 'react-i18next';
+import { ENUMS_FILE, NEW_ENUMS } from '@/model/enums';
 import { useProjectStore } from '@/store/project';
 import { documentName, kindOf } from '@/store/project/moving';
 import { openFile, openTree } from '@/store/project/navigation';
@@ -40,7 +41,8 @@ function create(kind: NamedKind, name: string, template: ActionTemplate): void {
     project.addTree(name);
     return openTree(name);
   }
-  project.addFile(path, kind === 'action' ? actionSource(name, template) : '');
+  const empty = path === ENUMS_FILE ? NEW_ENUMS : '';
+  project.addFile(path, kind === 'action' ? actionSource(name, template) : empty);
   openFile(path);
 }
 

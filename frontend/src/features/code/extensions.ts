@@ -3,6 +3,7 @@ import { EditorState, type Extension } from '@codemirror/state';
 import { highlightActiveLineGutter, highlightSpecialChars, rectangularSelection } from '@codemirror/view';
 import { basics } from './basics';
 import { languageOf } from './modes';
+import { absenceKeys } from './language/absence';
 import { languageSupport } from './language/client';
 import { saveKeys } from './language/keys';
 
@@ -17,5 +18,6 @@ export function extensionsFor(path: string, label: string): Extension {
     highlightSelectionMatches(),
     languageOf(path),
     languageSupport(path),
+    absenceKeys(path),
   ];
 }

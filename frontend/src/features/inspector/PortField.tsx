@@ -4,6 +4,7 @@ import { useEffect, useId, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { keyIn } from '@/model/keys/entry';
 import { readPortText, type PortSpec } from '@/model/ports';
+import { typeLabel } from '@/model/values';
 import type { ShownPort } from '@/store/session/values/shown';
 import type { PortMark } from '@/store/run/portMarks';
 import { LivePort } from './ports/LivePort';
@@ -102,7 +103,7 @@ export function PortField(props: PortFieldProps) {
           </span>
         )}
         <span className={classes['portType']}>
-          {port.type !== 'any' && port.type}
+          {port.type !== 'any' && typeLabel(port.type)}
           {port.direction !== 'input' && !isExtra && ` · ${t(`directions.${port.direction}`)}`}
           {port.required && ` · ${t('required')}`}
         </span>

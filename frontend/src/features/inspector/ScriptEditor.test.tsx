@@ -3,7 +3,8 @@ import { forEachDiagnostic } from '@codemirror/lint';
 import { EditorView } from '@codemirror/view';
 import { act, screen } from '@testing-library/react';
 import { useState } from 'react';
-import { describe, expect, it, vi } from 'vitest';
+import { describe, expect, it, onTestFinished, vi } from 'vitest';
+import { useProjectStore } from '@/store/project';
 import { show } from '../../../harness/testing';
 import { ScriptEditor } from './ScriptEditor';
 
@@ -72,6 +73,13 @@ describe('ScriptEditor', () => {
     const { unmount } = open('x');
     unmount();
     expect(document.querySelector('.cm-editor')).toBeNull();
+  });
+
+  it('offers the names of enums.json', async () => {
+    const before = useProjectStore.getState();
+    onTestFinished(() => useProjectStore.setState(before, true));
+    before.addFile('enums.json', '{"enums": {"Color": {"GREEN": 7}}}');
+    expect(await completionsOf('GR')).toEqual(['GREEN']);
   });
 
   it('offers keys first, then statuses and booleans', async () => {

@@ -7,7 +7,10 @@ import { EditorView, keymap } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
 import { useEffect, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
+import { ENUMS_FILE, enumNames } from '@/model/enums';
 import { isProblem, readScript } from '@/model/script';
+import { useProjectStore } from '@/store/project';
+import { currentText } from '@/store/project/files';
 import { scriptText } from '@/ui/scriptText';
 import classes from './Inspector.module.css';
 
@@ -52,7 +55,7 @@ const look = EditorView.theme({
   },
 });
 
-/** Returns the completion of scripts: blackboard keys, statuses and booleans. */
+/** Returns the completion of scripts: blackboard keys, names of enumerations, statuses and booleans. */
 function completions(keys: () => readonly string[]): CompletionSource {
   return (context) => {
     const word = context.matchBefore(/[@A-Za-z_]\w*/);
@@ -62,6 +65,10 @@ function completions(keys: () => readonly string[]): CompletionSource {
       from: word?.from ?? context.pos,
       options: [
         ...keys().map((label) => ({ label, type: 'variable', boost: 1 })),
+        ...enumNames(currentText(useProjectStore.getState(), ENUMS_FILE)).map((label) => ({
+          label,
+          type: 'enum',
+        })),
         ...STATUSES.map((label) => ({ label, type: 'enum' })),
         ...['true', 'false'].map((label) => ({ label, type: 'constant' })),
       ],

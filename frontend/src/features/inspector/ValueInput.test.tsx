@@ -126,3 +126,13 @@ it('edits a script in its own editor', async () => {
   expect(onChange).not.toHaveBeenCalled();
   expect(await screen.findByRole('textbox', { name: 'speed' })).toBeInTheDocument();
 });
+
+describe('an enumeration', () => {
+  it('offers its names, and shows a number that was written', async () => {
+    const { field, onChange } = open('Color[RED;GREEN]', '9');
+    expect(field()).toHaveValue('9');
+    await user.click(field());
+    await user.click(screen.getByRole('option', { name: 'GREEN' }));
+    expect(onChange).toHaveBeenLastCalledWith('GREEN');
+  });
+});

@@ -50,7 +50,7 @@ export function ValueInput({ port, labelledBy, value, keys, error, onChange }: V
     return (
       <Select
         {...shared}
-        data={[...choicesOf(port.type)]}
+        data={[...new Set([...choicesOf(port.type), ...(current === '' ? [] : [current])])]}
         value={value ?? port.default}
         error={error !== null}
         allowDeselect={false}

@@ -1,0 +1,165 @@
+"""Records a tree: its nodes, each tick, each write to the blackboard in order, and its state at a moment."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any, Final
+
+from executor.recorder.values import NO_WRITE, canonical, fingerprint, value_json
+from tree_gardener import Status
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from tree_gardener import TickChanges, TickError, Tree
+    from tree_gardener.blackboard import Entry
+
+    Write = Callable[[str, str, Mapping[str, Any]], None]
+
+__all__ = ["STATUS_CODES", "TreeRecorder"]
+
+STATUS_CODES: Final[dict[Status, int]] = {
+    Status.IDLE: 0,
+    Status.RUNNING: 1,
+    Status.SUCCESS: 2,
+    Status.FAILURE: 3,
+    Status.SKIPPED: 4,
+}
+_PLAIN: Final = (bool, int, float, str, type(None))
+_Row = tuple[str, str, str, str, bool, int]
+
+
+class TreeRecorder:
+    """Writes a tree into a recording, from now on.
+
+    Args:
+        tree: the tree.
+        write: is called with topic, name of the type, and fields of each message.
+        now_ns: returns the simulated time in ns.
+        describe: returns a short text for a value without a JSON form.
+        generation: the number of the tree in the run; uids mean nothing without it.
+    """
+
+    def __init__(
+        self,
+        tree: Tree,
+        write: Write,
+        now_ns: Callable[[], int],
+        describe: Callable[[Any], str],
+        generation: int = 1,
+    ) -> None:
+        self._tree = tree
+        self._write = write
+        self._now_ns = now_ns
+        self._describe = describe
+        self._generation = generation
+        self._rows: list[_Row] = []
+        self._forms: list[tuple[str, str, str, str | None]] = []
+        self._held: dict[int, tuple[Entry, str]] = {}
+        self._write_tree()
+        tree.journal_writes(self._written)
+        tree.observe(self._ticked)
+
+    def raised(self, error: TickError) -> None:
+        """Writes an exception of an action."""
+        fault = {"kind": "exception", "file": error.file, "line": error.line or 0, "message": error.message}
+        fault |= {"traceback": error.traceback_text, "uid": self._uid(error.path)}
+        self._tell("/bt/fault", "Fault", fault)
+
+    def says(self, level: str, text: str, path: str = "", source: str = "session") -> None:
+        """Writes a line about a node, or about none."""
+        line = {"source": source, "level": level, "text": text, "uid": self._uid(path)}
+        self._tell("/bt/log", "Log", line)
+
+    def keyframe(self, step: int, world: bytes) -> None:
+        """Writes the whole state at this moment."""
+        entries = [
+            [board.path, key, entry.type_name, json.loads(self._json(entry))]
+            for board in self._tree.boards
+            for key, entry in board.entries.items()
+        ]
+        fields = {
+            "step": step,
+            "tick": self._tree.tick_number,
+            "generation": self._generation,
+            "status": bytes(STATUS_CODES[node.status] for node in self._tree.nodes),
+            "blackboard_json": json.dumps(entries, ensure_ascii=False, separators=(",", ":")),
+            "world": world,
+        }
+        self._tell("/bt/keyframe", "Keyframe", fields)
+
+    # --- inside ---
+
+    def _tell(self, topic: str, name: str, fields: dict[str, Any]) -> None:
+        self._write(topic, name, {"stamp": self._now_ns(), **fields})
+
+    def _uid(self, path: str) -> int:
+        return next((node.uid for node in self._tree.nodes if node.path == path), 0) if path else 0
+
+    def _json(self, entry: Entry) -> str:
+        return value_json(None if entry.type_name == "empty" else entry.value, self._describe)
+
+    def _write_tree(self) -> None:
+        nodes = self._tree.nodes
+        fields = {
+            "generation": self._generation,
+            "uid": [node.uid for node in nodes],
+            "parent": [node.parent.uid if node.parent is not None else 0 for node in nodes],
+            "type": [node.type for node in nodes],
+            "kind": [node.KIND.value for node in nodes],
+            "name": [node.name for node in nodes],
+            "path": [node.path for node in nodes],
+            "node_id": [node.node_id for node in nodes],
+            "tree_id": [node.tree_id for node in nodes],
+            "ports_json": [canonical(dict(node.ports)) or "{}" for node in nodes],
+        }
+        self._tell("/bt/tree", "Tree", fields)
+
+    def _written(self, entry: Entry, writer: int) -> None:
+        """Copies a write while the value is what was written; an action may change it later."""
+        board = entry.board
+        is_removed = board.entries.get(entry.key) is not entry
+        self._add(entry, writer, is_removed=is_removed)
+        if is_removed or isinstance(entry.value, _PLAIN):
+            self._held.pop(id(entry), None)
+        elif (form := canonical(entry.value)) is not None:
+            self._held[id(entry)] = (entry, form)
+
+    def _add(self, entry: Entry, writer: int, *, is_removed: bool = False) -> None:
+        scope, kind = entry.board.path, entry.type_name
+        is_empty = is_removed or kind == "empty"
+        text = "null" if is_empty else value_json(entry.value, self._describe)
+        self._rows.append((scope, entry.key, kind, text, is_removed, writer))
+        self._forms.append((scope, entry.key, kind, None if is_empty else canonical(entry.value)))
+
+    def _find_changed_in_place(self) -> None:
+        for key, (entry, form) in list(self._held.items()):
+            now = canonical(entry.value)
+            if now is not None and now != form:
+                self._held[key] = (entry, now)
+                self._add(entry, NO_WRITE)
+
+    def _ticked(self, changes: TickChanges) -> None:
+        self._find_changed_in_place()
+        changed = [(uid, STATUS_CODES[status]) for uid, status in changes.changed]
+        flashed = [(uid, STATUS_CODES[status]) for uid, status in changes.flashed]
+        rows, self._rows = self._rows, []
+        forms, self._forms = self._forms, []
+        if rows:
+            scopes, keys, kinds, texts, removed, writers = (
+                list(column) for column in zip(*rows, strict=True)
+            )
+            fields = {"tick": changes.tick, "scope": scopes, "key": keys, "type": kinds, "value_json": texts}
+            fields |= {"removed": removed, "writer_uid": writers}
+            self._tell("/bt/blackboard", "Blackboard", fields)
+        tick = {
+            "generation": self._generation,
+            "number": changes.tick,
+            "changed_uid": [uid for uid, _ in changed],
+            "changed_status": bytes(status for _, status in changed),
+            "flashed_uid": [uid for uid, _ in flashed],
+            "flashed_status": bytes(status for _, status in flashed),
+            "duration_ms": changes.duration_s * 1000.0,
+            "fingerprint": fingerprint(changes.tick, changed, flashed, forms),
+        }
+        self._tell("/bt/tick", "Tick", tick)

@@ -1,0 +1,55 @@
+"""Takes the messages of topics for a recording, as CDR; pictures become JPEG, at most ten in a second."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+import simplejpeg
+from sensor_msgs.msg import CompressedImage, Image
+
+from executor.recorder.cdr import encode_object
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["TopicTap", "kind_of"]
+
+PICTURES_HZ: Final = 10.0
+QUALITY: Final = 80
+SLACK_S: Final = 1e-6
+
+
+def kind_of(message: Any) -> str:
+    """Returns the type of a message, as `sensor_msgs/msg/LaserScan`."""
+    return f"{type(message).__module__.partition('.')[0]}/msg/{type(message).__name__}"
+
+
+class TopicTap:
+    """Takes messages.
+
+    Args:
+        write: is called with the topic, the type, the simulated time in s, and the message as CDR.
+    """
+
+    def __init__(self, write: Callable[[str, str, float, bytes], None]) -> None:
+        self._write = write
+        self._pictures_s: dict[str, float] = {}
+
+    def __call__(self, topic: str, message: Any, now_s: float) -> None:
+        """Takes one message."""
+        if isinstance(message, Image):
+            self._picture(topic, message, now_s)
+        else:
+            self._write(topic, kind_of(message), now_s, encode_object(kind_of(message), message))
+
+    def _picture(self, topic: str, message: Any, now_s: float) -> None:
+        """Takes a colour image; depth has no place in a JPEG."""
+        if message.encoding != "rgb8" or now_s < self._pictures_s.get(topic, 0.0):
+            return
+        self._pictures_s[topic] = now_s + 1.0 / PICTURES_HZ - SLACK_S
+        pixels = np.frombuffer(message.data, np.uint8).reshape(message.height, message.width, 3)
+        packed = CompressedImage(header=message.header, format="rgb8; jpeg compressed bgr8")
+        jpeg = simplejpeg.encode_jpeg(pixels, quality=QUALITY, colorspace="RGB", colorsubsampling="420")
+        packed.data = np.frombuffer(jpeg, np.uint8)
+        self._write(f"{topic}/compressed", kind_of(packed), now_s, encode_object(kind_of(packed), packed))

@@ -1,0 +1,25 @@
+import { Prec, type Extension } from '@codemirror/state';
+import { keymap, type Command } from '@codemirror/view';
+import { notifications } from '@mantine/notifications';
+import { t } from '@/i18n';
+import { useLanguageStore } from '@/store/language';
+
+const KEYS = ['F2', 'F12', 'Shift-F12'];
+
+/** Says why a key has no effect; leaves it to its own command while the language server runs. */
+const explain: Command = () => {
+  const { state } = useLanguageStore.getState();
+  if (state.kind === 'ready') return false;
+  const message =
+    state.kind === 'failed'
+      ? t('code:language.failed', { reason: state.reason || t('code:language.lost') })
+      : t(`code:language.${state.kind}`);
+  notifications.show({ id: 'no-python-help', message });
+  return true;
+};
+
+/** The keys of a Python editor that need the language server, for the time in which it does not run. */
+export function absenceKeys(path: string): Extension {
+  if (!path.endsWith('.py')) return [];
+  return Prec.high(keymap.of(KEYS.map((key) => ({ key, run: explain, preventDefault: true }))));
+}

@@ -1,0 +1,118 @@
+"""A tree in a recording: nodes, ticks, writes and keyframes."""
+
+from __future__ import annotations
+
+import json
+
+from executor.recorder.tree_recorder import TreeRecorder
+from executor.recorder.values import NO_WRITE
+from tree_gardener import TickError, Tree
+
+XML = """<root BTCPP_format="4" main_tree_to_execute="Main"><BehaviorTree ID="Main">
+<Sequence name="both">
+<Script code="a := 1; b := 'x'"/><Script code="a := 2"/><AlwaysFailure/>
+</Sequence></BehaviorTree></root>"""
+
+
+def recorded(xml=XML):
+    said: list = []
+    tree = Tree.from_xml(xml)
+    recorder = TreeRecorder(
+        tree, lambda topic, name, fields: said.append((topic, name, fields)), lambda: 5, lambda _: "?"
+    )
+    return tree, recorder, said
+
+
+def of(said, topic):
+    return [fields for found, _, fields in said if found == topic]
+
+
+def test_the_nodes_come_first():
+    tree, _, said = recorded()
+    topic, name, fields = said[0]
+    assert (topic, name, fields["stamp"], fields["generation"]) == ("/bt/tree", "Tree", 5, 1)
+    assert fields["path"] == [node.path for node in tree.nodes]
+    assert fields["parent"][:2] == [0, 1]
+    assert json.loads(fields["ports_json"][1]) == {"code": "a := 1; b := 'x'"}
+
+
+def test_every_write_is_recorded_in_order_with_its_writer():
+    tree, _, said = recorded()
+    tree.tick_once()
+    (written,) = of(said, "/bt/blackboard")
+    first, second = (node.uid for node in tree.nodes if node.type == "Script")
+    rows = list(zip(written["key"], written["value_json"], written["writer_uid"], strict=True))
+    assert rows == [("a", "1", first), ("b", '"x"', first), ("a", "2", second)]
+    assert written["tick"] == 1
+
+
+def test_a_tick_tells_results_that_are_gone_afterwards():
+    tree, _, said = recorded()
+    tree.tick_once()
+    (tick,) = of(said, "/bt/tick")
+    names = {node.uid: node.type for node in tree.nodes}
+    flashed = {
+        names[uid]: status for uid, status in zip(tick["flashed_uid"], tick["flashed_status"], strict=True)
+    }
+    assert flashed == {"Script": 2, "AlwaysFailure": 3, "Sequence": 3}
+    assert tick["changed_uid"] == []  # the root was reset after its FAILURE
+    assert tick["number"] == 1
+
+
+def test_equal_runs_have_equal_fingerprints():
+    prints = []
+    for _ in range(2):
+        tree, _, said = recorded()
+        for _ in range(3):
+            tree.tick_once()
+        prints.append([tick["fingerprint"] for tick in of(said, "/bt/tick")])
+    assert prints[0] == prints[1]
+    assert len(set(prints[0])) == 3
+
+
+def test_a_list_that_changes_in_place_is_seen_at_the_next_tick():
+    tree, _, said = recorded()
+    path = [1]
+    tree.blackboard["path"] = path
+    tree.tick_once()
+    path.append(2)
+    tree.tick_once()
+    first, second = of(said, "/bt/blackboard")
+    assert (first["key"][0], first["value_json"][0], first["writer_uid"][0]) == ("path", "[1]", 0)
+    assert (second["key"][-1], second["value_json"][-1], second["writer_uid"][-1]) == (
+        "path",
+        "[1,2]",
+        NO_WRITE,
+    )
+
+
+def test_a_removed_entry_is_recorded():
+    tree, _, said = recorded()
+    tree.blackboard["gone"] = [1]
+    del tree.blackboard["gone"]
+    tree.tick_once()
+    (written,) = of(said, "/bt/blackboard")
+    assert written["removed"][:2] == [False, True]
+
+
+def test_a_keyframe_holds_all_statuses_and_entries():
+    tree, recorder, said = recorded(XML.replace("<AlwaysFailure/>", '<Sleep msec="1000"/>'))
+    tree.tick_once()
+    recorder.keyframe(240, b"world")
+    (frame,) = of(said, "/bt/keyframe")
+    assert (frame["step"], frame["tick"], frame["world"]) == (240, 1, b"world")
+    assert frame["status"] == bytes([1, 2, 2, 1])
+    values = {key: value for _, key, _, value in json.loads(frame["blackboard_json"])}
+    assert values == {"a": 2, "b": "x"}
+
+
+def test_faults_and_lines_name_their_node():
+    tree, recorder, said = recorded()
+    node = tree.nodes[1]
+    recorder.says("info", "here", node.path)
+    recorder.says("info", "nowhere")
+    error = TickError(node, "broken")
+    recorder.raised(error)
+    assert [line["uid"] for line in of(said, "/bt/log")] == [node.uid, 0]
+    (fault,) = of(said, "/bt/fault")
+    assert (fault["uid"], "broken" in fault["message"]) == (node.uid, True)

@@ -1,0 +1,42 @@
+"""Messages of topics for a recording."""
+
+from __future__ import annotations
+
+import numpy as np
+import simplejpeg
+from rclpy.serialization import deserialize_message
+from sensor_msgs.msg import CompressedImage, Image
+from std_msgs.msg import Bool
+
+from executor.ros.tap import TopicTap, kind_of
+
+
+def taken(*messages):
+    said = []
+    tap = TopicTap(lambda *message: said.append(message))
+    for message, now_s in messages:
+        tap("/topic", message, now_s)
+    return said
+
+
+def test_a_message_is_taken_as_it_is():
+    ((topic, kind, now_s, data),) = taken((Bool(data=True), 2.0))
+    assert (topic, kind, now_s) == ("/topic", "std_msgs/msg/Bool", 2.0)
+    assert deserialize_message(data, Bool) == Bool(data=True)
+
+
+def test_pictures_are_jpeg_at_most_ten_in_a_second():
+    pixels = np.full((16, 32, 3), 200, np.uint8)
+    picture = Image(height=16, width=32, encoding="rgb8", data=pixels.tobytes())
+    said = taken(*((picture, number / 30) for number in range(31)))
+    assert len(said) == 11
+    topic, kind, _, data = said[0]
+    assert (topic, kind) == ("/topic/compressed", "sensor_msgs/msg/CompressedImage")
+    read = simplejpeg.decode_jpeg(bytes(deserialize_message(data, CompressedImage).data))
+    assert read.shape == pixels.shape
+    assert abs(int(read.mean()) - 200) < 3
+
+
+def test_depth_is_left_out():
+    assert taken((Image(encoding="32FC1"), 0.0)) == []
+    assert kind_of(Image()) == "sensor_msgs/msg/Image"

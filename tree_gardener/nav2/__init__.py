@@ -1,4 +1,4 @@
-"""Nodes of Nav2 that need neither an action nor a service of ROS.
+"""Nodes of Nav2.
 
 Each module is a node, written with the public classes, so that its source can also be a project's
 ``actions/<Name>.py``. Modules for helpers are in the same folder, and are exported in packages with the
@@ -13,12 +13,21 @@ from typing import Final
 from tree_gardener.nav2.append_goal_pose_to_goals import AppendGoalPoseToGoals
 from tree_gardener.nav2.are_error_codes_present import AreErrorCodesPresent
 from tree_gardener.nav2.are_poses_near import ArePosesNear
+from tree_gardener.nav2.back_up import BackUp
 from tree_gardener.nav2.check_stop_status import CheckStopStatus
+from tree_gardener.nav2.clear_costmap_around_pose import ClearCostmapAroundPose
+from tree_gardener.nav2.clear_costmap_around_robot import ClearCostmapAroundRobot
+from tree_gardener.nav2.clear_costmap_except_region import ClearCostmapExceptRegion
+from tree_gardener.nav2.clear_entire_costmap import ClearEntireCostmap
+from tree_gardener.nav2.compute_path_through_poses import ComputePathThroughPoses
+from tree_gardener.nav2.compute_path_to_pose import ComputePathToPose
 from tree_gardener.nav2.concatenate_paths import ConcatenatePaths
 from tree_gardener.nav2.controller_selector import ControllerSelector
 from tree_gardener.nav2.distance_controller import DistanceController
 from tree_gardener.nav2.distance_traveled import DistanceTraveled
+from tree_gardener.nav2.drive_on_heading import DriveOnHeading
 from tree_gardener.nav2.extract_route_nodes_as_goals import ExtractRouteNodesAsGoals
+from tree_gardener.nav2.follow_path import FollowPath
 from tree_gardener.nav2.get_current_pose import GetCurrentPose
 from tree_gardener.nav2.get_next_few_goals import GetNextFewGoals
 from tree_gardener.nav2.get_pose_from_path import GetPoseFromPath
@@ -34,6 +43,8 @@ from tree_gardener.nav2.is_battery_low import IsBatteryLow
 from tree_gardener.nav2.is_goal_nearby import IsGoalNearby
 from tree_gardener.nav2.is_stuck import IsStuck
 from tree_gardener.nav2.is_within_path_tracking_bounds import IsWithinPathTrackingBounds
+from tree_gardener.nav2.navigate_through_poses import NavigateThroughPoses
+from tree_gardener.nav2.navigate_to_pose import NavigateToPose
 from tree_gardener.nav2.nonblocking_sequence import NonblockingSequence
 from tree_gardener.nav2.path_expiring_timer import PathExpiringTimer
 from tree_gardener.nav2.path_handler_selector import PathHandlerSelector
@@ -49,10 +60,13 @@ from tree_gardener.nav2.round_robin import RoundRobin
 from tree_gardener.nav2.single_trigger import SingleTrigger
 from tree_gardener.nav2.smoother_selector import SmootherSelector
 from tree_gardener.nav2.speed_controller import SpeedController
+from tree_gardener.nav2.spin import Spin
 from tree_gardener.nav2.time_expired import TimeExpired
 from tree_gardener.nav2.transform_available import TransformAvailable
 from tree_gardener.nav2.truncate_path import TruncatePath
 from tree_gardener.nav2.truncate_path_local import TruncatePathLocal
+from tree_gardener.nav2.validate_path import ValidatePath
+from tree_gardener.nav2.wait import Wait
 from tree_gardener.nav2.would_a_controller_recovery_help import WouldAControllerRecoveryHelp
 from tree_gardener.nav2.would_a_planner_recovery_help import WouldAPlannerRecoveryHelp
 from tree_gardener.nav2.would_a_route_recovery_help import WouldARouteRecoveryHelp
@@ -64,12 +78,21 @@ NODES: Final[Mapping[str, type]] = {
         AppendGoalPoseToGoals,
         AreErrorCodesPresent,
         ArePosesNear,
+        BackUp,
         CheckStopStatus,
+        ClearCostmapAroundPose,
+        ClearCostmapAroundRobot,
+        ClearCostmapExceptRegion,
+        ClearEntireCostmap,
+        ComputePathThroughPoses,
+        ComputePathToPose,
         ConcatenatePaths,
         ControllerSelector,
         DistanceController,
         DistanceTraveled,
+        DriveOnHeading,
         ExtractRouteNodesAsGoals,
+        FollowPath,
         GetCurrentPose,
         GetNextFewGoals,
         GetPoseFromPath,
@@ -85,6 +108,8 @@ NODES: Final[Mapping[str, type]] = {
         IsGoalNearby,
         IsStuck,
         IsWithinPathTrackingBounds,
+        NavigateThroughPoses,
+        NavigateToPose,
         NonblockingSequence,
         PathExpiringTimer,
         PathHandlerSelector,
@@ -100,10 +125,13 @@ NODES: Final[Mapping[str, type]] = {
         SingleTrigger,
         SmootherSelector,
         SpeedController,
+        Spin,
         TimeExpired,
         TransformAvailable,
         TruncatePath,
         TruncatePathLocal,
+        ValidatePath,
+        Wait,
         WouldAControllerRecoveryHelp,
         WouldAPlannerRecoveryHelp,
         WouldARouteRecoveryHelp,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Any
@@ -87,7 +87,10 @@ def _node_model(row: dict[str, object]) -> NodeModel:
 
 
 def _port_model(row: dict[str, Any]) -> PortModel:
-    return PortModel(**{field.name: row[field.name] for field in fields(PortModel) if field.name in row})
+    port = PortModel(**{field.name: row[field.name] for field in fields(PortModel) if field.name in row})
+    if port.type == "string" and "enum" in row:  # for the engine a string, for the editor a choice
+        return replace(port, type=f"{port.name}[{';'.join(row['enum'])}]")
+    return port
 
 
 def did_you_mean(name: str, known: Iterable[str], *, otherwise: str = "") -> str:

@@ -26,3 +26,7 @@ def test_the_nearest_name_is_offered() -> None:
     assert nearest("Sequenc", builtins()) == "Sequence"
     assert did_you_mean("Sequenc", builtins()) == "Did you mean Sequence?"
     assert did_you_mean("Xyzzyx", builtins(), otherwise="Write it.") == "Write it."
+
+
+def test_a_string_that_has_only_some_values_is_a_choice() -> None:
+    assert builtins()["RosSubscribe"].ports["mode"].type == "mode[latest;new;wait]"

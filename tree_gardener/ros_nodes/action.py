@@ -1,5 +1,7 @@
 """Actions of ROS as nodes, after ``RosActionNode`` of BehaviorTree.ROS2."""
 
+import importlib
+import uuid
 from typing import Any, ClassVar, Final
 
 from tree_gardener.ports import node_of
@@ -30,7 +32,9 @@ class SentGoal:
         self.feedback: Any = None
         self.handle: Any = None
         self._result: Any = None
-        self._sending = client.send_goal_async(goal, feedback_callback=self._heard)
+        self._client = client
+        self._id = _new_id()
+        self._sending = client.send_goal_async(goal, feedback_callback=self._heard, goal_uuid=self._id)
 
     @property
     def is_answered(self) -> bool:
@@ -53,7 +57,15 @@ class SentGoal:
         return feedback
 
     def cancel(self) -> None:
-        """Asks the server to stop, also if it has not answered yet."""
+        """Asks the server to stop, also if it has not answered yet.
+
+        A server handles the goal before the request that follows it. So the request is sent at once: a run
+        that ends now would not hear the answer. It is repeated for a server that accepts the goal later.
+        """
+        if not self._sending.done():
+            from rclpy.action.client import ClientGoalHandle  # noqa: PLC0415 - the engine works without ROS
+
+            ClientGoalHandle(self._client, self._id, None).cancel_goal_async()
         self._sending.add_done_callback(_cancel)
 
     def _heard(self, message: Any) -> None:
@@ -64,12 +76,14 @@ class RosActionNode(RosLeaf):
     """The base of nodes that send a goal to an action server and are RUNNING until it has a result.
 
     A derived class sets `ACTION_TYPE` and `ACTION_NAME`, and overrides the ``on_…`` functions and `set_goal`.
-    The ports ``action_name``, ``server_timeout`` and ``wait_for_server_timeout`` replace the attributes if
-    the class declares them. A tick never waits: until the server is there, the node is RUNNING.
+    The ports ``action_name`` (or that which `NAME_PORT` names), ``server_timeout`` and
+    ``wait_for_server_timeout`` replace the attributes if the class declares them. A tick never waits: until
+    the server is there, the node is RUNNING.
     """
 
     ACTION_TYPE: ClassVar[str] = ""
     ACTION_NAME: ClassVar[str] = ""
+    NAME_PORT: ClassVar[str] = "action_name"
     SERVER_TIMEOUT_MS: ClassVar[int] = 1000
     """The time in which the server has to accept the goal."""
     WAIT_FOR_SERVER_TIMEOUT_MS: ClassVar[int] = 500
@@ -119,7 +133,7 @@ class RosActionNode(RosLeaf):
         if self.literal("action_type") or "action_type" not in node_of(self).ports:
             self._resolve()
             self.check()
-        if self.literal("action_name") or "action_name" not in node_of(self).ports:
+        if self.literal(self.NAME_PORT) or self.NAME_PORT not in node_of(self).ports:
             self._connect()
 
     def check(self) -> None:
@@ -158,7 +172,7 @@ class RosActionNode(RosLeaf):
             self._type = self.interface("action_type", self.ACTION_TYPE, "action")
 
     def _connect(self) -> None:
-        name = self.text("action_name", self.ACTION_NAME)
+        name = self.text(self.NAME_PORT, self.ACTION_NAME)
         if self._client is not None and name == self._client_name:
             return
         from rclpy.action import ActionClient  # noqa: PLC0415 - the engine works without ROS
@@ -252,6 +266,12 @@ class RosAction(RosActionNode):
         self.give("error", error)
         is_missing = error == SERVER_UNREACHABLE
         return self.result("if_missing", Status.FAILURE) if is_missing else Status.FAILURE
+
+
+def _new_id() -> Any:
+    found = importlib.import_module("unique_identifier_msgs.msg").UUID()
+    found.uuid = list(uuid.uuid4().bytes)
+    return found
 
 
 def _cancel(sending: Any) -> None:

@@ -50,3 +50,9 @@ describe('the nodes of a project', () => {
     expect(['Own', 'Around', 'Act'].map((type) => canWrapIn(spec(type)))).toEqual([true, true, false]);
   });
 });
+
+it('offers the values of a string that has only some', () => {
+  const mode = spec('RosSubscribe').ports.find((port) => port.name === 'mode');
+  expect(mode?.type).toBe('mode[latest;new;wait]');
+  expect(mode?.default).toBe('latest');
+});

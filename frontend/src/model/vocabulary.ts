@@ -64,6 +64,8 @@ interface CatalogDocument {
       readonly default: string | null;
       readonly required: boolean;
       readonly description: string;
+      /** The values that the port can have. */
+      readonly enum?: readonly string[];
     }[];
     readonly summary: string;
     /** `ros` for nodes that BehaviorTree.CPP does not have. */
@@ -80,7 +82,11 @@ export function readCatalog(document: CatalogDocument): readonly NodeSpec[] {
     symbol: node.symbol,
     minChildren: node.children.min,
     maxChildren: node.children.max ?? Infinity,
-    ports: node.ports as readonly PortSpec[],
+    ports: node.ports.map(({ enum: names, ...port }) => ({
+      ...(port as PortSpec),
+      // A string with given values is a choice in the inspector.
+      ...(port.type === 'string' && names ? { type: `${port.name}[${names.join(';')}]` } : {}),
+    })),
     summary: node.summary,
     open: node.kind === 'subtree' || (node.open ?? false),
     source: node.kind === 'subtree' ? 'subtree' : 'builtin',

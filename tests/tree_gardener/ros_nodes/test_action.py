@@ -26,6 +26,7 @@ class Server:
     def __init__(self, ros: Graph, name: str = "fib", *, waits: bool = False) -> None:
         self.orders: list[int] = []
         self.cancelled = 0
+        self.ended = 0
         self.waits = waits
         self.is_open = False
         self.server = ActionServer(
@@ -53,6 +54,7 @@ class Server:
             await Turn()
         if goal.is_cancel_requested:
             goal.canceled()
+            self.ended += 1
             return result
         goal.succeed()
         return result
@@ -94,7 +96,20 @@ def test_a_halted_node_cancels_its_goal_even_before_the_server_answered(ros: Gra
     ros.spin(ros.tree.nodes[0].behaviour._client.server_is_ready)
     assert ros.tree.tick_exactly_once() is Status.RUNNING
     ros.tree.halt()
-    ros.spin(lambda: server.cancelled == 1)
+    ros.spin(lambda: server.ended == 1)
+    assert server.cancelled
+
+
+@pytest.mark.filterwarnings("ignore:failed to send response:RuntimeWarning")
+def test_a_run_that_ends_before_the_server_answered_cancels_its_goal(ros: Graph) -> None:
+    server = Server(ros, waits=True)
+    ros.load(f"{ACTION} goal__order='3'/>")
+    ros.spin(ros.tree.nodes[0].behaviour._client.server_is_ready)
+    assert ros.tree.tick_exactly_once() is Status.RUNNING
+    ros.tree.shutdown()  # nobody hears the answer any more
+    ros.executor.remove_node(ros.tree_node)
+    ros.spin(lambda: server.ended == 1)
+    assert server.cancelled
 
 
 def test_a_goal_that_someone_else_cancels_fails(ros: Graph) -> None:

@@ -115,9 +115,13 @@ def a_drag_is_given_up(studio: Studio) -> None:
     def is_chosen() -> bool:
         """A thing can be chosen once it is drawn where it was put."""
         mouse.click(x, y)
-        return fields.is_visible()
+        try:
+            expect(fields).to_be_visible(timeout=5000)
+        except AssertionError:
+            return False
+        return True
 
-    wait_until(is_chosen, "the crate is chosen", every_s=0.5)
+    wait_until(is_chosen, "the crate is chosen")
     place = [fields.get_by_test_id(f"field-{axis}").input_value() for axis in "xy"]
     view.press("Escape")
     expect(studio.at("world-fields")).to_be_visible()  # nothing is selected, and no handle is in the way
@@ -127,7 +131,7 @@ def a_drag_is_given_up(studio: Studio) -> None:
     keys.press("Escape")
     mouse.up()
     expect(studio.at("world-fields")).to_be_visible()
-    wait_until(is_chosen, "the crate is chosen again", every_s=0.5)
+    wait_until(is_chosen, "the crate is chosen again")
     assert [fields.get_by_test_id(f"field-{axis}").input_value() for axis in "xy"] == place
 
 

@@ -50,7 +50,7 @@ class Peer:
     def insist(self, ask: Callable[[], Any]) -> Any:
         """Asks until there is an answer; returns it.
 
-        A server that has not discovered who asks yet drops its answer.
+        A server that has not discovered the client yet drops its answer.
         """
         end = time.monotonic() + DEADLINE_S
         while True:

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from tree_gardener import Status, TickError, Tree
 
     Progress = Callable[[float], None]
+    Watch = Callable[[BulletWorld, Tree], None]
 
 PERIOD_STEPS: Final = 4  # steps between polls of the world's topics, as in real time
 TRAJECTORY_HZ: Final = 10.0
@@ -63,7 +64,7 @@ def run_lockstep(  # noqa: PLR0913 - a run, and who listens to it
     options: LockstepOptions | None = None,
     *,
     progress: Progress | None = None,
-    watch: Callable[[BulletWorld], None] | None = None,
+    watch: Watch | None = None,
     say: Callable[[str], None] | None = None,
     moved: Callable[[], None] | None = None,
 ) -> Report:
@@ -73,7 +74,7 @@ def run_lockstep(  # noqa: PLR0913 - a run, and who listens to it
         project: an opened project, its files by path, or its path.
         options: replace settings of the project; None replaces none.
         progress: called with the simulated time, about once in each simulated second.
-        watch: called before each tick with the world, for measurements.
+        watch: called before each tick with the world and the tree, for measurements.
         say: called with each warning; with None, warnings are written to standard error.
         moved: called after each step of the world.
 
@@ -121,7 +122,7 @@ class _Run:
         self._tree = self._make_tree(project)
         self._recorder = self._make_recorder(recording)
 
-    def play(self, progress: Progress | None, watch: Callable[[BulletWorld], None] | None) -> Report:
+    def play(self, progress: Progress | None, watch: Watch | None) -> Report:
         """Ticks until the end of the run, and returns its report."""
         from tree_gardener.runner import Runner  # noqa: PLC0415 - after the environment
 
@@ -142,7 +143,7 @@ class _Run:
             if number % max(1, round(self._tick_hz * MISMATCHES_S)) == 1:
                 self._mismatches.look()
             if watch is not None:
-                watch(self._world)
+                watch(self._world, self._tree)
             status = self._tick(runner)
             self._node.poll()
             for note in self._node.take_notes():

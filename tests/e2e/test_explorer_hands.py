@@ -10,7 +10,7 @@ from playwright.sync_api import expect
 from tests.e2e.server import wait_until
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Locator
+    from playwright.sync_api import FloatRect, Locator
 
     from tests.e2e.studio import Studio
 
@@ -60,13 +60,21 @@ def a_copy_is_made_and_undone(studio: Studio, universe: Locator) -> None:
     expect(studio.page.get_by_role("tab", name="My walled room")).to_have_count(0)
 
 
+def sized(canvas: Locator) -> FloatRect:
+    """Returns the box of a 3D view's canvas, once it fills its view: it begins with a size of its own."""
+    fills = "c => Math.abs(c.clientHeight - c.closest('[data-testid=universe-view]').clientHeight) < 2"
+    wait_until(lambda: canvas.evaluate(fills), "the canvas fills its view")
+    box = canvas.bounding_box()
+    assert box
+    return box
+
+
 def ghosts_are_placed(studio: Studio) -> None:
     """A ghost follows the pointer; a click, a drag from the palette and Enter place it, Esc does not."""
     mouse, keys = studio.page.mouse, studio.page.keyboard
     view, hint = studio.at("universe-view"), studio.at("placing")
     canvas = view.locator("canvas")
-    box = canvas.bounding_box()
-    assert box
+    box = sized(canvas)
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     count = int(view.get_attribute("data-things") or "0")
     view.press("t")
@@ -105,8 +113,7 @@ def a_drag_is_given_up(studio: Studio) -> None:
     """Esc puts a dragged thing back; the release that follows does nothing."""
     mouse, keys, view = studio.page.mouse, studio.page.keyboard, studio.at("universe-view")
     canvas = view.locator("canvas")
-    box = canvas.bounding_box()
-    assert box
+    box = sized(canvas)
     x, y = box["x"] + box["width"] / 2 + 60, box["y"] + box["height"] / 2
     view.press("Escape")
     expect(studio.at("world-fields")).to_be_visible()
@@ -115,9 +122,13 @@ def a_drag_is_given_up(studio: Studio) -> None:
     def is_chosen() -> bool:
         """A thing can be chosen once it is drawn where it was put."""
         mouse.click(x, y)
-        return fields.is_visible()
+        try:
+            expect(fields).to_be_visible(timeout=5000)
+        except AssertionError:
+            return False
+        return True
 
-    wait_until(is_chosen, "the crate is chosen", every_s=0.5)
+    wait_until(is_chosen, "the crate is chosen")
     place = [fields.get_by_test_id(f"field-{axis}").input_value() for axis in "xy"]
     view.press("Escape")
     expect(studio.at("world-fields")).to_be_visible()  # nothing is selected, and no handle is in the way
@@ -127,7 +138,7 @@ def a_drag_is_given_up(studio: Studio) -> None:
     keys.press("Escape")
     mouse.up()
     expect(studio.at("world-fields")).to_be_visible()
-    wait_until(is_chosen, "the crate is chosen again", every_s=0.5)
+    wait_until(is_chosen, "the crate is chosen again")
     assert [fields.get_by_test_id(f"field-{axis}").input_value() for axis in "xy"] == place
 
 

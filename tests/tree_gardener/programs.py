@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 ROOT = Path(__file__).resolve().parents[2]
 DEADLINE_S = 30.0
+PATIENCE_S = 2.0
 
 
 class Peer:
@@ -45,6 +46,20 @@ class Peer:
         """Waits for a future; returns its result."""
         self.until(future.done)
         return future.result()
+
+    def insist(self, ask: Callable[[], Any]) -> Any:
+        """Asks until there is an answer; returns it.
+
+        A server that has not discovered the client yet drops its answer.
+        """
+        end = time.monotonic() + DEADLINE_S
+        while True:
+            future, patience = ask(), time.monotonic() + PATIENCE_S
+            while time.monotonic() < patience:
+                if future.done():
+                    return future.result()
+                self.executor.spin_once(timeout_sec=0.05)
+            assert time.monotonic() < end, "there is no answer"
 
     def close(self) -> None:
         """Leaves the graph."""

@@ -79,6 +79,8 @@ class Client:
         self.told: list[str] = []
         self.client = ActionClient(peer.node, ExecuteTree, "bt_execution")
         peer.until(self.client.server_is_ready)
+        handle = peer.insist(lambda: self.client.send_goal_async(self.kind.Goal(target_tree="None")))
+        peer.insist(handle.get_result_async)
 
     def send(self, tree: str, payload: str = "") -> Any:
         """Sends a goal; returns its handle."""

@@ -79,10 +79,10 @@ it('is cancelled by the fields of the block, too', () => {
   expect(document.activeElement).toBe(document.querySelector('input'));
 });
 
-it('leaves the focus to a search that was opened in the text', () => {
+it('leaves the focus to a field of the document that got it meanwhile', () => {
   document.body.innerHTML =
-    '<div data-testid="code-editor" data-path="a.py"><div class="cm-editor">' +
-    '<input><div class="cm-content" tabindex="0"></div></div></div>';
+    '<div role="tabpanel"><input><div data-testid="code-editor" data-path="a.py">' +
+    '<div class="cm-content" tabindex="0"></div></div></div>';
   focusDocument({ kind: 'file', path: 'a.py' });
   vi.advanceTimersByTime(50);
   expect(document.activeElement).toBe(document.querySelector('.cm-content'));

@@ -42,9 +42,9 @@ export function focusDocument(tab: DocumentTab): void {
     const target = focusableOf(tab);
     if (target?.checkVisibility() && !document.querySelector('[role="dialog"][aria-modal="true"]')) {
       firstSeen ??= now;
-      // A search that was opened in the text meanwhile keeps the focus.
-      const editor = target.closest('.cm-editor') ?? target;
-      if (!editor.contains(document.activeElement)) target.focus({ preventScroll: true });
+      // What got the focus inside the document meanwhile keeps it: a search, or a field chosen by a screen reader.
+      const panel = target.closest('[role="tabpanel"]') ?? target;
+      if (!panel.contains(document.activeElement)) target.focus({ preventScroll: true });
     }
     if (now - (firstSeen ?? now) < SETTLED_MS && now - started < PATIENCE_MS) setTimeout(attempt, RETRY_MS);
     else mine.abort();

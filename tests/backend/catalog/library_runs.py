@@ -92,7 +92,7 @@ def main() -> None:
             continue
         bodies: dict[str, Any] = {}
 
-        def watch(world: Any, bodies: dict[str, Any] = bodies) -> None:
+        def watch(world: Any, _tree: Any, bodies: dict[str, Any] = bodies) -> None:
             poses = world.poses()
             for each, pose in zip(world.scene.objects, poses, strict=True):
                 if each.body in {"crate", "station"}:

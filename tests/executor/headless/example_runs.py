@@ -156,7 +156,7 @@ def drive(example: Example, seed: int) -> Drive:
     """Drives an example once."""
     seen = Drive(report=None)
 
-    def watch(world: Any) -> None:
+    def watch(world: Any, _tree: Any) -> None:
         for robot in world.robots:
             seen.robots.setdefault(robot.id, []).append(robot.pose[:2])
         people = [math.dist(actor.position[:2], seen.way[-1]) for actor in world.actors]

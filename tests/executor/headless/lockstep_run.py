@@ -7,33 +7,27 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from executor.headless import lockstep
 from executor.headless.lockstep import LockstepOptions, run_lockstep
 from executor.world.physics.bullet import BulletWorld
+from tree_gardener import Tree
 
 
 def main() -> None:
     project, duration_s, seed = Path(sys.argv[1]), float(sys.argv[2]), int(sys.argv[3])
     ticks: list[list[Any]] = []
 
-    def watch(world: BulletWorld) -> None:
+    def note(_node: Any, status: Any) -> None:
+        ticks[-1][2] = status.name == "SUCCESS"
+
+    def watch(world: BulletWorld, tree: Tree) -> None:
+        if not ticks:
+            for node in tree.nodes:
+                if node.type == "DetectPerson":
+                    tree.add_hook(after=note, node=node)
         x, y, _ = world.robots[0].pose
         away = [math.dist((x, y), actor.position) for actor in world.actors]
         ticks.append([world.time_s, away[0] if away else None, None])
 
-    make_tree = lockstep._Run._make_tree
-
-    def note(node: Any, status: Any) -> None:
-        ticks[-1][2] = status.name == "SUCCESS"
-
-    def make_noted(run: Any, project: Any) -> Any:
-        tree = make_tree(run, project)
-        for node in tree.nodes:
-            if node.type == "DetectPerson":
-                tree.add_hook(after=note, node=node)
-        return tree
-
-    lockstep._Run._make_tree = make_noted  # type: ignore[method-assign, assignment]
     with contextlib.redirect_stdout(sys.stderr):
         report = run_lockstep(project, LockstepOptions(duration_s=duration_s, seed=seed), watch=watch)
     print(json.dumps({"report": report.to_json(), "same": report.without_wall_times(), "ticks": ticks}))  # noqa: T201 - the result

@@ -180,6 +180,22 @@ def installed_params(workspace, name):
     return str(workspace / "install" / name / "share" / name / "config" / "params.yaml")
 
 
+def test_an_argument_chooses_the_program(workspace, launched):
+    name = EXAMPLES[0]
+    for run_as, executable in (
+        ("tree", name),
+        ("server", f"{name}_server"),
+        ("lifecycle", f"{name}_lifecycle"),
+    ):
+        (process,) = launched(name, run_as=run_as).processes
+        assert process.executable == executable
+        assert (workspace / "install" / name / "lib" / name / executable).is_file()
+    (process,) = launched(name, run_as="server", on_new_goal="queue", action_name="/run").processes
+    assert process.words[:2] == ["--action_name=/run", "--on_new_goal=queue"]
+    with pytest.raises(RuntimeError, match="run_as: 'demon' is not one of tree, server, lifecycle"):
+        launched(name, run_as="demon")
+
+
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_without_arguments_the_file_of_parameters_decides(workspace, launched, name):
     (process,) = launched(name).processes
@@ -268,7 +284,8 @@ def test_the_node_starts_with_the_words_of_the_launch_file(workspace, launched, 
 
 def test_programs_of_the_project_are_executables_of_the_package(workspace):
     folder = workspace / "install" / NAME / "lib" / NAME
-    assert sorted(path.name for path in folder.iterdir()) == ["my talker.py", NAME, "tools_it's.py"]
+    own = [NAME, f"{NAME}_lifecycle", f"{NAME}_server"]
+    assert sorted(path.name for path in folder.iterdir()) == ["my talker.py", *own, "tools_it's.py"]
     values = observed(workspace, [str(folder / "my talker.py")], "/talker")
     assert values["publishes"] == ["/chatter"]
 

@@ -14,6 +14,8 @@ function aim(event: PointerEvent, canvas: HTMLElement, camera: THREE.Camera): vo
   const box = canvas.getBoundingClientRect();
   const x = ((event.clientX - box.left) / box.width) * 2 - 1;
   const y = 1 - ((event.clientY - box.top) / box.height) * 2;
+  // The camera may have moved since the last picture, which is a while ago where drawing is slow.
+  camera.updateMatrixWorld();
   ray.setFromCamera(new THREE.Vector2(x, y), camera);
 }
 

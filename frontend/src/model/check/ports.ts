@@ -1,7 +1,7 @@
 import type { DiagramNode, NodeId } from '../diagram';
 import { pointerOf, readPortText, type PortSpec } from '../ports';
 import { fullName, typePortOf } from '../rosFields';
-import { fit, outside, partRead } from '../values';
+import { fit, outside, partRead, typeLabel } from '../values';
 import type { NodeSpec } from '../vocabulary';
 import { atPort, type Problem } from './problem';
 
@@ -21,9 +21,11 @@ export function checkLiteral(id: NodeId, { name, type }: PortSpec, text: string)
   const suits = fit(type, text);
   const far = suits === 'range' ? outside(type, text) : null;
   if (far) return [atPort('out-of-range', id, name, { ...far })];
-  if (suits === 'bad') return [atPort('wrong-type', id, name, { text, type })];
+  if (suits === 'bad') return [atPort('wrong-type', id, name, { text, type: typeLabel(type) })];
   const part = partRead(type, text) ?? '';
-  return suits === 'loose' ? [atPort('read-in-part', id, name, { text, type, part }, 'warning')] : [];
+  return suits === 'loose'
+    ? [atPort('read-in-part', id, name, { text, type: typeLabel(type), part }, 'warning')]
+    : [];
 }
 
 /** Attribute names of XML, without the colon of a namespace. */
@@ -110,7 +112,12 @@ export function entryCheck(): (id: NodeId, node: DiagramNode, spec: NodeSpec) =>
     if (!first) entries.set(key, { type: port.type, label: `${node.name ?? node.type}, ${port.name}` });
     if (!first || first.type === port.type || first.type === 'string') return [];
     return [
-      atPort('two-types', id, port.name, { key, type: port.type, otherType: first.type, other: first.label }),
+      atPort('two-types', id, port.name, {
+        key,
+        type: typeLabel(port.type),
+        otherType: typeLabel(first.type),
+        other: first.label,
+      }),
     ];
   };
   // SetBlackboard copies a value of any type, although the catalogue declares its port as text.

@@ -14,7 +14,6 @@ function world() {
     if (waypoint !== undefined) mesh.userData['waypoint'] = waypoint;
     if (key !== null) keys.set(mesh, key);
     group.add(mesh);
-    group.updateMatrixWorld(true);
     return mesh;
   };
   const scene = { group, keyOf: (part: THREE.Object3D) => keys.get(part) ?? null };
@@ -34,6 +33,18 @@ describe('thingAt', () => {
     expect(hit(1, 1)).toEqual({ key: 'high', height: expect.closeTo(2.05, 5) as number, waypoint: null });
     expect(hit(1.6, 1)?.key).toBe('low');
     expect(hit(-3, 0)).toBeNull();
+  });
+
+  it('is found where it is now, and by the camera where it is now, before the next picture', () => {
+    const { add, hit, camera, canvas } = world();
+    const moved = add('moved', 2, 1);
+    expect(hit(1, 1)?.key).toBe('moved');
+    moved.position.x = 3;
+    expect(hit(1, 1)).toBeNull();
+    expect(hit(3, 1)?.key).toBe('moved');
+    const pixel = pixelOf(camera, 3, 1, 2);
+    camera.position.x += 2;
+    expect(pointAt(pixel, canvas, camera, 2)![0]).toBeCloseTo(5, 5);
   });
 
   it('prefers the handle of a waypoint to things that hide it', () => {

@@ -17,6 +17,8 @@ function aim(event: At, canvas: HTMLElement, camera: THREE.Camera): void {
   const { left, top, width, height } = canvas.getBoundingClientRect();
   const x = ((event.clientX - left) / width) * 2 - 1;
   const y = 1 - ((event.clientY - top) / height) * 2;
+  // The camera may have moved since the last picture, which is a while ago where drawing is slow.
+  camera.updateMatrixWorld();
   ray.setFromCamera(new THREE.Vector2(x, y), camera);
 }
 
@@ -28,6 +30,7 @@ export function thingAt(
   scene: Pick<ThingScene<{ key: string }>, 'group' | 'keyOf'>,
 ): Aimed | null {
   aim(event, canvas, camera);
+  scene.group.updateMatrixWorld();
   const hits = ray.intersectObject(scene.group).filter(({ object }) => object.visible);
   // A waypoint's handle is small and lies on the floor, so it takes precedence over objects in front of it.
   const hit = hits.find(({ object }) => object.userData['waypoint'] !== undefined) ?? hits[0];

@@ -25,7 +25,7 @@ ADDRESS_VARIABLE: Final = "BT_STUDIO_RECORDER"
 PREFIX: Final = struct.Struct("<I")
 MOST_MESSAGE_BYTES: Final = 16 << 20
 MOST_WAITING_BYTES: Final = 16 << 20
-BATCH_S: Final = 0.05
+BATCH_S: Final = 0.2
 BATCH_BYTES: Final = 64 << 10
 RETRY_S: Final = 1.0
 

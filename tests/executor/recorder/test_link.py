@@ -10,7 +10,7 @@ import pytest
 from executor.recorder.link import RETRY_S, Heard, Mark, RecorderLink
 from executor.recorder.sources import BrokenSource, Source, listen, take_source
 
-SOON_S = 0.06
+SOON_S = 0.3
 
 
 class Ends:

@@ -24,8 +24,8 @@ class Topics:
     def __init__(self) -> None:
         self.taps: list[Any] = []
 
-    def tap(self, tap: Any) -> None:
-        self.taps.append(tap)
+    def tap(self, tap: Any, *, sample_hz: float) -> None:
+        self.taps.append((tap, sample_hz))
 
 
 def no_renderer() -> Any:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from functools import cache
+from importlib import resources
 from typing import TYPE_CHECKING
 
 from translator.text import clean
@@ -21,11 +23,10 @@ static static_assert static_cast struct switch template this thread_local throw 
 typename union unsigned using virtual void volatile wchar_t while xor xor_eq
 """
 _KEYWORDS = frozenset(_KEYWORD_TEXT.split())
-# Macros of common headers, and namespaces that the code uses.
+# Namespaces that the code uses, and macros of other systems' headers.
 _TAKEN_TEXT = """
-BT std linux unix NULL EOF BUFSIZ NAN INFINITY HUGE_VAL assert errno stdin stdout stderr SIGINT SIGTERM
-TRUE FALSE DEBUG ERROR DOMAIN OVERFLOW UNDERFLOW IN OUT CONST DELETE interface near far small min max
-major minor signals slots emit main
+BT std TRUE FALSE DEBUG ERROR DOMAIN OVERFLOW UNDERFLOW IN OUT CONST DELETE interface near far small min
+max major minor signals slots emit main
 """
 _TAKEN = frozenset(_TAKEN_TEXT.split())
 # Members of BehaviorTree.CPP's nodes: a class of that name would hide them.
@@ -36,10 +37,20 @@ childrenCount addChild setChild haltChild haltChildren resetChild resetChildren 
 emitWakeUpSignal isHaltRequested requestsWakeUp parseString wakeUp isHalted subscribeToStatusChange
 modifyPortsRemapping child_node_ children_nodes_ Ptr PreScripts PostScripts StatusChangeSignal
 StatusChangeSubscriber StatusChangeCallback PreTickCallback PostTickCallback TickMonitorCallback
-waitValidStatus TreeNode LeafNode ActionNodeBase SyncActionNode StatefulActionNode ConditionNode
+waitValidStatus getInputStamped requiresWakeUp checkPreConditions checkPostConditions setRegistrationID
+setWakeUpInstance setPreTickFunction setPostTickFunction setTickMonitorCallback isBlackboardPointer
+getRemappedKey stripBlackboardPointer PImpl parseStringWithConverter postConditionsScripts
+preConditionsScripts TreeNode LeafNode ActionNodeBase SyncActionNode StatefulActionNode ConditionNode
 ControlNode DecoratorNode NodeConfig
 """
 _MEMBERS = frozenset(_MEMBER_TEXT.split())
+
+
+@cache
+def macros() -> frozenset[str]:
+    """Returns the names that are macros in the headers that nodes include."""
+    lines = resources.files("translator.cpp").joinpath("macros.txt").read_text(encoding="utf-8").splitlines()
+    return frozenset(line for line in lines if not line.startswith("#"))
 
 
 def identifier(text: str) -> str:
@@ -53,7 +64,7 @@ def identifier(text: str) -> str:
     name = re.sub("_+", "_", letters).strip("_") or "unnamed"
     if name[0].isdigit():
         name = f"n{name}"
-    return f"{name}_" if name in _KEYWORDS or name in _TAKEN else name
+    return f"{name}_" if name in _KEYWORDS or name in _TAKEN or name in macros() else name
 
 
 def _letter(character: str) -> str:

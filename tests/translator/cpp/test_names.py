@@ -9,7 +9,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from translator.cpp.names import class_name, comment_lines, file_name, identifier, literal, one_line, unique
+from translator.cpp.names import (
+    class_name,
+    comment_lines,
+    file_name,
+    identifier,
+    literal,
+    macros,
+    one_line,
+    unique,
+)
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)*_?")
 
@@ -20,6 +29,8 @@ NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)*_?")
         ("CheckObstacle", "CheckObstacle"),
         ("switch", "switch_"),
         ("NULL", "NULL_"),
+        ("ETIMEDOUT", "ETIMEDOUT_"),
+        ("M_PI", "M_PI_"),
         ("std", "std_"),
         ("Café", "Cafe"),
         ("Größe", "Grou00dfe"),
@@ -40,6 +51,11 @@ def test_an_identifier_resembles_its_text(text: str, name: str) -> None:
 def test_any_text_gives_a_valid_identifier(text: str) -> None:
     assert NAME.fullmatch(identifier(text))
     assert not re.search("__", class_name(text))
+
+
+def test_macros_are_known() -> None:
+    assert {"INT_MAX", "linux", "assert"} <= macros()
+    assert identifier("EAST") == "EAST"
 
 
 def test_a_class_does_not_hide_members_of_nodes() -> None:

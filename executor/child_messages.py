@@ -1,9 +1,10 @@
-"""Messages between the manager and its two child processes, defined once for both ends.
+"""Messages between the manager and its child processes, defined once for both ends.
 
-Each message is a tagged struct; its tag is the field ``type``. A channel decodes one of four unions:
+Each message is a tagged struct; its tag is the field ``type``. A channel decodes one of six unions:
 
     ToWorld, FromWorld                world process (`executor.world.process`)
     ToApplication, FromApplication    application process (`executor.application.process`)
+    ToRecorder, FromRecorder          recorder process (`executor.recorder.process`)
 
 Bytes that are not a message of the union cannot be decoded: the manager ends such a child with a fault that
 says why, and a child ends itself. Both ends always have the same version, so nothing is versioned here.
@@ -50,6 +51,16 @@ class Pause(_Asked, tag="pause"):
 
 class Resume(_Asked, tag="resume"):
     """Resumes simulated time, or ticks."""
+
+
+class BeginRecording(_Message, tag="begin_recording"):
+    """Begins the recording of a run: all that follows belongs to it.
+
+    With `resets` simulated time goes back to 0 now; the application notices it a little later.
+    """
+
+    run: str
+    resets: bool = False
 
 
 # --- to the world ---------------------------------------------------------------------------------
@@ -203,6 +214,43 @@ class SetPort(_Asked, tag="set_port"):
     path: str
     port: str
     value: str | None
+
+
+# --- to the recorder ------------------------------------------------------------------------------
+
+
+class StartRecorder(_Message, tag="start"):
+    """Records into a folder; what another recorder left there is taken over."""
+
+    folder: str
+
+
+class BeginRun(_Message, tag="begin_run"):
+    """Begins the recording of a run; `folder` has the files of its project."""
+
+    run: str
+    about: dict[str, str]
+    folder: str
+
+
+class Told(_Message, tag="told"):
+    """An event of the session that belongs to a run, at a simulated time in s."""
+
+    run: str
+    name: str
+    t: float
+    data: dict[str, Any]
+
+
+class ReadSegment(_Asked, tag="read_segment"):
+    """Requests a part of a segment, which is sent to a client as a frame before the answer."""
+
+    client: str
+    run: str
+    segment: int
+    version: int
+    offset: int
+    length: int
 
 
 # --- from both ------------------------------------------------------------------------------------
@@ -385,8 +433,18 @@ class Finished(messages.Finished, tag_field="type", tag="finished"):
     """The event `finished` for clients."""
 
 
+# --- from the recorder ----------------------------------------------------------------------------
+
+
+class Recorded(_Message, tag="recorded"):
+    """The event `segment` for clients."""
+
+    segment: messages.Segment
+
+
 WorldCommand = (
-    Pause
+    BeginRecording
+    | Pause
     | Resume
     | StepWorld
     | Reset
@@ -419,7 +477,17 @@ FromWorld = (
     | TypeDescription
     | Frame
 )
-ToApplication = StartApplication | Stop | Pause | Resume | StepTick | SetTickRate | SetBlackboard | SetPort
+ToApplication = (
+    StartApplication
+    | Stop
+    | BeginRecording
+    | Pause
+    | Resume
+    | StepTick
+    | SetTickRate
+    | SetBlackboard
+    | SetPort
+)
 FromApplication = (
     Beat
     | Log
@@ -437,6 +505,10 @@ FromApplication = (
     | Fault
     | Finished
 )
+ToRecorder = StartRecorder | Stop | BeginRun | Told | ReadSegment
+FromRecorder = Beat | Log | Answer | Frame | Recorded
+decode_to_recorder: Final = msgspec.msgpack.Decoder(ToRecorder).decode
+decode_from_recorder: Final = msgspec.msgpack.Decoder(FromRecorder).decode
 decode_to_world: Final = msgspec.msgpack.Decoder(ToWorld).decode
 decode_from_world: Final = msgspec.msgpack.Decoder(FromWorld).decode
 decode_to_application: Final = msgspec.msgpack.Decoder(ToApplication).decode
@@ -454,6 +526,7 @@ Request = (
     | DescribeType
     | SetTickRate
     | SetPort
+    | ReadSegment
 )
 """Messages that a child answers with `Answer`."""
 

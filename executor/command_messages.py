@@ -186,6 +186,26 @@ class RestartNode(Struct, forbid_unknown_fields=True):
     id: str
 
 
+class ReadRecording(Struct, forbid_unknown_fields=True):
+    """Reads a part of a segment: a frame `recording` on this client's stream socket comes before the reply.
+
+    Refused with `not_recorded` if the segment, or this version of it, is not there any more.
+    """
+
+    run: Annotated[str, Meta(max_length=32)]
+    segment: Annotated[int, Meta(ge=0)]
+    version: Annotated[int, Meta(ge=0)]
+    offset: Annotated[int, Meta(ge=0)]
+    length: Annotated[int, Meta(gt=0, le=1 << 20)]
+    branch: Annotated[int, Meta(ge=0, le=0)] = 0
+
+
+class Flag(Struct, forbid_unknown_fields=True):
+    """Marks the present moment of the recording with a text."""
+
+    text: Annotated[str, Meta(min_length=1, max_length=1000)]
+
+
 COMMANDS: Final[dict[str, type[Struct]]] = {
     "connect": Empty,
     "launch_universe": LaunchUniverse,
@@ -216,6 +236,8 @@ COMMANDS: Final[dict[str, type[Struct]]] = {
     "publish_topic": PublishTopic,
     "describe_type": DescribeType,
     "restart_node": RestartNode,
+    "read_recording": ReadRecording,
+    "flag": Flag,
     "take_over": Empty,
     "ping": Empty,
 }

@@ -23,11 +23,13 @@ from executor.command_messages import (
     DescribeType,
     EchoTopic,
     Empty,
+    Flag,
     LaunchUniverse,
     MoveBody,
     OnError,
     OnFinish,
     PublishTopic,
+    ReadRecording,
     RestartNode,
     Run,
     RunApplication,
@@ -47,6 +49,7 @@ from executor.stream_messages import (
     Light,
     Mesh,
     Poses,
+    RecordingPart,
     Scan,
     Scene,
     SceneObject,
@@ -66,6 +69,7 @@ __all__ = [
     "DescribeType",
     "EchoTopic",
     "Empty",
+    "Flag",
     "LaunchUniverse",
     "Light",
     "Mesh",
@@ -74,6 +78,8 @@ __all__ = [
     "OnFinish",
     "Poses",
     "PublishTopic",
+    "ReadRecording",
+    "RecordingPart",
     "RestartNode",
     "Run",
     "RunApplication",
@@ -375,6 +381,23 @@ class LaunchNodes(Struct):
     nodes: list[LaunchNode]
 
 
+class Segment(Struct):
+    """A part of the recording of a run: 20 s of simulated time, and an MCAP file by itself.
+
+    It is sent again each second while it grows: `bytes` of it can be read then. `complete` tells that it has
+    its end. A new `version` replaces it when old pictures were removed; with 0 `bytes` it is gone.
+    """
+
+    run: str
+    branch: int
+    number: int
+    version: int
+    from_t: float
+    to_t: float
+    bytes: int
+    complete: bool = False
+
+
 class Snapshot(Struct):
     """The full state for a client that joins late; later events change it."""
 
@@ -398,6 +421,8 @@ class Snapshot(Struct):
     """The runs that began within `logs`: the index of the first line after it, and the run's number."""
     hanging_s: float = 0.0
     """How long the present tick has hung, s; 0 while none does."""
+    segments: list[Segment] = []
+    """All that can be read of the recordings of this session."""
 
 
 EVENTS: Final[dict[str, type[Struct]]] = {
@@ -420,6 +445,7 @@ EVENTS: Final[dict[str, type[Struct]]] = {
     "type_description": TypeDescription,
     "topic_mismatch": TopicMismatch,
     "launch_nodes": LaunchNodes,
+    "segment": Segment,
 }
 
 

@@ -149,4 +149,15 @@ class View(Struct, tag="view", tag_field="type"):
     jpeg: bytes
 
 
-FRAMES: Final[tuple[type[Struct], ...]] = (Scene, Poses, Scan, Camera, View)
+class RecordingPart(Struct, tag="recording", tag_field="type"):
+    """A part of a segment of a recording, as `read_recording` asked for it."""
+
+    run: str
+    branch: int
+    segment: int
+    version: int
+    offset: int
+    data: bytes
+
+
+FRAMES: Final[tuple[type[Struct], ...]] = (Scene, Poses, Scan, Camera, View, RecordingPart)

@@ -2,6 +2,8 @@
 
 from translator.action import ActionModel, inspect_action
 from translator.check import check
+from translator.cpp.package import CppPackage, to_cpp_package
+from translator.cpp.sync import InStep, take_over
 from translator.diagnostic import Diagnostic, Place, Severity, TranslatorError
 from translator.export import export_files, self_contained, to_xml
 from translator.importer import from_xml
@@ -15,7 +17,9 @@ from translator.xml.models import to_models_xml, to_xsd
 
 __all__ = [
     "ActionModel",
+    "CppPackage",
     "Diagnostic",
+    "InStep",
     "Node",
     "Place",
     "Project",
@@ -32,7 +36,9 @@ __all__ = [
     "open_files",
     "open_path",
     "self_contained",
+    "take_over",
     "to_app_zip",
+    "to_cpp_package",
     "to_models_xml",
     "to_ros2_package",
     "to_xml",

@@ -26,6 +26,7 @@ VERSION = 1
 LIMITS = (-(2**31), 2**31 - 1)
 NAME = r"[A-Za-z_][A-Za-z0-9_]*"
 _NAME = re.compile(NAME)
+_TOKEN = re.compile(r'(?P<text>"(?:[^"\\]|\\.)*")(?P<colon>\s*:)?|[{}\[\]]')
 _TAKEN = frozenset({*TYPES, "true", "false", "uint", "script", "status", "list"})
 
 EnumName = Annotated[str, Field(pattern=f"^{NAME}$", max_length=NAME_CHARACTERS)]
@@ -51,6 +52,7 @@ def read_enums(raw: bytes | str) -> tuple[dict[str, dict[str, int]], tuple[Diagn
         return {}, (problem,)
     text = raw.decode("utf-8-sig") if isinstance(raw, bytes) else raw
     reader = _Reader(text)
+    reader.report_repeated_keys()
     return reader.read(document), tuple(reader.found)
 
 
@@ -64,6 +66,24 @@ class _Reader:
     def report(self, code: str, *path: str, **values: object) -> None:
         line, column = _position(self.text, path)
         self.found.append(diagnostic(code, Place(ENUMS_FILE, line=line, column=column), **values))
+
+    def report_repeated_keys(self) -> None:
+        """Reports each key that its object has already: JSON keeps only the last one."""
+        held: list[set[str]] = []
+        for token in _TOKEN.finditer(self.text):
+            if token.group() in {"{", "["}:
+                held.append(set())
+            elif token.group() in {"}", "]"}:
+                held.pop()
+            elif token.group("colon") is not None:
+                key = json.loads(token.group("text"))
+                if key in held[-1]:
+                    line = self.text.count("\n", 0, token.start()) + 1
+                    column = token.start() - self.text.rfind("\n", 0, token.start())
+                    self.found.append(
+                        diagnostic("BT0036", Place(ENUMS_FILE, line=line, column=column), name=key)
+                    )
+                held[-1].add(key)
 
     def read(self, document: Any) -> dict[str, dict[str, int]]:
         if not isinstance(document, dict):

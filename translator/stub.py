@@ -7,6 +7,7 @@ import keyword
 from typing import TYPE_CHECKING
 
 from translator.catalog import PortModel
+from translator.values import choices
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -78,7 +79,7 @@ def _declarations(ports: list[PortModel]) -> list[str]:
 
 
 def _port(port: PortModel) -> str:
-    arguments = [_python_type(port.type)] if port.type != "any" else []
+    arguments = [_python_type(port)] if port.type != "any" else []
     if port.default is not None:
         arguments.append(f"default={_text(port.default)}")
     if port.description:
@@ -86,7 +87,10 @@ def _port(port: PortModel) -> str:
     return f"Port({', '.join(arguments)})"
 
 
-def _python_type(type_: str) -> str:
+def _python_type(port: PortModel) -> str:
+    type_ = port.type
+    if port.named and choices(type_) is not None:
+        return _text(port.named)  # an enumeration of the project
     if type_.startswith("list["):
         return f"list[{_PYTHON_TYPES.get(type_[5:-1], 'str')}]"
     return _PYTHON_TYPES.get(type_, "str")

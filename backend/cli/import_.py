@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from pathlib import Path  # noqa: TC003 - typer reads the annotations
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
 
-def import_(
+def import_(  # noqa: PLR0913, PLR0917 - these are the options of formats.md
     source: Annotated[str, typer.Argument(help="An XML file, a .btproj, a folder or a zip.")],
-    output: Annotated[Path, typer.Option("-o", "--output", help="The project folder or .zip to make.")],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="The project folder or .zip to make.")
+    ] = None,
+    into: Annotated[
+        Path | None, typer.Option(help="A project folder that takes over the models of nodes in the file.")
+    ] = None,
     actions: Annotated[Path | None, typer.Option(help="Folder of actions to bring along.")] = None,
     repair: Annotated[  # noqa: FBT002 - typer's way
         bool, typer.Option("--repair", help="Escape bare & and < in attributes, which XML does not allow.")
@@ -24,6 +29,12 @@ def import_(
     from translator.package.zip import write_zip
     from tree_gardener.stubs import is_stub
 
+    if (output is None) == (into is None):
+        raise CliError("Name either the project to make (-o), or a folder (--into).", status=BAD_ARGUMENTS)
+    if output is None:
+        assert into is not None  # noqa: S101 - one of them is given
+        _take_over(Path(source), into, as_json=as_json)
+        return
     is_zip = output.suffix.lower() == ".zip"
     if output.exists() and (is_zip or not output.is_dir() or any(output.iterdir())):
         raise CliError(f"{output}:1:1: it exists already (choose another name)", status=BAD_ARGUMENTS)
@@ -54,6 +65,27 @@ def import_(
     print(f"Universe: {project.settings.universe}")
     if stubs:
         print(f"To be written: {', '.join(f'actions/{name}.py' for name in stubs)}")
+
+
+def _take_over(source: Path, folder: Path, *, as_json: bool) -> None:
+    """Writes stubs of the nodes that a plugin or palette has, and tells where written actions differ."""
+    from backend.cli import _translation as cli
+    from translator import TranslatorError, take_over
+    from translator.archive import read_file
+
+    try:
+        project = cli.open_project(str(folder))
+        result = take_over(project, read_file(source), file=source.name)
+    except TranslatorError as error:
+        raise cli.fail(error.diagnostics, as_json=as_json) from None
+    for path, raw in result.files.items():
+        cli.write_file(folder / path, raw)
+    if as_json:
+        diagnostics = [item.to_json() for item in result.diagnostics]
+        cli.print_json({"project": str(folder), "written": sorted(result.files), "diagnostics": diagnostics})
+        return
+    cli.tell(result.diagnostics)
+    print(f"{folder}: {_counted(len(result.files), 'stub')} written")
 
 
 def _counted(count: int, what: str) -> str:

@@ -1,4 +1,4 @@
-"""`bt-studio package`: writes the ROS 2 package, or the app for the manager, to a zip."""
+"""`bt-studio package`: writes a package for ROS 2 or for C++, or the app for the manager, to a zip."""
 
 from __future__ import annotations
 
@@ -19,19 +19,22 @@ def package(  # noqa: PLR0913, PLR0917 - these are the options of formats.md
     dockerized: Annotated[  # noqa: FBT002
         bool, typer.Option("--dockerized", help="Make the app that the manager runs.")
     ] = False,
+    cpp: Annotated[  # noqa: FBT002
+        bool, typer.Option("--cpp", help="Make a package for BehaviorTree.CPP 4, with skeletons in C++.")
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,  # noqa: FBT002
 ) -> None:
-    """Makes a ROS 2 package that `colcon build` builds, with the engine beside it."""
+    """Makes a package that `colcon build` builds: of ROS 2, with the engine beside it, or of C++."""
     from backend.cli import _translation as cli
-    from translator import TranslatorError, to_app_zip, to_ros2_package
+    from translator import TranslatorError, to_app_zip, to_cpp_package, to_ros2_package
 
     try:
-        opened = cli.open_project(project, actions=actions, stubs=False)
+        opened = cli.open_project(project, actions=actions, stubs=cpp)
         found: tuple[Diagnostic, ...] = ()
         if dockerized:
             raw, made = to_app_zip(opened), "app"
         else:
-            result = to_ros2_package(opened, name=name)
+            result = (to_cpp_package if cpp else to_ros2_package)(opened, name=name)
             raw, found, made = result.to_zip(), result.diagnostics, result.name
     except TranslatorError as error:
         raise cli.fail(error.diagnostics, as_json=as_json) from None

@@ -120,6 +120,28 @@ def package_preview(files: Files, *, name: str | None) -> Answer:
     }
 
 
+def cpp_package(files: Files, *, name: str | None) -> Answer:
+    """Returns a zip of the package for BehaviorTree.CPP."""
+    import translator  # noqa: PLC0415
+
+    made = translator.to_cpp_package(translator.load(files), name=name)
+    return {"name": made.name, "zip": made.to_zip()}
+
+
+def models(files: Files) -> Answer:
+    """Returns the models of the project's nodes."""
+    import translator  # noqa: PLC0415
+
+    return {"text": translator.to_models_xml(translator.load(files))}
+
+
+def xsd(files: Files) -> Answer:
+    """Returns the XML Schema of documents with the project's nodes."""
+    import translator  # noqa: PLC0415
+
+    return {"text": translator.to_xsd(translator.load(files))}
+
+
 def opened(files: Files, *, name: str, repair: bool) -> Answer:
     """Returns a new project, made from a project of JdeRobot or Groot2, or from BT.CPP XML.
 
@@ -210,7 +232,7 @@ def _refusing(job: Callable[..., Answer]) -> Callable[..., Answer]:
 JOBS: Final[dict[str, Callable[..., Answer]]] = {
     job.__name__: _refusing(job)
     for job in (
-        *(report, xml, app, app_zip, package, package_preview, opened),
+        *(report, xml, app, app_zip, package, package_preview, cpp_package, models, xsd, opened),
         *(inspect, write_tree, read_tree, pack, diff),
     )
 }

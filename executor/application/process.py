@@ -20,12 +20,14 @@ from typing import TYPE_CHECKING, Any, Final
 
 from executor import child_messages
 from executor.child_messages import FromApplication, StartApplication, ToApplication, decode_to_application
+from executor.recorder.link import ADDRESS_VARIABLE
 from executor.ros.environment import ros_environment
 from executor.supervision.channel import Channel, ChannelClosed, ChannelError
 from executor.supervision.confine import die_with_parent
 from executor.supervision.pulse import Pulse
 
 if TYPE_CHECKING:
+    from executor.application.recording import ApplicationRecorder
     from executor.application.ros import Graph
     from tree_gardener import Status, TickError, Tree
     from tree_gardener.runner import Runner
@@ -57,6 +59,7 @@ class Application:
         self._breaker = Breaker(self._locator)
         pulse.locate = self._locator.beat_place
         self._runner: Runner | None = None
+        self._recorder: ApplicationRecorder | None = None
         self._connect_by_s: float | None = None
         self._is_connected = False
 
@@ -84,6 +87,8 @@ class Application:
 
     def close(self) -> None:
         """Sends the last messages and leaves the ROS graph."""
+        if self._recorder is not None:
+            self._recorder.close()
         self._channel.flush(GOODBYE_S)
         self._graph.close()
 
@@ -123,6 +128,8 @@ class Application:
         while not self._commands.empty():
             self._obey(self._commands.get())
         self._reporter.flush()
+        if self._recorder is not None:
+            self._recorder.pump()
         self._guarded(lambda: self._graph.spin_once(SPIN_S))
 
     def _obey(self, message: ToApplication) -> None:
@@ -130,10 +137,13 @@ class Application:
 
         runner = self._runner
         assert runner is not None  # noqa: S101 - commands come after `ready`
+        assert self._recorder is not None  # noqa: S101 - as above
         match message:
             case child_messages.Stop():
                 runner.stop()
                 raise _Stop
+            case child_messages.BeginRecording():
+                self._recorder.begin(message.run, resets=message.resets)
             case child_messages.Pause():
                 runner.pause()
                 self._channel.send(child_messages.Paused())
@@ -219,6 +229,7 @@ class Application:
         return Tree.from_xml(document.read_bytes(), clock=self._graph, name=document.name)
 
     def _make_runner(self, tree: Tree, start: StartApplication) -> None:
+        from executor.application.recording import ApplicationRecorder  # noqa: PLC0415
         from tree_gardener.runner import Runner  # noqa: PLC0415
 
         tree.setup(node=self._graph.node)
@@ -231,6 +242,7 @@ class Application:
             fault=self._reporter.raised,
         )
         tree.observe(self._reporter.ticked)
+        self._recorder = ApplicationRecorder(tree, self._now, os.environ.pop(ADDRESS_VARIABLE, ""))
         tree.current = self._pulse.current
         self._runner.pause()
 

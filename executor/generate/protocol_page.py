@@ -67,6 +67,8 @@ _ERRORS: Final = {
     "nothing_to_restart": "no application was run yet",
     "bad_launch_file": "a launch file cannot be read; the text and a `fault` say where",
     "unknown_node": "the launch files have no such node, or it cannot be started",
+    "not_recorded": "the recording, or this version of its segment, is not there",
+    "no_stream": "the answer comes on the stream socket, which this client has not opened",
     "unknown_topic": "the ROS graph has no such topic",
     "unknown_type": "the message type is not installed",
     "bad_topic": "this is no name of a topic",

@@ -38,7 +38,7 @@ __all__ = ["HeadlessError", "HeadlessOptions", "run_headless"]
 TRAJECTORY_HZ: Final = 10.0
 VIEW_HZ: Final = 15.0
 _decode_frame: Final = msgspec.msgpack.Decoder(
-    messages.Scene | messages.Poses | messages.Scan | messages.Camera | messages.View
+    messages.Scene | messages.Poses | messages.Scan | messages.Camera | messages.View | messages.RecordingPart
 ).decode
 FIGURES_EVERY_S: Final = 0.2
 LOOK_EVERY_S: Final = 1.0
@@ -89,7 +89,7 @@ async def _run(
     say: Callable[[str], None],
 ) -> Report:
     token = secrets.token_urlsafe()
-    manager = Manager(ManagerSettings(port=0, token=token))
+    manager = Manager(ManagerSettings(port=0, token=token, records=False))
     try:
         port = await manager.start()
         url, headers = f"ws://127.0.0.1:{port}", {"Authorization": f"Bearer {token}"}

@@ -10,7 +10,13 @@ __all__ = ["BURST", "COSTS", "RATE_HZ", "Allowance"]
 # once.
 RATE_HZ: Final = 250.0
 BURST: Final = 500.0
-COSTS: Final = {"list_topics": 10.0, "echo_topic": 4.0, "describe_type": 4.0, "take_over": 4.0}
+COSTS: Final = {
+    "list_topics": 10.0,
+    "echo_topic": 4.0,
+    "describe_type": 4.0,
+    "read_recording": 4.0,
+    "take_over": 4.0,
+}
 """Commands that cost the world, or every client, more than one token."""
 
 

@@ -74,6 +74,12 @@ class Folders:
             else:
                 path.unlink(missing_ok=True)
 
+    def recordings(self) -> Path:
+        """Makes the folder of the recordings of this session, which its recorder may use, and returns it."""
+        folder = self._scratch.path / "recordings"
+        folder.mkdir()
+        return folder
+
     def remove(self) -> None:
         """Removes all folders."""
         self._scratch.remove()

@@ -25,6 +25,7 @@ import msgspec
 from executor import __version__
 from executor.manager.admission import Admission, is_loopback
 from executor.manager.gate import fetch_listener
+from executor.recorder.link import ADDRESS_VARIABLE
 from executor.ros.environment import ros_environment
 from executor.session.events import (
     EndSession,
@@ -33,6 +34,7 @@ from executor.session.events import (
     Interrupt,
     Kill,
     Kind,
+    RecordingWanted,
     Retire,
     Send,
     Spawn,
@@ -75,6 +77,7 @@ class ManagerSettings:
         listener: a unix socket on which the manager listens too.
         is_closed_off: whether the session's ROS graph is isolated, as in a container.
         is_ram: whether the manager speaks the RAM dialect, with one local client and without a token.
+        records: whether runs are recorded.
         origins: pages that may connect; without a token, local pages may connect too.
     """
 
@@ -85,6 +88,7 @@ class ManagerSettings:
     grace_s: float = 300.0
     is_closed_off: bool = False
     is_ram: bool = False
+    records: bool = True
     origins: tuple[str, ...] = ()
     programs: dict[Kind, Program] | None = None
     listener: socket.socket | None = None
@@ -114,10 +118,11 @@ def _environment_bytes(name: str, default_mb: int) -> int:
 
 
 def session_programs(domain_id: int) -> dict[Kind, Program]:
-    """Returns the programs of world and application, with their limits."""
+    """Returns the programs of world, application and recorder, with their limits."""
     threads = {name: os.environ.get(name, count) for name, count in FEW_THREADS.items()}
     own = {"PYDANTIC_DISABLE_PLUGINS": "__all__"}  # pydantic would search all installed packages
-    environment = {**ros_environment(domain_id), **threads, **own}
+    link = {ADDRESS_VARIABLE: f"bt-studio-recorder-{secrets.token_hex(16)}"}
+    environment = {**ros_environment(domain_id), **threads, **own, **link}
     limits = Limits(
         memory_bytes=_environment_bytes("BT_STUDIO_APPLICATION_MEMORY_MB", 4096),
         file_bytes=_environment_bytes("BT_STUDIO_APPLICATION_FILE_MB", 1024),
@@ -127,6 +132,7 @@ def session_programs(domain_id: int) -> dict[Kind, Program]:
     return {
         "world": Program((sys.executable, "-m", "executor.world.process"), environment),
         "application": Program((sys.executable, "-m", "executor.application.process"), environment, limits),
+        "recorder": Program((sys.executable, "-m", "executor.recorder.process"), link),
     }
 
 
@@ -145,9 +151,8 @@ class Manager:
             grace_s=settings.grace_s,
         )
         self.session = Session(about, now_s=loop.time())
-        self._supervisor = Supervisor(
-            settings.programs or session_programs(self.domain_id), self.take, self._on_frame, reaps_all=True
-        )
+        self._programs = settings.programs or session_programs(self.domain_id)
+        self._supervisor = Supervisor(self._programs, self.take, self._on_frame, reaps_all=True)
         self._server: SessionServer | RamServer | None = None
         self._folders: Folders | None = None
         self._events: deque[Event] = deque()
@@ -166,6 +171,8 @@ class Manager:
         await asyncio.sleep(0)  # both processes start now; the rest is loaded meanwhile
         self._folders = self._make_folders()
         port = await self._listen()
+        if "recorder" in self._programs and self._settings.records:
+            self._record(self._folders.recordings())
         self._set_timer()
         return port
 
@@ -184,6 +191,14 @@ class Manager:
         if settings.listener is not None:
             await server.start_at(settings.listener)
         return port
+
+    def _record(self, folder: Path) -> None:
+        from executor.manager.recordings import Recordings  # noqa: PLC0415 - as in `_listen`
+        from executor.manager.server import SessionServer  # noqa: PLC0415 - as above
+
+        self.take(RecordingWanted(str(folder)))
+        if isinstance(self._server, SessionServer):
+            self._server.recordings = Recordings(folder)
 
     def _make_folders(self) -> Folders:
         from executor.manager.folders import Folders  # noqa: PLC0415 - as above
@@ -343,6 +358,7 @@ def main(arguments: list[str] | None = None) -> int:
         grace_s,
         is_closed_off=listener is not None,
         is_ram=options.ram,
+        records=not options.no_recording,
         origins=tuple(options.allow_origin),
         listener=listener,
     )
@@ -368,6 +384,7 @@ def _parser() -> argparse.ArgumentParser:
         "--no-token", action="store_true", help="ask for no token, of this machine and its pages alone"
     )
     parser.add_argument("--ram", action="store_true", help="speak the RAM dialect, on loopback alone")
+    parser.add_argument("--no-recording", action="store_true", help="keep no recording of the runs")
     parser.add_argument(
         "--allow-origin",
         action="append",

@@ -26,6 +26,7 @@ from websockets.exceptions import ConnectionClosed
 
 from executor.manager.admission import Admission, is_loopback
 from executor.manager.allowance import Allowance
+from executor.manager.recordings import Recordings, is_recording
 from executor.messages import COMMANDS, ClientMessage, Empty, Error, ServerMessage
 from executor.session.events import (
     ClientJoined,
@@ -95,6 +96,7 @@ class SessionServer:
         self._stream_connections: dict[str, ServerConnection] = {}
         self._closing: set[asyncio.Task[None]] = set()
         self._streams: dict[str, StreamOutbox] = {}
+        self.recordings: Recordings | None = None
         self._seq = 0
         self.traffic = Traffic()
         self._servers: list[Server] = []
@@ -161,15 +163,15 @@ class SessionServer:
 
     # --- requests ---------------------------------------------------------------------------------
 
-    def _check_request(self, connection: ServerConnection, request: Request) -> Response | None:
+    async def _check_request(self, connection: ServerConnection, request: Request) -> Response | None:
         path = urlsplit(request.path).path
         refusal = self._admission.judge(request, reads_health=path == "/health")
         if refusal is not None:
             return connection.respond(*refusal)
-        if path == "/health":
-            return self._health(connection)
-        if path == "/metrics":
-            return self._metrics(connection)
+        if (page := {"/health": self._health, "/metrics": self._metrics}.get(path)) is not None:
+            return page(connection)
+        if is_recording(path) and self.recordings is not None:
+            return await self.recordings.respond(path, request)
         if path not in {"/control", "/stream", "/watch"}:
             return connection.respond(
                 HTTPStatus.NOT_FOUND, "There are /control, /stream, /watch, /health and /metrics.\n"

@@ -11,6 +11,7 @@ import struct
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.recorder.cdr import HEADER, stamp_of
+from executor.recorder.telling import told
 from executor.recorder.values import canonical
 from executor.recorder.writer import nanoseconds
 
@@ -51,17 +52,8 @@ class EventRecorder:
                 self._tick(stamp, data)
             case "blackboard":
                 self._blackboard(stamp, tick, data["entries"])
-            case "log":
-                line = {"source": data["source"], "level": data["level"], "text": data["text"]}
-                self._record("/bt/log", "Log", stamp | line | {"uid": self._uid(data)})
-            case "finished":
-                text = data.get("message") or f"The tree ended with {data['status']}."
-                line = {"source": "session", "level": "info", "text": text, "uid": self._uid(data)}
-                self._record("/bt/log", "Log", stamp | line)
-            case "fault":
-                fault = {name: data.get(name) or "" for name in ("kind", "file", "message", "traceback")}
-                fault |= {"line": data.get("line") or 0, "uid": self._uid(data)}
-                self._record("/bt/fault", "Fault", stamp | fault)
+            case _ if (line := told(name, stamp["stamp"], data, self._uid(data))) is not None:
+                self._record(*line)
             case _:
                 pass
 

@@ -28,7 +28,15 @@ if TYPE_CHECKING:
 __all__ = ["Limits", "RecordReader", "RecordingError"]
 
 MAGIC: Final = b"\x89MCAP0\r\n"
-DAMAGE: Final = (McapError, struct.error, ValueError, EOFError, MemoryError, RuntimeError)
+DAMAGE: Final = (
+    McapError,
+    struct.error,
+    ValueError,
+    EOFError,
+    MemoryError,
+    RuntimeError,
+    OverflowError,
+)
 _HEAD: Final = struct.Struct("<BQ")
 _OURS: Final = "Is it an MCAP file, as `bt-studio run --record` writes them?"
 Record = Header | Schema | Channel | Message | Attachment | Metadata

@@ -12,9 +12,9 @@ from executor.recorder.reader import Limits, RecordReader
 from executor.recorder.writer import CHUNK_BYTES
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
-__all__ = ["Recovered", "join", "recover"]
+__all__ = ["Recovered", "join", "recover", "thin"]
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,24 @@ def join(files: Sequence[tuple[BinaryIO, str]], out: BinaryIO, limits: Limits | 
     return _copy([RecordReader(file, name, limits or Limits()) for file, name in files], out)[0]
 
 
-def _copy(readers: Sequence[RecordReader], out: BinaryIO) -> tuple[int, int]:
+def thin(file: BinaryIO, name: str, out: BinaryIO, keeps: Callable[[str, str, int], bool]) -> None:
+    """Writes a file again with only some of its messages.
+
+    Args:
+        file: the file, at its begin.
+        name: its name in errors.
+        out: the file to write.
+        keeps: decides by the topic, the type, and the time of a message in ns.
+
+    Raises:
+        RecordingError: the file is no recording.
+    """
+    _copy([RecordReader(file, name, Limits())], out, keeps)
+
+
+def _copy(
+    readers: Sequence[RecordReader], out: BinaryIO, keeps: Callable[[str, str, int], bool] | None = None
+) -> tuple[int, int]:
     writer = Writer(out, chunk_size=CHUNK_BYTES, compression=CompressionType.ZSTD)
     writer.start(profile="ros2", library="bt-studio")
     schemas: dict[tuple[str, bytes], int] = {}
@@ -59,6 +76,8 @@ def _copy(readers: Sequence[RecordReader], out: BinaryIO) -> tuple[int, int]:
     for reader in readers:
         own_schemas: dict[int, int] = {}
         own_channels: dict[int, int] = {}
+        kinds: dict[int, str] = {}
+        of_channel: dict[int, tuple[str, str]] = {}
         for record in reader:
             match record:
                 case Schema():
@@ -66,6 +85,7 @@ def _copy(readers: Sequence[RecordReader], out: BinaryIO) -> tuple[int, int]:
                     if key not in schemas:
                         schemas[key] = writer.register_schema(record.name, record.encoding, record.data)
                     own_schemas[record.id] = schemas[key]
+                    kinds[record.id] = record.name
                 case Channel():
                     place = record.topic, own_schemas.get(record.schema_id, 0)
                     if place not in channels:
@@ -73,7 +93,8 @@ def _copy(readers: Sequence[RecordReader], out: BinaryIO) -> tuple[int, int]:
                             record.topic, record.message_encoding, place[1], dict(record.metadata)
                         )
                     own_channels[record.id] = channels[place]
-                case Message():
+                    of_channel[record.id] = record.topic, kinds.get(record.schema_id, "")
+                case Message() if keeps is None or keeps(*of_channel[record.channel_id], record.log_time):
                     messages, end_ns = messages + 1, max(end_ns, record.log_time)
                     writer.add_message(
                         own_channels[record.channel_id], end_ns, record.data, end_ns, record.sequence

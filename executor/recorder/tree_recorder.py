@@ -60,6 +60,12 @@ class TreeRecorder:
         tree.journal_writes(self._written)
         tree.observe(self._ticked)
 
+    def restate(self, generation: int) -> None:
+        """Writes the tree and its state again, as the begin of another recording."""
+        self._generation = generation
+        self._write_tree()
+        self.keyframe(0, b"")
+
     def raised(self, error: TickError) -> None:
         """Writes an exception of an action."""
         fault = {"kind": "exception", "file": error.file, "line": error.line or 0, "message": error.message}

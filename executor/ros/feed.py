@@ -52,13 +52,16 @@ class Feed:
         """Whether one of the publishers has a subscriber."""
         return any(publisher.get_subscription_count() for publisher in self.publishers)
 
-    def publish(self, sensors: Sensors, now_s: float, tap: Tap | None = None) -> None:
+    def publish(
+        self, sensors: Sensors, now_s: float, tap: Tap | None = None, *, is_sampled: bool = True
+    ) -> None:
         """Measures and publishes to the topics with subscribers.
 
-        A tap gets all messages of the topics. It counts as a subscriber, but not for cameras.
+        A tap gets all messages of these topics. If `is_sampled` is set it counts as a subscriber, but not for
+        cameras.
         """
         receivers = [publisher for publisher in self.publishers if publisher.get_subscription_count()]
-        if not receivers and (tap is None or self.of_camera):
+        if not receivers and (tap is None or self.of_camera or not is_sampled):
             return
         message = self.make(sensors, now_s)
         for publisher in receivers:
@@ -76,13 +79,19 @@ class Feeds:
         for feed in feeds:
             groups.setdefault((feed.rate_hz, feed.of_camera), []).append(feed)
         self._groups = [(Due(rate_hz), members) for (rate_hz, _), members in groups.items()]
+        self._samples: list[Due] | None = None
+
+    def sample(self, rate_hz: float) -> None:
+        """Limits the rate at which a tap gets topics without subscribers."""
+        self._samples = [Due(min(is_due.rate_hz, rate_hz)) for is_due, _ in self._groups]
 
     def publish(self, sensors: Sensors, now_s: float, tap: Tap | None = None) -> None:
         """Publishes the feeds that are due, also to a tap."""
-        for is_due, feeds in self._groups:
+        for place, (is_due, feeds) in enumerate(self._groups):
             if is_due(now_s):
+                is_sampled = self._samples is None or self._samples[place](now_s)
                 for feed in feeds:
-                    feed.publish(sensors, now_s, tap)
+                    feed.publish(sensors, now_s, tap, is_sampled=is_sampled)
 
     def slow_cameras(self, share: float) -> None:
         """Reduces the rates of cameras to a share of their configured rates."""
@@ -92,5 +101,5 @@ class Feeds:
 
     def restart(self) -> None:
         """Restarts at the simulated time 0."""
-        for due, _ in self._groups:
+        for due in [*(due for due, _ in self._groups), *(self._samples or [])]:
             due.restart()

@@ -97,9 +97,14 @@ class WorldNode:
         if self._outlet is not None:
             self._outlet.flush()
 
-    def tap(self, tap: Tap) -> None:
-        """Gives each message of the robots' topics to a function, with the topic and the time."""
+    def tap(self, tap: Tap, *, sample_hz: float | None = None) -> None:
+        """Gives each message of the robots' topics to a function, with the topic and the time.
+
+        With `sample_hz`, topics without subscribers are measured for it at most at this rate.
+        """
         self._tap = tap
+        if sample_hz is not None:
+            self._feeds.sample(sample_hz)
         for robot in self._robots:
             robot.commands.tap = tap
         if self._static is not None:

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 import simplejpeg
 from sensor_msgs.msg import CompressedImage, Image
+from std_msgs.msg import Header
 
 from executor.recorder.cdr import encode_object
+from executor.ros.messages import to_time
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -43,13 +45,22 @@ class TopicTap:
         else:
             self._write(topic, kind_of(message), now_s, encode_object(kind_of(message), message))
 
+    def jpeg(self, topic: str, jpeg: bytes, now_s: float, frame_id: str) -> None:
+        """Takes a picture that is coded already; at most ten in a second of each topic."""
+        if now_s >= self._pictures_s.get(topic, 0.0):
+            self._pictures_s[topic] = now_s + 1.0 / PICTURES_HZ - SLACK_S
+            self._write_jpeg(topic, jpeg, now_s, Header(stamp=to_time(now_s), frame_id=frame_id))
+
     def _picture(self, topic: str, message: Any, now_s: float) -> None:
         """Takes a colour image; depth has no place in a JPEG."""
         if message.encoding != "rgb8" or now_s < self._pictures_s.get(topic, 0.0):
             return
         self._pictures_s[topic] = now_s + 1.0 / PICTURES_HZ - SLACK_S
         pixels = np.frombuffer(message.data, np.uint8).reshape(message.height, message.width, 3)
-        packed = CompressedImage(header=message.header, format="rgb8; jpeg compressed bgr8")
         jpeg = simplejpeg.encode_jpeg(pixels, quality=QUALITY, colorspace="RGB", colorsubsampling="420")
+        self._write_jpeg(topic, jpeg, now_s, message.header)
+
+    def _write_jpeg(self, topic: str, jpeg: bytes, now_s: float, header: Header) -> None:
+        packed = CompressedImage(header=header, format="rgb8; jpeg compressed bgr8")
         packed.data = np.frombuffer(jpeg, np.uint8)
         self._write(f"{topic}/compressed", kind_of(packed), now_s, encode_object(kind_of(packed), packed))

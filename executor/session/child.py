@@ -14,8 +14,10 @@ from executor.child_messages import (
     Failed,
     Fault,
     FromApplication,
+    FromRecorder,
     FromWorld,
     Log,
+    Recorded,
     Sim,
     Starting,
     Tick,
@@ -35,7 +37,7 @@ _TASKS: Final[dict[type[Struct], str]] = {Starting: "loading", WorldReady: "", A
 """The task of a child's main thread after it sent one of these messages."""
 _ACCEPTED: Final = frozenset({Starting, WorldReady, ApplicationReady, Failed, Fault})
 """Messages that prove that a child received its start message."""
-_NOT_STORED: Final = (Tick, Log, Blackboard, Tree, Sim, Answer, Beat)
+_NOT_STORED: Final = (Tick, Log, Blackboard, Tree, Sim, Answer, Beat, Recorded)
 
 
 class Child:
@@ -59,7 +61,7 @@ class Child:
         self.vitals = Vitals(now_s)
         self.hang = ""
         self.was_inspected = False
-        self._said: dict[type[Struct], FromWorld | FromApplication] = {}
+        self._said: dict[type[Struct], FromWorld | FromApplication | FromRecorder] = {}
         self._answers: dict[str, Answer | None] = {}
 
     @property
@@ -105,7 +107,7 @@ class Child:
         """Returns the answer to a request of the session itself; None if it has not arrived yet."""
         return self._answers.get(token)
 
-    def note(self, message: FromWorld | FromApplication) -> None:
+    def note(self, message: FromWorld | FromApplication | FromRecorder) -> None:
         """Notes a message: updates the signs of life, and stores the last message of each type."""
         self.vitals.heard(from_main=not isinstance(message, Beat | Log))
         if isinstance(message, Beat):

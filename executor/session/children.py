@@ -12,7 +12,7 @@ from executor.session.events import Interrupt, Kill, Retire, Spawn, Tell
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from executor.child_messages import Request, ToApplication, ToWorld
+    from executor.child_messages import Request, ToApplication, ToRecorder, ToWorld
     from executor.session.events import ChildExited, ChildLooked, ChildSaid, ChildTraced, Effect, Kind
 
 __all__ = ["Children"]
@@ -80,6 +80,10 @@ class Children:
         """Sends a message to the application, if there is one."""
         self._tell("application", message)
 
+    def tell_recorder(self, message: ToRecorder) -> None:
+        """Sends a message to the recorder, if there is one."""
+        self._tell("recorder", message)
+
     def ask(self, child: Child, message: Request, token: str) -> None:
         """Sends a request to a child; its answer will have the same token."""
         message.request = token
@@ -116,6 +120,6 @@ class Children:
         else:
             self._effect(Kill(kind, child.number))
 
-    def _tell(self, kind: Kind, message: ToWorld | ToApplication) -> None:
+    def _tell(self, kind: Kind, message: ToWorld | ToApplication | ToRecorder) -> None:
         if kind in self.living:
             self._effect(Tell(kind, self.living[kind].number, message))

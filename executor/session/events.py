@@ -13,7 +13,14 @@ from executor.launching.model import LaunchPlan
 if TYPE_CHECKING:
     from msgspec import Struct
 
-    from executor.child_messages import FromApplication, FromWorld, ToApplication, ToWorld
+    from executor.child_messages import (
+        FromApplication,
+        FromRecorder,
+        FromWorld,
+        ToApplication,
+        ToRecorder,
+        ToWorld,
+    )
     from executor.launching.model import NodeSpec
     from executor.universes.document import Problem
 
@@ -32,6 +39,7 @@ __all__ = [
     "Interrupt",
     "Kill",
     "Kind",
+    "RecordingWanted",
     "Retire",
     "Send",
     "Spawn",
@@ -44,7 +52,7 @@ __all__ = [
     "Unpacked",
 ]
 
-Kind = Literal["world", "application", "node"]
+Kind = Literal["world", "application", "node", "recorder"]
 """Kind of a child process; `node` is an extra node of the launch files."""
 
 
@@ -103,7 +111,7 @@ class ChildSaid:
 
     kind: Kind
     number: int
-    message: FromWorld | FromApplication
+    message: FromWorld | FromApplication | FromRecorder
 
 
 @dataclass(frozen=True)
@@ -160,6 +168,13 @@ class Unpacked:
 
 
 @dataclass(frozen=True)
+class RecordingWanted:
+    """The session is to be recorded, into a folder."""
+
+    folder: str
+
+
+@dataclass(frozen=True)
 class TimePassed:
     """The time `Session.deadline_s` was reached."""
 
@@ -176,6 +191,7 @@ Event = (
     | ChildTraced
     | ChildExited
     | Unpacked
+    | RecordingWanted
     | TimePassed
 )
 
@@ -215,7 +231,7 @@ class Tell:
 
     kind: Kind
     number: int
-    message: ToWorld | ToApplication
+    message: ToWorld | ToApplication | ToRecorder
 
 
 @dataclass(frozen=True)

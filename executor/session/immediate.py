@@ -76,6 +76,7 @@ def _set_speed(stage: Stage, event: CommandCame, data: messages.SetSpeed) -> Non
 
 def _reset_world(stage: Stage, event: CommandCame, _: Struct) -> None:
     _ask(stage, event, "world", child_messages.Reset(), patience_s=RESET_TIMEOUT_S)
+    stage.recording.begin(resets=True)
 
 
 def _run_world(stage: Stage, event: CommandCame, _: Struct) -> None:
@@ -150,6 +151,31 @@ def _restart_node(stage: Stage, event: CommandCame, data: messages.RestartNode) 
         stage.output.send(event.client, messages.Ack(), event.request)
 
 
+def _read_recording(stage: Stage, event: CommandCame, data: messages.ReadRecording) -> None:
+    if not stage.clients.has_stream(event.client):
+        stage.output.refuse(event, "no_stream", "Open the stream socket first: the data come there.")
+        return
+    if stage.children.get("recorder") is None:
+        stage.output.refuse(event, "not_recorded", "This session is not recorded.")
+        return
+    message = child_messages.ReadSegment(
+        client=event.client,
+        run=data.run,
+        segment=data.segment,
+        version=data.version,
+        offset=data.offset,
+        length=data.length,
+    )
+    _ask(stage, event, "recorder", message)
+
+
+def _flag(stage: Stage, event: CommandCame, data: messages.Flag) -> None:
+    if stage.recording.flag(data.text):
+        stage.output.send(event.client, messages.Ack(), event.request)
+    else:
+        stage.output.refuse(event, "not_recorded", "There is no recording to mark.", "Press Run first.")
+
+
 def _take_over(stage: Stage, event: CommandCame, _: Struct) -> None:
     for client in stage.clients.take_over(event.client):
         stage.introspect(client)
@@ -185,6 +211,8 @@ IMMEDIATE: Final[dict[str, Callable[[Stage, CommandCame], None]]] = {
     "describe_type": _typed(messages.DescribeType, _describe_type),
     "restart_node": _typed(messages.RestartNode, _restart_node),
     "teleop": _typed(messages.Teleop, _teleop),
+    "read_recording": _typed(messages.ReadRecording, _read_recording),
+    "flag": _typed(messages.Flag, _flag),
     "take_over": _typed(messages.Empty, _take_over),
     "ping": _typed(messages.Empty, _ping),
 }
@@ -202,6 +230,8 @@ ANSWER_LATER: Final = frozenset(
         "publish_topic",
         "describe_type",
         "restart_node",
+        "read_recording",
+        "flag",
     }
 )
 """Commands that are not acknowledged immediately: the handler or a child answers later."""

@@ -125,6 +125,10 @@ TABLE: Final[dict[str, Row]] = {
     "publish_topic": _act(WORLD_UP, "Publishes one message; refused (`world_paused`) while time is paused."),
     "describe_type": _act(WORLD_UP, "Answers with a `type_description` event.", for_viewers=True),
     "restart_node": _act(HAS_APPLICATION, "Restarts a node of the launch files."),
+    "read_recording": _act(
+        ANY, "Reads a part of a recording; it comes as a frame `recording`.", for_viewers=True
+    ),
+    "flag": _act(WORLD_UP, "Marks the present moment of the recording."),
     "take_over": _act(ANY, "Becomes the driver; the last driver becomes a viewer.", for_viewers=True),
     "ping": _act(
         ANY, "Is answered at once; no answer for 3 s means that the manager hangs.", for_viewers=True

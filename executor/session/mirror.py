@@ -21,6 +21,7 @@ from executor.messages import (
     Log,
     NodeStatus,
     PortSet,
+    Segment,
     Sim,
     Snapshot,
     StateChanged,
@@ -63,6 +64,7 @@ class Mirror:
         self.speed = 1.0
         self.real_time_factor = 0.0
         self.universe = ""
+        self.segments: dict[tuple[str, int, int], Segment] = {}
         self.runs = 0
         self._logged = 0
         self._run_starts: deque[tuple[int, int]] = deque(maxlen=LOG_LINES)
@@ -82,19 +84,15 @@ class Mirror:
         self.runs += 1
         self._run_starts.append((self._logged, self.runs))
 
-    def apply(self, event: Struct) -> None:
+    def apply(self, event: Struct) -> None:  # noqa: C901 - one line an event
         """Updates the state by one event that is sent to all clients."""
         match event:
             case StateChanged():
                 self._enter(State(event.state))
             case Tree():
-                self.tree = event
-                self.statuses = {node.uid: "IDLE" for node in event.nodes}
+                self._apply_tree(event)
             case Tick():
-                self.tick = event.n
-                self.tick_ms += (event.duration_ms - self.tick_ms) * (SMOOTHING if self.tick > 1 else 1.0)
-                self.statuses.update(event.changed)
-                self.past = event.past
+                self._apply_tick(event)
             case Finished():
                 self.finished = event
             case Blackboard():
@@ -106,16 +104,16 @@ class Mirror:
                 self._logged += 1
             case LaunchNodes():
                 self.launch_nodes = event.nodes
-                self._forget_faults_of([node for node in event.nodes if node.state == "running"])
+                self._forget_faults_of(event.nodes)
             case Fault():
                 self.faults.append(event)
             case TopicMismatch():
                 self._apply_mismatch(event)
+            case Segment():
+                self._apply_segment(event)
             case Sim():
                 self.speed = event.speed
                 self.real_time_factor = event.real_time_factor
-            case _:
-                pass
 
     def tick_load(self) -> tuple[float, float]:
         """Returns the mean duration of the last ticks, and the time available for one, in ms."""
@@ -145,6 +143,7 @@ class Mirror:
             run_starts=self._starts(),
             hanging_s=hanging_s,
             ports=list(self.ports.values()),
+            segments=list(self.segments.values()),
         )
 
     def _starts(self) -> list[tuple[int, int]]:
@@ -157,6 +156,23 @@ class Mirror:
         if not state.reaches(State.UNIVERSE_READY):
             self.mismatches.clear()
 
+    def _apply_tree(self, event: Tree) -> None:
+        self.tree = event
+        self.statuses = {node.uid: "IDLE" for node in event.nodes}
+
+    def _apply_tick(self, event: Tick) -> None:
+        self.tick = event.n
+        self.tick_ms += (event.duration_ms - self.tick_ms) * (SMOOTHING if self.tick > 1 else 1.0)
+        self.statuses.update(event.changed)
+        self.past = event.past
+
+    def _apply_segment(self, event: Segment) -> None:
+        key = event.run, event.branch, event.number
+        if event.bytes:
+            self.segments[key] = event
+        else:
+            self.segments.pop(key, None)
+
     def _apply_mismatch(self, event: TopicMismatch) -> None:
         found = structs.replace(event, resolved=False)
         if event.resolved and found in self.mismatches:
@@ -166,7 +182,7 @@ class Mirror:
 
     def _forget_faults_of(self, nodes: list[LaunchNode]) -> None:
         """Removes the faults of launch nodes that run again."""
-        places = {(node.file, node.line) for node in nodes}
+        places = {(node.file, node.line) for node in nodes if node.state == "running"}
         gone = [f for f in self.faults if f.kind == "process" and f.file and (f.file, f.line) in places]
         for fault in gone:
             self.faults.remove(fault)

@@ -8,6 +8,8 @@ from executor import messages
 from executor.session.events import Effect, Send
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from msgspec import Struct
 
     from executor.session.events import CommandCame
@@ -27,6 +29,8 @@ class Output:
 
     def __init__(self, mirror: Mirror) -> None:
         self._mirror = mirror
+        self.record: Callable[[str, Struct], None] = lambda name, event: None
+        """Called with the name of each event for all clients, and the event."""
         self._effects: list[Effect] = []
 
     def effect(self, effect: Effect) -> None:
@@ -36,7 +40,9 @@ class Output:
     def emit(self, event: Struct) -> None:
         """Sends an event to all clients, and to the mirror for clients that join later."""
         self._mirror.apply(event)
-        self._effects.append(Send(None, _EVENT_NAMES[type(event)], event))
+        name = _EVENT_NAMES[type(event)]
+        self._effects.append(Send(None, name, event))
+        self.record(name, event)
 
     def send(self, client: str, event: Struct, request: str | None = None) -> None:
         """Sends an event to one client; `request` is the id of the command that it answers."""

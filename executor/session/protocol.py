@@ -29,10 +29,10 @@ from executor.session.events import (
     Effect,
     EndSession,
     Event,
+    RecordingWanted,
     StreamClosed,
     StreamOpened,
     StreamPaced,
-    TimePassed,
     Unpack,
     Unpacked,
 )
@@ -41,6 +41,7 @@ from executor.session.launch_nodes import LaunchNodes
 from executor.session.mirror import Mirror
 from executor.session.output import Output
 from executor.session.questions import Questions, answer_late
+from executor.session.recording import Recording
 from executor.session.stage import About, LastRun
 from executor.session.waits import StepFailed, Wait
 
@@ -83,6 +84,8 @@ class Session:
         self.questions = Questions()
         self.children = Children(self.output.effect, lambda: self.now_s, self.questions.token, self._lost)
         self.run = LastRun()
+        self.recording = Recording(self)
+        self.output.record = self.recording.tell
         self.sim_time_s = 0.0
         self._job: _Job | None = None
         self._archives = 0
@@ -178,8 +181,8 @@ class Session:
                 self._on_exit(event)
             case Unpacked():
                 self._unpacked = event
-            case TimePassed():
-                pass
+            case RecordingWanted():
+                self.recording.start(event.folder)
 
     def introspect(self, client: str) -> None:
         """Sends a client the properties of the session and its role in it."""
@@ -212,12 +215,17 @@ class Session:
         self.children.leaving.discard((event.kind, event.number))
         if event.kind == "node":
             self.nodes.exited(self, event)
+        elif event.kind == "recorder":
+            self.recording.exited(event)
         else:
             child_exits.exited(self, event)
 
     def _on_message(self, event: ChildSaid) -> None:
         if event.kind == "node":
             self.nodes.said(self, event)
+            return
+        if event.kind == "recorder":
+            self.recording.said(event)
             return
         child = self.children.of(event)
         if child is None:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from executor.session.mirror import Mirror
     from executor.session.output import Output
     from executor.session.questions import Questions
+    from executor.session.recording import Recording
     from executor.session.waits import Step
 
 __all__ = ["About", "LastRun", "Stage"]
@@ -69,6 +70,7 @@ class Stage(Protocol):
     questions: Questions
     nodes: LaunchNodes
     output: Output
+    recording: Recording
     run: LastRun
     now_s: float
     sim_time_s: float

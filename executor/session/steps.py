@@ -208,6 +208,7 @@ def _await_application(stage: Stage, application: Child, tries: int = 2) -> Step
         if isinstance(reply, Fault):
             raise StepFailed("load_failed", reply.message, reply.hint)
         _progress(stage, "run_application", 1.0, "The application runs")
+        stage.recording.begin()
         yield from go(stage, application)
     except StepFailed as failure:
         if stage.children.get("application") is application:

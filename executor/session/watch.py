@@ -42,6 +42,9 @@ _RESTART_HINT: Final = "The application is started again, once."
 def looked(stage: Stage, event: ChildLooked, now_s: float) -> None:
     """Evaluates a sample of a child: reports a hang, a recovery, or ends the child."""
     child = stage.children.of(event)
+    if event.kind == "recorder":
+        stage.recording.looked(event, now_s)
+        return
     if child is None:
         return
     vitals = child.vitals

@@ -19,6 +19,8 @@ MAX_BYTES: Final = 16 << 20
 MAX_REPLIES: Final = 10_000
 PICTURES: Final = ("camera", "view")
 PACE_S: Final = 0.5
+RECORDING: Final = "recording/"
+MOST_PARTS: Final = 16
 
 
 class ControlOutbox:
@@ -94,12 +96,18 @@ class StreamOutbox:
         """Queues a frame; it replaces an unsent one of its stream."""
         if stream == "scene":
             self._frames.pop("poses", None)
+        if stream.startswith(RECORDING) and self._is_full_of_recordings():
+            return
         waiting = self._frames.get(stream)
         self._frames[stream] = data if waiting is None else supersede(waiting, data)
         if stream.partition("/")[0] in PICTURES:
             self._pictures += 1
             self._lost += waiting is not None
         self._filled.set()
+
+    def _is_full_of_recordings(self) -> bool:
+        """Whether a client has asked for more of a recording than it reads; it has to ask again."""
+        return sum(stream.startswith(RECORDING) for stream in self._frames) >= MOST_PARTS
 
     def lost_share(self, now_s: float) -> float | None:
         """Returns the share of pictures that newer ones replaced, once in each `PACE_S`; otherwise None."""

@@ -14,7 +14,14 @@ from typing import TYPE_CHECKING, Final
 
 import psutil
 
-from executor.child_messages import FromApplication, FromWorld, ToApplication, ToWorld
+from executor.child_messages import (
+    FromApplication,
+    FromRecorder,
+    FromWorld,
+    ToApplication,
+    ToRecorder,
+    ToWorld,
+)
 from executor.supervision.channel import AsyncChannel, ChannelClosed, ChannelError, socket_pair
 from executor.supervision.confine import INTERRUPT_SIGNAL, PARENT_VARIABLE
 from executor.supervision.output import LineReader
@@ -27,8 +34,8 @@ if TYPE_CHECKING:
 
 __all__ = ["ChildProcess", "Limits", "Program"]
 
-Said = FromWorld | FromApplication
-Told = ToWorld | ToApplication
+Said = FromWorld | FromApplication | FromRecorder
+Told = ToWorld | ToApplication | ToRecorder
 Decode = Callable[[bytes], Said]
 
 MARK: Final = "BT_STUDIO_CHILD"

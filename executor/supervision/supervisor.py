@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import psutil
 
-from executor.child_messages import Frame, decode_from_application, decode_from_world
+from executor.child_messages import Frame, decode_from_application, decode_from_recorder, decode_from_world
 from executor.session.events import (
     ChildExited,
     ChildLooked,
@@ -43,6 +43,7 @@ CHECK_INTERVAL_S: Final = 0.25
 _DECODE: Final[dict[Kind, Decode]] = {
     "world": decode_from_world,
     "application": decode_from_application,
+    "recorder": decode_from_recorder,
 }
 
 

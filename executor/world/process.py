@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Final
 from executor import child_messages
 from executor.child_messages import FromWorld, Request, StartWorld, ToWorld, decode_to_world, name_of
 from executor.messages import Error
+from executor.recorder.link import ADDRESS_VARIABLE
 from executor.ros.environment import has_tf, ros_environment
 from executor.supervision.channel import Channel, ChannelClosed, ChannelError
 from executor.supervision.confine import die_with_parent
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from executor.ros.topics import TopicReply
     from executor.world.simulation.loop import SimulationLoop
     from executor.world.simulation.outside_graph import OutsideGraph
+    from executor.world.simulation.recording import WorldRecorder
 
 _log = logging.getLogger(__name__)
 
@@ -56,6 +58,7 @@ class WorldProcess:
         self._renderer: Renderer | None = None
         self._context: Context | None = None
         self._close: list[Callable[[], None]] = []
+        self._recorder: WorldRecorder | None = None
         self._request: str | None = None
         """The token of the request under way."""
 
@@ -88,7 +91,7 @@ class WorldProcess:
         from executor.render import make_renderer  # noqa: PLC0415 - slow to load
         from executor.ros import node  # noqa: F401, PLC0415 - ROS reads the environment when it is loaded
         from executor.world.physics import bullet  # noqa: F401, PLC0415
-        from executor.world.simulation import launch, loop  # noqa: F401, PLC0415
+        from executor.world.simulation import launch, loop, recording  # noqa: F401, PLC0415
 
         self._renderer = make_renderer()
         self._context = self._join(int(os.environ.get("ROS_DOMAIN_ID", "0")))
@@ -156,6 +159,9 @@ class WorldProcess:
                 loop.move_body(message.id, message.pose)
             case child_messages.Subscribe() | child_messages.Unsubscribe() | child_messages.Pace():
                 self._stream(loop, message)
+            case child_messages.BeginRecording():
+                if self._recorder is not None:
+                    self._recorder.begin(message.run)
             case _:
                 self._topics.obey(message)
 
@@ -187,10 +193,12 @@ class WorldProcess:
         from executor.ros.mismatches import Mismatches  # noqa: PLC0415 - ROS reads the environment
         from executor.ros.node import WorldNode  # noqa: PLC0415
         from executor.ros.outlet import Outlet  # noqa: PLC0415
+        from executor.ros.tap import TopicTap  # noqa: PLC0415
         from executor.ros.topics import Topics  # noqa: PLC0415
         from executor.world.sensing.sensors import Sensors  # noqa: PLC0415
         from executor.world.simulation.launch import make_world  # noqa: PLC0415
         from executor.world.simulation.loop import SimulationLoop  # noqa: PLC0415
+        from executor.world.simulation.recording import WorldRecorder  # noqa: PLC0415
 
         self._progress(0.2, "Building the world")
         assets = Path(message.assets) if message.assets else None
@@ -211,8 +219,10 @@ class WorldProcess:
         node = WorldNode(world, context, topics=renamed, true_poses=true_poses, outlet=outlet)
         self._close.append(node.close)
         self._topics = Topics(node.node, self._answer, commands=node, outlet=outlet)
-        loop = SimulationLoop(world, sensors, node, self._channel.send, speed=message.speed)
-        loop.watchers += [self._topics.poll, Mismatches(node.node, self._channel.send).poll]
+        recorder = WorldRecorder(world, sensors, node, TopicTap, os.environ.get(ADDRESS_VARIABLE, ""))
+        self._recorder = recorder
+        loop = SimulationLoop(world, sensors, node, self._send_frame, speed=message.speed)
+        loop.watchers += [recorder.look, self._topics.poll, Mismatches(node.node, self._channel.send).poll]
         loop.moved = self._moved
         if (navigation := make_navigation(world, context, outlet)) is not None:
             self._close.append(navigation.close)
@@ -232,6 +242,12 @@ class WorldProcess:
         outside.watchers += [self._topics.poll, Mismatches(outside.node, self._channel.send).poll]
         self._loop = outside
         self._channel.send(child_messages.WorldReady("", has_tf(), "none"))
+
+    def _send_frame(self, message: child_messages.Sim | child_messages.Log | child_messages.Frame) -> None:
+        """Sends a message of the loop; pictures that somebody looks at are recorded too."""
+        self._channel.send(message)
+        if isinstance(message, child_messages.Frame) and self._recorder is not None:
+            self._recorder.picture(message)
 
     def _moved(self, clocks: int) -> None:
         self._pulse.clocks = clocks

@@ -165,7 +165,17 @@ def _files(story, teacher, one):
     overlay = [{"path": "actions/Forward.py", "content": FORWARD.replace("def update(self)", "def update(")}]
     story.ask(teacher, "POST", f"{one}/check", {"files": overlay})
     story.ask(teacher, "POST", "actions/inspect", {"filename": "actions/Forward.py", "source": FORWARD})
-    for address in ("app", "xml", "package", "package/preview", "export", "files/actions/Forward.py"):
+    for address in (
+        "app",
+        "xml",
+        "package",
+        "package/preview",
+        "cpp",
+        "models",
+        "xsd",
+        "export",
+        "files/actions/Forward.py",
+    ):
         story.ask(teacher, "GET", f"{one}/{address}")
     draft = {"base_revision": 2, "content": FORWARD.replace("0.2", "0.4")}
     story.ask(teacher, "PUT", f"{one}/drafts/actions/Forward.py", draft)

@@ -7,7 +7,17 @@ import os
 import platform
 import sys
 
-BENCHMARKS = ("engine", "translator", "world", "stream", "session", "flood", "opening", "browser")
+BENCHMARKS = (
+    "engine",
+    "translator",
+    "world",
+    "stream",
+    "session",
+    "recording",
+    "flood",
+    "opening",
+    "browser",
+)
 
 
 def main(names: list[str]) -> None:

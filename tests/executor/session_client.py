@@ -16,13 +16,13 @@ import psutil
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 
-from executor.messages import Camera, Poses, Scan, Scene, View
+from executor.messages import Camera, Poses, RecordingPart, Scan, Scene, View
 from executor.stream.pose_codec import POSE_BYTES, unpack
 from translator import load, to_app_zip
 
 ROOT = Path(__file__).parents[2]
 TOKEN = "secret"
-decode_frame = msgspec.msgpack.Decoder(Scene | Poses | Scan | Camera | View).decode
+decode_frame = msgspec.msgpack.Decoder(Scene | Poses | Scan | Camera | View | RecordingPart).decode
 
 
 def app_zip(example="laser_bump_and_go", **overlay):

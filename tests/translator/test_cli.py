@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import sys
 import zipfile
 
@@ -137,3 +138,28 @@ def test_package_and_app(run, tmp_path):
     assert (
         json.loads(run("package", EXAMPLE, "-o", tmp_path / "p.zip", "--json")[1])["package"] == EXAMPLES[0]
     )
+
+
+def test_a_package_of_cpp_and_its_models_come_and_go(run, tmp_path):
+    status, out, errors = run("package", EXAMPLE, "--cpp", "-o", tmp_path / "c.zip")
+    assert (status, errors) == (0, "")
+    name = f"{EXAMPLES[0]}_cpp"
+    assert name in out
+    with zipfile.ZipFile(tmp_path / "c.zip") as package:
+        models = package.read(f"{name}/models/{name}.xml")
+    folder = tmp_path / "p"
+    shutil.copytree(EXAMPLE, folder)
+    (tmp_path / "m.xml").write_bytes(models)
+    assert run("import", tmp_path / "m.xml", "--into", folder)[:2] == (0, f"{folder}: 0 stubs written\n")
+    new = models.replace(b"<TreeNodesModel>", b'<TreeNodesModel><Action ID="Gate"/>')
+    (tmp_path / "m.xml").write_bytes(new.replace(b'default="0.3"', b'default="0.4"'))
+    status, out, errors = run("import", tmp_path / "m.xml", "--into", folder)
+    assert (status, out) == (0, f"{folder}: 1 stub written\n")
+    assert "BT0744" in errors
+    assert (folder / "actions" / "Gate.py").is_file()
+    document = json.loads(run("import", tmp_path / "m.xml", "--into", folder, "--json")[1])
+    assert document["written"] == []
+    assert [item["code"] for item in document["diagnostics"]] == ["BT0744"]
+    (tmp_path / "m.xml").write_text('<root BTCPP_format="4"/>')
+    assert run("import", tmp_path / "m.xml", "--into", folder)[0] == 1
+    assert run("import", tmp_path / "m.xml")[0] == 2

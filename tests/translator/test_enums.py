@@ -65,6 +65,17 @@ def written(enums: Any) -> str:
         (written({"Color": {"RED": True}}), "BT0034", 6),
         (written({"Color": {"RED": 2**31}}), "BT0034", 6),
         (written({"A": {"RED": 1}, "B": {"RED": 2}}), "BT0035", 9),
+        (
+            '{"format": "bt-studio/enums", "version": 1, "enums": {"A": {"R": 1,\n"G": 2,\n"R": 1}}}',
+            "BT0036",
+            3,
+        ),
+        (
+            '{"format": "bt-studio/enums", "version": 1, "enums": {"A": {},\n"\\u0041": {"R": 1}}}',
+            "BT0036",
+            2,
+        ),
+        ('{"format": "bt-studio/enums",\n"format": "bt-studio/enums", "version": 1}', "BT0036", 2),
     ],
 )
 def test_what_is_wrong_is_reported_at_its_line(text: str, code: str, line: int) -> None:
@@ -103,7 +114,8 @@ def test_a_port_of_an_enumeration_has_its_names() -> None:
 
 def test_scripts_know_the_names() -> None:
     assert check(project({"color": "{c}"}, code="c := GREEN == 7 ? RED : GREEN")) == ()
-    [found] = check(project({"color": "{c}"}, written({}), "c := GREEN"))
+    unknown, found = check(project({"color": "{c}"}, written({}), "c := GREEN"))
+    assert unknown.code == "BT0616"
     assert (found.code, found.values["key"]) == ("BT0401", "GREEN")
 
 

@@ -28,6 +28,12 @@ _TYPE_NAMES = {cpp: name for name, cpp in reversed(CPP_TYPES.items())} | {
     "unsigned": "uint",
     "uint32_t": "uint",
 }
+# As compilers write the names of templates with their default arguments.
+_LONG_STRING = re.compile(
+    r"std::(?:__\w+::)?basic_string<char, std::(?:__\w+::)?char_traits<char>, [^<>]*<char> ?>"
+)
+_ALLOCATOR = re.compile(r", std::(?:__\w+::)?allocator<[^<>]*> ?(?=>)")
+_CPP_NAME = re.compile(r"(?:[A-Za-z_]\w*::)*([A-Za-z_]\w*)")
 _WHOLE = re.compile(r"-?[0-9]{1,20}")
 _DIRECTIONS = {tag: direction for direction, tag in PORT_TAGS.items()}
 
@@ -229,10 +235,14 @@ class _Reader:
     def port(self, element: Element) -> PortModel:
         attributes = element.attributes
         text = " ".join((element.text or attributes.get("description", "")).split())
+        cpp = attributes.get("type", "")
+        type_ = type_name(cpp)
+        own = _CPP_NAME.fullmatch(cpp) if type_ == "any" and cpp not in _TYPE_NAMES else None
         return PortModel(
             name=attributes.get("name", ""),
             direction=_DIRECTIONS[element.tag],
-            type=type_name(attributes.get("type", "")),
+            type=type_,
+            named=own.group(1) if own else "",
             default=attributes.get("default"),
             description=text if is_clean(text) else clean(text),
         )
@@ -240,6 +250,8 @@ class _Reader:
 
 def type_name(cpp: str) -> str:
     """Returns the catalogue's name of a C++ type; `any` if the catalogue does not have it."""
+    if "<" in cpp:
+        cpp = _ALLOCATOR.sub("", _LONG_STRING.sub("std::string", cpp)).replace("std::__1::", "std::")
     if cpp.startswith("std::vector<") and cpp.endswith(">"):
         inner = type_name(cpp[len("std::vector<") : -1])
         return f"list[{inner}]" if inner in {"int", "double", "bool", "string"} else "any"

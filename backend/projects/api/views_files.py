@@ -187,6 +187,55 @@ class ProjectFiles(ResourceViewSet):
         return checking.answered(self, request, "package", packaged, files=files, name=name)
 
     @extend_schema(
+        operation_id="get_cpp_package",
+        parameters=[
+            OpenApiParameter("name", str, description="Name of the ROS package; else made of the project's.")
+        ],
+        responses={(200, "application/zip"): OpenApiTypes.BINARY} | NOT_SOUND,
+        tags=["files"],
+    )
+    @action(detail=True, expensive=("GET",))
+    def cpp(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Returns a package for BehaviorTree.CPP 4 as a zip: the trees, and skeletons of the nodes in C++.
+
+        The answer is 422 with `diagnostics` if the project has errors.
+        """
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        name = request.query_params.get("name") or None
+        files = queries.contents(project)
+        return checking.answered(self, request, "cpp_package", packaged, files=files, name=name)
+
+    @extend_schema(
+        operation_id="get_models",
+        responses={(200, "text/xml"): OpenApiTypes.STR},
+        tags=["files"],
+    )
+    @action(detail=True)
+    def models(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Returns the models of the project's nodes (`TreeNodesModel`), which Groot2 reads as a palette."""
+        return self._text(request, project_id, "models", "_models.xml")
+
+    @extend_schema(
+        operation_id="get_schema",
+        responses={(200, "text/xml"): OpenApiTypes.STR},
+        tags=["files"],
+    )
+    @action(detail=True)
+    def xsd(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Returns an XML Schema of documents with the project's nodes, by which editors of XML check them."""
+        return self._text(request, project_id, "xsd", ".xsd")
+
+    def _text(self, request: Request, project_id: UUID, job: str, ending: str) -> HttpResponseBase:
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        return checking.answered(
+            self,
+            request,
+            job,
+            lambda made: download(made["text"], "text/xml; charset=utf-8", f"{project.name}{ending}"),
+            files=queries.contents(project),
+        )
+
+    @extend_schema(
         operation_id="preview_package",
         parameters=[OpenApiParameter("name", str, description="Name of the ROS package.")],
         responses={200: PackagePreviewSerializer} | NOT_SOUND,

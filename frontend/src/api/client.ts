@@ -90,6 +90,9 @@ export const api = {
   exportUrl: (id: string) => urlOf(`${project(id)}/export`),
   xmlUrl: (id: string, isSelfContained: boolean) =>
     urlOf(`${project(id)}/xml?self_contained=${String(isSelfContained)}`),
+  cppUrl: (id: string) => urlOf(`${project(id)}/cpp`),
+  modelsUrl: (id: string) => urlOf(`${project(id)}/models`),
+  schemaUrl: (id: string) => urlOf(`${project(id)}/xsd`),
   packageUrl: (id: string, name: string) =>
     urlOf(`${project(id)}/package?${new URLSearchParams({ name }).toString()}`),
   previewPackage: (id: string, name: string, signal?: AbortSignal): Promise<PackagePreview> => {

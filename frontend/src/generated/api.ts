@@ -495,6 +495,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/cpp": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * @description Returns a package for BehaviorTree.CPP 4 as a zip: the trees, and skeletons of the nodes in C++.
+         *
+         *     The answer is 422 with `diagnostics` if the project has errors.
+         */
+        get: operations["get_cpp_package"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/drafts": {
         parameters: {
             query?: never;
@@ -573,6 +594,23 @@ export interface paths {
         };
         /** @description Returns the bytes of a current file. */
         get: operations["download_file"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/models": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Returns the models of the project's nodes (`TreeNodesModel`), which Groot2 reads as a palette. */
+        get: operations["get_models"];
         put?: never;
         post?: never;
         delete?: never;
@@ -872,6 +910,23 @@ export interface paths {
          *     The answer is 422 with `diagnostics` if the project has errors.
          */
         get: operations["get_xml"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/xsd": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Returns an XML Schema of documents with the project's nodes, by which editors of XML check them. */
+        get: operations["get_schema"];
         put?: never;
         post?: never;
         delete?: never;
@@ -2929,6 +2984,49 @@ export interface operations {
             };
         };
     };
+    get_cpp_package: {
+        parameters: {
+            query?: {
+                /** @description Name of the ROS package; else made of the project's. */
+                name?: string;
+            };
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/zip": Blob;
+                };
+            };
+            /** @description The project has errors. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["CheckProblem"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     list_drafts: {
         parameters: {
             query?: never;
@@ -3127,6 +3225,37 @@ export interface operations {
                 };
                 content: {
                     "application/octet-stream": Blob;
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_models: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/xml": string;
                 };
             };
             /** @description A problem document. */
@@ -3832,6 +3961,37 @@ export interface operations {
                 };
                 content: {
                     "application/problem+json": components["schemas"]["CheckProblem"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_schema: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/xml": string;
                 };
             };
             /** @description A problem document. */

@@ -183,6 +183,25 @@ export interface RestartNode {
   id: string;
 }
 
+/**
+ * Reads a part of a segment: a frame `recording` on this client's stream socket comes before the reply.
+ *
+ * Refused with `not_recorded` if the segment, or this version of it, is not there any more.
+ */
+export interface ReadRecording {
+  run: string;
+  segment: number;
+  version: number;
+  offset: number;
+  length: number;
+  branch?: number;
+}
+
+/** Marks the present moment of the recording with a text. */
+export interface Flag {
+  text: string;
+}
+
 /** The envelope of a command; `data` is decoded as `COMMANDS[command]`. */
 export interface ClientMessage {
   id: string;
@@ -435,6 +454,23 @@ export interface LaunchNodes {
   nodes: LaunchNode[];
 }
 
+/**
+ * A part of the recording of a run: 20 s of simulated time, and an MCAP file by itself.
+ *
+ * It is sent again each second while it grows: `bytes` of it can be read then. `complete` tells that it has
+ * its end. A new `version` replaces it when old pictures were removed; with 0 `bytes` it is gone.
+ */
+export interface Segment {
+  run: string;
+  branch: number;
+  number: number;
+  version: number;
+  from_t: number;
+  to_t: number;
+  bytes: number;
+  complete: boolean;
+}
+
 /** The full state for a client that joins late; later events change it. */
 export interface Snapshot {
   state: State;
@@ -454,6 +490,7 @@ export interface Snapshot {
   runs: number;
   run_starts: [number, number][];
   hanging_s: number;
+  segments: Segment[];
 }
 
 /** The envelope of an event. */
@@ -602,6 +639,17 @@ export interface View {
   jpeg: Uint8Array;
 }
 
+/** A part of a segment of a recording, as `read_recording` asked for it. */
+export interface RecordingPart {
+  type: "recording";
+  run: string;
+  branch: number;
+  segment: number;
+  version: number;
+  offset: number;
+  data: Uint8Array;
+}
+
 /** Payload by `command`. */
 export interface Commands {
   connect: Empty;
@@ -633,6 +681,8 @@ export interface Commands {
   publish_topic: PublishTopic;
   describe_type: DescribeType;
   restart_node: RestartNode;
+  read_recording: ReadRecording;
+  flag: Flag;
   take_over: Empty;
   ping: Empty;
 }
@@ -658,7 +708,8 @@ export interface Events {
   type_description: TypeDescription;
   topic_mismatch: TopicMismatch;
   launch_nodes: LaunchNodes;
+  segment: Segment;
 }
 
 /** What the stream socket sends, told by `type`. */
-export type Frame = Scene | Poses | Scan | Camera | View;
+export type Frame = Scene | Poses | Scan | Camera | View | RecordingPart;

@@ -50,3 +50,13 @@ def test_a_text_that_is_half_typed_has_findings_and_no_diagram() -> None:
     half = JOBS["read_tree"](xml="<root", diagram=TREE)
     assert half["diagram"] is None
     assert half["diagnostics"]
+
+
+def test_a_package_of_cpp_its_models_and_a_schema() -> None:
+    made = JOBS["cpp_package"](files=FILES, name=None)
+    assert made["name"].endswith("_cpp")
+    with zipfile.ZipFile(io.BytesIO(made["zip"])) as package:
+        assert f"{made['name']}/src/register_nodes.cpp" in package.namelist()
+    assert "<TreeNodesModel>" in JOBS["models"](files=FILES)["text"]
+    assert "<xs:schema" in JOBS["xsd"](files=FILES)["text"]
+    assert JOBS["cpp_package"](files=BROKEN, name=None)["refused"]

@@ -2,12 +2,24 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Final
+
 from executor.manager.manager import free_domain_id, session_programs
+from executor.recorder.link import ADDRESS_VARIABLE
+
+if TYPE_CHECKING:
+    from executor.session.events import Kind
+
+KINDS: Final[tuple[Kind, ...]] = ("world", "application")
 
 
-def test_a_session_has_a_domain_and_two_programs() -> None:
+def test_a_session_has_a_domain_and_three_programs() -> None:
     domain_id = free_domain_id()
     assert 0 <= domain_id <= 101
     programs = session_programs(domain_id)
-    assert {"world", "application"} <= set(programs)
-    assert all(program.environment["ROS_DOMAIN_ID"] == str(domain_id) for program in programs.values())
+    assert set(programs) == {"world", "application", "recorder"}
+    for kind in KINDS:
+        assert programs[kind].environment["ROS_DOMAIN_ID"] == str(domain_id)
+    addresses = {program.environment[ADDRESS_VARIABLE] for program in programs.values()}
+    assert len(addresses) == 1
+    assert session_programs(domain_id)["recorder"].environment[ADDRESS_VARIABLE] not in addresses

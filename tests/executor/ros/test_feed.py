@@ -6,8 +6,9 @@ from executor.ros.feed import Feed, Feeds
 class Publisher:
     """Counts its messages; `listeners` is the number of its subscribers."""
 
-    def __init__(self, listeners: int) -> None:
+    def __init__(self, listeners: int, topic_name: str = "") -> None:
         self.listeners = listeners
+        self.topic_name = topic_name
         self.sent: list[Any] = []
 
     def get_subscription_count(self) -> int:
@@ -71,3 +72,18 @@ def test_cameras_are_slowed_and_nothing_else() -> None:
     for i in range(60, 120):
         feeds.publish(None, i / 60)
     assert (len(picture.sent), len(scan.sent)) == (18, 30)
+
+
+def test_a_tap_gets_what_is_sent_and_samples_of_all_else() -> None:
+    heard, unheard = Publisher(1, "/heard"), Publisher(0, "/unheard")
+    feeds = Feeds([Feed([one], lambda _, t: t, 30.0) for one in (heard, unheard)])
+    taken: list[Any] = []
+    feeds.sample(10.0)
+    for i in range(60):
+        feeds.publish(None, i / 60, lambda topic, _, now_s: taken.append((topic, now_s)))
+    counts = {topic: sum(found == topic for found, _ in taken) for topic in ("/heard", "/unheard")}
+    assert counts == {"/heard": 30, "/unheard": 10}
+    feeds.restart()
+    taken.clear()
+    feeds.publish(None, 0.0, lambda topic, _, now_s: taken.append((topic, now_s)))
+    assert len(taken) == 2

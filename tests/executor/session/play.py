@@ -48,6 +48,8 @@ DATA: dict[str, dict[str, Any]] = {
     "echo_topic": {"topic": "/scan"},
     "publish_topic": {"topic": "/x", "type": "std_msgs/msg/String", "message": {"data": "x"}},
     "describe_type": {"type": "std_msgs/msg/String"},
+    "read_recording": {"run": "abc", "segment": 0, "version": 0, "offset": 0, "length": 100},
+    "flag": {"text": "here"},
     "restart_node": {"id": "launch/extra.launch.yaml:talker"},
 }
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from tests.translator.check.finding import find, findings
 from translator.check.action import check_actions
 from translator.stub import stub_source
@@ -16,3 +18,39 @@ def test_a_stub_is_reported_at_the_node_that_uses_it(make_project):
 def test_a_stub_that_no_tree_uses_is_not_reported(make_project):
     project = make_project({"n1": {"type": "Act"}}, actions={"Later": stub_source("Later", None, [])})
     assert findings(check_actions, project) == []
+
+
+PAINT = """
+import py_trees
+{head}
+from tree_gardener import Port
+
+
+class Paint(py_trees.behaviour.Behaviour):
+    INPUT_PORTS = {{
+        "color": Port("Colour"),
+    }}
+
+    def update(self):
+        return py_trees.common.Status.SUCCESS
+"""
+ENUMS = '{{"format": "bt-studio/enums", "version": 1, "enums": {{"{name}": {{"RED": 0}}}}}}'
+
+
+@pytest.mark.parametrize(
+    ("head", "enums", "lines"),
+    [
+        ("", "Color", [9]),
+        ("", "Colour", []),
+        ("from robot import Colour", "Color", []),
+        ("class Colour:\n    pass\n", "Color", []),
+    ],
+)
+def test_a_type_that_is_no_enumeration_is_reported_at_its_line(make_project, head, enums, lines):
+    source = PAINT.format(head=head)
+    files = {"enums.json": ENUMS.format(name=enums).encode()}
+    project = make_project({"n1": {"type": "Paint"}}, actions={"Paint": source}, files=files)
+    found = [item for item in findings(check_actions, project) if item.code == "BT0616"]
+    assert [(item.place.file, item.place.line, item.place.port) for item in found] == [
+        ("actions/Paint.py", line, "color") for line in lines
+    ]

@@ -43,6 +43,9 @@ describe('OtherDownloads', () => {
     ['Project (zip)', '/api/v1/projects/p1/export'],
     ['BehaviorTree.CPP XML', '/api/v1/projects/p1/xml?self_contained=false'],
     ["XML with the actions' code", '/api/v1/projects/p1/xml?self_contained=true'],
+    ['BehaviorTree.CPP 4 (C++ package)', '/api/v1/projects/p1/cpp'],
+    ['Models of the nodes (palette)', '/api/v1/projects/p1/models'],
+    ['XML Schema', '/api/v1/projects/p1/xsd'],
   ])('%s is a link', (name, address) => {
     show(<OtherDownloads projectId="p1" />);
     expect(screen.getByRole('link', { name })).toHaveAttribute('href', address);

@@ -1,6 +1,6 @@
 import { Button, Group, SegmentedControl, Select, Stack, Text } from '@mantine/core';
 import { notifications } from '@mantine/notifications';
-import { IconFileTypeXml, IconFileZip, IconPhoto } from '@tabler/icons-react';
+import { IconBrandCpp, IconFileTypeXml, IconFileZip, IconPhoto } from '@tabler/icons-react';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
@@ -65,6 +65,36 @@ export function OtherDownloads({ projectId }: { readonly projectId: string }) {
             leftSection={<IconFileTypeXml size={16} />}
           >
             {t('selfContained')}
+          </Button>
+          <Button
+            component="a"
+            variant="default"
+            href={api.cppUrl(projectId)}
+            download
+            data-testid="download-cpp"
+            leftSection={<IconBrandCpp size={16} />}
+          >
+            {t('cpp')}
+          </Button>
+          <Button
+            component="a"
+            variant="default"
+            href={api.modelsUrl(projectId)}
+            download
+            data-testid="download-models"
+            leftSection={<IconFileTypeXml size={16} />}
+          >
+            {t('models')}
+          </Button>
+          <Button
+            component="a"
+            variant="default"
+            href={api.schemaUrl(projectId)}
+            download
+            data-testid="download-schema"
+            leftSection={<IconFileTypeXml size={16} />}
+          >
+            {t('schema')}
           </Button>
         </Group>
         <Text size="sm" fw={600} mt="xs">

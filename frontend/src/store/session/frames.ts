@@ -1,10 +1,13 @@
-import type { Frame, Scene } from '@/generated/messages';
+import type { Frame, RecordingPart, Scene } from '@/generated/messages';
 
 type FrameOf<K extends Frame['type']> = Extract<Frame, { type: K }>;
 type Listener = (frame: Frame) => void;
+/** A frame that shows the present; parts of a recording are answers, and are not stored. */
+type StreamFrame = Exclude<Frame, RecordingPart>;
 
 /** Returns the key of a frame; a newer frame of the same kind, and of the same camera, replaces it. */
-const keyOf = (frame: Frame): string => (frame.type === 'camera' ? `camera/${frame.sensor}` : frame.type);
+const keyOf = (frame: StreamFrame): string =>
+  frame.type === 'camera' ? `camera/${frame.sensor}` : frame.type;
 
 /**
  * Distributes frames outside of React, so that each viewer draws at its own rate. The last frame of each kind
@@ -12,11 +15,11 @@ const keyOf = (frame: Frame): string => (frame.type === 'camera' ? `camera/${fra
  */
 class FrameBus {
   private readonly listeners = new Map<string, Set<Listener>>();
-  private readonly latest = new Map<string, Frame>();
+  private readonly latest = new Map<string, StreamFrame>();
 
   publish(frame: Frame): void {
     if (frame.type === 'scene') this.latest.clear();
-    this.latest.set(keyOf(frame), frame);
+    if (frame.type !== 'recording') this.latest.set(keyOf(frame), frame);
     this.listeners.get(frame.type)?.forEach((listener) => listener(frame));
   }
 
@@ -28,7 +31,7 @@ class FrameBus {
     const set = this.listeners.get(kind) ?? new Set();
     this.listeners.set(kind, set);
     set.add(listener as Listener);
-    for (const last of this.latest.values()) if (last.type === kind) listener(last as FrameOf<K>);
+    for (const last of this.latest.values()) if (last.type === kind) (listener as Listener)(last);
     return () => set.delete(listener as Listener);
   }
 

@@ -44,6 +44,7 @@ const snapshot = (more: Partial<Snapshot> = {}): Snapshot => ({
   runs: 0,
   run_starts: [],
   hanging_s: 0,
+  segments: [],
   state: 'application_running',
   tree: null,
   statuses: [],

@@ -1,0 +1,91 @@
+"""Sends what happens in the tree to the recorder of the session."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+from executor.application.preview import preview
+from executor.recorder.link import Record, RecorderLink
+from executor.recorder.tree_recorder import TreeRecorder
+from executor.recorder.writer import nanoseconds
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from tree_gardener import Tree
+
+__all__ = ["ApplicationRecorder"]
+
+GOODBYE_S: Final = 0.2
+RESET_S: Final = 1.0
+
+
+class _Later(NamedTuple):
+    """A run that begins once the time is less than at its reset, or after a while of real time."""
+
+    run: str
+    reset_at_s: float
+    until_s: float
+
+
+class ApplicationRecorder:
+    """Records a tree: its nodes, each tick, and each write to the blackboard with its writer.
+
+    Args:
+        tree: the tree.
+        now: returns the simulated time in s.
+        address: the address of the recorder; "" if nothing is recorded.
+    """
+
+    def __init__(
+        self,
+        tree: Tree,
+        now: Callable[[], float],
+        address: str,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._tree = tree
+        self._now = now
+        self._generation = 0
+        self._recorder: TreeRecorder | None = None
+        self._clock = clock
+        self._link = RecorderLink(address, self._restate, clock)
+        self._later: _Later | None = None
+
+    def begin(self, run: str, *, resets: bool = False) -> None:
+        """Begins the recording of a run; after a reset as soon as the time has gone back here too."""
+        if resets:
+            self._later = _Later(run, self._now(), self._clock() + RESET_S)
+        else:
+            self._link.begin(run)
+
+    def pump(self) -> None:
+        """Sends what waits. Called many times in a second."""
+        later = self._later
+        if later is not None and (self._now() < later.reset_at_s or self._clock() >= later.until_s):
+            self._later = None
+            self._link.begin(later.run)
+        self._link.pump()
+
+    def close(self) -> None:
+        """Sends the last messages."""
+        self._link.flush(GOODBYE_S)
+        self._link.close()
+
+    def _restate(self) -> None:
+        self._generation += 1
+        if self._recorder is None:
+            self._recorder = TreeRecorder(self._tree, self._send, self._now_ns, _describe, self._generation)
+        else:
+            self._recorder.restate(self._generation)
+
+    def _send(self, topic: str, name: str, fields: Mapping[str, Any]) -> None:
+        self._link.send(Record(topic, name, dict(fields)))
+
+    def _now_ns(self) -> int:
+        return nanoseconds(self._now())
+
+
+def _describe(value: Any) -> str:
+    return str(preview(value)[0])

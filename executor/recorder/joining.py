@@ -1,0 +1,53 @@
+"""Joins the segments of a run into one file: `python -m executor.recorder.joining FOLDER RUN OUT`.
+
+It is a process of its own, so that a long run does not make the manager wait.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from executor.recorder.reader import RecordingError
+from executor.recorder.recover import join
+from executor.recorder.shelf import files_of
+from executor.supervision.confine import die_with_parent
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["NOT_RECORDED", "join_run", "main"]
+
+NOT_RECORDED = 3
+
+
+def join_run(folder: Path, run: str, out: Path) -> int:
+    """Writes a run into one file; returns the number of its messages, 0 if there is no such run.
+
+    Raises:
+        RecordingError: a segment is damaged.
+        OSError: the file cannot be written.
+    """
+    files = files_of(folder, run)
+    if not files:
+        return 0
+    with contextlib.ExitStack() as stack:
+        sources = [(stack.enter_context(path.open("rb")), path.name) for path in files]
+        return join(sources, stack.enter_context(out.open("wb")))
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs the command; returns the exit status."""
+    folder, run, out = arguments if arguments is not None else sys.argv[1:]
+    die_with_parent()
+    try:
+        return 0 if join_run(Path(folder), run, Path(out)) else NOT_RECORDED
+    except (OSError, RecordingError) as error:
+        sys.stderr.write(f"{error}\n")
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,256 @@
+"""The recorder of a session: `python -m executor.recorder.process --channel-fd N`.
+
+World and application send what happens over links of their own (`executor.recorder.link`), the manager tells
+of lines, faults and the end. None of the user's code is in this process, and it survives all others. Once a
+second everything is flushed. A full disk stops the recording, not the run.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import selectors
+import signal
+import struct
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import msgspec
+
+from executor import __version__, child_messages
+from executor.child_messages import FromRecorder, ToRecorder, decode_to_recorder
+from executor.messages import Error, RecordingPart, Segment
+from executor.recorder.definitions import DefinitionError
+from executor.recorder.link import ADDRESS_VARIABLE, Dump, Heard, Mark, Record
+from executor.recorder.project_files import project_files
+from executor.recorder.run_writer import RunWriter
+from executor.recorder.shelf import Shelf
+from executor.recorder.sources import BrokenSource, Source, listen, take_source
+from executor.recorder.telling import told
+from executor.supervision.channel import Channel, ChannelClosed, ChannelError
+from executor.supervision.confine import die_with_parent
+
+if TYPE_CHECKING:
+    import socket
+
+    from executor.recorder import shelf
+
+__all__ = ["RecorderProcess", "main"]
+
+LOOK_S: Final = 1.0
+MOST_SOURCES: Final = 16
+BRANCH: Final = 0
+_NO_FIELDS: Final = (KeyError, TypeError, ValueError, AttributeError, OverflowError, struct.error)
+_encode = msgspec.msgpack.Encoder().encode
+
+
+class _Stop(Exception):  # noqa: N818 - the way out, not an error
+    """Raised when the manager ends the recorder."""
+
+
+class RecorderProcess:
+    """Takes messages and writes them, in one thread."""
+
+    def __init__(self, channel: Channel[FromRecorder, ToRecorder], listener: socket.socket) -> None:
+        self._channel = channel
+        self._listener = listener
+        self._selector = selectors.DefaultSelector()
+        self._selector.register(channel, selectors.EVENT_READ)
+        self._selector.register(listener, selectors.EVENT_READ)
+        self._sources: dict[int, Source] = {}
+        self._shelf: Shelf | None = None
+        self._writer: RunWriter | None = None
+        self._refused: set[str] = set()
+        self._look_s = time.monotonic()
+
+    def run(self) -> None:
+        """Runs until the manager ends it, or is gone."""
+        try:
+            while True:
+                self._turn()
+        except (_Stop, ChannelClosed):
+            self._guarded(self._end_run)
+
+    def _turn(self) -> None:
+        wait_s = max(0.0, self._look_s + LOOK_S - time.monotonic())
+        for key, _ in self._selector.select(wait_s):
+            if key.fileobj is self._channel:
+                self._take_commands()
+            elif key.fileobj is self._listener:
+                self._accept()
+            else:
+                self._take(self._sources[key.fd])
+        if time.monotonic() - self._look_s >= LOOK_S:
+            self._look_s = time.monotonic()
+            self._channel.send(child_messages.Beat(0))
+            if self._writer is not None:
+                self._guarded(self._writer.flush)
+
+    # --- the manager ------------------------------------------------------------------------------
+
+    def _take_commands(self) -> None:
+        while (message := self._channel.receive(0)) is not None:
+            match message:
+                case child_messages.Stop():
+                    raise _Stop
+                case child_messages.StartRecorder():
+                    self._shelf = Shelf(Path(message.folder), self._announce)
+                    self._shelf.recover()
+                case child_messages.BeginRun():
+                    self._begin(message)
+                case child_messages.Told():
+                    self._tell(message)
+                case child_messages.ReadSegment():
+                    self._answer(message)
+
+    def _begin(self, message: child_messages.BeginRun) -> None:
+        about = {**message.about, "bt_studio": __version__, "python": platform.python_version()}
+        about["platform"] = platform.platform()
+        if self._shelf is not None and (self._writer is None or self._writer.run != message.run):
+            self._change_run(self._shelf, message.run, about, project_files(message.folder))
+
+    def _tell(self, message: child_messages.Told) -> None:
+        writer = self._writer
+        if writer is None or writer.run != message.run:
+            return
+        # The manager's time may still be that of the run before; it is never ahead of world and application.
+        t_ns = min(max(0, round(message.t * 1e9)), writer.now_ns)
+        uid = writer.moment.uid(message.data.get("node_path") or "")
+        if (line := told(message.name, t_ns, message.data, uid)) is not None:
+            self._guarded(lambda: writer.record(*line))
+
+    def _answer(self, message: child_messages.ReadSegment) -> None:
+        error = self._read(message)
+        self._channel.send(child_messages.Answer(request=message.request, error=error))
+
+    def _read(self, message: child_messages.ReadSegment) -> Error | None:
+        segment = self._find(message)
+        if segment is None or self._shelf is None:
+            text = f"Segment {message.segment}.{message.version} of run {message.run} is not recorded."
+            return Error("not_recorded", text, "A newer version may have replaced it.")
+        try:
+            data = self._shelf.read(segment, message.offset, message.length)
+        except OSError as error:
+            return Error("not_recorded", f"The segment cannot be read: {error.strerror}.")
+        part = RecordingPart(message.run, BRANCH, message.segment, message.version, message.offset, data)
+        lane = f"recording/{message.run}/{message.segment}/{message.version}/{message.offset}"
+        self._channel.send(child_messages.Frame(message.client, lane, _encode(part), keep=True))
+        return None
+
+    def _find(self, message: child_messages.ReadSegment) -> shelf.Segment | None:
+        known = list(self._shelf.segments) if self._shelf is not None else []
+        if self._writer is not None:
+            known.append(self._writer.open_segment)
+        wanted = (message.run, message.segment, message.version)
+        return next((one for one in known if (one.run, one.number, one.version) == wanted), None)
+
+    def _announce(self, segment: shelf.Segment) -> None:
+        times = segment.from_ns * 1e-9, segment.to_ns * 1e-9
+        place = segment.run, BRANCH, segment.number, segment.version
+        self._channel.send(
+            child_messages.Recorded(Segment(*place, *times, segment.bytes, segment.is_complete))
+        )
+
+    # --- the sources ------------------------------------------------------------------------------
+
+    def _accept(self) -> None:
+        source = take_source(self._listener)
+        if source is None:
+            return
+        if len(self._sources) >= MOST_SOURCES:
+            source.connection.close()
+            return
+        self._sources[source.connection.fileno()] = source
+        self._selector.register(source.connection, selectors.EVENT_READ)
+
+    def _take(self, source: Source) -> None:
+        try:
+            for message in source.messages():
+                if (writer := self._writer_of(source.run)) is not None:
+                    self._guarded(lambda m=message, w=writer: self._write(w, m))
+        except BrokenSource:
+            self._lose(source)
+        except _NO_FIELDS as error:
+            self._say(f"A message for the recording is not of its type ({type(error).__name__}).")
+            self._lose(source)
+
+    def _lose(self, source: Source) -> None:
+        self._selector.unregister(source.connection)
+        del self._sources[source.connection.fileno()]
+        source.connection.close()
+
+    def _writer_of(self, run: str) -> RunWriter | None:
+        """Returns the writer of a run; None for an earlier one, of which something arrives late."""
+        if self._writer is not None and self._writer.run == run:
+            return self._writer
+        if run in self._refused:
+            return None
+        self._take_commands()  # the manager told of the run before it told the source
+        return self._writer if self._writer is not None and self._writer.run == run else None
+
+    def _change_run(self, shelf: Shelf, run: str, about: dict[str, str], files: dict[str, bytes]) -> None:
+        self._guarded(self._end_run)
+        if self._writer is not None:
+            self._refused.add(self._writer.run)
+        self._writer = RunWriter(shelf, run, about, files)
+
+    def _end_run(self) -> None:
+        if self._writer is not None:
+            self._writer.end()
+
+    @staticmethod
+    def _write(writer: RunWriter, message: Mark | Record | Heard | Dump) -> None:
+        match message:
+            case Record():
+                writer.record(message.topic, message.name, message.fields)
+            case Heard():
+                writer.write(message.topic, message.kind, message.t_ns, message.data)
+            case Dump():
+                fields = writer.moment.keyframe(message.t_ns, message.step, message.data)
+                writer.record("/bt/keyframe", "Keyframe", fields)
+            case Mark():
+                pass
+
+    # --- what can fail ----------------------------------------------------------------------------
+
+    def _guarded(self, write: Any) -> None:
+        """Writes; a full disk ends the recording of this run, and an unknown type is left out."""
+        try:
+            write()
+        except DefinitionError as error:
+            self._say(f"A topic is not recorded: {error}.")
+        except OSError as error:
+            self._stop_run(error)
+
+    def _stop_run(self, error: OSError) -> None:
+        writer, self._writer = self._writer, None
+        if writer is None:
+            return
+        self._refused.add(writer.run)
+        writer.abandon()
+        self._say(f"The recording stops here: {error.strerror}. The run continues.")
+
+    def _say(self, text: str) -> None:
+        self._channel.send(child_messages.Log("warning", text))
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Runs a recorder for the manager at the other end of a channel."""
+    parser = argparse.ArgumentParser(prog="python -m executor.recorder.process", description=__doc__)
+    parser.add_argument("--channel-fd", type=int, required=True)
+    options = parser.parse_args(arguments)
+    die_with_parent()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the manager handles Ctrl-C
+    channel: Channel[FromRecorder, ToRecorder] = Channel(options.channel_fd, decode_to_recorder)
+    try:
+        RecorderProcess(channel, listen(os.environ.pop(ADDRESS_VARIABLE))).run()
+        channel.flush(LOOK_S)
+    except ChannelError as error:
+        sys.exit(f"The manager sent a message that cannot be read: {error}")
+
+
+if __name__ == "__main__":
+    main()

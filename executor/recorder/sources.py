@@ -1,0 +1,101 @@
+"""The recorder's end of its links: takes the messages of world and application, which it does not trust."""
+
+from __future__ import annotations
+
+import os
+import socket
+import struct
+from typing import TYPE_CHECKING, Final
+
+import msgspec
+
+from executor.recorder.link import MOST_MESSAGE_BYTES, PREFIX, Mark, Sent
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["BrokenSource", "Source", "listen", "take_source"]
+
+MOST_SOURCES: Final = 16
+READ_BYTES: Final = 1 << 20
+_CREDENTIALS: Final = struct.Struct("3i")
+
+
+class BrokenSource(Exception):  # noqa: N818 - says what the source is
+    """A source has ended, or sent what is no message."""
+
+
+def listen(address: str) -> socket.socket:
+    """Listens at an address of the abstract namespace.
+
+    Raises:
+        OSError: another process listens there.
+    """
+    listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    try:
+        listener.bind(f"\0{address}")
+        listener.listen(MOST_SOURCES)
+        listener.setblocking(False)  # noqa: FBT003 - positional only
+    except OSError:
+        listener.close()
+        raise
+    return listener
+
+
+def take_source(listener: socket.socket) -> Source | None:
+    """Accepts a connection; None if it is not of this user, whose name anyone on the machine can read."""
+    connection, _ = listener.accept()
+    connection.setblocking(False)  # noqa: FBT003 - positional only
+    data = connection.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, _CREDENTIALS.size)
+    _, uid, _ = _CREDENTIALS.unpack(data)
+    if uid != os.getuid():
+        connection.close()
+        return None
+    return Source(connection)
+
+
+class Source:
+    """One connection. `run` is the run to which its messages belong; "" before its first mark."""
+
+    def __init__(self, connection: socket.socket) -> None:
+        self.connection = connection
+        self.run = ""
+        self._data = bytearray()
+        self._decode = msgspec.msgpack.Decoder(Sent).decode
+
+    def messages(self) -> Iterator[Sent]:
+        """Yields the messages that have arrived.
+
+        Raises:
+            BrokenSource: the connection is over, or broken.
+        """
+        try:
+            data = self.connection.recv(READ_BYTES)
+        except BlockingIOError:
+            return
+        except OSError as error:
+            raise BrokenSource(str(error)) from error
+        if not data:
+            raise BrokenSource("it has ended")
+        self._data += data
+        while (message := self._next()) is not None:
+            if isinstance(message, Mark):
+                self.run = message.run
+            yield message
+
+    def _next(self) -> Sent | None:
+        if len(self._data) < PREFIX.size:
+            return None
+        (length,) = PREFIX.unpack_from(self._data)
+        if length > MOST_MESSAGE_BYTES:
+            raise BrokenSource(f"it announced a message of {length} bytes")
+        end = PREFIX.size + length
+        if len(self._data) < end:
+            return None
+        body = bytes(memoryview(self._data)[PREFIX.size : end])
+        del self._data[:end]
+        try:
+            message: Sent = self._decode(body)
+        except (msgspec.DecodeError, RecursionError, UnicodeDecodeError) as error:
+            raise BrokenSource(f"it sent what is no message: {error}") from error
+        return message

@@ -1,0 +1,113 @@
+"""Sends what happens in a world to the recorder of the session."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final, Protocol
+
+import msgspec
+
+from executor.messages import Camera
+from executor.recorder.link import Dump, Heard, Record, RecorderLink
+from executor.recorder.thinning import Thinner
+from executor.recorder.writer import nanoseconds
+from executor.world.simulation.streams import Streams
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from executor.child_messages import Frame
+    from executor.ros.node import WorldNode
+    from executor.world.interface import World
+    from executor.world.sensing.sensors import Sensors
+
+__all__ = ["WorldRecorder"]
+
+POSES_HZ: Final = 30.0
+KEYFRAME_S: Final = 5.0
+UNHEARD_HZ: Final = 10.0
+_decode_camera = msgspec.msgpack.Decoder(Camera).decode
+
+
+class Tap(Protocol):
+    """Takes messages of topics, and pictures that are coded already."""
+
+    def __call__(self, topic: str, message: Any, now_s: float) -> None:
+        """Takes one message."""
+
+    def jpeg(self, topic: str, jpeg: bytes, now_s: float, frame_id: str) -> None:
+        """Takes one picture."""
+
+
+class WorldRecorder:
+    """Records scene, poses, topics, looked-at cameras and, every 5 s, the whole state of a world.
+
+    Args:
+        world: the simulated world.
+        sensors: the sensors of the world.
+        node: the world's ROS node; each message of its topics is recorded.
+        make_tap: makes the tap of the topics; its argument writes topic, type, time in s and message.
+        address: the address of the recorder; "" if nothing is recorded.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        sensors: Sensors,
+        node: WorldNode,
+        make_tap: Callable[[Callable[[str, str, float, bytes], None]], Tap],
+        address: str,
+    ) -> None:
+        self._world = world
+        self._node = node
+        self._link = RecorderLink(address, self._restate)
+        self._thinner = Thinner()
+        self._tap = make_tap(self._topic)
+        self._sensors = sensors
+        self._streams = self._new_streams()
+        self._dump_s = 0.0
+
+    def begin(self, run: str) -> None:
+        """Begins the recording of a run."""
+        self._thinner = Thinner()
+        self._node.tap(self._tap, sample_hz=UNHEARD_HZ)
+        self._link.begin(run)
+
+    def look(self, _: float) -> None:
+        """Sends all that is due."""
+        self._link.pump()
+        if not self._link.is_recording:
+            return
+        now_s = self._world.time_s
+        self._streams.send_due(now_s)
+        if now_s >= self._dump_s:
+            self._dump_s = now_s + KEYFRAME_S
+            step = round(now_s / self._world.step_s)
+            self._link.send(Dump(nanoseconds(now_s), step, self._world.dump()))
+
+    def picture(self, frame: Frame) -> None:
+        """Records a picture of a camera that somebody looks at."""
+        if self._link.is_recording and frame.stream.partition("/")[0] == "camera":
+            camera = _decode_camera(frame.data)
+            self._tap.jpeg(f"/world/camera/{camera.sensor}", camera.jpeg, camera.t, camera.sensor)
+
+    # --- inside ---
+
+    def _restate(self) -> None:
+        self._streams = self._new_streams()  # time may have gone back
+        self._streams.send_due(self._world.time_s)
+        self._dump_s = self._world.time_s
+
+    def _new_streams(self) -> Streams:
+        streams = Streams(self._world, self._sensors, self._frame, clock=lambda: self._world.time_s)
+        streams.subscribe(None, "poses", max_hz=POSES_HZ)
+        return streams
+
+    def _frame(self, frame: Frame) -> None:
+        name = {"scene": "Scene", "poses": "Poses"}[frame.stream]
+        fields = {"stamp": nanoseconds(self._world.time_s), "data": frame.data}
+        self._link.send(Record(f"/world/{frame.stream}", name, fields))
+
+    def _topic(self, topic: str, kind: str, now_s: float, data: bytes) -> None:
+        is_picture = topic.endswith("/compressed")
+        if is_picture or self._thinner.take(topic, now_s, len(data)).is_kept:
+            self._link.send(Heard(topic, kind, nanoseconds(now_s), data))

@@ -1,0 +1,73 @@
+"""The cost of recording: processor time of a session with and without it, for each simulated second.
+
+Both are taken in turns in one run; the ratio is what counts.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import statistics
+from typing import Any
+
+import psutil
+
+from tests.executor.session_client import SessionClient, app_zip, manager_process, run_data
+
+ROUNDS = 3
+WATCHED_S = 20.0
+EXAMPLES: tuple[tuple[str, str, dict[str, Any] | None], ...] = (
+    ("laser_bump_and_go", "walled_room", None),
+    ("visual_follow_person", "person_in_green", {"stream": "camera", "max_hz": 10.0, "width": 640}),
+)
+
+
+def main() -> None:
+    """Prints every figure."""
+    asyncio.run(_main())
+
+
+async def _main() -> None:
+    for example, universe, stream in EXAMPLES:
+        rows = []
+        for _ in range(ROUNDS):
+            without = await cost(example, universe, stream, "--no-recording")
+            rows.append((without, await cost(example, universe, stream)))
+        print(f"{example}{', one camera at 10 Hz' if stream else ''}: % of a core, medians of {ROUNDS}")
+        for kind in ("world", "application", "manager", "recorder"):
+            show(kind, *(statistics.median(row[i].get(kind, 0.0) for row in rows) for i in (0, 1)))
+        show("all", *(statistics.median(sum(row[i].values()) for row in rows) for i in (0, 1)))
+
+
+def show(what: str, without: float, recorded: float) -> None:
+    """Prints one row."""
+    print(f"  {what:12} {without:6.2f} without, {recorded:6.2f} recorded, {recorded - without:+6.2f}")
+
+
+async def cost(example: str, universe: str, stream: dict[str, Any] | None, *options: str) -> dict[str, float]:
+    """Returns the processor time of each process of a session, in % of a core."""
+    async with manager_process(*options) as process:
+        client = await SessionClient(process.ready["port"]).open()
+        if stream is not None:
+            await client.ask("subscribe", stream)
+        await client.ask("run", run_data(app_zip(example), universe))
+        await asyncio.sleep(3.0)
+        manager = psutil.Process(process.pid)
+        before = {p.pid: _spent_s(p) for p in (manager, *manager.children())}
+        await asyncio.sleep(WATCHED_S)
+        spent: dict[str, float] = {}
+        for one in (manager, *manager.children()):
+            if one.pid in before:
+                spent[_kind(one)] = 100 * (_spent_s(one) - before[one.pid]) / WATCHED_S
+        await client.close()
+    return spent
+
+
+def _spent_s(process: psutil.Process) -> float:
+    times = process.cpu_times()
+    return float(times.user + times.system)
+
+
+def _kind(process: psutil.Process) -> str:
+    command = " ".join(process.cmdline())
+    kinds = ("world", "application", "recorder")
+    return next((kind for kind in kinds if f"executor.{kind}.process" in command), "manager")

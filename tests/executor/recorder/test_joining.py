@@ -1,0 +1,27 @@
+"""The segments of a run as one file."""
+
+from __future__ import annotations
+
+from mcap.reader import make_reader
+
+from executor.recorder.joining import NOT_RECORDED, join_run, main
+from executor.recorder.shelf import file_of
+from tests.executor.recorder.test_shelf import SECOND, filled
+
+
+def test_a_run_is_joined_in_order(tmp_path):
+    filled(tmp_path, 45)
+    out = tmp_path / "all.mcap"
+    assert join_run(tmp_path, "a1", out) == 45
+    with out.open("rb") as file:
+        times = [message.log_time for _, _, message in make_reader(file).iter_messages()]
+    assert times == [second * SECOND for second in range(45)]
+
+
+def test_a_run_that_was_not_recorded_and_a_damaged_one_are_said(tmp_path, capsys):
+    assert main([str(tmp_path), "ff", str(tmp_path / "out")]) == NOT_RECORDED
+    shelf, _ = filled(tmp_path, 15)
+    path = file_of(tmp_path, shelf.segments[0])
+    path.write_bytes(b"x" + path.read_bytes())
+    assert main([str(tmp_path), "a1", str(tmp_path / "out")]) == 1
+    assert "00000.0.mcap:0: it does not begin as an MCAP file" in capsys.readouterr().err

@@ -1,0 +1,211 @@
+"""The recorder of a real session: what it holds, and what it survives."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import io
+import json
+import os
+import signal
+import urllib.request
+from typing import Any
+
+import psutil
+import pytest
+from mcap.reader import make_reader
+from mcap.records import Message
+
+from executor.messages import RecordingPart
+from executor.recorder.cdr import decode
+from executor.recorder.process import LOOK_S
+from executor.recorder.reader import RecordReader
+from tests.budget import count
+from tests.executor.session_client import TOKEN, SessionClient, app_zip, manager_process, run_data
+
+pytestmark = pytest.mark.simulation
+
+WRITES = """
+import py_trees
+from tree_gardener.ports import Port, set_output
+
+class Forward(py_trees.behaviour.Behaviour):
+    INPUT_PORTS = {"lin_speed": Port(float, default=0.3)}
+    OUTPUT_PORTS = {"count": Port(int, default="{count}")}
+    count = 0
+
+    def update(self):
+        self.count += 1
+        set_output(self, "count", self.count)
+        print("tick", self.count)
+        return py_trees.common.Status.RUNNING
+"""
+
+
+def child_of(manager, kind):
+    (child,) = (
+        c for c in psutil.Process(manager.pid).children() if f"executor.{kind}.process" in c.cmdline()
+    )
+    return child
+
+
+@contextlib.asynccontextmanager
+async def running(**more):
+    async with manager_process() as manager:
+        client = await SessionClient(manager.ready["port"]).open()
+        assert await client.ask("run", run_data(**more)) == "ack"
+        await client.event("segment", lambda data: data["to_t"] > 0.5)
+        yield manager, client
+        await client.close()
+
+
+async def joined(manager, run):
+    """Returns the messages of a run, as (topic, time in s, fields), from the file that HTTP gives."""
+
+    def fetch() -> bytes:
+        url = f"http://127.0.0.1:{manager.ready['port']}/recordings/{run}/0"
+        request = urllib.request.Request(url, headers={"Authorization": f"Bearer {TOKEN}"})
+        with urllib.request.urlopen(request) as answer:  # noqa: S310 - of this manager
+            data: bytes = answer.read()
+        return data
+
+    data = await asyncio.to_thread(fetch)
+    found: list[tuple[str, float, dict[str, Any]]] = []
+    for schema, channel, message in make_reader(io.BytesIO(data)).iter_messages():
+        fields = decode(schema.name, message.data) if schema and schema.name.startswith("bt_studio") else {}
+        found.append((channel.topic, message.log_time * 1e-9, fields))
+    return found
+
+
+async def flagged(client, text):
+    """Flags the present moment, and waits until the recording reaches it."""
+    at = len(client.events)
+    assert await client.ask("flag", {"text": text}) == "ack"
+    return (await client.event("segment", after=at))["data"]
+
+
+async def test_a_run_holds_tree_ticks_world_topics_lines_and_flags():
+    async with running() as (manager, client):
+        await client.event("tick", lambda data: data["n"] > 20)
+        segment = await flagged(client, "here")
+        found = await joined(manager, segment["run"])
+        topics = {topic for topic, _, _ in found}
+        assert {"/bt/tree", "/bt/tick", "/bt/keyframe", "/world/scene", "/world/poses"} <= topics
+        assert {"/scan", "/odom", "/cmd_vel", "/bt/log"} <= topics
+        times = [t for _, t, _ in found]
+        assert times == sorted(times)
+        numbers = [fields["number"] for topic, _, fields in found if topic == "/bt/tick"]
+        assert numbers == list(range(numbers[0], numbers[-1] + 1))
+        assert [f["text"] for topic, _, f in found if topic == "/bt/log" and f["source"] == "flag"] == [
+            "here"
+        ]
+
+        where = {"run": segment["run"], "segment": segment["number"], "version": segment["version"]}
+        assert await client.ask("read_recording", where | {"offset": 0, "length": 1 << 20}) == "ack"
+        part = await client.until(
+            lambda: next((f for _, f in client.frames if isinstance(f, RecordingPart)), None)
+        )
+        assert any(isinstance(record, Message) for record in RecordReader(io.BytesIO(part.data), "part"))
+        wrong = await client.ask("read_recording", where | {"version": 9, "offset": 0, "length": 10})
+        assert wrong["code"] == "not_recorded"
+
+
+async def test_a_second_run_and_a_reset_are_recordings_of_their_own_from_time_0():
+    async with running() as (manager, client):
+        first = await flagged(client, "one")
+        at = len(client.events)
+        assert await client.ask("run", run_data()) == "ack"
+        second = (await client.event("segment", lambda d: d["run"] != first["run"], after=at))["data"]
+        at = len(client.events)
+        assert await client.ask("reset_world") == "ack"
+        known = {first["run"], second["run"]}
+        third = (await client.event("segment", lambda d: d["run"] not in known and d["to_t"] > 0, after=at))[
+            "data"
+        ]
+        for segment in (second, third):
+            found = await joined(manager, segment["run"])
+            poses = [t for topic, t, _ in found if topic == "/world/poses"]
+            assert poses[0] < 0.5
+            assert any(topic == "/bt/tree" for topic, _, _ in found)
+        late = await SessionClient(manager.ready["port"]).open(stream=False)
+        assert {s["run"] for s in late.named("snapshot")[0]["segments"]} == known | {third["run"]}
+        await late.close()
+
+
+async def test_writes_have_their_writer_and_prints_their_node():
+    async with running(app=app_zip(Forward=WRITES)) as (manager, client):
+        segment = await flagged(client, "x")
+        found = await joined(manager, segment["run"])
+        (tree,) = [fields for topic, _, fields in found if topic == "/bt/tree"][:1]
+        uid = next(u for u, kind in zip(tree["uid"], tree["type"], strict=True) if kind == "Forward")
+        writes = [f for topic, _, f in found if topic == "/bt/blackboard"]
+        values = [
+            json.loads(v)
+            for f in writes
+            for k, v in zip(f["key"], f["value_json"], strict=True)
+            if k == "count"
+        ]
+        assert values == list(range(values[0], values[-1] + 1))
+        assert {w for f in writes for w in f["writer_uid"]} == {uid}
+        lines = [f for topic, _, f in found if topic == "/bt/log" and f["text"].startswith("tick")]
+        assert {line["uid"] for line in lines} == {uid}
+
+
+@pytest.mark.parametrize("kind", ["recorder", "world", "application"])
+@pytest.mark.parametrize("turn", range(count("executor_recorder_kills")))
+async def test_after_a_kill_at_most_a_second_is_missing_and_the_rest_opens(kind, turn):
+    async with running() as (manager, client):
+        await client.event("tick", lambda data: data["n"] > 15 + turn)
+        segment = await flagged(client, "before")
+        at = len(client.events)
+        child_of(manager, kind).send_signal(signal.SIGKILL)
+        if kind == "recorder":
+            line = await client.event("log", lambda data: "recorder" in data["text"], after=at)
+            assert "Another one records from here; the run continues." in line["data"]["text"]
+            assert client.state == "application_running"
+            await client.event("segment", lambda d: d["number"] > segment["number"], after=at)
+            await client.event("tick", after=len(client.events))
+        else:
+            await client.event("fault", after=at)
+            await client.event("segment", after=at)
+        found = await joined(manager, segment["run"])
+        last = max(t for topic, t, _ in found if topic in {"/bt/tick", "/world/poses"})
+        assert last >= segment["to_t"] - LOOK_S
+        texts = [fields["text"] for topic, _, fields in found if topic == "/bt/log"]
+        assert "before" in texts or kind == "recorder"
+
+
+async def test_a_stopped_recorder_is_replaced_and_nothing_waits_for_it():
+    async with running() as (manager, client):
+        at = len(client.events)
+        os.kill(child_of(manager, "recorder").pid, signal.SIGSTOP)
+        line = await client.event("log", lambda data: "did not answer" in data["text"], after=at)
+        assert line["data"]["level"] == "warning"
+        assert client.state == "application_running"
+        assert client.named("fault") == []
+        await client.event("segment", after=client.events.index(line))
+
+
+async def test_what_an_action_sends_to_the_recorder_does_not_harm_it():
+    attack = """
+import socket
+import py_trees
+
+class Forward(py_trees.behaviour.Behaviour):
+    def update(self):
+        with open("/proc/net/unix") as file:
+            names = {line.split("@")[1].strip() for line in file if "@bt-studio-recorder" in line}
+        for name in names:
+            for data in (b"\\xff" * 100, b"\\x05\\x00\\x00\\x00hello", bytes(64)):
+                with socket.socket(socket.AF_UNIX) as client:
+                    client.connect("\\0" + name)
+                    client.sendall(data)
+        return py_trees.common.Status.RUNNING
+"""
+    async with running(app=app_zip(Forward=attack)) as (manager, client):
+        recorder = child_of(manager, "recorder")
+        await client.event("tick", lambda data: data["n"] > 40)
+        segment = await flagged(client, "still here")
+        assert child_of(manager, "recorder").pid == recorder.pid
+        found = await joined(manager, segment["run"])
+        assert sum(topic == "/bt/tick" for topic, _, _ in found) > 20

@@ -1,0 +1,28 @@
+"""The project's files in a recording."""
+
+from __future__ import annotations
+
+import os
+
+from executor.recorder.project_files import MOST_BYTES, project_files
+
+
+def test_regular_files_are_read_and_no_others(tmp_path):
+    (tmp_path / "actions").mkdir()
+    (tmp_path / "actions" / "Go.py").write_bytes(b"go")
+    (tmp_path / "__pycache__").mkdir()
+    (tmp_path / "__pycache__" / "x.pyc").write_bytes(b"x")
+    (tmp_path / "secret").symlink_to("/etc/passwd")
+    os.mkfifo(tmp_path / "pipe")
+    assert project_files(str(tmp_path)) == {"project/actions/Go.py": b"go"}
+
+
+def test_the_sum_is_bounded(tmp_path):
+    for number in range(4):
+        (tmp_path / f"{number}.bin").write_bytes(bytes(MOST_BYTES // 2))
+    (tmp_path / "9.txt").write_bytes(b"")
+    assert sorted(project_files(str(tmp_path))) == ["project/0.bin", "project/1.bin", "project/9.txt"]
+
+
+def test_a_folder_that_is_not_there_has_no_files():
+    assert project_files("/nowhere/at/all") == {}

@@ -1,0 +1,140 @@
+"""The recording of a session: runs, segments, and a recorder that is lost."""
+
+from __future__ import annotations
+
+from executor import child_messages, messages
+from executor.session.events import ChildExited, ChildLooked, ChildSaid, RecordingWanted, Spawn, StreamOpened
+from executor.session.ladder import State
+from executor.session.recording import MOST_LOST, SILENT_S
+from tests.executor.session.play import Play
+
+
+def recorded(state: State = State.APPLICATION_RUNNING) -> Play:
+    play = Play()
+    play.happens(RecordingWanted("/folder"))
+    play.climb(state)
+    return play
+
+
+def segment(number: int = 0, size: int = 10) -> messages.Segment:
+    return messages.Segment("a1", 0, number, 0, 0.0, 1.0, size)
+
+
+def says(play: Play, message: child_messages.FromRecorder) -> None:
+    number = play.session.children.living["recorder"].number
+    play.happens(ChildSaid("recorder", number, message))
+
+
+def told(play: Play, kind: type) -> list:
+    return [e.message for e in play.effects if hasattr(e, "message") and isinstance(e.message, kind)]
+
+
+def test_a_run_begins_at_the_recorder_before_world_and_application():
+    play = recorded()
+    [begun] = told(play, child_messages.BeginRun)
+    assert begun.folder == "/somewhere"
+    runs = told(play, child_messages.BeginRecording)
+    assert [run.run for run in runs] == [begun.run] * 2
+    order = [name for kind in ("application",) for name in play.told(kind)]
+    assert order.index("begin_recording") < order.index("resume")
+
+
+def test_without_a_wish_nothing_is_recorded():
+    play = Play()
+    play.climb(State.APPLICATION_RUNNING)
+    assert told(play, child_messages.BeginRecording) == []
+    assert play.did(Spawn).count("recorder") == 0
+    assert play.reply(play.command("flag", text="x")) == "not_recorded"
+    assert play.reply(play.command("read_recording")) == "no_stream"
+
+
+def test_a_reset_begins_another_run():
+    play = recorded()
+    play.command("reset_world")
+    first, second = told(play, child_messages.BeginRun)
+    assert first.run != second.run
+
+
+def test_lines_faults_and_flags_are_recorded():
+    play = recorded()
+    play.child_says("application", "log", level="info", text="hello", time=2.0)
+    assert play.reply(play.command("flag", text="here")) == "ack"
+    lines = [(t.name, t.t, t.data["text"]) for t in told(play, child_messages.Told)]
+    assert lines == [("log", 2.0, "hello"), ("flag", play.session.sim_time_s, "here")]
+
+
+def test_all_clients_get_segments_and_a_late_one_too():
+    play = recorded()
+    says(play, child_messages.Recorded(segment(0)))
+    says(play, child_messages.Recorded(segment(1)))
+    says(play, child_messages.Recorded(segment(0, size=0)))
+    assert [s.number for s in play.sent("segment")] == [0, 1, 0]
+    assert play.session.snapshot().segments == [segment(1)]
+
+
+def test_a_read_is_asked_of_the_recorder_and_answered_by_it():
+    play = recorded()
+    play.obedient = False
+    request = play.command("read_recording")
+    assert play.reply(request) == "no_stream"
+    play.happens(StreamOpened("d"))
+    request = play.command("read_recording")
+    [asked] = told(play, child_messages.ReadSegment)
+    assert (asked.client, asked.length) == ("d", 100)
+    says(play, child_messages.Answer(request=asked.request))
+    assert play.reply(request) == "ack"
+
+
+def test_a_read_without_a_recorder_is_refused():
+    play = Play()
+    play.happens(StreamOpened("d"))
+    assert play.reply(play.command("read_recording")) == "not_recorded"
+
+
+def test_a_recorder_that_dies_is_replaced_and_the_run_continues():
+    play = recorded()
+    for lost in range(1, MOST_LOST + 2):
+        play.child_dies("recorder", "was killed by SIGKILL")
+        assert play.state is State.APPLICATION_RUNNING
+        assert play.did(Spawn).count("recorder") == min(1 + lost, 1 + MOST_LOST)
+    lines = [line.text for line in play.sent("log")]
+    assert lines[0] == "The recorder was killed by SIGKILL. Another one records from here; the run continues."
+    assert lines[-1] == "The recorder was killed by SIGKILL. Nothing more is recorded; the run continues."
+    runs = {begun.run for begun in told(play, child_messages.BeginRun)}
+    assert len(runs) == 1
+    assert [line.level for line in play.sent("log")] == ["warning"] * len(lines)
+
+
+def test_a_recorder_that_hangs_is_ended():
+    play = recorded()
+    play.obedient = False
+    number = play.session.children.living["recorder"].number
+    at = 0.0
+    while at < SILENT_S + 1:
+        play.now += 0.25
+        at += 0.25
+        play.happens(ChildLooked("recorder", number, "T", 0.0, 0.0))
+    assert play.session.children.living["recorder"].number != number
+    assert "did not answer for 8 s" in play.sent("log")[0].text
+    play.happens(ChildExited("recorder", number, "was ended"))
+    assert play.state is State.APPLICATION_RUNNING
+
+
+def test_a_manager_that_was_away_blames_nobody_and_a_sign_of_life_counts():
+    play = recorded()
+    number = play.session.children.living["recorder"].number
+    for _ in range(3):
+        play.now += 100.0
+        play.happens(ChildLooked("recorder", number, "S", 0.0, 0.0))
+    for _ in range(100):
+        play.now += 0.25
+        says(play, child_messages.Beat(0))
+        play.happens(ChildLooked("recorder", number, "S", 0.0, 0.0))
+    assert play.session.children.living["recorder"].number == number
+
+
+def test_what_the_recorder_says_is_a_line_of_the_manager():
+    play = recorded()
+    says(play, child_messages.Log("warning", "The recording stops here."))
+    [line] = play.sent("log")
+    assert (line.source, line.level, line.text) == ("manager", "warning", "The recording stops here.")

@@ -1,0 +1,68 @@
+"""A world that is recorded over a link."""
+
+from __future__ import annotations
+
+import secrets
+from typing import Any
+
+import msgspec
+
+from executor.child_messages import Frame
+from executor.messages import Camera
+from executor.recorder.link import BATCH_S, Dump, Heard, Mark, Record
+from executor.recorder.sources import listen, take_source
+from executor.ros.tap import TopicTap
+from executor.universes import load_builtin
+from executor.world.physics.bullet import BulletWorld
+from executor.world.sensing.sensors import Sensors
+from executor.world.simulation.recording import KEYFRAME_S, WorldRecorder
+
+
+class Topics:
+    """Takes the place of the ROS node: gives one message when it is tapped."""
+
+    def __init__(self) -> None:
+        self.taps: list[Any] = []
+
+    def tap(self, tap: Any, *, sample_hz: float) -> None:
+        self.taps.append((tap, sample_hz))
+
+
+def no_renderer() -> Any:
+    raise AssertionError("nothing is drawn for a recording")
+
+
+def test_scene_poses_dumps_and_pictures_are_sent(monkeypatch):
+    monkeypatch.setattr("executor.recorder.link.BATCH_S", 0.0)
+    assert BATCH_S > 0
+    address = f"bt-studio-test-{secrets.token_hex(8)}"
+    world = BulletWorld(load_builtin("walled_room"))
+    node: Any = Topics()
+    with listen(address) as listener:
+        recorder = WorldRecorder(world, Sensors(world, no_renderer), node, TopicTap, address)
+        recorder.look(0.0)
+        recorder.begin("a1")
+        source = take_source(listener)
+        assert source is not None
+        messages: list[Any] = []
+        for _ in range(int((KEYFRAME_S + 1) / world.step_s / 8)):
+            world.step(8)
+            recorder.look(0.0)
+            messages += source.messages()
+        for t_s in (6.0, 6.01, 6.2):
+            camera = Camera(t=t_s, sensor="front", width=2, height=2, jpeg=b"jpeg")
+            recorder.picture(Frame("c", "camera/front", msgspec.msgpack.encode(camera)))
+        recorder.picture(Frame("c", "view", b""))
+        recorder.look(0.0)
+        messages += source.messages()
+        source.connection.close()
+    world.close()
+    assert messages[0] == Mark("a1")
+    assert isinstance(messages[1], Record)
+    assert (messages[1].topic, messages[2].topic) == ("/world/scene", "/world/poses")
+    dumps = [m.t_ns for m in messages if isinstance(m, Dump)]
+    assert len(dumps) == 2
+    assert dumps[1] - dumps[0] >= KEYFRAME_S * 1e9
+    pictures = [m for m in messages if isinstance(m, Heard)]
+    assert [p.topic for p in pictures] == ["/world/camera/front/compressed"] * 2
+    assert len(node.taps) == 1

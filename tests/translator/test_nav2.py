@@ -7,7 +7,8 @@ from translator.nav2 import LEAST_NODES, nav2_models, nav2_source
 from tree_gardener.stubs import is_stub
 
 TREE = """<root BTCPP_format="4"><BehaviorTree ID="Main"><RecoveryNode number_of_retries="2">
-<DistanceController distance="0.5"><ComputePathToPose goal="{goal}" path="{path}"/></DistanceController>
+<DistanceController distance="0.5">
+<SmoothPath unsmoothed_path="{path}" smoothed_path="{path}"/></DistanceController>
 <Fallback><GoalUpdated/><IsBatteryLow {more}/></Fallback></RecoveryNode></BehaviorTree>{models}</root>"""
 OWN = (
     '<TreeNodesModel><Action ID="GoalUpdated"/>'
@@ -22,16 +23,16 @@ def text(more: str = 'min_battery="0.2"', models: str = "") -> str:
 def test_a_tree_of_nav2_brings_the_sources_and_stubs_with_ports_for_the_rest() -> None:
     project = from_xml(text())
     stubs = {name for name, action in project.actions.items() if is_stub(action.source)}
-    assert stubs == {"ComputePathToPose"}
+    assert stubs == {"SmoothPath"}
     assert project.actions["DistanceController"].source == nav2_source("DistanceController")
-    stub = project.actions["ComputePathToPose"]
-    assert {port.name for port in stub.ports} >= {"goal", "path", "planner_id"}
+    stub = project.actions["SmoothPath"]
+    assert {port.name for port in stub.ports} >= {"unsmoothed_path", "smoothed_path", "smoother_id"}
 
 
 def test_a_node_with_other_ports_or_another_model_is_not_that_of_nav2() -> None:
     project = from_xml(text('level="5"', OWN))
     stubs = {name for name, action in project.actions.items() if is_stub(action.source)}
-    assert stubs == {"ComputePathToPose", "GoalUpdated", "IsBatteryLow"}
+    assert stubs == {"SmoothPath", "GoalUpdated", "IsBatteryLow"}
     assert not is_stub(project.actions["RecoveryNode"].source)
 
 

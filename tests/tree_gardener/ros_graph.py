@@ -11,7 +11,7 @@ from tests.tree_gardener.trees import document
 from tree_gardener import ManualClock, Status, Tree
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Mapping
 
 DOMAIN_ID = 223
 DEADLINE_S = 20.0
@@ -33,11 +33,12 @@ class Graph:
         self.executor.add_node(self.tree_node)
         self.executor.add_node(self.other)
         self.clock = ManualClock()
+        self.nodes: Mapping[str, type] = {}
         self.tree: Tree
 
     def load(self, body: str, **entries: Any) -> Tree:
         """Loads a tree and sets it up."""
-        self.tree = Tree.from_xml(document(body), clock=self.clock)
+        self.tree = Tree.from_xml(document(body), clock=self.clock, nodes=self.nodes)
         for key, value in entries.items():
             self.tree.blackboard[key] = value
         self.tree.setup(node=self.tree_node)

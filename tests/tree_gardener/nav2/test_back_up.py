@@ -1,0 +1,31 @@
+"""BackUp of Nav2, with a real server."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.tree_gardener.nav2_servers import Actions
+from tree_gardener import Status
+from tree_gardener.nav2.back_up import BackUp
+
+if TYPE_CHECKING:
+    from tests.tree_gardener.ros_graph import Graph
+
+
+def test_the_goal_has_the_ports_values(ros: Graph) -> None:
+    server = Actions(ros, "BackUp", BackUp.ACTION_NAME)
+    ports = "backup_dist='0.3' backup_speed='0.1' time_allowance='2.5' disable_collision_checks='true'"
+    assert ros.run(f"<BackUp {ports} error_code_id='{{code}}' error_msg='{{why}}'/>") is Status.SUCCESS
+    (goal,) = server.goals
+    assert goal.target.x == pytest.approx(0.3)
+    assert goal.speed == pytest.approx(0.1)
+    assert (goal.time_allowance.sec, goal.time_allowance.nanosec) == (2, 500_000_000)
+    assert (ros["code"], ros["why"]) == (0, "")
+
+
+def test_the_defaults_are_those_of_nav2(ros: Graph) -> None:
+    server = Actions(ros, "BackUp", "elsewhere")
+    assert ros.run("<BackUp server_name='elsewhere'/>") is Status.SUCCESS
+    assert server.goals[0].time_allowance.sec == 10

@@ -8,7 +8,7 @@ from tree_gardener.stubs import is_stub
 
 TREE = """<root BTCPP_format="4"><BehaviorTree ID="Main"><RecoveryNode number_of_retries="2">
 <DistanceController distance="0.5">
-<SmoothPath unsmoothed_path="{path}" smoothed_path="{path}"/></DistanceController>
+<CheckPoseOccupancy pose="{goal}" service_name="/costs"/></DistanceController>
 <Fallback><GoalUpdated/><IsBatteryLow {more}/></Fallback></RecoveryNode></BehaviorTree>{models}</root>"""
 OWN = (
     '<TreeNodesModel><Action ID="GoalUpdated"/>'
@@ -23,16 +23,16 @@ def text(more: str = 'min_battery="0.2"', models: str = "") -> str:
 def test_a_tree_of_nav2_brings_the_sources_and_stubs_with_ports_for_the_rest() -> None:
     project = from_xml(text())
     stubs = {name for name, action in project.actions.items() if is_stub(action.source)}
-    assert stubs == {"SmoothPath"}
+    assert stubs == {"CheckPoseOccupancy"}
     assert project.actions["DistanceController"].source == nav2_source("DistanceController")
-    stub = project.actions["SmoothPath"]
-    assert {port.name for port in stub.ports} >= {"unsmoothed_path", "smoothed_path", "smoother_id"}
+    stub = project.actions["CheckPoseOccupancy"]
+    assert {port.name for port in stub.ports} >= {"pose", "service_name", "cost_threshold"}
 
 
 def test_a_node_with_other_ports_or_another_model_is_not_that_of_nav2() -> None:
     project = from_xml(text('level="5"', OWN))
     stubs = {name for name, action in project.actions.items() if is_stub(action.source)}
-    assert stubs == {"SmoothPath", "GoalUpdated", "IsBatteryLow"}
+    assert stubs == {"CheckPoseOccupancy", "GoalUpdated", "IsBatteryLow"}
     assert not is_stub(project.actions["RecoveryNode"].source)
 
 

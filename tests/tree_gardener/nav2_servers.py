@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import time
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from rclpy.action import ActionServer, CancelResponse
+from rclpy.action import ActionClient, ActionServer, CancelResponse
 from rclpy.callback_groups import ReentrantCallbackGroup
+
+from tree_gardener import Status
+from tree_gardener.nav2.cancel_leaf import GOALS_BEFORE_NS
 
 if TYPE_CHECKING:
     from tests.tree_gardener.ros_graph import Graph
@@ -18,12 +22,13 @@ class Actions:
     def __init__(self, ros: Graph, kind: str, name: str, *, outcome: str = "succeed", **result: Any) -> None:
         self.goals: list[Any] = []
         self.cancelled = 0
-        self._kind = getattr(import_module("nav2_msgs.action"), kind)
+        self.name = name
+        self.kind = getattr(import_module("nav2_msgs.action"), kind)
         self._outcome = outcome
         self._result = result
         self.server = ActionServer(
             ros.other,
-            self._kind,
+            self.kind,
             name,
             self._reach,
             cancel_callback=self._cancel,
@@ -44,7 +49,7 @@ class Actions:
             goal.abort()
         else:
             goal.succeed()
-        return self._kind.Result(**self._result)
+        return self.kind.Result(**self._result)
 
 
 class Services:
@@ -62,6 +67,24 @@ class Services:
         for name, value in self._answer.items():
             setattr(response, name, value)
         return response
+
+
+def cancelled_by(ros: Graph, server: Actions, leaf: type) -> int:
+    """Returns how many goals a leaf cancels, after another client has sent one."""
+    client = ActionClient(ros.other, server.kind, server.name)
+    try:
+        ros.spin(client.server_is_ready)
+        sent = client.send_goal_async(server.kind.Goal())
+        ros.spin(lambda: sent.done() and len(server.goals) == 1)
+        accepted_s = time.monotonic()
+        ros.spin(lambda: time.monotonic() - accepted_s > GOALS_BEFORE_NS * 2e-9)
+        assert ros.run(f"<{leaf.__name__}/>") is Status.SUCCESS
+        ros.spin(lambda: server.cancelled > 0)
+        result = sent.result().get_result_async()
+        ros.spin(result.done)
+    finally:
+        client.destroy()
+    return server.cancelled
 
 
 class _Turn:

@@ -17,6 +17,11 @@ def message_class(package: str, name: str) -> Any:
     return getattr(importlib.import_module(f"{package}.msg"), name)
 
 
+def service_class(package: str, name: str) -> Any:
+    """Returns the class of a service."""
+    return getattr(importlib.import_module(f"{package}.srv"), name)
+
+
 def parameter(ros_node: Any, name: str, default: Any) -> Any:
     """Returns a parameter of the ROS node, if it is declared there."""
     if ros_node is None or not ros_node.has_parameter(name):

@@ -1,0 +1,16 @@
+"""CancelBackUp of Nav2, with a real server."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from tests.tree_gardener.nav2_servers import Actions, cancelled_by
+from tree_gardener.nav2.cancel_back_up import CancelBackUp
+
+if TYPE_CHECKING:
+    from tests.tree_gardener.ros_graph import Graph
+
+
+def test_the_goal_under_way_is_cancelled(ros: Graph) -> None:
+    server = Actions(ros, "BackUp", CancelBackUp.ACTION_NAME, outcome="wait")
+    assert cancelled_by(ros, server, CancelBackUp) == 1

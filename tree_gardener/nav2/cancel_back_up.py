@@ -1,0 +1,17 @@
+"""CancelBackUp of Nav2."""
+
+from tree_gardener.nav2.cancel_leaf import Nav2Cancel
+from tree_gardener.ports import Port
+
+
+class CancelBackUp(Nav2Cancel):
+    """Cancels all goals of the action backup.
+
+    Rule: Nav2's plugins/action/back_up_cancel_node.cpp.
+    """
+
+    ACTION_NAME = "backup"
+    INPUT_PORTS = {
+        "server_name": Port(str, description="Name of the action; backup if it is not given."),
+        "server_timeout": Port(int, description="Time for the answer of the server, in ms; at least 500."),
+    }

@@ -31,6 +31,9 @@ def manager(  # noqa: PLR0913, PLR0917 - one an option
     ram: Annotated[  # noqa: FBT002 - typer's way
         bool, typer.Option("--ram", help="Speak the protocol of JdeRobot's RAM, on loopback alone.")
     ] = False,
+    no_recording: Annotated[  # noqa: FBT002 - typer's way
+        bool, typer.Option("--no-recording", help="Keep no recording of the runs.")
+    ] = False,
     allow_origin: Annotated[
         list[str] | None,
         typer.Option(help="Page that may drive it, such as https://example.org; repeatable."),
@@ -41,6 +44,7 @@ def manager(  # noqa: PLR0913, PLR0917 - one an option
 
     arguments = ["--host", host, "--port", str(port), *(["--ram"] if ram else [])]
     arguments += ["--no-token"] if no_token else []
+    arguments += ["--no-recording"] if no_recording else []
     for origin in allow_origin or []:
         arguments += ["--allow-origin", origin]
     for name, value in (

@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from playwright.sync_api import expect
-
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
@@ -22,9 +20,6 @@ def expect_accessible(studio: Studio, scheme: str) -> None:
     if studio.page.locator("html").get_attribute("data-mantine-color-scheme") != scheme:
         studio.at("theme-toggle").click()
         studio.page.wait_for_selector(f"html[data-mantine-color-scheme={scheme}]")
-        # The button's tooltip is in no landmark.
-        studio.page.mouse.move(0, 0)
-        expect(studio.page.get_by_role("tooltip")).to_have_count(0)
     expect_no_findings(studio.page, scheme)
 
 
@@ -33,9 +28,11 @@ def expect_no_findings(page: Page, name: str) -> None:
     page.add_style_tag(content=STILL)
     page.evaluate(AXE.read_text(encoding="utf-8"))
     found = page.evaluate(
-        "async () => (await axe.run("
+        "async () => (await axe.run({"
         # Elements behind an open dialogue are not reachable.
-        "document.querySelector('[role=dialog][aria-modal=true]') ?? document,"
+        "include: document.querySelector('[role=dialog][aria-modal=true]') ?? document,"
+        # The tooltip of the button that was pressed may open late, and is in no landmark.
+        " exclude: '[role=tooltip]'},"
         # The size of targets, 24 by 24 px, is a rule that axe leaves out by itself.
         " {resultTypes: ['violations'], rules: {'target-size': {enabled: true}}})).violations"
         ".map(each => `${each.id}: `"

@@ -86,6 +86,8 @@ export interface ScriptEditorProps {
   readonly label?: string;
   /** Whether the field was just added: then it gets the caret and scrolls into view. */
   readonly isNew?: boolean;
+  /** Returns the caret of the field that this editor replaces; null if that did not have the focus. */
+  readonly takeCaret?: () => number | null;
   readonly onChange: (value: string) => void;
   readonly onLeave?: () => void;
   /** Called for Escape in an empty field. */
@@ -166,8 +168,10 @@ export function ScriptEditor(props: ScriptEditorProps) {
       }),
     });
     view.current = editor;
-    if (latest.current.isNew) {
-      editor.dispatch({ selection: { anchor: editor.state.doc.length } });
+    const caret = latest.current.takeCaret?.() ?? null;
+    if (latest.current.isNew || caret !== null) {
+      const end = editor.state.doc.length;
+      editor.dispatch({ selection: { anchor: Math.min(caret ?? end, end) } });
       editor.focus();
       host.current.scrollIntoView({ block: 'nearest' });
     }

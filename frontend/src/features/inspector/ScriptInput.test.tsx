@@ -22,14 +22,18 @@ describe('ScriptInput', () => {
   it('is a plain field until the editor is loaded', async () => {
     const onChange = open('x := 1');
     const field = screen.getByRole('textbox', { name: 'While' });
-    if (field.tagName === 'TEXTAREA') {
+    const isPlain = field.tagName === 'TEXTAREA';
+    if (isPlain) {
       expect(field).toHaveValue('x := 1');
       await user.type(field, ';');
       expect(onChange).toHaveBeenCalledWith('x := 1;');
     }
     expect(await screen.findByTestId('script')).toBeInTheDocument();
     await vi.waitUntil(() => document.querySelector('.cm-editor'));
-    expect(screen.getByRole('textbox', { name: 'While' })).toHaveTextContent('x := 1');
+    const editor = screen.getByRole('textbox', { name: 'While' });
+    expect(editor).toHaveTextContent('x := 1');
+    // Who types already goes on typing in the editor, and not on the canvas.
+    if (isPlain) expect(editor).toHaveFocus();
   });
 
   it('shows below the field what is wrong with the script at once', () => {

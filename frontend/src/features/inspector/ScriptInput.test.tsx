@@ -32,7 +32,7 @@ describe('ScriptInput', () => {
     await vi.waitUntil(() => document.querySelector('.cm-editor'));
     const editor = screen.getByRole('textbox', { name: 'While' });
     expect(editor).toHaveTextContent('x := 1');
-    // Who types already goes on typing in the editor, and not on the canvas.
+    // Who types already continues in the editor, and not on the canvas.
     if (isPlain) expect(editor).toHaveFocus();
   });
 

@@ -10,6 +10,7 @@ import sys
 BENCHMARKS = (
     "engine",
     "translator",
+    "difference",
     "world",
     "stream",
     "session",

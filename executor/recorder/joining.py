@@ -30,7 +30,8 @@ def join_run(folder: Path, run: str, out: Path) -> int:
         RecordingError: a segment is damaged.
         OSError: the file cannot be written.
     """
-    files = files_of(folder, run)
+    # The file of a segment that has just begun is empty until the recorder first flushes it.
+    files = [path for path in files_of(folder, run) if path.stat().st_size]
     if not files:
         return 0
     with contextlib.ExitStack() as stack:

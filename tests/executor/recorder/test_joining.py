@@ -25,3 +25,12 @@ def test_a_run_that_was_not_recorded_and_a_damaged_one_are_said(tmp_path, capsys
     path.write_bytes(b"x" + path.read_bytes())
     assert main([str(tmp_path), "a1", str(tmp_path / "out")]) == 1
     assert "00000.0.mcap:0: it does not begin as an MCAP file" in capsys.readouterr().err
+
+
+def test_a_segment_that_has_only_begun_does_not_prevent_joining(tmp_path):
+    filled(tmp_path, 15)
+    (tmp_path / "a1" / "00099.0.mcap").touch()
+    assert join_run(tmp_path, "a1", tmp_path / "out.mcap") == 15
+    (tmp_path / "b2").mkdir()
+    (tmp_path / "b2" / "00000.0.mcap").touch()
+    assert join_run(tmp_path, "b2", tmp_path / "out.mcap") == 0

@@ -115,7 +115,7 @@ def fields(row: Row, *, layout: bool = False) -> dict[str, str]:
 
 
 def tree_fields(document: Document, *, layout: bool = False) -> dict[str, str]:
-    """Returns what a document says besides its nodes, by field."""
+    """Returns what a document says, except its nodes, by field."""
     found = {"id": text(document.get("id", ""))}
     for port in document.get("ports") or ():
         rest = {key: value for key, value in port.items() if key != "name"}

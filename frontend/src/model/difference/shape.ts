@@ -87,7 +87,7 @@ export function fieldsOf(node: DiagramNode, withLayout = false): Map<string, str
   return found;
 }
 
-/** Returns what a diagram says besides its nodes, by field. */
+/** Returns what a diagram says, except its nodes, by field. */
 export function treeFieldsOf(diagram: Diagram, withLayout = false): Map<string, string> {
   const found = new Map([['id', diagram.id]]);
   const ports = Array.isArray(diagram.ports) ? (diagram.ports as { readonly name: string }[]) : [];

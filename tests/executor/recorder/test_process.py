@@ -218,3 +218,29 @@ class Forward(py_trees.behaviour.Behaviour):
         assert child_of(manager, "recorder").pid == recorder.pid
         found = await joined(manager, segment["run"])
         assert sum(topic == "/bt/tick" for topic, _, _ in found) > 20
+
+
+async def test_topics_of_the_application_alone_are_recorded():
+    talks = """
+import py_trees
+from std_msgs.msg import String
+from tree_gardener.ports import Port
+
+class Forward(py_trees.behaviour.Behaviour):
+    INPUT_PORTS = {"lin_speed": Port(float, default=0.3)}
+
+    def setup(self, **kwargs):
+        self.node = kwargs["node"]
+        self.publisher = self.node.create_publisher(String, "/plan_name", 10)
+
+    def update(self):
+        self.publisher.publish(String(data="wall"))
+        return py_trees.common.Status.RUNNING
+"""
+    async with running(app=app_zip(Forward=talks)) as (manager, client):
+        segment = client.named("segment")[-1]
+        await joined_with(manager, client, segment["run"], "/plan_name")
+        assert await client.ask("list_topics") == "ack"
+        topics = (await client.event("topics"))["data"]["topics"]
+        (row,) = [row for row in topics if row["name"] == "/plan_name"]
+        assert row["subscribers"] == []

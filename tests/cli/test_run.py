@@ -20,6 +20,7 @@ from rosbags.highlevel import AnyReader
 from websockets.sync.client import connect
 from websockets.typing import Origin
 
+from executor.recorder.joining import join_newest
 from tests.budget import count
 
 ROOT = Path(__file__).parents[2]
@@ -155,10 +156,11 @@ def test_a_run_is_recorded(tmp_path):
 @pytest.mark.simulation
 def test_the_recording_of_a_killed_run_is_completed_by_convert(tmp_path):
     path = tmp_path / "run.mcap"
+    parts = tmp_path / "run.mcap.parts"
     command = [sys.executable, "-c", MAIN, "run", str(EXAMPLE), "--record", str(path)]
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL) as run:
         end_s = time.monotonic() + 60
-        while not any(part.stat().st_size for part in tmp_path.glob("run.mcap.parts/*/*.mcap")):
+        while not (parts.is_dir() and join_newest(parts, tmp_path / "so far")):
             assert time.monotonic() < end_s
             time.sleep(0.05)
         run.kill()

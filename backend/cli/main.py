@@ -30,6 +30,7 @@ VERBS: Final[dict[str, Verb]] = {
     "run": Verb("run", "run"),
     "check": Verb("check", "check"),
     "test": Verb("behaviour_tests", "run_tests"),
+    "diff": Verb("diff", "diff"),
     "translate": Verb("translate", "translate"),
     "import": Verb("import_", "import_"),
     "import-universe": Verb("import_universe", "import_universe"),

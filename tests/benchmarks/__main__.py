@@ -11,6 +11,7 @@ BENCHMARKS = (
     "engine",
     "translator",
     "behaviours",
+    "difference",
     "world",
     "stream",
     "session",

@@ -29,6 +29,7 @@ VERBS: Final[dict[str, Verb]] = {
     "serve": Verb("serve", "serve"),
     "run": Verb("run", "run"),
     "check": Verb("check", "check"),
+    "diff": Verb("diff", "diff"),
     "translate": Verb("translate", "translate"),
     "import": Verb("import_", "import_"),
     "import-universe": Verb("import_universe", "import_universe"),

@@ -1,4 +1,4 @@
-"""A control node and a decorator of one's own: made on the canvas, written, run, and found when they fail."""
+"""A control node and a decorator of your own: made on the canvas, written, run, and found when they fail."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ from tree_gardener.testing.job import Job
 
 ROOT = Path(__file__).resolve().parents[2]
 PROJECTS = ("examples/laser_bump_and_go", "examples/visual_follow_person", "backend/catalog/behaviours")
-BY_HAND = {  # what a person lists who looks at the picture of *bump and go*
+BY_HAND = {  # from the picture of *bump and go*, by a person
     "n1": {"ticked", "RUNNING"},
     "n2": {"ticked", "RUNNING", "SUCCESS", "branch 2 taken", "branch 2 not taken"},
     "n3": {"ticked", "SUCCESS", "FAILURE"},

@@ -9,7 +9,7 @@ results = [suite.run(case) for case in cases]
 ```
 
 The form of the document is described in ``docs/reference/behaviour-tests.md``. This package reads plain
-dictionaries; whoever has YAML reads it before.
+dictionaries; a caller that has YAML reads it before.
 """
 
 from tree_gardener.testing.cases import Case, Failure, Result

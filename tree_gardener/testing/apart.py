@@ -1,7 +1,7 @@
 """Runs tests in a process of their own, so that no test can hurt the one that asked for it.
 
 The process reads one job from its standard input and writes one line of JSON for each start and each result
-to a pipe. A test that ends the process, or does not end, is one failure; the tests after it go on in a new
+to a pipe. A test that ends the process, or does not end, is one failure; the tests after it continue in a new
 process.
 """
 

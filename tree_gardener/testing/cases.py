@@ -12,7 +12,7 @@ REAL: Final = "real"
 
 @dataclasses.dataclass(frozen=True)
 class Step:
-    """What a double returns, for `times` ticks, and what it writes at each of them."""
+    """A result of a double for `times` ticks, with the values that it writes at each of them."""
 
     status: Status
     outputs: Mapping[str, Any] = dataclasses.field(default_factory=dict)
@@ -21,7 +21,7 @@ class Step:
 
 @dataclasses.dataclass(frozen=True)
 class Double:
-    """What takes the place of the leaves that a pattern finds.
+    """The results that replace the leaves found by a pattern.
 
     Attributes:
         pattern: path, name or type, or a pattern with ``*`` and ``?``.

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Mismatch(NamedTuple):
-    """What differs from a claim."""
+    """A difference between a claim and the tree."""
 
     what: str
     wanted: str
@@ -24,7 +24,7 @@ class Mismatch(NamedTuple):
 
 
 class View:
-    """What claims look at: the tree after a tick.
+    """The tree after a tick, as claims see it.
 
     Attributes:
         root: what the root returned in the last tick; None before it.

@@ -157,7 +157,7 @@ class Watch:
 
 
 class Coverage:
-    """What the tests have reached of all trees, and what is missing."""
+    """The parts of all trees that the tests have reached, and the parts that are missing."""
 
     def __init__(self) -> None:
         self.wanted: dict[str, dict[str, list[str]]] = {}

@@ -46,7 +46,7 @@ def processor_time(limit_s: float = PROCESSOR_S) -> Iterator[None]:
 
 @contextlib.contextmanager
 def memory(extra_bytes: int = MEMORY_BYTES) -> Iterator[None]:
-    """Lets the process take so much more memory than it has now; more is a MemoryError."""
+    """Allows the process so much more memory than it has now; more is a MemoryError."""
     before, hard = resource.getrlimit(resource.RLIMIT_AS)
     try:
         held = int(_STATM.read_text(encoding="ascii").split()[0]) * resource.getpagesize()

@@ -84,7 +84,7 @@ def test_each_expectation_holds_and_fails(holds, fails, said):
     assert said in found
 
 
-def test_every_expectation_that_fails_is_told_once():
+def test_every_expectation_that_fails_is_reported_once():
     found = sentences(
         {
             "doubles": DOUBLES,

@@ -22,7 +22,7 @@ def test_the_items_of_a_tree_are_those_of_the_list_made_by_hand():
     assert {node: sorted(items) for node, items in wanted.items() if node != "n1"} == {
         node: sorted(items) for node, items in BUMP.items() if node != "n1"
     }
-    assert sorted(wanted["n1"]) == ["FAILURE", "RUNNING", "ticked"]  # Turn is not known to run for ever
+    assert sorted(wanted["n1"]) == ["FAILURE", "RUNNING", "ticked"]  # Turn is not known to run without end
 
 
 def covered(body, *tests):
@@ -87,7 +87,7 @@ def test_conditions_count_true_and_false():
     assert ("a", "_skipIf true") not in {(node, item) for _, node, item in covered(body, again).missing()}
 
 
-def test_subtrees_count_once_whoever_calls_them():
+def test_subtrees_count_once_for_all_callers():
     calls = "".join(f'<SubTree ID="Part" name="{name}" _bts_id="{name}"/>' for name in "xy")
     body = f'<Sequence _bts_id="s">{calls}</Sequence>'
     of = suite(body, '<BehaviorTree ID="Part"><Near _bts_id="p"/></BehaviorTree>')

@@ -51,7 +51,7 @@ def test_a_condition_and_a_synchronous_action_cannot_run_on():
     assert [refused_result(node, on) for node in nodes[1:]] == [RUNNING, RUNNING, None]
 
 
-def test_a_timed_double_begins_anew_with_each_start():
+def test_a_timed_double_begins_again_with_each_start():
     built = tree('<Timeout msec="100"><Drive/></Timeout>')
     leaf = built.nodes[1]
     behaviour = DoubleBehaviour(leaf, Double("x", (Step(RUNNING), Step(SUCCESS)), for_s=0.2))

@@ -162,7 +162,7 @@ def test_a_real_leaf_runs_its_own_python_beside_doubles():
     assert sentences(test, of) == []
 
 
-def test_a_real_leaf_that_needs_ros_is_told_so():
+def test_a_real_leaf_that_needs_ros_fails_with_a_sentence():
     of = suite("<Turn/>", sources={"Turn": REAL.format(setup="kwargs['node'].create_publisher(1, 2, 3)")})
     [said] = sentences({"doubles": {"Turn": "real"}, "expect": [{"at": 1, "root": "SUCCESS"}]}, of)
     assert "Turn needs ROS, which behaviour tests do not have" in said

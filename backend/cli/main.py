@@ -30,6 +30,8 @@ VERBS: Final[dict[str, Verb]] = {
     "run": Verb("run", "run"),
     "check": Verb("check", "check"),
     "diff": Verb("diff", "diff"),
+    "merge": Verb("merge", "merge"),
+    "git": Verb("git", "git"),
     "translate": Verb("translate", "translate"),
     "import": Verb("import_", "import_"),
     "import-universe": Verb("import_universe", "import_universe"),

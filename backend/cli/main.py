@@ -31,6 +31,8 @@ VERBS: Final[dict[str, Verb]] = {
     "check": Verb("check", "check"),
     "test": Verb("behaviour_tests", "run_tests"),
     "diff": Verb("diff", "diff"),
+    "merge": Verb("merge", "merge"),
+    "git": Verb("git", "git"),
     "translate": Verb("translate", "translate"),
     "import": Verb("import_", "import_"),
     "import-universe": Verb("import_universe", "import_universe"),

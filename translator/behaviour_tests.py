@@ -6,6 +6,8 @@ import ast
 from typing import TYPE_CHECKING, Any
 
 from translator.action_returns import returned_statuses
+from translator.check import check
+from translator.diagnostic import errors_in
 from translator.enums import enum_lines
 from translator.python_source import parse
 from translator.xml.write import write_document
@@ -16,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from translator.action import ActionModel
+    from translator.diagnostic import Diagnostic as TreeDiagnostic
     from translator.project import Project
 
 FOLDER = "tests/"
@@ -26,6 +29,15 @@ _KINDS = {"condition": "Condition", "control": "control", "decorator": "decorato
 def paths_of_tests(files: Mapping[str, bytes]) -> list[str]:
     """Returns the paths of the files of behaviour tests."""
     return sorted(path for path in files if path.startswith(FOLDER) and path.endswith(ENDINGS))
+
+
+def errors_before_tests(project: Project) -> tuple[TreeDiagnostic, ...]:
+    """Returns the errors that keep the trees from being tested.
+
+    A folder of trees without a main one, such as a library, can be tested if its tests name their trees.
+    """
+    errors = errors_in(check(project))
+    return tuple(found for found in errors if found.code != "BT0100" or not project.trees)
 
 
 def to_job(project: Project, *, real: bool = False) -> tuple[dict[str, Any], list[Diagnostic]]:

@@ -33,16 +33,14 @@ def run_tests(
     """Runs the behaviour tests of a project, the files tests/*.test.yaml; exit status 1 if one fails."""
     from backend.cli import _translation as cli
     from backend.cli.errors import BAD_ARGUMENTS, CliError
-    from translator import TranslatorError, check
-    from translator.behaviour_tests import to_job
-    from translator.diagnostic import errors_in
+    from translator import TranslatorError
+    from translator.behaviour_tests import errors_before_tests, to_job
     from tree_gardener.testing.apart import run_apart
     from tree_gardener.testing.job import Job
 
     try:
         opened = cli.open_project(project)
-        # A folder of trees without a main one can be tested, if its tests name their trees.
-        errors = [found for found in errors_in(check(opened)) if found.code != "BT0100" or not opened.trees]
+        errors = errors_before_tests(opened)
         if errors:
             raise TranslatorError(errors)
     except TranslatorError as error:

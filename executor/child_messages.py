@@ -220,9 +220,13 @@ class SetPort(_Asked, tag="set_port"):
 
 
 class StartRecorder(_Message, tag="start"):
-    """Records into a folder; what another recorder left there is taken over."""
+    """Records into a folder; what another recorder left there is taken over.
+
+    With `is_whole` the recordings have no budgets.
+    """
 
     folder: str
+    is_whole: bool = False
 
 
 class BeginRun(_Message, tag="begin_run"):

@@ -9,13 +9,19 @@ import typer
 
 
 def convert(
-    source: Annotated[Path, typer.Argument(help="A recording: .jsonl, .jsonl.gz, or an .mcap that was cut.")],
+    source: Annotated[
+        Path,
+        typer.Argument(
+            help="A recording: .jsonl, .jsonl.gz, a cut .mcap, or the folder that a killed run left."
+        ),
+    ],
     output: Annotated[Path, typer.Option("-o", "--output", help="The .mcap to make.")],
 ) -> None:
     """Converts a recording of older versions to MCAP, or completes one that was cut off."""
     from backend.cli.errors import BAD_ARGUMENTS, CliError
     from executor.headless.errors import HeadlessError
     from executor.headless.recording import check_name
+    from executor.recorder.joining import join_newest
     from executor.recorder.lines import convert_lines
     from executor.recorder.reader import RecordingError
     from executor.recorder.recover import recover
@@ -29,12 +35,16 @@ def convert(
     partial = output.with_name(f"{output.name}.partial")
     try:
         with partial.open("wb") as out:
-            if source.suffix == ".mcap":
+            if source.is_dir():
+                messages, lost = join_newest(source, partial), 0
+            elif source.suffix == ".mcap":
                 with source.open("rb") as file:
                     found = recover(file, source.name, out)
                 messages, lost = found.messages, found.lost_bytes
             else:
                 messages, lost = convert_lines(source, out), 0
+        if not messages:
+            raise CliError(f"{source}:1:1: there is no recording in it", status=BAD_ARGUMENTS)
         partial.rename(output)
     except RecordingError as error:
         raise CliError(str(error)) from error

@@ -18,10 +18,9 @@ from websockets.exceptions import ConnectionClosed
 
 from executor import messages
 from executor.headless.errors import HeadlessError
+from executor.headless.kept_run import kept_run
 from executor.headless.lines import mismatch_line
-from executor.headless.live_recorder import LiveRecorder
 from executor.headless.measured import Measured
-from executor.headless.recording import open_recording
 from executor.headless.viewer import RunViewer
 from executor.manager.manager import Manager, ManagerSettings
 from executor.universes import BUILTIN_IDS, builtin_path
@@ -88,8 +87,23 @@ async def _run(
     progress: Callable[[Report], None],
     say: Callable[[str], None],
 ) -> Report:
+    if options.recording is None:
+        return await _run_in(None, project, app_zip, options, progress, say)
+    with kept_run(options.recording) as folder:
+        return await _run_in(folder, project, app_zip, options, progress, say)
+
+
+async def _run_in(  # noqa: PLR0913, PLR0917 - as `_run`, and where it is recorded
+    recordings: Path | None,
+    project: Project,
+    app_zip: bytes,
+    options: HeadlessOptions,
+    progress: Callable[[Report], None],
+    say: Callable[[str], None],
+) -> Report:
     token = secrets.token_urlsafe()
-    manager = Manager(ManagerSettings(port=0, token=token, records=False))
+    settings = ManagerSettings(port=0, token=token, records=recordings is not None, recordings=recordings)
+    manager = Manager(settings)
     try:
         port = await manager.start()
         url, headers = f"ws://127.0.0.1:{port}", {"Authorization": f"Bearer {token}"}
@@ -98,23 +112,13 @@ async def _run(
             introspection = msgspec.json.decode(await control.recv())["data"]
             stream_url = f"{url}/stream?client={introspection['client_id']}"
             async with connect(stream_url, additional_headers=headers, **more) as stream:
-                with _recording(project, options) as recording:
-                    runner = _Runner(control, stream, project.settings, say, recording)
-                    if options.serve_viewer:
-                        await runner.serve_viewer()
-                    data = _run_data(project, app_zip, options)
-                    return await runner.run(data, options.duration_s, progress)
+                runner = _Runner(control, stream, project.settings, say)
+                if options.serve_viewer:
+                    await runner.serve_viewer()
+                data = _run_data(project, app_zip, options)
+                return await runner.run(data, options.duration_s, progress)
     finally:
         await manager.close()
-
-
-def _recording(
-    project: Project, options: HeadlessOptions
-) -> contextlib.AbstractContextManager[LiveRecorder | None]:
-    if options.recording is None:
-        return contextlib.nullcontext()
-    universe, robot, seed = options.universe, options.robot, options.seed
-    return LiveRecorder(open_recording(options.recording, project, universe=universe, robot=robot, seed=seed))
 
 
 class _Runner:
@@ -126,12 +130,10 @@ class _Runner:
         stream: ClientConnection,
         settings: Settings,
         say: Callable[[str], None],
-        recording: LiveRecorder | None,
     ) -> None:
         self._control = control
         self._stream = stream
         self._say = say
-        self._recording = recording
         self._name = settings.name
         self._measured = Measured(period_ms=1000.0 / settings.tick_hz)
         self._viewer: RunViewer | None = None
@@ -248,8 +250,6 @@ class _Runner:
             self._changed.set()
 
     def _take(self, message: dict[str, Any]) -> None:
-        if self._recording is not None:
-            self._recording.event(message)
         name, data = message["command"], message["data"]
         reply = self._replies.pop(message["id"], None)
         if reply is not None:
@@ -275,8 +275,6 @@ class _Runner:
                     self._measured.take_frame(frame)
                     if self._viewer is not None and isinstance(frame, messages.View):
                         self._viewer.show(frame.jpeg)
-                    if self._recording is not None:
-                        self._recording.frame(frame, data)
 
 
 def _located(error: dict[str, Any], faults: list[dict[str, Any]]) -> str:

@@ -59,6 +59,7 @@ __all__ = ["Manager", "ManagerSettings", "free_domain_id", "main", "session_prog
 
 _log = logging.getLogger(__name__)
 
+GOODBYE_S: Final = 1.0
 LAST_DOMAIN_ID: Final = 100
 LARGEST_DOMAIN_ID: Final = 232
 # Sharing a small picture between threads costs more than it gains, and sessions share one machine.
@@ -78,6 +79,7 @@ class ManagerSettings:
         is_closed_off: whether the session's ROS graph is isolated, as in a container.
         is_ram: whether the manager speaks the RAM dialect, with one local client and without a token.
         records: whether runs are recorded.
+        recordings: a folder that keeps them whole; None is a folder of the session, with budgets.
         origins: pages that may connect; without a token, local pages may connect too.
     """
 
@@ -89,6 +91,7 @@ class ManagerSettings:
     is_closed_off: bool = False
     is_ram: bool = False
     records: bool = True
+    recordings: Path | None = None
     origins: tuple[str, ...] = ()
     programs: dict[Kind, Program] | None = None
     listener: socket.socket | None = None
@@ -157,6 +160,7 @@ class Manager:
         self._folders: Folders | None = None
         self._events: deque[Event] = deque()
         self._is_handling = False
+        self._is_closing = False
         self._timer: asyncio.TimerHandle | None = None
         self._tasks: set[asyncio.Task[None]] = set()
         self._ended = loop.create_future()
@@ -172,7 +176,7 @@ class Manager:
         self._folders = self._make_folders()
         port = await self._listen()
         if "recorder" in self._programs and self._settings.records:
-            self._record(self._folders.recordings())
+            self._record(self._settings.recordings or self._folders.recordings())
         self._set_timer()
         return port
 
@@ -196,7 +200,7 @@ class Manager:
         from executor.manager.recordings import Recordings  # noqa: PLC0415 - as in `_listen`
         from executor.manager.server import SessionServer  # noqa: PLC0415 - as above
 
-        self.take(RecordingWanted(str(folder)))
+        self.take(RecordingWanted(str(folder), is_whole=self._settings.recordings is not None))
         if isinstance(self._server, SessionServer):
             self._server.recordings = Recordings(folder)
 
@@ -220,6 +224,10 @@ class Manager:
             self._timer.cancel()
         if self._server is not None:
             await self._server.close()
+        self._is_closing = True
+        if self._settings.records:
+            await self._supervisor.end("application", GOODBYE_S)  # it sends its last ticks
+            await self._supervisor.end("recorder", GOODBYE_S)
         await self._supervisor.close()
         if self._tasks:
             await asyncio.wait(self._tasks)
@@ -229,6 +237,8 @@ class Manager:
 
     def take(self, event: Event) -> None:
         """Passes an event to the state machine. Events that effects cause are queued."""
+        if self._is_closing:
+            return  # it would start other processes in place of those that end
         self._events.append(event)
         if self._is_handling:
             return

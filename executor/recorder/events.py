@@ -1,4 +1,6 @@
-"""Records a run by the events and frames of its session, as a client receives them. Pure but for the writer.
+"""Records a run by the events and frames that a client received, as older versions did.
+
+Pure but for the writer.
 
 Events hold less than the tree itself: a value of the blackboard is the last one of 0.1 s, without its writer,
 and ticks without a change come at a limited rate.

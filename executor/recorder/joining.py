@@ -18,7 +18,7 @@ from executor.supervision.confine import die_with_parent
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["NOT_RECORDED", "join_run", "main"]
+__all__ = ["NOT_RECORDED", "join_newest", "join_run", "main"]
 
 NOT_RECORDED = 3
 
@@ -30,12 +30,26 @@ def join_run(folder: Path, run: str, out: Path) -> int:
         RecordingError: a segment is damaged.
         OSError: the file cannot be written.
     """
-    files = files_of(folder, run)
+    # The file of a segment that has just begun is empty until the recorder first flushes it.
+    files = [path for path in files_of(folder, run) if path.stat().st_size]
     if not files:
         return 0
     with contextlib.ExitStack() as stack:
         sources = [(stack.enter_context(path.open("rb")), path.name) for path in files]
         return join(sources, stack.enter_context(out.open("wb")))
+
+
+def join_newest(folder: Path, out: Path) -> int:
+    """Writes the run that was recorded last into one file; returns the number of its messages, 0 without one.
+
+    Raises:
+        RecordingError: a segment is damaged.
+        OSError: the folder cannot be read, or the file cannot be written.
+    """
+    runs = [path for path in folder.iterdir() if files_of(folder, path.name)]
+    if not runs:
+        return 0
+    return join_run(folder, max(runs, key=lambda path: path.stat().st_mtime_ns).name, out)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -25,9 +25,9 @@ from executor.child_messages import FromRecorder, ToRecorder, decode_to_recorder
 from executor.messages import Error, RecordingPart, Segment
 from executor.recorder.definitions import DefinitionError
 from executor.recorder.link import ADDRESS_VARIABLE, Dump, Heard, Mark, Record
-from executor.recorder.project_files import project_files
+from executor.recorder.project_files import project_files, project_name
 from executor.recorder.run_writer import RunWriter
-from executor.recorder.shelf import Shelf
+from executor.recorder.shelf import Budgets, Shelf
 from executor.recorder.sources import BrokenSource, Source, listen, take_source
 from executor.recorder.telling import told
 from executor.supervision.channel import Channel, ChannelClosed, ChannelError
@@ -72,6 +72,8 @@ class RecorderProcess:
             while True:
                 self._turn()
         except (_Stop, ChannelClosed):
+            for source in list(self._sources.values()):
+                self._take(source)  # what was sent before the end
             self._guarded(self._end_run)
 
     def _turn(self) -> None:
@@ -97,7 +99,8 @@ class RecorderProcess:
                 case child_messages.Stop():
                     raise _Stop
                 case child_messages.StartRecorder():
-                    self._shelf = Shelf(Path(message.folder), self._announce)
+                    budgets = None if message.is_whole else Budgets()
+                    self._shelf = Shelf(Path(message.folder), self._announce, budgets)
                     self._shelf.recover()
                 case child_messages.BeginRun():
                     self._begin(message)
@@ -110,7 +113,9 @@ class RecorderProcess:
         about = {**message.about, "bt_studio": __version__, "python": platform.python_version()}
         about["platform"] = platform.platform()
         if self._shelf is not None and (self._writer is None or self._writer.run != message.run):
-            self._change_run(self._shelf, message.run, about, project_files(message.folder))
+            files = project_files(message.folder)
+            about["project"] = project_name(files)
+            self._change_run(self._shelf, message.run, about, files)
 
     def _tell(self, message: child_messages.Told) -> None:
         writer = self._writer

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import json
 import os
 import stat
 from pathlib import Path
 from typing import Final
 
-__all__ = ["project_files"]
+__all__ = ["project_files", "project_name"]
 
 MOST_FILES: Final = 500
 MOST_BYTES: Final = 256 << 10
+LONGEST_NAME: Final = 200
 
 
 def project_files(folder: str) -> dict[str, bytes]:
@@ -29,6 +31,16 @@ def project_files(folder: str) -> dict[str, bytes]:
             left -= len(data)
             files[f"project/{(Path(place) / name).relative_to(folder).as_posix()}"] = data
     return files
+
+
+def project_name(files: dict[str, bytes]) -> str:
+    """Returns the name that a project's settings give it; "" without one."""
+    try:
+        settings = json.loads(files.get("project/project.json", b""))
+    except (ValueError, RecursionError):
+        return ""
+    name = settings.get("name") if isinstance(settings, dict) else None
+    return name[:LONGEST_NAME] if isinstance(name, str) else ""
 
 
 def _read(path: Path, most: int) -> bytes | None:

@@ -81,11 +81,12 @@ class Shelf:
     Args:
         folder: holds a folder for each run.
         announce: is called with each segment that is new, changed or gone.
+        budgets: what is beyond them is removed; with None nothing is.
     """
 
     folder: Path
     announce: Callable[[Segment], None]
-    budgets: Budgets = field(default_factory=Budgets)
+    budgets: Budgets | None = field(default_factory=Budgets)
     segments: list[Segment] = field(default_factory=list)
 
     def recover(self) -> None:
@@ -99,7 +100,8 @@ class Shelf:
         """Adds a complete segment, and removes what exceeds the budgets."""
         self.segments.append(segment)
         self.announce(segment)
-        self._keep_within(segment)
+        if self.budgets is not None:
+            self._keep_within(segment, self.budgets)
 
     def next_number(self, run: str) -> int:
         """Returns the number of a run's next segment."""
@@ -117,14 +119,14 @@ class Shelf:
 
     # --- inside ---
 
-    def _keep_within(self, newest: Segment) -> None:
+    def _keep_within(self, newest: Segment, budgets: Budgets) -> None:
         for segment in list(self.segments):
             is_old = segment.run != newest.run or newest.to_ns - segment.to_ns >= THIN_AFTER_NS
             if is_old and segment.picture_bytes and not segment.is_thinned:
                 self._rewrite(segment, THINNED_PERIOD_NS)
-        while self._pictures() > self.budgets.pictures:
+        while self._pictures() > budgets.pictures:
             self._rewrite(next(one for one in self.segments if one.picture_bytes), 0)
-        while self._others() > self.budgets.others and len(self.segments) > 1:
+        while self._others() > budgets.others and len(self.segments) > 1:
             self._drop(self.segments[0])
 
     def _pictures(self) -> int:

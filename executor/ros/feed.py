@@ -81,6 +81,16 @@ class Feeds:
         self._groups = [(Due(rate_hz), members) for (rate_hz, _), members in groups.items()]
         self._samples: list[Due] | None = None
 
+    @property
+    def topics(self) -> set[str]:
+        """The names of all topics of the feeds."""
+        return {
+            publisher.topic_name
+            for _, feeds in self._groups
+            for feed in feeds
+            for publisher in feed.publishers
+        }
+
     def sample(self, rate_hz: float) -> None:
         """Limits the rate at which a tap gets topics without subscribers."""
         self._samples = [Due(min(is_due.rate_hz, rate_hz)) for is_due, _ in self._groups]

@@ -8,6 +8,7 @@ from msgspec.structs import replace
 from rclpy.qos import DurabilityPolicy, QoSCompatibility, ReliabilityPolicy, qos_check_compatible
 
 from executor.child_messages import TopicMismatch
+from executor.ros.graph_ends import shown_ends
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -22,7 +23,6 @@ LOOK_S: Final = 1.0
 OURS: Final = "world"
 """Prefix of the names of the world's own nodes, which may subscribe to a topic with more than one type."""
 _IGNORED: Final = ("/rosout", "/parameter_events")
-_NO_NAME_YET: Final = "_NODE_NAME_UNKNOWN_"
 
 
 _Key = tuple[str, str, str, str]
@@ -55,8 +55,8 @@ class Mismatches:
         for topic, _ in self._node.get_topic_names_and_types():
             if topic in _IGNORED:
                 continue
-            publishers = _named(self._node.get_publishers_info_by_topic(topic))
-            subscribers = _named(self._node.get_subscriptions_info_by_topic(topic))
+            publishers = shown_ends(self._node.get_publishers_info_by_topic(topic))
+            subscribers = shown_ends(self._node.get_subscriptions_info_by_topic(topic))
             for found in (
                 *_types_differ(topic, publishers, subscribers),
                 *_qos_differs(topic, publishers, subscribers),
@@ -74,10 +74,6 @@ class Mismatches:
 def _may_pass(found: TopicMismatch) -> bool:
     """Returns whether a mismatch may disappear soon: a robot can change its subscription's type."""
     return found.reason == "type" and found.subscriber.startswith(f"/{OURS}")
-
-
-def _named(ends: list[Any]) -> list[Any]:
-    return [end for end in ends if end.node_name != _NO_NAME_YET]
 
 
 def _name(end: Any) -> str:

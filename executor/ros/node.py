@@ -134,6 +134,11 @@ class WorldNode:
             robot.commands.notes.clear()
         return notes
 
+    @property
+    def topics(self) -> set[str]:
+        """The names of the topics whose messages a tap gets."""
+        return self._feeds.topics | {robot.commands.topic for robot in self._robots} | {"/tf", "/tf_static"}
+
     def types_of(self, topic: str) -> tuple[type, ...]:
         """Returns the types that a robot accepts on a command topic; empty for any other topic."""
         return next((robot.commands.types for robot in self._robots if robot.commands.topic == topic), ())

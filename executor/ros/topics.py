@@ -22,6 +22,7 @@ from executor.child_messages import (
     TypeDescription,
 )
 from executor.messages import TopicInfo
+from executor.ros.graph_ends import shown_ends
 from executor.ros.outlet import Outlet, Piped
 from executor.ros.values import FieldError, describe, fill, flatten, message_type
 
@@ -51,8 +52,6 @@ _QOS: Final = QoSProfile(
 _LATCHED_QOS: Final = QoSProfile(
     depth=50, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL
 )
-# The name that rcl gives to a node whose topics are discovered before its name.
-_NO_NAME_YET: Final = "_NODE_NAME_UNKNOWN_"
 # Types whose rates are not measured for a list: a subscription to images would start the renderer.
 _UNMEASURED: Final = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2"})
 
@@ -183,12 +182,8 @@ class Topics:
         self._send(child_messages.Topics(topics=rows))
 
     def _node_names(self, ends: list[Any], *, own: bool = False) -> list[str]:
-        """Returns the nodes at one end of a topic, except BT Studio's own and those with an unknown name."""
-        names = [
-            f"{end.node_namespace.rstrip('/')}/{end.node_name}"
-            for end in ends
-            if end.node_name != _NO_NAME_YET
-        ]
+        """Returns the shown nodes at one end of a topic, except BT Studio's own."""
+        names = [f"{end.node_namespace.rstrip('/')}/{end.node_name}" for end in shown_ends(ends)]
         if own and (ours := self._node.get_fully_qualified_name()) in names:
             names.remove(ours)
         return sorted(set(names))[:MOST_NODES]

@@ -169,9 +169,10 @@ class Unpacked:
 
 @dataclass(frozen=True)
 class RecordingWanted:
-    """The session is to be recorded, into a folder."""
+    """The session is to be recorded, into a folder; `is_whole` if nothing may be dropped later."""
 
     folder: str
+    is_whole: bool = False
 
 
 @dataclass(frozen=True)

@@ -182,7 +182,7 @@ class Session:
             case Unpacked():
                 self._unpacked = event
             case RecordingWanted():
-                self.recording.start(event.folder)
+                self.recording.start(event.folder, is_whole=event.is_whole)
 
     def introspect(self, client: str) -> None:
         """Sends a client the properties of the session and its role in it."""

@@ -37,17 +37,18 @@ class Recording:
     def __init__(self, stage: Stage) -> None:
         self._stage = stage
         self._folder = ""
+        self._is_whole = False
         self._lost = 0
         self._silent_s = 0.0
         self._looked_s: float | None = None
         self.run = ""
 
-    def start(self, folder: str) -> None:
-        """Starts the recorder; nothing is recorded before."""
-        self._folder = folder
+    def start(self, folder: str, *, is_whole: bool = False) -> None:
+        """Starts the recorder; nothing is recorded before. With `is_whole` nothing is dropped later."""
+        self._folder, self._is_whole = folder, is_whole
         self._silent_s, self._looked_s = 0.0, None
         self._stage.children.ensure("recorder")
-        self._stage.children.tell_recorder(child_messages.StartRecorder(folder))
+        self._stage.children.tell_recorder(child_messages.StartRecorder(folder, is_whole))
         if self.run:
             self._begin_run()
 
@@ -125,7 +126,7 @@ class Recording:
         what = "Nothing more is recorded" if ends else "Another one records from here"
         text = f"The recorder {reason}. {what}; the run continues."
         if not ends:
-            self.start(self._folder)
+            self.start(self._folder, is_whole=self._is_whole)
         self._stage.output.emit(messages.Log("manager", "warning", text, time=self._stage.sim_time_s))
 
     def _begin_run(self) -> None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import psutil
 
+from executor import child_messages
 from executor.child_messages import Frame, decode_from_application, decode_from_recorder, decode_from_world
 from executor.session.events import (
     ChildExited,
@@ -90,6 +91,14 @@ class Supervisor:
             self._apply_to(child, effect)
         elif isinstance(effect, Inspect):
             self._report(ChildTraced(effect.kind, effect.number))
+
+    async def end(self, kind: Kind, grace_s: float) -> None:
+        """Asks the children of a kind to end, and waits for that at most for a time in s."""
+        children = [child for (of_kind, _), child in self._children.items() if of_kind == kind]
+        for child in children:
+            child.tell(child_messages.Stop())
+        if children:
+            await asyncio.wait([child.exited for child in children], timeout=grace_s)
 
     async def close(self) -> None:
         """Kills all children, and waits until none of their processes is left."""

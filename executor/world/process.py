@@ -27,7 +27,7 @@ from executor.universes.document import DocumentError, Problem
 from executor.world.interface import WorldError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Collection
 
     from rclpy.context import Context
 
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from executor.ros.topics import TopicReply
     from executor.world.simulation.loop import SimulationLoop
     from executor.world.simulation.outside_graph import OutsideGraph
-    from executor.world.simulation.recording import WorldRecorder
+    from executor.world.simulation.recording import GraphTap, MakeGraphTap, WorldRecorder
 
 _log = logging.getLogger(__name__)
 
@@ -220,6 +220,7 @@ class WorldProcess:
         self._close.append(node.close)
         self._topics = Topics(node.node, self._answer, commands=node, outlet=outlet)
         recorder = WorldRecorder(world, sensors, node, TopicTap, os.environ.get(ADDRESS_VARIABLE, ""))
+        recorder.join(self._graph_tap_maker(context))
         self._recorder = recorder
         loop = SimulationLoop(world, sensors, node, self._send_frame, speed=message.speed)
         loop.watchers += [recorder.look, self._topics.poll, Mismatches(node.node, self._channel.send).poll]
@@ -229,6 +230,19 @@ class WorldProcess:
             loop.parts.append(navigation)
         self._loop = loop
         self._channel.send(child_messages.WorldReady(renderer.name, has_tf(), world.name))
+
+    def _graph_tap_maker(self, context: Context) -> MakeGraphTap:
+        """Returns what makes the tap of a graph; it is closed with the world."""
+        from executor.ros import graph_tap  # noqa: PLC0415 - ROS reads the environment
+
+        def make(
+            own: Collection[str], write: Callable[[str, str, bytes], None], note: Callable[[str], None]
+        ) -> GraphTap:
+            tap = graph_tap.GraphTap(context, own, write, note)
+            self._close.append(tap.close)
+            return tap
+
+        return make
 
     def _start_outside(self, message: StartWorld) -> None:
         from executor.ros.mismatches import Mismatches  # noqa: PLC0415 - ROS reads the environment

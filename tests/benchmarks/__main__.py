@@ -10,6 +10,8 @@ import sys
 BENCHMARKS = (
     "engine",
     "translator",
+    "behaviours",
+    "difference",
     "world",
     "stream",
     "session",

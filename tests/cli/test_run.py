@@ -8,6 +8,7 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ from rosbags.highlevel import AnyReader
 from websockets.sync.client import connect
 from websockets.typing import Origin
 
+from executor.recorder.joining import join_newest
 from tests.budget import count
 
 ROOT = Path(__file__).parents[2]
@@ -137,9 +139,36 @@ def test_a_run_is_recorded(tmp_path):
     assert (done.returncode, done.stderr) == (0, "")
     found = recorded(path)
     assert {"/bt/tree", "/bt/tick", "/bt/log", "/world/scene", "/world/poses", "/scan"} <= found.keys()
+    assert {"/bt/keyframe", "/odom", "/cmd_vel"} <= found.keys()
     assert found["/bt/tree"][0][1].name[0] == "bump and go"
-    assert found["/bt/tick"][-1][1].number > 30
+    numbers = [tick.number for _, tick in found["/bt/tick"]]
+    assert numbers[0] == 1
+    assert numbers[-1] > 30
+    assert sorted(set(numbers)) == list(range(1, numbers[-1] + 1))
+    assert all(tick.fingerprint for _, tick in found["/bt/tick"])
+    assert list(tmp_path.iterdir()) == [path]
+    with path.open("rb") as file:
+        (about,) = make_reader(file).iter_metadata()
+    assert about.metadata["project"] == "Laser bump and go"
     assert any("The way is free" in line.text for _, line in found["/bt/log"])
+
+
+@pytest.mark.simulation
+def test_the_recording_of_a_killed_run_is_completed_by_convert(tmp_path):
+    path = tmp_path / "run.mcap"
+    parts = tmp_path / "run.mcap.parts"
+    command = [sys.executable, "-c", MAIN, "run", str(EXAMPLE), "--record", str(path)]
+    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL) as run:
+        end_s = time.monotonic() + 60
+        while not (parts.is_dir() and join_newest(parts, tmp_path / "so far")):
+            assert time.monotonic() < end_s
+            time.sleep(0.05)
+        run.kill()
+    again = studio("run", EXAMPLE, "--record", path)
+    assert again.returncode == 1
+    assert "holds what a killed run recorded" in again.stderr
+    assert studio("convert", f"{path}.parts", "-o", path).returncode == 0
+    assert {"/bt/tree", "/bt/tick", "/world/scene"} <= recorded(path).keys()
 
 
 @pytest.mark.simulation

@@ -8,12 +8,12 @@ import msgspec
 
 from executor.messages import Camera
 from executor.recorder.link import Dump, Heard, Record, RecorderLink
-from executor.recorder.thinning import Thinner
+from executor.recorder.thinning import Thinner, Verdict
 from executor.recorder.writer import nanoseconds
 from executor.world.simulation.streams import Streams
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Collection
 
     from executor.child_messages import Frame
     from executor.ros.node import WorldNode
@@ -36,6 +36,25 @@ class Tap(Protocol):
 
     def jpeg(self, topic: str, jpeg: bytes, now_s: float, frame_id: str) -> None:
         """Takes one picture."""
+
+
+class GraphTap(Protocol):
+    """Takes messages of topics that others publish."""
+
+    def poll(self, now_s: float) -> None:
+        """Takes what has arrived; the time is real time in s."""
+
+    def restart(self) -> None:
+        """Begins again, with the latched messages."""
+
+
+class MakeGraphTap(Protocol):
+    """Makes a tap of a graph."""
+
+    def __call__(
+        self, own: Collection[str], write: Callable[[str, str, bytes], None], note: Callable[[str], None]
+    ) -> GraphTap:
+        """Returns a new tap."""
 
 
 class WorldRecorder:
@@ -62,23 +81,39 @@ class WorldRecorder:
         self._link = RecorderLink(address, self._restate)
         self._thinner = Thinner()
         self._tap = make_tap(self._topic)
+        self._make_graph_tap: MakeGraphTap | None = None
+        self._graph_tap: GraphTap | None = None
         self._sensors = sensors
         self._streams = self._new_streams()
         self._dump_s = 0.0
+
+    def join(self, make_graph_tap: MakeGraphTap) -> None:
+        """Records the topics that others publish too, once a run has begun.
+
+        The arguments of the function are the names of the topics that are recorded already, a function that
+        writes topic, type and message, and one that notes a sentence.
+        """
+        self._make_graph_tap = make_graph_tap
 
     def begin(self, run: str) -> None:
         """Begins the recording of a run."""
         self._thinner = Thinner()
         self._node.tap(self._tap, sample_hz=UNHEARD_HZ)
+        if self._graph_tap is not None:
+            self._graph_tap.restart()
         self._link.begin(run)
 
-    def look(self, _: float) -> None:
+    def look(self, real_s: float) -> None:
         """Sends all that is due."""
         self._link.pump()
         if not self._link.is_recording:
             return
         now_s = self._world.time_s
         self._streams.send_due(now_s)
+        if self._graph_tap is None and self._make_graph_tap is not None:
+            self._graph_tap = self._make_graph_tap(self._node.topics, self._foreign, self._note)
+        if self._graph_tap is not None:
+            self._graph_tap.poll(real_s)
         if now_s >= self._dump_s:
             self._dump_s = now_s + KEYFRAME_S
             step = round(now_s / self._world.step_s)
@@ -109,5 +144,15 @@ class WorldRecorder:
 
     def _topic(self, topic: str, kind: str, now_s: float, data: bytes) -> None:
         is_picture = topic.endswith("/compressed")
-        if is_picture or self._thinner.take(topic, now_s, len(data)).is_kept:
+        verdict = Verdict(is_kept=True) if is_picture else self._thinner.take(topic, now_s, len(data))
+        if verdict.note:
+            self._note(verdict.note)
+        if verdict.is_kept:
             self._link.send(Heard(topic, kind, nanoseconds(now_s), data))
+
+    def _foreign(self, topic: str, kind: str, data: bytes) -> None:
+        self._topic(topic, kind, self._world.time_s, data)
+
+    def _note(self, text: str) -> None:
+        fields = {"source": "world", "level": "warning", "text": text, "uid": 0}
+        self._link.send(Record("/bt/log", "Log", {"stamp": nanoseconds(self._world.time_s), **fields}))

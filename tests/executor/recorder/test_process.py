@@ -77,6 +77,15 @@ async def joined(manager, run):
     return found
 
 
+async def joined_with(manager, client, run, topic):
+    """Returns the messages of a run, once they have some of a topic: processes begin a run one by one."""
+    while True:
+        found = await joined(manager, run)
+        if any(each == topic for each, _, _ in found):
+            return found
+        await client.event("segment", after=len(client.events))
+
+
 async def flagged(client, text):
     """Flags the present moment, and waits until the recording reaches it."""
     at = len(client.events)
@@ -123,12 +132,12 @@ async def test_a_second_run_and_a_reset_are_recordings_of_their_own_from_time_0(
             "data"
         ]
         for segment in (second, third):
-            found = await joined(manager, segment["run"])
+            found = await joined_with(manager, client, segment["run"], "/bt/tree")
             poses = [t for topic, t, _ in found if topic == "/world/poses"]
             assert poses[0] < 0.5
-            assert any(topic == "/bt/tree" for topic, _, _ in found)
         late = await SessionClient(manager.ready["port"]).open(stream=False)
-        assert {s["run"] for s in late.named("snapshot")[0]["segments"]} == known | {third["run"]}
+        snapshot = (await late.event("snapshot"))["data"]
+        assert {s["run"] for s in snapshot["segments"]} == known | {third["run"]}
         await late.close()
 
 
@@ -209,3 +218,29 @@ class Forward(py_trees.behaviour.Behaviour):
         assert child_of(manager, "recorder").pid == recorder.pid
         found = await joined(manager, segment["run"])
         assert sum(topic == "/bt/tick" for topic, _, _ in found) > 20
+
+
+async def test_topics_of_the_application_alone_are_recorded():
+    talks = """
+import py_trees
+from std_msgs.msg import String
+from tree_gardener.ports import Port
+
+class Forward(py_trees.behaviour.Behaviour):
+    INPUT_PORTS = {"lin_speed": Port(float, default=0.3)}
+
+    def setup(self, **kwargs):
+        self.node = kwargs["node"]
+        self.publisher = self.node.create_publisher(String, "/plan_name", 10)
+
+    def update(self):
+        self.publisher.publish(String(data="wall"))
+        return py_trees.common.Status.RUNNING
+"""
+    async with running(app=app_zip(Forward=talks)) as (manager, client):
+        segment = client.named("segment")[-1]
+        await joined_with(manager, client, segment["run"], "/plan_name")
+        assert await client.ask("list_topics") == "ack"
+        topics = (await client.event("topics"))["data"]["topics"]
+        (row,) = [row for row in topics if row["name"] == "/plan_name"]
+        assert row["subscribers"] == []

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import os
 
-from executor.recorder.project_files import MOST_BYTES, project_files
+import pytest
+
+from executor.recorder.project_files import LONGEST_NAME, MOST_BYTES, project_files, project_name
 
 
 def test_regular_files_are_read_and_no_others(tmp_path):
@@ -26,3 +29,15 @@ def test_the_sum_is_bounded(tmp_path):
 
 def test_a_folder_that_is_not_there_has_no_files():
     assert project_files("/nowhere/at/all") == {}
+
+
+def test_a_project_has_the_name_of_its_settings():
+    assert project_name({"project/project.json": b'{"name": "bump and go"}'}) == "bump and go"
+    long = json.dumps({"name": "x" * 1000}).encode()
+    assert project_name({"project/project.json": long}) == "x" * LONGEST_NAME
+
+
+@pytest.mark.parametrize("text", [b"", b"{", b"[" * 100_000, b"[]", b"null", b'{"name": 7}', b"\xff"])
+def test_settings_without_a_name_give_none(text):
+    assert project_name({"project/project.json": text}) == ""
+    assert project_name({}) == ""

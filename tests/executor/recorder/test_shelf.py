@@ -12,12 +12,15 @@ from executor.recorder.run_writer import RunWriter
 from executor.recorder.shelf import PICTURE, Budgets, Segment, Shelf, file_of, files_of
 
 SECOND = 1_000_000_000
+BUDGETS = Budgets()
 
 
-def filled(folder, seconds: int, *, picture: int = 0, pictures_hz: int = 10, budgets: Budgets | None = None):
+def filled(
+    folder, seconds: int, *, picture: int = 0, pictures_hz: int = 10, budgets: Budgets | None = BUDGETS
+):
     """Writes a run with a line each second, and pictures."""
     said: list[Segment] = []
-    shelf = Shelf(folder, said.append, budgets or Budgets())
+    shelf = Shelf(folder, said.append, budgets)
     writer = RunWriter(shelf, "a1", {}, {})
     for step in range(seconds * pictures_hz):
         t_ns = step * SECOND // pictures_hz
@@ -61,6 +64,13 @@ def test_the_oldest_segments_go_when_the_budget_is_used_up(tmp_path):
     assert gone == list(range(shelf.segments[0].number))
     assert len(gone) > 0
     assert len(files_of(tmp_path, "a1")) == len(shelf.segments)
+
+
+def test_without_budgets_nothing_is_thinned_or_dropped(tmp_path):
+    shelf, said = filled(tmp_path, 120, picture=400, budgets=None)
+    assert [segment.version for segment in shelf.segments] == [0] * 6
+    assert sum(counts(shelf, segment)["/camera/compressed"] for segment in shelf.segments) == 1200
+    assert all(segment.bytes for segment in said)
 
 
 @pytest.mark.parametrize("missing", [1, 60, 800])

@@ -9,7 +9,7 @@ import {
   type ChangeKind,
   type NodeDifference,
   type TreeDifference,
-} from '@/model/difference';
+} from '@/model/difference/changes';
 import { layoutTree, type Layout } from '@/model/layout';
 import { useProjectStore } from '@/store/project';
 import classes from './history.module.css';
@@ -93,13 +93,17 @@ export function TreePicture({ before, after }: TreePictureProps) {
 
 function Change({ name, change }: { readonly name: string; readonly change: NodeDifference }) {
   const { t } = useTranslation('revisions');
+  const isField = change.kind === 'changed';
   return (
     <>
       <span className={classes['sign']} style={{ color: COLORS[change.kind] }} aria-hidden="true">
         {SIGNS[change.kind]}
       </span>
       <div>
-        <b>{name}</b> <span className={classes['kind']}>{t(`kind.${change.kind}`)}</span>
+        <b>{name}</b>{' '}
+        <span className={classes['kind']}>
+          {t(`kind.${isField ? 'changed' : (change.deed ?? change.kind)}`)}
+        </span>
         {change.fields.map(({ field, before, after }) => (
           <div key={field} className={classes['field']}>
             <span>{field}</span> {before === null ? null : <del>{before}</del>}
@@ -107,8 +111,8 @@ function Change({ name, change }: { readonly name: string; readonly change: Node
             {after === null ? null : <ins>{after}</ins>}
           </div>
         ))}
-        {change.isMoved && change.kind === 'changed' ? (
-          <div className={classes['field']}>{t('kind.moved')}</div>
+        {isField && change.deed !== null ? (
+          <div className={classes['field']}>{t(`kind.${change.deed}`)}</div>
         ) : null}
       </div>
     </>

@@ -23,9 +23,30 @@ class Topics:
 
     def __init__(self) -> None:
         self.taps: list[Any] = []
+        self.topics = {"/scan"}
 
     def tap(self, tap: Any, *, sample_hz: float) -> None:
         self.taps.append((tap, sample_hz))
+
+
+class Others:
+    """Takes the place of the tap of a graph, in which others publish one topic at a high rate."""
+
+    def __init__(self, own: Any, write: Any, note: Any) -> None:
+        assert own == {"/scan"}
+        self._write = write
+        self._note = note
+        self.restarts = 0
+
+    def poll(self, real_s: float) -> None:
+        assert real_s == 0.0
+        self._write("/goal", "std_msgs/msg/String", bytes(30_000))
+        if not self.restarts:
+            self._note("/depth is not recorded: it is too large.")
+            self.restart()
+
+    def restart(self) -> None:
+        self.restarts += 1
 
 
 def no_renderer() -> Any:
@@ -40,6 +61,7 @@ def test_scene_poses_dumps_and_pictures_are_sent(monkeypatch):
     node: Any = Topics()
     with listen(address) as listener:
         recorder = WorldRecorder(world, Sensors(world, no_renderer), node, TopicTap, address)
+        recorder.join(Others)
         recorder.look(0.0)
         recorder.begin("a1")
         source = take_source(listener)
@@ -63,6 +85,13 @@ def test_scene_poses_dumps_and_pictures_are_sent(monkeypatch):
     dumps = [m.t_ns for m in messages if isinstance(m, Dump)]
     assert len(dumps) == 2
     assert dumps[1] - dumps[0] >= KEYFRAME_S * 1e9
-    pictures = [m for m in messages if isinstance(m, Heard)]
+    others = [m for m in messages if isinstance(m, Heard) and m.topic == "/goal"]
+    assert sum(len(m.data) for m in others if m.t_ns < 1e9) == 180_000
+    lines = [m.fields for m in messages if isinstance(m, Record) and m.name == "Log"]
+    assert [line["text"] for line in lines] == [
+        "/depth is not recorded: it is too large.",
+        "/goal sends more than 200 KB/s; the recording holds a part of it.",
+    ]
+    pictures = [m for m in messages if isinstance(m, Heard) and m.topic != "/goal"]
     assert [p.topic for p in pictures] == ["/world/camera/front/compressed"] * 2
     assert len(node.taps) == 1

@@ -205,9 +205,29 @@ describe('a name without a matching block', () => {
     expect(screen.queryByTestId('quick-add-new-Action')).toBeNull();
   });
 
-  it('is not offered for wrapping', () => {
-    open({ goal: { does: 'wrap', nodes: ['a'] }, text: 'PickUp' });
-    expect(screen.queryByTestId('quick-add-new-Action')).toBeNull();
+  it('becomes a decorator round one block', async () => {
+    open({ goal: { does: 'wrap', nodes: ['a'] }, text: 'Twice' });
+    expect(labels()).toEqual(['New decorator “Twice”', 'New control node “Twice”']);
+    await user.keyboard('{Enter}');
+    const [around] = childrenOf(now.diagram(), 'r');
+    expect(typeOf(around)).toBe('Twice');
+    expect(childrenOf(now.diagram(), around!)).toEqual(['a']);
+    expect(useProjectStore.getState().currentText('actions/Twice.py')).toContain(
+      'class Twice(DecoratorNode)',
+    );
+  });
+
+  it('becomes a control node round two blocks', () => {
+    open({ goal: { does: 'wrap', nodes: ['a', 'b'] }, text: 'InTurn' });
+    expect(labels()).toEqual(['New control node “InTurn”']);
+  });
+
+  it('becomes the type of a block, of a kind that can have its children', async () => {
+    open({ goal: { does: 'morph', node: 'r' }, text: 'InTurn' });
+    expect(labels()).toEqual(['New control node “InTurn”']);
+    await user.keyboard('{Enter}');
+    expect(typeOf('r')).toBe('InTurn');
+    expect(childrenOf(now.diagram(), 'r')).toEqual(['a', 'b']);
   });
 });
 

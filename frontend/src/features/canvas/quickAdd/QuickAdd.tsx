@@ -3,6 +3,7 @@ import { useEffect, useLayoutEffect, useMemo, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { shippedChoice } from '@/i18n/shipped';
 import { allChoices, matchScore, searchChoices, suits, type Purpose } from '@/model/choices';
+import { childrenOf, type Diagram } from '@/model/diagram';
 import { isPythonName } from '@/model/pythonNames';
 import { createAction } from '@/store/project/edits/actionTemplate';
 import { achieve } from '@/store/project/edits/blocks';
@@ -21,6 +22,18 @@ function purposeOf({ goal }: QuickAddState): Purpose {
       return { for: 'wrap', count: goal.nodes.length };
     case 'morph':
       return { for: 'morph', node: goal.node };
+  }
+}
+
+/** Returns the number of children that the chosen block will have at once. */
+function heldChildren({ goal }: QuickAddState, diagram: Diagram): number {
+  switch (goal.does) {
+    case 'add':
+      return 0;
+    case 'wrap':
+      return goal.nodes.length;
+    case 'morph':
+      return childrenOf(diagram, goal.node).length;
   }
 }
 
@@ -58,8 +71,8 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
       shippedChoice,
     );
   }, [diagram, vocabulary, offered, request, search]);
-  const canCreate = request.goal.does === 'add' && isPythonName(search) && !vocabulary.specs.has(search);
-  const made = canCreate ? kindsFor(search) : [];
+  const canCreate = diagram !== undefined && isPythonName(search) && !vocabulary.specs.has(search);
+  const made = canCreate ? kindsFor(search, heldChildren(request, diagram)) : [];
   const count = found.length + made.length;
   // If no block has this name, it means a new action, even if a description contains the word.
   const least = /^[A-Z]/.test(search) ? 3 : 1;

@@ -8,3 +8,8 @@ it.each(['IsHome', 'isHome', 'hasBox', 'Can_see', 'check', 'Is', 'CheckDoor'])('
 it.each(['Island', 'Canoe', 'Hasten', 'checkers', 'PickUp', 'ThisIs', ''])('%s is not a question', (name) => {
   expect(kindsFor(name)).toEqual(['Action', 'Condition', 'Control', 'Decorator']);
 });
+
+it('offers what can have the children', () => {
+  expect(kindsFor('Twice', 1)).toEqual(['Decorator', 'Control']);
+  expect(kindsFor('InTurn', 2)).toEqual(['Control']);
+});

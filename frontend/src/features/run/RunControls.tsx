@@ -27,7 +27,7 @@ export function RunControls() {
   const worldRuns = useSessionStore(doesWorldRunAlone);
   const runBlocker = useRunBlocker();
   const isBlocked = runBlocker !== null;
-  // A robot can be stopped by who looks at its past.
+  // A robot can be stopped while its past is shown.
   const mayStop = !isBlocked || runBlocker === 'past';
   const hasChanged = useHasChanged();
   const { isPressed, handlers } = usePressed();

@@ -100,7 +100,7 @@ export async function goToChange(uid: number, direction: 1 | -1): Promise<boolea
   return found !== null;
 }
 
-/** Returns the moment from which to go on: at the present, the end of the run, once that was read. */
+/** Returns the moment from which to continue: at the present, the end of the run, once that was read. */
 async function beginning(): Promise<{ t: number; tick: number | null } | null> {
   const { t, tick } = useMoment.getState();
   if (t !== null) return { t, tick };
@@ -120,7 +120,7 @@ export function setPlaying(isPlaying: boolean): void {
   const { t } = useMoment.getState();
   const now = extent();
   if (!now || useMoment.getState().isPlaying === isPlaying) return;
-  // At the end, playing begins anew, as in any player.
+  // At the end, playing begins at the start, as in any player.
   if (isPlaying && (t === null || t >= now.to)) lookAt(now.from);
   useMoment.setState({ isPlaying });
   if (isPlaying) requestAnimationFrame((first) => play(first));

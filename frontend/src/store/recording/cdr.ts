@@ -166,7 +166,7 @@ class Reader {
     if (over > 0) this.at += size - over;
   }
 
-  /** Returns the position, and goes on behind as many bytes. */
+  /** Returns the position, and continues behind as many bytes. */
   private take(count: number): number {
     const from = this.at;
     if (from + count > this.bytes.length)

@@ -36,7 +36,7 @@ it('moves objects evenly between two frames, and keeps those that stand', () => 
   expect(shown(frames, 1.05)[2]![0]).toBeCloseTo(5, 3);
 });
 
-it('does not slide an object that stood still for long or was put elsewhere', () => {
+it('does not slide an object that paused for long or was put elsewhere', () => {
   const frames = [frame(0, { 1: pose(0) }), frame(1, { 1: pose(0.1) }), frame(1.1, { 1: pose(8) })];
   expect(shown(frames, 0.9)[1]![0]).toBeCloseTo(0, 3);
   expect(shown(frames, 1.05)[1]![0]).toBeCloseTo(0.1, 3);

@@ -10,7 +10,7 @@ export interface PosesFrame {
 const POSE_BYTES = 16;
 const METRES_PER_UNIT = 1e-4;
 const TURN_PER_UNIT = 1 / (32767 * Math.SQRT2);
-/** Over a longer pause an object stood still, and over a longer way it was put elsewhere. */
+/** An object paused for a longer time did not move, and over a longer way it was put elsewhere. */
 const LONGEST_S = 0.2;
 const LONGEST_M = 1;
 

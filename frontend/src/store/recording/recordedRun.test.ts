@@ -57,7 +57,7 @@ it('reads the part that is wanted first, then those before it, then the others',
   await vi.waitFor(() => expect(asked.map(([number]) => number)).toEqual([2, 1, 0, 3]));
 });
 
-it('goes on with a segment that grows', async () => {
+it('continues a segment that grows', async () => {
   const half = segment(0, { bytes: 100_000, complete: false, to_t: 0.5 });
   const { run, asked, overviews, set } = setUp([half]);
   run.want(0.2);
@@ -96,7 +96,7 @@ it('asks again for a part that was refused, and then says why', async () => {
   expect(asked).toHaveLength(12);
 });
 
-it('begins anew with another run', async () => {
+it('begins again with another run', async () => {
   const { run, asked, set } = setUp([segment(0)]);
   run.want(1);
   await vi.waitFor(() => expect(asked).toHaveLength(1));

@@ -48,7 +48,7 @@ export class RecordedRun {
     this.stop = source.subscribe(() => this.follow());
   }
 
-  /** Reads what is needed for a moment, and goes on reading the rest; null: no more. */
+  /** Reads what is needed for a moment, and continues with the rest; null: no more. */
   want(t: number | null): void {
     this.wanted = t;
     this.follow();

@@ -29,6 +29,7 @@ VERBS: Final[dict[str, Verb]] = {
     "serve": Verb("serve", "serve"),
     "run": Verb("run", "run"),
     "check": Verb("check", "check"),
+    "test": Verb("behaviour_tests", "run_tests"),
     "diff": Verb("diff", "diff"),
     "merge": Verb("merge", "merge"),
     "git": Verb("git", "git"),

@@ -107,7 +107,7 @@ def _merge_xml(base: bytes, ours: bytes, theirs: bytes, file: str) -> MergedFile
     added = [name for name in trees if name not in sides[1]]
     data = _patched(mine, ours, trees, added)
     if conflicts:
-        # A reader numbers nodes without ids anew: the conflicts name them by those numbers.
+        # A reader numbers nodes without ids again: the conflicts name them by those numbers.
         read = _trees(read_document(data, file=file))
         conflicts = [(name, _numbered(each, trees[name], read[name])) for name, each in conflicts]
         listed = {name: [each for tree, each in conflicts if tree == name] for name, _ in conflicts}

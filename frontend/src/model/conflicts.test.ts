@@ -99,6 +99,27 @@ describe('decide', () => {
   });
 });
 
+describe('a tree from XML', () => {
+  const imported = (text: string): Diagram => ({
+    ...tree(undefined),
+    attributes: { _bts_conflicts: text, _other: '1' },
+  });
+
+  it('has its decisions in an attribute', () => {
+    const diagram = imported(JSON.stringify([entry, { ...entry, field: 'ports.angle' }]));
+    expect(conflictsOf(diagram).map(({ field }) => field)).toEqual(['ports.speed', 'ports.angle']);
+    const first = edit(diagram, decide(0, 'theirs')).diagram;
+    expect(first.nodes['a']?.ports).toEqual({ speed: '3' });
+    expect(conflictsOf(first)).toHaveLength(1);
+    expect(edit(first, decide(0, 'ours')).diagram.attributes).toEqual({ _other: '1' });
+  });
+
+  it.each(['{', '5', ''])('has one to look at if it cannot be read: %s', (text) => {
+    expect(conflictsOf(imported(text))).toHaveLength(1);
+    expect(edit(imported(text), decide(0, 'ours')).diagram.attributes).toEqual({ _other: '1' });
+  });
+});
+
 describe('shownSide', () => {
   it.each([
     [entry, { is: 'text', text: '3' }],

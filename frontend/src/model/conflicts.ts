@@ -2,6 +2,7 @@ import { displayName, isWithin, type Diagram, type NodeId } from './diagram';
 import { moveNode, removeSubtrees, type Recipe } from './edits';
 import { asPlain, nodeOf } from './edits/core';
 import type { Placement } from './rules';
+import { attributesOf } from './treeAttributes';
 import type { Draft } from 'immer';
 
 export type Side = 'ours' | 'theirs';
@@ -23,12 +24,34 @@ const isObject = (value: unknown): value is Rows =>
   typeof value === 'object' && value !== null && !Array.isArray(value);
 const text = (value: unknown): string => (typeof value === 'string' ? value : '');
 
+/** The attribute in which XML has the list. */
+const ATTRIBUTE = '_bts_conflicts';
+
+type Listed = Pick<Diagram, 'conflicts' | 'attributes'>;
+
 /** Returns the entries of the file's list; the file is foreign, so entries of any form are kept. */
-const entriesOf = ({ conflicts }: Pick<Diagram, 'conflicts'>): readonly unknown[] =>
+const ownEntries = ({ conflicts }: Listed): readonly unknown[] =>
   Array.isArray(conflicts) ? (conflicts as unknown[]) : [];
 
+/** Returns the entries of a tree that comes from XML. */
+function importedEntries(diagram: Listed): readonly unknown[] {
+  const source = attributesOf(diagram)[ATTRIBUTE];
+  if (source === undefined) return [];
+  try {
+    const found: unknown = JSON.parse(source);
+    return Array.isArray(found) ? (found as unknown[]) : [{}];
+  } catch {
+    return [{}];
+  }
+}
+
+const entriesOf = (diagram: Listed): readonly unknown[] => [
+  ...ownEntries(diagram),
+  ...importedEntries(diagram),
+];
+
 /** Returns the open decisions of a tree. */
-export function conflictsOf(diagram: Pick<Diagram, 'conflicts'>): readonly Conflict[] {
+export function conflictsOf(diagram: Listed): readonly Conflict[] {
   return entriesOf(diagram).map((entry) => {
     const row = isObject(entry) ? entry : {};
     const { base = null, ours = null, theirs = null } = row;
@@ -158,8 +181,15 @@ export function decide(index: number, side: Side): Recipe {
     const conflict = conflictsOf(plain)[index];
     if (!conflict) return;
     take(draft, conflict, side);
-    const left = entriesOf(plain).filter((_, place) => place !== index);
-    if (left.length > 0) draft.conflicts = left;
-    else delete draft.conflicts;
+    const own = ownEntries(plain);
+    if (index < own.length) {
+      const left = own.filter((_, place) => place !== index);
+      if (left.length > 0) draft.conflicts = left;
+      else delete draft.conflicts;
+      return;
+    }
+    const left = importedEntries(plain).filter((_, place) => place !== index - own.length);
+    const written = left.length > 0 ? JSON.stringify(left) : null;
+    setIn(draft as unknown as Rows, `attributes.${ATTRIBUTE}`, written);
   };
 }

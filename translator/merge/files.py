@@ -101,12 +101,50 @@ def _merge_xml(base: bytes, ours: bytes, theirs: bytes, file: str) -> MergedFile
         tree, found = _merge_tree(sides[0].get(name), sides[1].get(name), sides[2].get(name), ids)
         conflicts += [(name, each) for each in found]
         if tree is not None:
-            trees[name] = _with_conflicts(tree, found)
-    project = Project(
-        Settings(main_tree=mine.main or next(iter(trees), "MainTree")), trees, {}, {"imports/ours.xml": ours}
-    )
-    added = [tree for name, tree in trees.items() if name not in sides[1]]
-    return MergedFile(patch_document(mine, project, added=added, main=None), tuple(conflicts))
+            trees[name] = tree
+    if any(tree.drafts for tree in trees.values()):
+        raise NotMergeableError  # XML has no place for a second root
+    added = [name for name in trees if name not in sides[1]]
+    data = _patched(mine, ours, trees, added)
+    if conflicts:
+        # A reader numbers nodes without ids again: the conflicts name them by those numbers.
+        read = _trees(read_document(data, file=file))
+        conflicts = [(name, _numbered(each, trees[name], read[name])) for name, each in conflicts]
+        listed = {name: [each for tree, each in conflicts if tree == name] for name, _ in conflicts}
+        marked = {name: _with_conflicts(tree, listed.get(name, [])) for name, tree in trees.items()}
+        data = _patched(mine, ours, marked, added)
+    return MergedFile(data, tuple(conflicts))
+
+
+def _patched(mine: Document, ours: bytes, trees: Mapping[str, Tree], added: list[str]) -> bytes:
+    """Returns our file with the trees in their merged state."""
+    main = mine.main or next(iter(trees), "MainTree")
+    project = Project(Settings(main_tree=main), trees, {}, {"imports/ours.xml": ours})
+    return patch_document(mine, project, added=[trees[name] for name in added], main=None)
+
+
+def _numbered(conflict: Conflict, tree: Tree, read: Tree) -> Conflict:
+    """Returns a conflict with the ids that the nodes of `tree` have when it is read from the file."""
+    names = {one.id: other.id for one, other in zip(tree.walk(), read.walk(), strict=False)}
+    found = dict(conflict)
+    if "field" not in conflict:
+        links = {"ring", "base", "ours", "theirs"} & conflict.keys()
+        found.update((key, _renamed(conflict[key], names)) for key in links)
+    return {**found, "node": names.get(conflict["node"], conflict["node"])}
+
+
+def _renamed(value: Any, names: Mapping[str, str]) -> Any:
+    """Returns a place, a row or a list of nodes with the other ids."""
+    if isinstance(value, list):
+        return [names.get(each, each) for each in value]
+    if not isinstance(value, dict):
+        return value
+    found = dict(value)
+    if value.get("parent"):
+        found["parent"] = names.get(value["parent"], value["parent"])
+    if "children" in value:
+        found["children"] = _renamed(value["children"], names)
+    return found
 
 
 def _merge_tree(
@@ -120,7 +158,7 @@ def _merge_tree(
         tree, found = restore_document({**merged.document, "conflicts": []}, file=ours.file)
         if tree is None:
             raise TranslatorError(found)
-        return replace(tree, attributes=dict(tree.attributes)), merged.conflicts
+        return tree, merged.conflicts
     kept = ours if ours is not None else theirs
     if base is None or kept is None:
         return kept, ()
@@ -130,7 +168,7 @@ def _merge_tree(
     return kept, ({"op": "delete", "node": "", **dict(zip(("base", "ours", "theirs"), names, strict=True))},)
 
 
-def _with_conflicts(tree: Tree, conflicts: tuple[Conflict, ...]) -> Tree:
+def _with_conflicts(tree: Tree, conflicts: list[Conflict]) -> Tree:
     if not conflicts:
         return tree
     text = json.dumps(conflicts, ensure_ascii=False, separators=(",", ":"))

@@ -108,6 +108,32 @@ def test_conflicts_in_xml_are_an_attribute_that_check_reads():
     assert 'text="one"' in done.data.decode()
 
 
+def test_conflicts_in_xml_name_nodes_by_the_numbers_that_a_reader_gives():
+    theirs = PLAIN.replace("<Sequence>", "<Sequence>\n      <First/>").replace("hi", "two")
+    done = xml(PLAIN.replace("hi", "one"), theirs)
+    tree = from_xml(done.data, stubs=False).main
+    (conflict,) = conflicts_of(tree)
+    assert tree.nodes[conflict["node"]].type == "Talk"
+    assert done.conflicts == (("Main", conflict),)
+
+
+def test_orders_and_places_in_xml_are_numbered_too():
+    three = '<root BTCPP_format="4"><BehaviorTree ID="T"><Sequence>{}</Sequence></BehaviorTree></root>'
+    base, ours, theirs = (
+        three.format(each) for each in ("<A/><B/><C/>", "<New/><C/><A/><B/>", "<B/><A/><C/>")
+    )
+    tree = from_xml(xml(ours, theirs, base).data, stubs=False).main
+    (conflict,) = conflicts_of(tree)
+    assert conflict["op"] == "reorder"
+    assert [tree.nodes[node].type for node in conflict["theirs"]] == ["B", "A", "C"]
+
+
+def test_two_roots_in_xml_are_left_to_a_merge_of_lines():
+    one = '<root BTCPP_format="4"><BehaviorTree ID="T">{}</BehaviorTree></root>'
+    with pytest.raises(NotMergeableError):
+        xml(one.format("<B/>"), one.format("<C/>"), one.format("<A/>"))
+
+
 def test_trees_that_come_and_go():
     second = '<BehaviorTree ID="{}"><Talk text="{}"/></BehaviorTree></root>'
     base = XML.format("").replace("</root>", second.format("Old", "a"))

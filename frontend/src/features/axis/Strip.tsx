@@ -21,7 +21,7 @@ const ICONS: Readonly<Record<MarkKind, typeof IconBugFilled>> = {
   finished: IconCircleCheckFilled,
   flag: IconFlagFilled,
 };
-const MARK_PX = 14;
+const MARK_PX = 24;
 
 /** The strip of the run, with the root's status as its colour, its marks, and the moment that is shown. */
 export function Strip({ extent }: { readonly extent: Extent }) {

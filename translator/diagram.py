@@ -203,6 +203,7 @@ class _Reader:
             ports=self.model(document),
             attributes=self.texts("", document, "attributes"),
             file=self.file,
+            conflicts=self.conflicts(document),
         )
 
     def linked(self, nodes: dict[str, Node]) -> dict[str, Node]:
@@ -271,6 +272,12 @@ class _Reader:
             self.report("BT0024", node_id, type=nodes[node_id].type)
         return lost
 
+    def conflicts(self, document: dict[str, Any]) -> tuple[dict[str, Any], ...]:
+        """Returns what a merge has left; entries of another form count, too, so that none is lost."""
+        listed = document.get("conflicts") or []
+        rows = listed if isinstance(listed, list) else [listed]
+        return tuple(row if isinstance(row, dict) else {"op": "", "node": ""} for row in rows)
+
     def layout(self, document: dict[str, Any]) -> str:
         layout = self.text("", document, "layout")
         return "" if layout == "vertical" else layout
@@ -312,17 +319,26 @@ def to_diagram(tree: Tree) -> dict[str, Any]:
     document["nodes"] = {key: _node_row(node) for key, node in tree.nodes.items()}
     document["drafts"] = list(tree.drafts)
     document["layout"] = tree.layout or "vertical"
+    if tree.conflicts:
+        document["conflicts"] = [dict(conflict) for conflict in tree.conflicts]
     return document
 
 
 def diagram_text(tree: Tree) -> str:
     """Returns the diagram as text with one line for each node, so that a diff shows the changes."""
-    document = to_diagram(tree)
-    nodes = document.pop("nodes")
-    parts = [f"  {_dump(key)}: {_dump(value)}" for key, value in document.items()]
-    rows = ",\n".join(f"    {_dump(key)}: {_dump(row)}" for key, row in nodes.items())
-    block = f'  "nodes": {{\n{rows}\n  }}' if nodes else '  "nodes": {}'
-    return "{\n" + ",\n".join([*parts[:-2], block, *parts[-2:]]) + "\n}\n"
+    return document_text(to_diagram(tree))
+
+
+def document_text(document: Mapping[str, Any]) -> str:
+    """Returns a document as `diagram_text` does a tree; conflicts have a line each."""
+    last = ("nodes", "drafts", "layout", "conflicts")
+    parts = [f"  {_dump(key)}: {_dump(value)}" for key, value in document.items() if key not in last]
+    rows = ",\n".join(f"    {_dump(key)}: {_dump(row)}" for key, row in document["nodes"].items())
+    parts.append(f'  "nodes": {{\n{rows}\n  }}' if document["nodes"] else '  "nodes": {}')
+    parts += [f"  {_dump(key)}: {_dump(document[key])}" for key in ("drafts", "layout") if key in document]
+    if conflicts := document.get("conflicts"):
+        parts.append('  "conflicts": [\n' + ",\n".join(f"    {_dump(row)}" for row in conflicts) + "\n  ]")
+    return "{\n" + ",\n".join(parts) + "\n}\n"
 
 
 def diagram_path(tree_id: str) -> str:

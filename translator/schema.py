@@ -67,6 +67,9 @@ class DiagramDocument(_Document):
     nodes: dict[str, NodeDocument] = Field(description="The nodes by id; an id never changes.")
     drafts: list[str] = Field(default=[], description="Roots of pieces that are not connected.")
     layout: str = Field(default="vertical", description="vertical or horizontal.")
+    conflicts: list[dict[str, Any]] = Field(
+        default=[], description="Decisions that a merge has left; a tree with one does not run."
+    )
 
 
 SCHEMAS: dict[str, type[BaseModel]] = {

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 SUBTREE = "SubTree"
 AUTOREMAP = "_autoremap"
+CONFLICTS = "_bts_conflicts"
 PRE_CONDITIONS = ("_failureIf", "_successIf", "_skipIf", "_while")
 POST_CONDITIONS = ("_onSuccess", "_onFailure", "_post", "_onHalted")
 CONDITIONS = PRE_CONDITIONS + POST_CONDITIONS
@@ -74,7 +75,8 @@ class Node:
 class Tree:
     """One behaviour tree.
 
-    `ports` are its ports as a SubTree; an empty `layout` means the default, vertical one.
+    `ports` are its ports as a SubTree; an empty `layout` means the default, vertical one. `conflicts` are
+    those that a merge has left (`translator.merge`); XML has them in an attribute.
     """
 
     id: str
@@ -85,6 +87,7 @@ class Tree:
     ports: tuple[PortModel, ...] = ()
     attributes: Mapping[str, str] = field(default_factory=dict)
     file: str = field(default="", compare=False)
+    conflicts: tuple[Mapping[str, Any], ...] = ()
 
     def walk(self, start: str | None = None) -> Iterator[Node]:
         """Yields the nodes in order of execution, from the root or from `start`; never recurses."""

@@ -6,7 +6,7 @@ import linecache
 import pathlib
 import sys
 import types
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, Final
 
 from tree_gardener import tree_tools
@@ -15,7 +15,9 @@ from tree_gardener.errors import Diagnostic, LoadError, describe
 PACKAGE: Final = "actions"
 
 
-def load_actions(sources: Mapping[str, str] | str | pathlib.Path) -> dict[str, type[Any]]:
+def load_actions(
+    sources: Mapping[str, str] | str | pathlib.Path, *, only: Iterable[str] | None = None
+) -> dict[str, type[Any]]:
     """Runs the sources of actions and returns their classes by name.
 
     Each source is compiled as ``actions/<Name>.py``, wherever it came from, so that tracebacks name the file
@@ -24,6 +26,7 @@ def load_actions(sources: Mapping[str, str] | str | pathlib.Path) -> dict[str, t
 
     Args:
         sources: Python source by action, or a folder with one ``<Name>.py`` for each action.
+        only: the actions to load; the others run only if one of these imports them. All if None.
 
     Raises:
         LoadError: a source does not compile, raises when it runs, or has no class of its name.
@@ -39,7 +42,7 @@ def load_actions(sources: Mapping[str, str] | str | pathlib.Path) -> dict[str, t
     loader = _Loader(sources)
     classes = {}
     problems = []
-    for name in sources:
+    for name in sources if only is None else only:
         try:
             classes[name] = loader.load(name)
         except LoadError as error:

@@ -54,6 +54,7 @@ class Hooks:
         marks_leaves: whether each leaf sets `Tree.current` while it is ticked.
         times_leaves: whether each leaf is also measured, for `Tree.slowest`.
         counts: the results of each node, in the order of the nodes, if they are counted.
+        log: the uid and result of each tick of a node, in order, if they are logged.
     """
 
     def __init__(self, tree: "Tree") -> None:
@@ -62,6 +63,7 @@ class Hooks:
         self.marks_leaves = False
         self.times_leaves = False
         self.counts: list[ResultCount] | None = None
+        self.log: list[tuple[int, Status]] | None = None
 
     def entry(self, node: Node, inner: Execute) -> Execute:
         """Returns the function that ticks a node together with what runs round it."""
@@ -69,6 +71,8 @@ class Hooks:
             inner = functools.partial(self.run, node, inner)
         elif self.marks_leaves and isinstance(node, Leaf):
             inner = self._timed_leaf(node, inner) if self.times_leaves else self._marked_leaf(node, inner)
+        if self.log is not None:
+            inner = _logged(self.log, node.uid, inner)
         return inner if self.counts is None else _counted(self.counts[node.uid - 1], inner)
 
     def _has_hook(self, node: Node) -> bool:
@@ -161,6 +165,18 @@ def _counted(count: ResultCount, inner: Execute) -> Execute:
             count.failure += 1
         else:
             count.skipped += 1
+        return status
+
+    return execute
+
+
+def _logged(log: list[tuple[int, Status]], uid: int, inner: Execute) -> Execute:
+    """Logs the results of a node."""
+    add = log.append
+
+    def execute() -> Status:
+        status = inner()
+        add((uid, status))
         return status
 
     return execute

@@ -444,6 +444,13 @@ class Tree:
             self.link()
         return self._hooks.counts
 
+    def log_results(self) -> list[tuple[int, Status]]:
+        """Logs uid and result of each tick of a node from now on, in order; the caller empties the list."""
+        if self._hooks.log is None:
+            self._hooks.log = []
+            self.link()
+        return self._hooks.log
+
     def entry_of(self, node: Node, inner: Execute) -> Execute:
         """Returns the function that ticks a node together with its hooks; `inner` is the node's own."""
         return self._hooks.entry(node, inner)

@@ -40,6 +40,13 @@ def report(files: Files) -> Answer:
     return {"diagnostics": diagnostics, "actions": [action.to_json() for action in project.actions.values()]}
 
 
+def behaviour_tests(files: Files) -> Answer:
+    """Returns the results of the project's behaviour tests that need no Python of it."""
+    from backend.workers.behaviours import run_tests  # noqa: PLC0415 - it loads the engine
+
+    return run_tests(files)
+
+
 def xml(files: Files, *, self_contained: bool) -> Answer:
     """Returns the tree as BT.CPP XML."""
     import translator  # noqa: PLC0415
@@ -232,7 +239,19 @@ def _refusing(job: Callable[..., Answer]) -> Callable[..., Answer]:
 JOBS: Final[dict[str, Callable[..., Answer]]] = {
     job.__name__: _refusing(job)
     for job in (
-        *(report, xml, app, app_zip, package, package_preview, cpp_package, models, xsd, opened),
+        *(
+            report,
+            behaviour_tests,
+            xml,
+            app,
+            app_zip,
+            package,
+            package_preview,
+            cpp_package,
+            models,
+            xsd,
+            opened,
+        ),
         *(inspect, write_tree, read_tree, pack, diff),
     )
 }

@@ -34,6 +34,16 @@ class Forward(Behaviour):
         self.publisher.publish(twist)
         return Status.RUNNING
 '''
+TESTS = """format: bt-studio/test
+version: 1
+tests:
+  - name: drives on
+    doubles: {Forward: RUNNING}
+    ticks: 20
+    expect:
+      - {at: 1..20, node: Forward, status: RUNNING}
+      - {at: 20, root: SUCCESS}
+"""
 TREE = {
     "format": "bt-studio/diagram",
     "version": 1,
@@ -164,6 +174,7 @@ def _files(story, teacher, one):
     story.ask(teacher, "POST", f"{one}/changes", stale, status=409)
     overlay = [{"path": "actions/Forward.py", "content": FORWARD.replace("def update(self)", "def update(")}]
     story.ask(teacher, "POST", f"{one}/check", {"files": overlay})
+    story.ask(teacher, "POST", f"{one}/test", {"files": [{"path": "tests/main.test.yaml", "content": TESTS}]})
     story.ask(teacher, "POST", "actions/inspect", {"filename": "actions/Forward.py", "source": FORWARD})
     for address in (
         "app",

@@ -48,6 +48,7 @@ CONTAINED = (401, 403, 503, 503, 503, 503)  # this server has no containers for 
 OPEN = (401, 200, 200, 200, 200, 200)
 NEW = (401, 403, 201, 201, 201, 201)
 BROKEN = (401, 422, 404, 422, 422, 422)  # the empty project has no root to translate
+TESTED = (401, 403, 404, 422, 422, 422)  # as above, but guests cannot post
 
 P = "/api/v1/projects/{project_id}"
 POLICY = {
@@ -64,6 +65,7 @@ POLICY = {
     ("post", f"{P}/duplicate"): COPY,
     ("post", f"{P}/changes"): WRITE,
     ("post", f"{P}/check"): CHECK,
+    ("post", f"{P}/test"): TESTED,
     ("get", f"{P}/app"): BROKEN,
     ("get", f"{P}/xml"): BROKEN,
     ("get", f"{P}/package"): BROKEN,
@@ -134,6 +136,7 @@ BODIES = {
     ("patch", P): {"base_revision": 1, "description": "new"},
     ("post", f"{P}/changes"): {"files": [{"path": "new.txt", "base_revision": 0, "content": "x"}]},
     ("post", f"{P}/check"): {"files": []},
+    ("post", f"{P}/test"): {"files": []},
     ("post", f"{P}/duplicate"): {},
     ("patch", f"{P}/revisions/{{number}}"): {"label": "first"},
     ("post", f"{P}/revisions/{{number}}/restore"): {},

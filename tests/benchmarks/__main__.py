@@ -10,6 +10,7 @@ import sys
 BENCHMARKS = (
     "engine",
     "translator",
+    "behaviours",
     "difference",
     "world",
     "stream",

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
 from translator.check.action import check_actions
+from translator.check.conflict import check_conflicts
 from translator.check.context import Context, located
 from translator.check.dataflow import check_dataflow
 from translator.check.late_script import check_late_scripts
@@ -44,6 +45,7 @@ def _check(project: Project) -> tuple[Diagnostic, ...]:
         )  # the project is not translated, so no further check is needed
     context = Context(project, list(project.diagnostics))
     check_structure(context)
+    check_conflicts(context)
     check_actions(context)
     check_ports(context)
     check_scripts(context)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from dataclasses import dataclass
 from functools import cache
@@ -13,6 +14,7 @@ from xml.sax.saxutils import escape
 import jinja2
 
 from translator.action import inspect_action
+from translator.behaviour_tests import paths_of_tests, to_job
 from translator.endpoints import Endpoint, endpoints
 from translator.export import require_sound, write_self_contained
 from translator.package.app import is_action_source
@@ -114,6 +116,12 @@ class _Builder:
             ("params.yaml", f"{self.name}/config/params.yaml"),
         ):
             files[path] = render(template, **values)
+        if paths_of_tests(self.project.files):
+            job = to_job(self.project)[0]
+            document = {**job, "xml": ""}  # the trees are in the package
+            text = json.dumps(document, ensure_ascii=False, indent=1) + "\n"
+            files[f"{self.name}/test/behaviour_tests.json"] = text.encode()
+            files[f"{self.name}/test/test_behaviours.py"] = render("test_behaviours.py", name=self.name)
         if "LICENSE" in self.project.files:
             files[f"{self.name}/LICENSE"] = self.project.files["LICENSE"]
         return {**files, **engine_package()}
@@ -188,6 +196,7 @@ class _Builder:
             "engine_version": engine_version(),
             "has_requirements": "requirements.txt" in self.project.files,
             "actions": sorted(self.project.actions),
+            "has_tests": bool(paths_of_tests(self.project.files)),
         }
 
     def endpoints(self) -> list[Endpoint]:

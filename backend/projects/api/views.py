@@ -268,6 +268,24 @@ class Projects(ResourceViewSet):
         return checking.reported(self, request, Response({}), lambda: files)
 
     @extend_schema(
+        operation_id="test_project",
+        request=s.CheckSerializer,
+        responses={200: s.TestReportSerializer} | NOT_SOUND,
+        tags=["projects"],
+    )
+    @action(detail=True, methods=["post"], expensive=("POST",))
+    def test(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Runs the behaviour tests of the project as it would be with these unsaved files.
+
+        No Python of the project runs: tests with leaves that are `real` have the outcome `needs_python`.
+        """
+        asked = parsed(s.CheckSerializer, request.data)
+        files = queries.contents(queries.project(project_id, user=user_of(request), need=Need.READ))
+        for overlay in asked["files"]:
+            files[names.file_path(overlay["path"], field="files.path")] = overlay["content"].encode()
+        return checking.tested(self, request, files, Response)
+
+    @extend_schema(
         operation_id="get_app",
         parameters=[OpenApiParameter("universe", str, description="Where to run, if not where it says.")],
         responses={200: s.AppSerializer} | NOT_SOUND,

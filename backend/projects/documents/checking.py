@@ -26,6 +26,7 @@ log = logging.getLogger(__name__)
 UNIVERSES: Final = REPOSITORY / "executor" / "universes"
 # A check only needs to know that the other files exist.
 _CHECKED: Final = ("project.json", "enums.json", "trees/", "actions/", "imports/")
+_TESTED: Final = (*_CHECKED, "tests/")
 
 
 def answered(
@@ -38,6 +39,21 @@ def answered(
     """
     work = pool().ask(_owner(request), job, **arguments)
     return Deferred(view, request, work, lambda done: make(_accepted(done.result())))
+
+
+def tested(
+    view: APIView,
+    request: Request,
+    files: Mapping[str, bytes],
+    make: Callable[[Any], HttpResponseBase],
+) -> Deferred:
+    """Answers a request with the results of a project's behaviour tests.
+
+    Raises:
+        BusyError: too many jobs wait already.
+    """
+    kept = {path: data for path, data in files.items() if path.startswith(_TESTED)}
+    return answered(view, request, "behaviour_tests", make, files=kept)
 
 
 def reported(

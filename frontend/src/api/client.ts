@@ -15,6 +15,7 @@ import type {
   ProjectSettings,
   ProjectSummary,
   SessionInfo,
+  TestReport,
   TemplateInfo,
   UniverseInfo,
 } from './types';
@@ -120,6 +121,9 @@ export const api = {
         ...abortedBy(signal),
       }),
     ),
+  /** Runs the behaviour tests of the project as it is stored. */
+  test: (id: string): Promise<TestReport> =>
+    dataOf(rest.POST('/api/v1/projects/{project_id}/test', { params: inProject(id), body: { files: [] } })),
   xml: (id: string) =>
     dataOf(rest.GET('/api/v1/projects/{project_id}/xml', { params: inProject(id), parseAs: 'text' })),
   inspectAction: (source: string, filename: string): Promise<ActionModel> =>

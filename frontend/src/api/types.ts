@@ -68,6 +68,11 @@ export type Conflict = Omit<Server['Conflict'], 'theirs'> & {
 };
 export type CheckResult = Checked<Server['Report']>;
 
+/** The results of a project's behaviour tests. */
+export type TestReport = Omit<Server['TestReport'], 'problems'> & { problems: Diagnostic[] };
+export type TestOutcome = Server['TestOutcome'];
+export type TestFailure = Server['TestFailure'];
+
 /** The application that the executor runs. */
 export type AppBundle = Server['App'];
 export type SessionInfo = Needs<

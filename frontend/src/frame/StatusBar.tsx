@@ -12,6 +12,8 @@ import { titleOf } from '@/model/document/glance';
 import { openUniverseChooser } from '@/store/dialogs/universeChooser';
 import { countProblems } from '@/store/problems/list';
 import { useProblems } from '@/store/problems/useProblems';
+import { useMoment } from '@/store/moment/store';
+import type { Moment } from '@/store/recording/types';
 import { useProjectStore } from '@/store/project';
 import { useUniverseChoice } from '@/store/run/universeChoice';
 import { useMotion } from '@/store/session/motion';
@@ -28,7 +30,7 @@ export function StatusBar() {
       <ProblemCount />
       <Hint />
       <span className={classes['spacer']} />
-      <SimStatus />
+      <Figures />
     </footer>
   );
 }
@@ -86,6 +88,30 @@ function ProblemCount() {
             .join(', ')
         : t('status.noProblems')}
     </button>
+  );
+}
+
+function Figures() {
+  const past = useMoment((state) => state.shown);
+  return past ? <MomentStatus moment={past} /> : <SimStatus />;
+}
+
+/** What is known of a past moment. */
+function MomentStatus({ moment }: { readonly moment: Moment }) {
+  const { t } = useTranslation('frame');
+  return (
+    <span
+      className={classes['sim']}
+      data-testid="moment-stats"
+      data-t={moment.t.toFixed(3)}
+      data-tick={moment.tick}
+    >
+      {moment.durationMs ? (
+        <Stat label={t('status.tick')} value={`${moment.durationMs.toFixed(1)} ms`} />
+      ) : null}
+      <Stat label={t('status.tickNumber')} value={`#${moment.tick}`} />
+      <Stat label={t('status.simTime')} value={`${moment.t.toFixed(2)} s`} />
+    </span>
   );
 }
 

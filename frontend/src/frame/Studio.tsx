@@ -14,6 +14,8 @@ import { ArrivalsDialog } from '@/features/library/ArrivalsDialog';
 import { ImportReport } from '@/features/importReport/ImportReport';
 import { Guide } from '@/features/onboarding/guide/Guide';
 import { Shortcuts } from '@/features/onboarding/Shortcuts';
+import { registerAxisCommands } from '@/features/axis/commands';
+import { TimeAxis } from '@/features/axis/TimeAxis';
 import { RunStrip } from '@/features/run/strip/RunStrip';
 import { registerRunCommands } from '@/features/run/commands';
 import { registerRateCommands } from '@/features/run/rates';
@@ -29,6 +31,9 @@ import { Settings } from '@/features/settings/Settings';
 import { UniverseDialog } from '@/features/universe/UniverseDialog';
 import { NewUniverse } from '@/features/universeEditor/NewUniverse';
 import { hasWebGl } from '@/features/viewer/webgl';
+import { followAddress } from '@/store/moment/address';
+import { followPresent } from '@/store/moment/looking';
+import { useIsBack } from '@/store/moment/store';
 import { useProjectStore } from '@/store/project';
 import { setNavigator } from '@/store/project/navigation';
 import { navigate } from '@/store/route';
@@ -93,6 +98,7 @@ function Workbench({ projectId }: StudioProps) {
   const modelWidth = useTabs((state) => state.width);
   const name = useProjectStore((state) => state.name);
   const presenting = usePresentation((state) => state.mode);
+  const isBack = useIsBack();
   useShortcuts();
   useRunReactions({ showPanel, openFile: (path, line) => openTab({ kind: 'file', path }, line) });
 
@@ -104,6 +110,9 @@ function Workbench({ projectId }: StudioProps) {
     const unregister = [
       registerCanvasCommands(),
       registerRunCommands(),
+      registerAxisCommands(),
+      followPresent(),
+      followAddress(),
       registerRateCommands(),
       registerKeyCommands(),
       registerSearchCommands(),
@@ -146,13 +155,18 @@ function Workbench({ projectId }: StudioProps) {
   }, [model, modelWidth, width, projectId]);
 
   return (
-    <div className={classes['studio']} data-presenting={presenting === 'off' ? undefined : presenting}>
+    <div
+      className={classes['studio']}
+      data-past={isBack || undefined}
+      data-presenting={presenting === 'off' ? undefined : presenting}
+    >
       <TopBar />
       <RunStrip />
       <main className={classes['dock']}>
         <PresentationBar />
         {model && modelWidth ? <Dock model={model} width={modelWidth} key={modelWidth} /> : null}
       </main>
+      <TimeAxis />
       <StatusBar />
       <Guide />
       <CommandPalette />

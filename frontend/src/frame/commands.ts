@@ -276,6 +276,7 @@ const PANELS: readonly PanelId[] = [
   'viewer3d',
   'video',
   'camera',
+  'tests',
   'timeline',
   'topics',
 ];

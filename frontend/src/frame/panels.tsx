@@ -9,6 +9,7 @@ import { Library } from '@/features/library/Library';
 import { Outline } from '@/features/outline/Outline';
 import { Palette } from '@/features/palette/Palette';
 import { ProblemsPanel } from '@/features/problems/ProblemsPanel';
+import { TestsPanel } from '@/features/behaviourTests/TestsPanel';
 import { TimelinePanel } from '@/features/timeline/TimelinePanel';
 import { TopicsPanel } from '@/features/topics/TopicsPanel';
 import { CameraPanel } from '@/features/viewer/pictures/CameraPanel';
@@ -64,6 +65,7 @@ const panels: Record<PanelId, (node: TabNode) => ReactNode> = {
   ),
   console: () => <ConsolePanel />,
   problems: () => <ProblemsPanel />,
+  tests: () => <TestsPanel />,
   timeline: () => <TimelinePanel />,
   topics: () => <TopicsPanel />,
   history: () => (

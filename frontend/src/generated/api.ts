@@ -917,6 +917,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/test": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * @description Runs the behaviour tests of the project as it would be with these unsaved files.
+         *
+         *     No Python of the project runs: tests with leaves that are `real` have the outcome `needs_python`.
+         */
+        post: operations["test_project"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/transfer": {
         parameters: {
             query?: never;
@@ -1249,6 +1270,30 @@ export interface components {
             field?: string;
             revision?: number;
             conflicts?: components["schemas"]["Conflict"][];
+        };
+        /** @description The coverage of all trees, by tree id. */
+        Coverage: {
+            /** Format: double */
+            share: number;
+            trees: {
+                [key: string]: components["schemas"]["CoveredTree"];
+            };
+        };
+        /** @description The items of a node that tests can reach, each with whether one did. */
+        CoveredNode: {
+            name: string;
+            type: string;
+            items: {
+                [key: string]: boolean;
+            };
+        };
+        /** @description The coverage of one tree, by node id. */
+        CoveredTree: {
+            /** Format: double */
+            share: number;
+            nodes: {
+                [key: string]: components["schemas"]["CoveredNode"];
+            };
         };
         /** @description A new project. */
         CreateProjectRequest: {
@@ -1587,6 +1632,8 @@ export interface components {
         OnErrorEnum: "stop" | "failure";
         /** @enum {string} */
         OnFinishEnum: "stop" | "repeat";
+        /** @enum {string} */
+        OutcomeEnum: "passed" | "failed" | "needs_python" | "not_run";
         /** @description A file with the content of the editor. */
         OverlayFileRequest: {
             path: string;
@@ -1896,6 +1943,46 @@ export interface components {
         /** @description Templates, the empty project first. */
         TemplateList: {
             items: components["schemas"]["Template"][];
+        };
+        /** @description The reason for which a behaviour test failed. */
+        TestFailure: {
+            message: string;
+            /** @description Line of the expectation in the file. */
+            line: number;
+            /** @description From 1; 0 before the first tick. */
+            tick: number;
+            /** Format: double */
+            time_s: number;
+            /** @description Path of the node; empty if it is about no single node. */
+            node: string;
+            tree: string;
+            /** @description Id of the node in the diagram. */
+            node_id: string;
+            wanted: string;
+            got: string;
+            path: components["schemas"]["TestPath"][];
+        };
+        /** @description The outcome of one behaviour test. */
+        TestOutcome: {
+            name: string;
+            file: string;
+            line: number;
+            /** @description Empty for the main tree. */
+            tree: string;
+            outcome: components["schemas"]["OutcomeEnum"];
+            ticks: number;
+            failures: components["schemas"]["TestFailure"][];
+        };
+        /** @description A node on the way from the root, with its status after the tick. */
+        TestPath: {
+            name: string;
+            status: string;
+        };
+        /** @description The results of a project's behaviour tests. */
+        TestReport: {
+            tests: components["schemas"]["TestOutcome"][];
+            problems: components["schemas"]["Diagnostic"][];
+            coverage: components["schemas"]["Coverage"];
         };
         /** @description The version of the file on the server. */
         Theirs: {
@@ -4147,6 +4234,50 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    test_project: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["CheckRequest"];
+            };
+        };
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestReport"];
+                };
+            };
+            /** @description The project has errors. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["CheckProblem"];
+                };
             };
             /** @description A problem document. */
             default: {

@@ -35,6 +35,8 @@ export interface Diagram {
   readonly ports?: unknown;
   /** Attributes of its `<BehaviorTree>`; `treeAttributes` reads them. */
   readonly attributes?: Readonly<Record<string, string>>;
+  /** Decisions that a merge has left, unparsed; `conflicts` reads them. */
+  readonly conflicts?: unknown;
 }
 
 export function emptyDiagram(id: string): Diagram {

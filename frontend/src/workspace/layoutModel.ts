@@ -21,6 +21,7 @@ export type PanelId =
   | 'camera'
   | 'console'
   | 'problems'
+  | 'tests'
   | 'timeline'
   | 'topics'
   | 'history'
@@ -30,6 +31,7 @@ export type PanelId =
 /** Panels that stored layouts may lack, each with the panel beside which it is added. */
 const NEW_PANELS: readonly (readonly [PanelId, PanelId])[] = [
   ['timeline', 'console'],
+  ['tests', 'problems'],
   ['topics', 'console'],
   ['library', 'palette'],
   ['history', 'explorer'],
@@ -150,6 +152,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
               'library',
               'console',
               'problems',
+              'tests',
               'timeline',
               'topics',
               'blackboard',
@@ -182,7 +185,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
           weight: 53,
           children: [
             tabset(EDITORS, 74, []),
-            tabset('output', 26, ['console', 'problems', 'timeline', 'topics']),
+            tabset('output', 26, ['console', 'problems', 'tests', 'timeline', 'topics']),
           ],
         },
         {

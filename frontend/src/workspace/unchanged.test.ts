@@ -36,6 +36,7 @@ const PANELS = [
   'palette',
   'problems',
   'search',
+  'tests',
   'timeline',
   'topics',
   'video',

@@ -35,7 +35,7 @@ def people(person) -> Any:  # noqa: F811
 
 @pytest.fixture
 def manager(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Gives every user a session whose manager has the sample as the run `a1`."""
+    """Gives every user a session. Its manager records the sample, as the run `a1`."""
     with recordings(SAMPLE) as address:
         session = SimpleNamespace(address=address, state=SessionState.READY)
         monkeypatch.setattr(writes, "live_session", lambda *_, **__: session)

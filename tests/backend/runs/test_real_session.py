@@ -40,11 +40,8 @@ def test_a_run_is_kept_while_it_runs_and_downloaded_after_its_session(tmp_path):
                 event = json.loads(socket.recv(timeout=100))
                 if event["command"] == "segment" and event["data"]["to_t"] > 1:
                     break
-            kept = ask(
-                "POST",
-                f"{project}/runs",
-                json={"run": event["data"]["run"], "name": "First", "result": "running"},
-            ).json()
+            asked = {"run": event["data"]["run"], "name": "First"}
+            kept = ask("POST", f"{project}/runs", json=asked).json()
         ask("DELETE", f"sessions/{session['id']}")
         assert kept["length_s"] > 0.9
         recording = ask("GET", f"{project}/runs/{kept['id']}/recording").content

@@ -1,4 +1,4 @@
-"""What is stored of runs, and what goes."""
+"""The stored runs that stay, those that are deleted, and those that are refused."""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
 import { ScrollArea } from '@mantine/core';
 import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
-import { useSessionStore } from '@/store/session/store';
+import { useShownSession } from '@/store/moment/session';
+import { useIsBack } from '@/store/moment/store';
 import type { BlackboardRow as Row } from '@/store/session/types';
 import { BlackboardRow } from './BlackboardRow';
 import classes from './blackboard.module.css';
@@ -16,13 +17,14 @@ function byScope(rows: readonly Row[]): [scope: string, rows: Row[]][] {
 /** The blackboard by scope. Changed values flash, and values can be edited while the run is paused. */
 export function BlackboardPanel() {
   const { t } = useTranslation('blackboard');
-  const blackboard = useSessionStore((state) => state.blackboard);
-  const isOpen = useSessionStore(
+  const blackboard = useShownSession((state) => state.blackboard);
+  const isOpen = useShownSession(
     ({ executor, introspection }) => executor === 'paused' && introspection?.role !== 'viewer',
   );
-  const isRunning = useSessionStore(
+  const isRunning = useShownSession(
     ({ executor, tree }) => (executor === 'application_running' || executor === 'paused') && tree.length > 0,
   );
+  const isBack = useIsBack();
   const groups = useMemo(() => byScope(Object.values(blackboard)), [blackboard]);
   return (
     <ScrollArea h="100%" type="auto" data-testid="blackboard">
@@ -39,7 +41,7 @@ export function BlackboardPanel() {
           </thead>
           <tbody>
             {rows.map((row) => (
-              <BlackboardRow key={row.key} row={row} canEdit={isOpen && !row.preview} />
+              <BlackboardRow key={row.key} row={row} canEdit={isOpen && !isBack && !row.preview} />
             ))}
           </tbody>
         </table>

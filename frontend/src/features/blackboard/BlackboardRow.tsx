@@ -47,6 +47,7 @@ export const BlackboardRow = memo(function BlackboardRow({ row, canEdit }: Black
             {shown}
           </span>
         )}
+        {row.written ? <Written {...row.written} /> : null}
       </td>
       <td className={classes['type']} title={row.type}>
         {row.type}
@@ -54,3 +55,17 @@ export const BlackboardRow = memo(function BlackboardRow({ row, canEdit }: Black
     </tr>
   );
 });
+
+/** Since when a row has its value, and which node wrote it. */
+function Written({ t: time, by }: NonNullable<Row['written']>) {
+  const { t } = useTranslation('blackboard');
+  return (
+    <span className={classes['written']} data-testid="written">
+      {time === null
+        ? t('sinceUnknown')
+        : by
+          ? t('sinceBy', { time: time.toFixed(2), by })
+          : t(by === null ? 'since' : 'sinceOutside', { time: time.toFixed(2) })}
+    </span>
+  );
+}

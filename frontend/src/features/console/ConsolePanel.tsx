@@ -6,6 +6,8 @@ import { useTranslation } from 'react-i18next';
 import type { LogLevel } from '@/generated/messages';
 import { useShallow } from 'zustand/react/shallow';
 import { useProjectStore } from '@/store/project';
+import { useShownSession } from '@/store/moment/session';
+import { useIsBack } from '@/store/moment/store';
 import { useSessionStore } from '@/store/session/store';
 import classes from './console.module.css';
 import { ConsoleLine } from './ConsoleLine';
@@ -17,10 +19,11 @@ const SOURCES = ['all', 'action', 'world', 'manager', 'launch'] as const;
 /** The output of actions, world and manager. The view follows the end until the user scrolls up. */
 export function ConsolePanel() {
   const { t } = useTranslation('console');
-  const logs = useSessionStore((state) => state.logs);
+  const logs = useShownSession((state) => state.logs);
+  const isBack = useIsBack();
   const filePaths = useProjectStore(useShallow((state) => Object.keys(state.files)));
   const files = useMemo(() => new Set(filePaths), [filePaths]);
-  const nodes = useSessionStore(({ tree }) => tree);
+  const nodes = useShownSession(({ tree }) => tree);
   const nodeAt = useMemo(() => new Map(nodes.map((node) => [node.path, node])), [nodes]);
   const filter = useConsoleFilter();
   const launched = useSessionStore((state) => state.launchNodes);
@@ -99,7 +102,7 @@ export function ConsolePanel() {
         <Tooltip label={t('clear')}>
           <ActionIcon
             aria-label={t('clear')}
-            disabled={logs.length === 0}
+            disabled={logs.length === 0 || isBack}
             onClick={() => useSessionStore.setState({ logs: [] })}
           >
             <IconEraser size={16} />

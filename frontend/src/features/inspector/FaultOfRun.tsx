@@ -3,7 +3,7 @@ import { IconAlertTriangle } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import type { NodeId } from '@/model/diagram';
 import { openFile } from '@/store/project/navigation';
-import { useSessionStore } from '@/store/session/store';
+import { useShownSession } from '@/store/moment/session';
 import classes from './Inspector.module.css';
 
 interface FaultOfRunProps {
@@ -15,7 +15,7 @@ interface FaultOfRunProps {
 /** The fault of the block in the last run, with a link to its line. */
 export function FaultOfRun({ tree, id, message }: FaultOfRunProps) {
   const { t } = useTranslation('run');
-  const fault = useSessionStore((state) =>
+  const fault = useShownSession((state) =>
     state.faults.findLast((each) => each.tree_id === tree && each.node_id === id),
   );
   return (

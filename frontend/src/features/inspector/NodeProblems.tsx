@@ -2,7 +2,8 @@ import { IconAlertTriangle, IconInfoCircle } from '@tabler/icons-react';
 import { useMemo } from 'react';
 import type { Diagram, NodeId } from '@/model/diagram';
 import { fixesFor } from '@/model/fixes';
-import { liveKey, useLiveStore } from '@/store/project/live';
+import { liveKey } from '@/store/project/live';
+import { useShownLive } from '@/store/moment/store';
 import { problemsOf } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
 import { QuickFixes } from '@/ui/QuickFixes';
@@ -25,7 +26,7 @@ export function NodeProblems({ diagram, id, onFixed }: NodeProblemsProps) {
     () => problemsOf(diagram, vocabulary, diagnostics).filter((each) => each.node === id),
     [diagram, vocabulary, diagnostics, id],
   );
-  const fault = useLiveStore((state) => state.faults.get(liveKey(diagram.id, id)));
+  const fault = useShownLive((state) => state.faults.get(liveKey(diagram.id, id)));
   if (problems.length === 0 && fault === undefined) return null;
   return (
     <ul className={classes['problems']}>

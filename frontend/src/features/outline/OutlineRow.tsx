@@ -6,7 +6,8 @@ import { setCollapsed } from '@/model/edits';
 import type { OutlineLine, OutlineSlot } from '@/model/outline';
 import type { NodeSpec } from '@/model/vocabulary';
 import { change } from '@/store/project/edits/blocks';
-import { liveKey, pastOf, useLiveStore } from '@/store/project/live';
+import { liveKey, pastOf } from '@/store/project/live';
+import { useShownLive } from '@/store/moment/store';
 import { useProjectStore } from '@/store/project';
 import { FamilyTile } from '@/ui/FamilyTile';
 import classes from './Outline.module.css';
@@ -28,8 +29,8 @@ interface OutlineRowProps {
 export function OutlineRow(props: OutlineRowProps) {
   const { tree, row, node, spec, isSelected, top, mark, onPress, wasDragged } = props;
   const { t } = useTranslation('outline');
-  const status = useLiveStore((state) => state.statuses.get(liveKey(tree, row.id)) ?? 'IDLE');
-  const past = useLiveStore((state) => pastOf(state, liveKey(tree, row.id)));
+  const status = useShownLive((state) => state.statuses.get(liveKey(tree, row.id)) ?? 'IDLE');
+  const past = useShownLive((state) => pastOf(state, liveKey(tree, row.id)));
   const name = displayName(node);
   return (
     // eslint-disable-next-line jsx-a11y/click-events-have-key-events

@@ -27,6 +27,8 @@ export function RunControls() {
   const worldRuns = useSessionStore(doesWorldRunAlone);
   const runBlocker = useRunBlocker();
   const isBlocked = runBlocker !== null;
+  // A robot can be stopped while its past is shown.
+  const mayStop = !isBlocked || runBlocker === 'past';
   const hasChanged = useHasChanged();
   const { isPressed, handlers } = usePressed();
 
@@ -73,9 +75,9 @@ export function RunControls() {
       <CommandButton
         command="run.stop"
         testId="stop"
-        isDisabled={!(hasApplication || worldRuns) || isBlocked}
+        isDisabled={!(hasApplication || worldRuns) || !mayStop}
       />
-      <CommandButton command="run.end" testId="end-session" isDisabled={connection === 'off' || isBlocked} />
+      <CommandButton command="run.end" testId="end-session" isDisabled={connection === 'off' || !mayStop} />
       <Divider orientation="vertical" mx={4} my={8} className={classes['rates']} />
       <div className={classes['rates']}>
         <RateSelects />

@@ -35,6 +35,7 @@ import {
 import { toggleFollowing } from './following';
 import { restartProject, runProject } from '@/store/run/run';
 import { setDriving, useTeleop } from '@/store/run/teleop';
+import { isLookingBack } from '@/store/moment/store';
 import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 
@@ -157,4 +158,13 @@ const rows: UserCommand[] = [
   },
 ];
 
-export const registerRunCommands = () => registerCommands(rows);
+/** The commands that do not act on the world, or only end what acts on it. */
+const OF_THE_PAST = ['run.stop', 'run.end', 'run.followRunning', 'run.takeOver'];
+
+/** Returns a command that is not available while the page shows the past, if it acts on the world. */
+const inPresent = (row: UserCommand): UserCommand =>
+  OF_THE_PAST.includes(row.id)
+    ? row
+    : { ...row, enabled: () => !isLookingBack() && row.enabled?.() !== false };
+
+export const registerRunCommands = () => registerCommands(rows.map(inPresent));

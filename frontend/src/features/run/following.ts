@@ -1,4 +1,5 @@
 import { create } from 'zustand';
+import { isLookingBack } from '@/store/moment/store';
 import { liveKey, useLiveStore } from '@/store/project/live';
 import { useProjectStore } from '@/store/project';
 import { openTree } from '@/store/project/navigation';
@@ -38,7 +39,7 @@ export function followRunning(): () => void {
 
   const show = () => {
     timer = undefined;
-    if (!useFollowing.getState().isOn) return;
+    if (!useFollowing.getState().isOn || isLookingBack()) return;
     const { statuses } = useLiveStore.getState();
     const isRunning = (node: TreeNode) => statuses.get(liveKey(node.tree_id, node.node_id)) === 'RUNNING';
     const leaf = runningLeaf(useSessionStore.getState().tree, isRunning);

@@ -1,5 +1,6 @@
 import { useEffect } from 'react';
 import { useMe } from '@/features/accounts/useMe';
+import { useIsBack } from '@/store/moment/store';
 import { useRunStore, type RunBlocker } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 
@@ -7,7 +8,8 @@ import { useSessionStore } from '@/store/session/store';
 export function useRunBlocker(): RunBlocker | null {
   const isGuest = useMe()?.role === 'guest';
   const isViewer = useSessionStore((state) => state.introspection?.role === 'viewer');
-  const runBlocker = isGuest ? 'guest' : isViewer ? 'viewer' : null;
+  const isBack = useIsBack();
+  const runBlocker = isGuest ? 'guest' : isViewer ? 'viewer' : isBack ? 'past' : null;
   useEffect(() => {
     useRunStore.setState({ runBlocker });
   }, [runBlocker]);

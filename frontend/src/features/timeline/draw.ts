@@ -86,7 +86,7 @@ export function drawTimeline(trace: Trace, picture: Picture): void {
  * Draws a status by colour and by place, so that either suffices: running fills the row, success its lower
  * half, failure its upper half, and skipped is a line.
  */
-function drawStretch(
+export function drawStretch(
   context: CanvasRenderingContext2D,
   mask: number,
   x: number,

@@ -1,4 +1,5 @@
 import { create } from 'zustand';
+import { isLookingBack } from '@/store/moment/store';
 import { send } from '@/store/session/connection';
 import { useSessionStore } from '@/store/session/store';
 import type { BodyPose } from './scene/DraggedBody';
@@ -10,7 +11,9 @@ export const useMoves = create<{ last: { body: string; from: BodyPose } | null }
 export function canMove(): boolean {
   const { executor, introspection } = useSessionStore.getState();
   return (
-    ['universe_ready', 'visualization_ready', 'paused'].includes(executor) && introspection?.role !== 'viewer'
+    ['universe_ready', 'visualization_ready', 'paused'].includes(executor) &&
+    introspection?.role !== 'viewer' &&
+    !isLookingBack()
   );
 }
 

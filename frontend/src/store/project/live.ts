@@ -46,77 +46,84 @@ const busiest = (statuses: readonly NodeStatus[]): NodeStatus =>
   statuses.reduce<NodeStatus>((best, next) => (WEIGHT[next] > WEIGHT[best] ? next : best), 'IDLE');
 
 /** The statuses of the running tree; they are neither saved nor undone. */
-export const useLiveStore = create<LiveState>()((set, get) => {
-  let keys = new Map<number, LiveKey>();
-  let instances = new Map<LiveKey, number[]>();
-  let byUid = new Map<number, NodeStatus>();
-  let flashCount = 0;
+export const useLiveStore = liveStore();
 
-  const merged = (key: LiveKey): NodeStatus =>
-    busiest((instances.get(key) ?? []).map((uid) => byUid.get(uid) ?? 'IDLE'));
+/** The statuses of the tree at the moment at which the user looks back. */
+export const usePastLive = liveStore();
 
-  return {
-    active: false,
-    statuses: new Map(),
-    past: new Map(),
-    flashes: new Map(),
-    faults: new Map(),
-    setTree: (nodes) => {
-      keys = new Map();
-      instances = new Map();
-      byUid = new Map();
-      for (const node of nodes) {
-        if (!node.node_id) continue;
-        const key = liveKey(node.tree_id, node.node_id);
-        keys.set(node.uid, key);
-        instances.set(key, [...(instances.get(key) ?? []), node.uid]);
-      }
-      set({ active: true, ...nothing() });
-    },
-    setStatuses: (changed) => {
-      if (changed.length === 0) return;
-      const statuses = new Map(get().statuses);
-      for (const [uid, status] of changed) {
-        byUid.set(uid, status);
-        const key = keys.get(uid);
-        if (key !== undefined) statuses.set(key, merged(key));
-      }
-      set({ statuses });
-    },
-    setPast: (pairs) => {
-      const past = new Map<LiveKey, NodeStatus>();
-      for (const [uid, status] of pairs) {
-        const key = keys.get(uid);
-        if (key !== undefined) past.set(key, busiest([past.get(key) ?? 'IDLE', status]));
-      }
-      // Most ticks end like the previous one, and then nothing needs to be drawn again.
-      if (!isEqual(past, get().past)) set({ past });
-    },
-    flash: (flashed) => {
-      const now = performance.now();
-      const before = get().flashes;
-      const flashes = new Map(before);
-      let changed = false;
-      for (const [uid, status] of flashed) {
-        const key = keys.get(uid);
-        if (key === undefined) continue;
-        const last = before.get(key);
-        if (last?.status === status && now - last.since < REFLASH_MS) continue;
-        flashes.set(key, { status, count: (flashCount += 1), since: now });
-        changed = true;
-      }
-      if (changed) set({ flashes });
-    },
-    setFault: (node, tree, message) => {
-      set((state) => ({ faults: new Map(state.faults).set(liveKey(tree, node), message) }));
-    },
-    clear: () => {
-      keys = new Map();
-      byUid = new Map();
-      set({ active: false, ...nothing() });
-    },
-  };
-});
+function liveStore() {
+  return create<LiveState>()((set, get) => {
+    let keys = new Map<number, LiveKey>();
+    let instances = new Map<LiveKey, number[]>();
+    let byUid = new Map<number, NodeStatus>();
+    let flashCount = 0;
+
+    const merged = (key: LiveKey): NodeStatus =>
+      busiest((instances.get(key) ?? []).map((uid) => byUid.get(uid) ?? 'IDLE'));
+
+    return {
+      active: false,
+      statuses: new Map(),
+      past: new Map(),
+      flashes: new Map(),
+      faults: new Map(),
+      setTree: (nodes) => {
+        keys = new Map();
+        instances = new Map();
+        byUid = new Map();
+        for (const node of nodes) {
+          if (!node.node_id) continue;
+          const key = liveKey(node.tree_id, node.node_id);
+          keys.set(node.uid, key);
+          instances.set(key, [...(instances.get(key) ?? []), node.uid]);
+        }
+        set({ active: true, ...nothing() });
+      },
+      setStatuses: (changed) => {
+        if (changed.length === 0) return;
+        const statuses = new Map(get().statuses);
+        for (const [uid, status] of changed) {
+          byUid.set(uid, status);
+          const key = keys.get(uid);
+          if (key !== undefined) statuses.set(key, merged(key));
+        }
+        set({ statuses });
+      },
+      setPast: (pairs) => {
+        const past = new Map<LiveKey, NodeStatus>();
+        for (const [uid, status] of pairs) {
+          const key = keys.get(uid);
+          if (key !== undefined) past.set(key, busiest([past.get(key) ?? 'IDLE', status]));
+        }
+        // Most ticks end like the previous one, and then nothing needs to be drawn again.
+        if (!isEqual(past, get().past)) set({ past });
+      },
+      flash: (flashed) => {
+        const now = performance.now();
+        const before = get().flashes;
+        const flashes = new Map(before);
+        let changed = false;
+        for (const [uid, status] of flashed) {
+          const key = keys.get(uid);
+          if (key === undefined) continue;
+          const last = before.get(key);
+          if (last?.status === status && now - last.since < REFLASH_MS) continue;
+          flashes.set(key, { status, count: (flashCount += 1), since: now });
+          changed = true;
+        }
+        if (changed) set({ flashes });
+      },
+      setFault: (node, tree, message) => {
+        set((state) => ({ faults: new Map(state.faults).set(liveKey(tree, node), message) }));
+      },
+      clear: () => {
+        keys = new Map();
+        byUid = new Map();
+        set({ active: false, ...nothing() });
+      },
+    };
+  });
+}
 
 const nothing = () => ({ statuses: new Map(), past: new Map(), flashes: new Map(), faults: new Map() });
 

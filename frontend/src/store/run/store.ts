@@ -15,9 +15,9 @@ export interface LaunchFailure {
 
 /**
  * The reason why the user cannot run a project: a guest has a read-only link, a viewer watches another page's
- * session.
+ * session; nobody can while the page shows the past.
  */
-export type RunBlocker = 'guest' | 'viewer';
+export type RunBlocker = 'guest' | 'viewer' | 'past';
 
 interface RunData {
   stage: LaunchStage | null;

@@ -1,4 +1,5 @@
 import { create } from 'zustand';
+import { isLookingBack } from '@/store/moment/store';
 import { send } from '@/store/session/connection';
 import { useSessionStore } from '@/store/session/store';
 
@@ -36,7 +37,11 @@ let repeating: ReturnType<typeof setInterval> | undefined;
  */
 export function canDrive(): boolean {
   const { executor, introspection } = useSessionStore.getState();
-  return !['idle', 'connected', 'paused'].includes(executor) && introspection?.role !== 'viewer';
+  return (
+    !['idle', 'connected', 'paused'].includes(executor) &&
+    introspection?.role !== 'viewer' &&
+    !isLookingBack()
+  );
 }
 
 /** Drives in a direction until another one, or none, is set. */

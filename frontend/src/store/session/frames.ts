@@ -35,6 +35,11 @@ class FrameBus {
     return () => set.delete(listener as Listener);
   }
 
+  /** Returns the last frame of each kind and camera. */
+  last(): readonly StreamFrame[] {
+    return [...this.latest.values()];
+  }
+
   scene(): Scene | null {
     return (this.latest.get('scene') as Scene | undefined) ?? null;
   }
@@ -50,6 +55,49 @@ class FrameBus {
 }
 
 export const frames = new FrameBus();
+
+/** The kinds of frames that a moment of a recording replaces. */
+const RECORDED: readonly Frame['type'][] = ['poses', 'scan', 'camera'];
+
+/** Distributes the frames that the views show: those of the present, or of the moment that the user looks at. */
+class ShownFrames {
+  private past: readonly StreamFrame[] | null = null;
+  private readonly listeners = new Set<{ kind: Frame['type']; listener: Listener }>();
+
+  /** As `FrameBus.listen`. */
+  listen<K extends Frame['type']>(kind: K, listener: (frame: FrameOf<K>) => void): () => void {
+    const own = { kind, listener: listener as Listener };
+    this.listeners.add(own);
+    const stop = frames.listen(kind, (frame) => {
+      if (this.past === null || !RECORDED.includes(kind)) listener(frame);
+    });
+    for (const frame of this.past ?? []) if (frame.type === kind) own.listener(frame);
+    return () => {
+      this.listeners.delete(own);
+      stop();
+    };
+  }
+
+  /** Shows recorded frames in place of those of the present. */
+  hold(past: readonly StreamFrame[]): void {
+    this.past = past;
+    this.tell(past);
+  }
+
+  /** Shows the present again; it is given with all poses, since a frame has only those that changed. */
+  letGo(poses: StreamFrame): void {
+    if (this.past === null) return;
+    this.past = null;
+    this.tell([poses, ...frames.last().filter(({ type }) => type === 'scan' || type === 'camera')]);
+  }
+
+  private tell(shown: readonly StreamFrame[]): void {
+    for (const frame of shown)
+      for (const { kind, listener } of this.listeners) if (kind === frame.type) listener(frame);
+  }
+}
+
+export const shownFrames = new ShownFrames();
 
 /** Returns a binary field as floats; copies the bytes only if they are not aligned to four. */
 export function floatsOf(bytes: Uint8Array): Float32Array {

@@ -332,3 +332,28 @@ describe('appendLogs', () => {
 function tick(n: number): Events['tick'] {
   return { n, changed: [], flashed: [], duration_ms: 0.1, past: [] };
 }
+
+it('knows each segment in its last state, and forgets those that are gone', () => {
+  const segment = {
+    run: 'a',
+    branch: 0,
+    number: 0,
+    version: 0,
+    from_t: 0,
+    to_t: 1,
+    bytes: 10,
+    complete: false,
+  };
+  const told = (...data: (typeof segment)[]) =>
+    reduceAll(
+      initialSession,
+      data.map(
+        (each) => ({ id: '', seq: 1, t: 0, tick: 0, command: 'segment', data: each }) as ServerMessage,
+      ),
+    ).segments;
+  expect(told(segment, { ...segment, number: 1 }, { ...segment, bytes: 20 })).toEqual([
+    { ...segment, bytes: 20 },
+    { ...segment, number: 1 },
+  ]);
+  expect(told(segment, { ...segment, bytes: 0 })).toEqual([]);
+});

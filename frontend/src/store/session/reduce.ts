@@ -5,6 +5,7 @@ import type {
   LaunchNode,
   Log,
   PortSet,
+  Segment,
   ServerMessage,
   Snapshot,
   TopicMismatch,
@@ -41,6 +42,7 @@ export const initialSession: SessionData = {
   finished: null,
   ports: {},
   mismatches: [],
+  segments: [],
   sim: null,
   simTime: 0,
   tick: 0,
@@ -119,6 +121,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     ),
   }),
   finished: (_, data) => ({ finished: data }),
+  segment: ({ segments }, data) => ({ segments: withSegment(segments, data) }),
   sim: (_, data) => ({ sim: data, speed: data.speed }),
   snapshot: (state, data, { seq, t }) => ({
     executor: data.state,
@@ -137,6 +140,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     runs: data.runs,
     ports: data.ports.reduce(withPort, {}),
     mismatches: data.mismatches,
+    segments: data.segments,
     ...keptLogs({ ...state, logs: [] }, data, t),
   }),
 };
@@ -175,6 +179,15 @@ const withPort = (ports: Record<string, PortSet>, set: PortSet): Record<string, 
   ...ports,
   [JSON.stringify([set.path, set.node_id, set.port])]: set,
 });
+
+/** Returns the segments with a new state of one; one without bytes is gone. */
+function withSegment(segments: readonly Segment[], changed: Segment): Segment[] {
+  const isIt = ({ run, branch, number }: Segment) =>
+    run === changed.run && branch === changed.branch && number === changed.number;
+  if (changed.bytes === 0) return segments.filter((each) => !isIt(each));
+  const isKnown = segments.some(isIt);
+  return isKnown ? segments.map((each) => (isIt(each) ? changed : each)) : [...segments, changed];
+}
 
 const isSameMismatch = (a: TopicMismatch, b: TopicMismatch): boolean =>
   a.topic === b.topic && a.publisher === b.publisher && a.subscriber === b.subscriber && a.code === b.code;

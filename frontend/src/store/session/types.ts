@@ -7,6 +7,7 @@ import type {
   Log,
   PortSet,
   Progress,
+  Segment,
   Sim,
   State,
   TopicMismatch,
@@ -24,6 +25,8 @@ export interface LogLine extends Log {
 export interface BlackboardRow extends BlackboardEntry {
   /** The number of the last message that changed the entry; a new number makes its row flash. */
   changedAt: number;
+  /** The last write, of a row that is shown at a past moment: its time in s, if it is known, and its writer. */
+  written?: { readonly t: number | null; readonly by: string | null };
 }
 
 /** The state of the session as this page knows it. */
@@ -60,6 +63,8 @@ export interface SessionData {
   ports: Record<string, PortSet>;
   /** Topics whose ends do not match now. */
   mismatches: TopicMismatch[];
+  /** The segments of the recordings of this session that can be read, those of the last run at the end. */
+  segments: Segment[];
   sim: Sim | null;
   simTime: number;
   tick: number;

@@ -1,7 +1,7 @@
 import { IconActivity } from '@tabler/icons-react';
 import { useRef } from 'react';
 import { useTranslation } from 'react-i18next';
-import { useLiveValues } from '@/store/session/values/live';
+import { useShownValue } from '@/store/moment/values';
 import type { ShownPort } from '@/store/session/values/shown';
 import { useVisible } from '@/ui/useVisible';
 import { shortValue, SPARK, sparkPoints } from './spark';
@@ -18,7 +18,7 @@ export function PortValue({ port, text }: PortValueProps) {
   const { t } = useTranslation('canvas');
   const root = useRef<HTMLSpanElement>(null);
   const isVisible = useVisible(root);
-  const live = useLiveValues(({ values }) => (isVisible ? values.get(port) : undefined));
+  const live = useShownValue(port, isVisible);
   const short = live && shortValue(live.value);
   return (
     <span

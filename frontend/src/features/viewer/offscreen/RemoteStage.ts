@@ -1,4 +1,4 @@
-import { frames } from '@/store/session/frames';
+import { frames, shownFrames } from '@/store/session/frames';
 import { currentPoses } from '@/store/session/poses';
 import { trail } from '@/store/session/trace/trail';
 import { addMeasured } from '../measuring';
@@ -80,7 +80,7 @@ export class RemoteStage {
     // A frame contains only the poses that changed, and a scene only the initial ones, so the current poses
     // are sent too.
     this.post({ kind: 'past', poses: [...currentPoses], trail: trail.keep() });
-    this.stops.push(frames.listen('poses', forward), frames.listen('scan', forward));
+    this.stops.push(shownFrames.listen('poses', forward), shownFrames.listen('scan', forward));
   }
 
   private sendEvents(): void {

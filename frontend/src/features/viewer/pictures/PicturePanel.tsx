@@ -1,6 +1,8 @@
 import { Text } from '@mantine/core';
 import { useEffect, useState, type ReactNode, type RefObject } from 'react';
 import { useTranslation } from 'react-i18next';
+import { useMoment } from '@/store/moment/store';
+import { hasPicture } from '@/store/moment/world';
 import { useSessionStore } from '@/store/session/store';
 import { drawPictures, type Shown } from './drawPictures';
 import classes from '../viewer.module.css';
@@ -37,7 +39,9 @@ export function PicturePanel({
       setShown(null);
     };
   }, [stream, sensor, canvas]);
-  const isEmpty = !hasWorld || !shown;
+  const past = useMoment((state) => state.shown);
+  const isMissing = past !== null && (stream === 'view' || !hasPicture(past, sensor));
+  const isEmpty = !hasWorld || !shown || isMissing;
   return (
     <>
       <canvas ref={canvas} className={classes['image']} hidden={isEmpty} width={640} height={480}>
@@ -45,13 +49,13 @@ export function PicturePanel({
       </canvas>
       {isEmpty ? (
         <Text size="sm" c="dimmed" className={classes['empty']}>
-          {emptyText}
+          {isMissing ? t(stream === 'view' ? 'videoIsPresent' : 'noPictureThen') : emptyText}
         </Text>
       ) : (
         <span className={classes['info']} data-testid={`${stream}-figures`}>
           {t('size', { width: shown.width, height: shown.height })}
-          {shown.hz > 0 ? ` · ${t('rate', { hz: shown.hz.toFixed(1) })}` : ''}
-          {shown.latencyMs === null ? '' : ` · ${t('latency', { ms: shown.latencyMs.toFixed(0) })}`}
+          {shown.hz > 0 && !past ? ` · ${t('rate', { hz: shown.hz.toFixed(1) })}` : ''}
+          {shown.latencyMs === null || past ? '' : ` · ${t('latency', { ms: shown.latencyMs.toFixed(0) })}`}
         </span>
       )}
       {children}

@@ -1,5 +1,5 @@
 import type { Camera, View } from '@/generated/messages';
-import { frames } from '@/store/session/frames';
+import { frames, shownFrames } from '@/store/session/frames';
 import { useSessionStore } from '@/store/session/store';
 
 export interface Shown {
@@ -74,7 +74,7 @@ export function drawPictures(
     since = now;
   };
 
-  const stop = frames.listen(stream, (frame) => {
+  const stop = shownFrames.listen(stream, (frame) => {
     if (sensor !== null && frame.type === 'camera' && frame.sensor !== sensor) return;
     waiting = frame;
     if (!isDecoding) void drawNext();

@@ -1,7 +1,7 @@
 import { useFrame } from '@react-three/fiber';
 import { useCallback, useEffect, useMemo, useRef } from 'react';
 import type { Scene } from '@/generated/messages';
-import { frames } from '@/store/session/frames';
+import { shownFrames } from '@/store/session/frames';
 import { forEachPose, type Pose } from '@/store/session/poses';
 import { trail } from '@/store/session/trace/trail';
 import type { StageHost } from './host';
@@ -72,13 +72,13 @@ export function Stage(props: StageProps) {
   }, [framesView, frustum, options.frames, options.frustum, requestFrame]);
 
   useEffect(() => {
-    const stopPoses = frames.listen('poses', (frame) => {
+    const stopPoses = shownFrames.listen('poses', (frame) => {
       const changed: [number, Pose][] = [];
       forEachPose(frame, (id, pose) => changed.push([id, pose]));
       world.receive(changed, performance.now());
       requestFrame();
     });
-    const stopScans = frames.listen('scan', (scan) => {
+    const stopScans = shownFrames.listen('scan', (scan) => {
       lidar.show(scan);
       requestFrame();
     });

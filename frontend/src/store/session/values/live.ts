@@ -93,6 +93,17 @@ function take(session: SessionData, now: number): void {
   if (taken.size > 0 || values.size > 0) useLiveValues.setState({ values: taken });
 }
 
+/** Returns the values at a past moment of the session, without samples. */
+export function valuesAt(session: SessionData): ReadonlyMap<ShownPort, LiveValue> {
+  const byUid = new Map(session.tree.map((node) => [node.uid, node]));
+  const found = new Map<ShownPort, LiveValue>();
+  for (const shown of useShownValues.getState().ports) {
+    const row = rowOf(shown, session, byUid);
+    if (row) found.set(shown, { key: row.key, value: row.value, changedAt: row.changedAt, samples: [] });
+  }
+  return found;
+}
+
 /** Updates the values after a batch of messages, now or when the next update is due. */
 export function feedValues(read: () => SessionData): void {
   if (useShownValues.getState().ports.size === 0 && useLiveValues.getState().values.size === 0) return;

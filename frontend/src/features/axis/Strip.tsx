@@ -1,0 +1,167 @@
+import { useEffect, useMemo, useRef, useState, type KeyboardEvent, type PointerEvent } from 'react';
+import { useTranslation } from 'react-i18next';
+import {
+  IconAlertTriangleFilled,
+  IconBugFilled,
+  IconCircleCheckFilled,
+  IconFlagFilled,
+} from '@tabler/icons-react';
+import { drawStretch, paletteOf } from '@/features/timeline/draw';
+import { goSeconds, goTicks, lookAt, lookNow, setPlaying, type Extent } from '@/store/moment/looking';
+import { useMoment } from '@/store/moment/store';
+import type { Mark, MarkKind } from '@/store/recording/types';
+import { useSessionStore } from '@/store/session/store';
+import { trace } from '@/store/session/trace/trace';
+import classes from './axis.module.css';
+import { apart, marksOf, rootStretches } from './strip';
+
+const ICONS: Readonly<Record<MarkKind, typeof IconBugFilled>> = {
+  fault: IconBugFilled,
+  collision: IconAlertTriangleFilled,
+  finished: IconCircleCheckFilled,
+  flag: IconFlagFilled,
+};
+const MARK_PX = 14;
+
+/** The strip of the run, with the root's status as its colour, its marks, and the moment that is shown. */
+export function Strip({ extent }: { readonly extent: Extent }) {
+  const { t } = useTranslation('axis');
+  const strip = useRef<HTMLDivElement>(null);
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const moment = useMoment((state) => state.t);
+  const overview = useMoment((state) => (state.overview?.run === extent.run ? state.overview : null));
+  const logs = useSessionStore((state) => state.logs);
+  const width = useWidth(strip);
+  const { from, to } = extent;
+  const length = Math.max(to - from, 1e-3);
+  const shareOf = (time: number) => Math.min(Math.max((time - from) / length, 0), 1);
+  const marks = useMemo(
+    () => apart(marksOf(overview, logs, from), (MARK_PX * length) / Math.max(width, 1)),
+    [overview, logs, from, length, width],
+  );
+
+  useEffect(() => {
+    const draw = () => {
+      const element = canvas.current;
+      const context = element?.getContext('2d');
+      if (!element || !context) return;
+      const ratio = window.devicePixelRatio || 1;
+      element.width = Math.round(element.clientWidth * ratio);
+      element.height = Math.round(element.clientHeight * ratio);
+      context.setTransform(ratio, 0, 0, ratio, 0, 0);
+      const palette = paletteOf(element);
+      const root = trace.nodes.find(({ parent }) => parent === 0)?.uid ?? -1;
+      const scale = element.clientWidth / length;
+      for (const { start, end, mask } of rootStretches(overview, trace.stretches(root, from, to), to)) {
+        const x = Math.max((start - from) * scale, 0);
+        drawStretch(context, mask, x, Math.max((end - start) * scale, 1), 0, palette);
+      }
+    };
+    draw();
+    // The colours depend on the theme.
+    const themed = new MutationObserver(draw);
+    themed.observe(document.documentElement, { attributeFilter: ['data-mantine-color-scheme'] });
+    return () => themed.disconnect();
+  }, [overview, from, to, length, width]);
+
+  const lookThere = ({ currentTarget, clientX }: PointerEvent) => {
+    const box = currentTarget.getBoundingClientRect();
+    setPlaying(false);
+    lookAt(from + ((clientX - box.left) / Math.max(box.width, 1)) * length);
+  };
+  const onPress = (event: PointerEvent<HTMLDivElement>) => {
+    if (event.button !== 0) return;
+    event.currentTarget.setPointerCapture?.(event.pointerId);
+    lookThere(event);
+  };
+  const onMove = (event: PointerEvent) => {
+    if (event.buttons === 1) lookThere(event);
+  };
+
+  const onKeyDown = (event: KeyboardEvent) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const go = (by: 1 | -1) => (event.shiftKey ? goSeconds(by) : void goTicks(by));
+    const keys: Record<string, () => void> = {
+      ArrowLeft: () => go(-1),
+      ArrowRight: () => go(1),
+      Home: () => lookAt(from),
+      End: () => lookAt(to),
+      Escape: lookNow,
+      ' ': () => setPlaying(!useMoment.getState().isPlaying),
+    };
+    const doIt = keys[event.key];
+    if (!doIt) return;
+    event.preventDefault();
+    event.stopPropagation();
+    if (event.key !== ' ') setPlaying(false);
+    doIt();
+  };
+
+  const at = moment ?? to;
+  return (
+    <div className={classes['strip']} ref={strip}>
+      <canvas ref={canvas} className={classes['canvas']} aria-hidden="true" />
+      <div
+        className={classes['slider']}
+        role="slider"
+        tabIndex={0}
+        data-testid="axis-strip"
+        aria-label={t('strip')}
+        aria-valuemin={round(from)}
+        aria-valuemax={round(to)}
+        aria-valuenow={round(at)}
+        aria-valuetext={
+          moment === null
+            ? t('now', { to: to.toFixed(1) })
+            : t('at', { t: moment.toFixed(2), to: to.toFixed(1) })
+        }
+        onPointerDown={onPress}
+        onPointerMove={onMove}
+        onKeyDown={onKeyDown}
+      >
+        <span
+          className={classes['cursor']}
+          data-past={moment === null ? undefined : true}
+          style={{ left: `${shareOf(at) * 100}%` }}
+        />
+      </div>
+      {marks.map((mark) => (
+        <MarkButton key={`${mark.kind}${mark.t}`} mark={mark} share={shareOf(mark.t)} />
+      ))}
+    </div>
+  );
+}
+
+function MarkButton({ mark, share }: { readonly mark: Mark; readonly share: number }) {
+  const { t } = useTranslation('axis');
+  const Icon = ICONS[mark.kind];
+  const label = t(`mark.${mark.kind}`, { t: mark.t.toFixed(2), text: mark.text.split('\n')[0] ?? '' });
+  return (
+    <button
+      type="button"
+      className={classes['mark']}
+      data-kind={mark.kind}
+      data-testid="axis-mark"
+      style={{ left: `${share * 100}%` }}
+      title={label}
+      aria-label={label}
+      onClick={() => lookAt(mark.t)}
+    >
+      <Icon size={12} aria-hidden="true" />
+    </button>
+  );
+}
+
+const round = (t: number) => Math.round(t * 1000) / 1000;
+
+function useWidth(ref: { readonly current: HTMLElement | null }): number {
+  const [width, setWidth] = useState(0);
+  useEffect(() => {
+    const element = ref.current;
+    if (!element) return;
+    const observer = new ResizeObserver(() => setWidth(element.clientWidth));
+    observer.observe(element);
+    return () => observer.disconnect();
+  }, [ref]);
+  return width;
+}

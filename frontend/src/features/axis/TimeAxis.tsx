@@ -1,0 +1,77 @@
+import { ActionIcon, Button, NativeSelect, Tooltip } from '@mantine/core';
+import { IconPlayerPause, IconPlayerPlay } from '@tabler/icons-react';
+import { useMemo } from 'react';
+import { useTranslation } from 'react-i18next';
+import { extent as extentNow, lookNow, setPlaying } from '@/store/moment/looking';
+import { PLAY_SPEEDS, useMoment } from '@/store/moment/store';
+import { useSessionStore } from '@/store/session/store';
+import classes from './axis.module.css';
+import { Strip } from './Strip';
+
+/** The time axis of the recorded run, below everything. */
+export function TimeAxis() {
+  const { t } = useTranslation('axis');
+  const segments = useSessionStore((state) => state.segments);
+  const extent = useMemo(() => (segments.length > 0 ? extentNow() : null), [segments]);
+  const moment = useMoment((state) => state.t);
+  const shown = useMoment((state) => state.shown);
+  const isPlaying = useMoment((state) => state.isPlaying);
+  const speed = useMoment((state) => state.speed);
+  const failure = useMoment((state) => state.failure);
+  if (!extent || extent.to <= extent.from) return null;
+  const isBack = moment !== null;
+  const play = t(isPlaying ? 'pause' : 'play');
+  return (
+    <section
+      className={classes['axis']}
+      aria-label={t('label')}
+      data-testid="time-axis"
+      data-past={isBack || undefined}
+      data-t={moment?.toFixed(3)}
+      data-shown={shown?.t.toFixed(3)}
+    >
+      <Tooltip label={play}>
+        <ActionIcon aria-label={play} data-testid="axis-play" onClick={() => setPlaying(!isPlaying)}>
+          {isPlaying ? <IconPlayerPause size={16} /> : <IconPlayerPlay size={16} />}
+        </ActionIcon>
+      </Tooltip>
+      <NativeSelect
+        size="xs"
+        className={classes['speed']}
+        aria-label={t('speed')}
+        value={String(speed)}
+        data={PLAY_SPEEDS.map((each) => ({ value: String(each), label: `×${each}` }))}
+        onChange={({ currentTarget }) => useMoment.setState({ speed: Number(currentTarget.value) })}
+      />
+      <Strip extent={extent} />
+      <span className={classes['note']} role="status">
+        {failure ? (
+          <span className={classes['failure']} title={failure}>
+            {failure}
+          </span>
+        ) : isBack && !shown ? (
+          t('reading')
+        ) : isBack ? (
+          <span className={classes['back']} title={t('backHelp')}>
+            {t('back')}
+          </span>
+        ) : null}
+      </span>
+      <span className={classes['time']} data-testid="axis-time">
+        {isBack ? `${moment.toFixed(2)} / ${extent.to.toFixed(1)} s` : `${extent.to.toFixed(1)} s`}
+      </span>
+      <Tooltip label={`${t('toLive')} (Esc)`} disabled={!isBack}>
+        <Button
+          size="compact-xs"
+          className={classes['live']}
+          variant={isBack ? 'filled' : 'default'}
+          disabled={!isBack}
+          data-testid="axis-live"
+          onClick={lookNow}
+        >
+          {t('live')}
+        </Button>
+      </Tooltip>
+    </section>
+  );
+}

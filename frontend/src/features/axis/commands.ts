@@ -1,0 +1,86 @@
+import {
+  IconArrowBarToRight,
+  IconChevronLeft,
+  IconChevronLeftPipe,
+  IconChevronRight,
+  IconChevronRightPipe,
+  IconPlayerPlay,
+} from '@tabler/icons-react';
+import { registerCommands, type UserCommand } from '@/commands/registry';
+import { extent, goTicks, goToChange, lookNow, setPlaying } from '@/store/moment/looking';
+import { isLookingBack, useMoment } from '@/store/moment/store';
+import { useProjectStore } from '@/store/project';
+import { useSessionStore } from '@/store/session/store';
+
+const hasRecording = () => extent() !== null;
+
+/** Returns the number of the selected block in the shown tree. */
+export function selectedUid(): number | null {
+  const { activeTree, selection } = useProjectStore.getState();
+  const nodes = isLookingBack() ? useMoment.getState().tree : useSessionStore.getState().tree;
+  const [id] = selection;
+  return nodes.find((node) => node.tree_id === activeTree && node.node_id === id)?.uid ?? null;
+}
+
+function toChange(direction: 1 | -1): void {
+  const uid = selectedUid();
+  if (uid !== null) void goToChange(uid, direction);
+}
+
+const rows: readonly UserCommand[] = [
+  {
+    id: 'time.live',
+    group: 'run',
+    labelKey: 'axis:command.live',
+    icon: IconArrowBarToRight,
+    shortcut: 'Escape',
+    enabled: isLookingBack,
+    run: lookNow,
+  },
+  {
+    id: 'time.play',
+    group: 'run',
+    labelKey: 'axis:command.play',
+    icon: IconPlayerPlay,
+    enabled: hasRecording,
+    run: () => setPlaying(!useMoment.getState().isPlaying),
+  },
+  {
+    id: 'time.tickBack',
+    group: 'run',
+    labelKey: 'axis:command.tickBack',
+    icon: IconChevronLeft,
+    shortcut: 'Alt+Comma',
+    enabled: hasRecording,
+    run: () => void goTicks(-1),
+  },
+  {
+    id: 'time.tickForth',
+    group: 'run',
+    labelKey: 'axis:command.tickForth',
+    icon: IconChevronRight,
+    shortcut: 'Alt+Period',
+    enabled: hasRecording,
+    run: () => void goTicks(1),
+  },
+  {
+    id: 'time.changeBack',
+    group: 'run',
+    labelKey: 'axis:command.changeBack',
+    icon: IconChevronLeftPipe,
+    shortcut: 'Alt+Shift+Comma',
+    enabled: () => hasRecording() && selectedUid() !== null,
+    run: () => toChange(-1),
+  },
+  {
+    id: 'time.changeForth',
+    group: 'run',
+    labelKey: 'axis:command.changeForth',
+    icon: IconChevronRightPipe,
+    shortcut: 'Alt+Shift+Period',
+    enabled: () => hasRecording() && selectedUid() !== null,
+    run: () => toChange(1),
+  },
+];
+
+export const registerAxisCommands = () => registerCommands(rows);

@@ -1,0 +1,115 @@
+import { act, screen } from '@testing-library/react';
+import { beforeEach, describe, expect, it } from 'vitest';
+import { setLanguage } from '@/i18n';
+import { useProjectStore } from '@/store/project';
+import { useSavingStore } from '@/store/saving/store';
+import { action, fakeServer, openProject, show, user, watchNavigation } from '../../../harness/testing';
+import { useTests } from './store';
+import { TestsPanel } from './TestsPanel';
+
+const FILE = 'tests/main.test.yaml';
+const failure = {
+  message: 'status after the tick: wanted RUNNING, got IDLE',
+  line: 9,
+  tick: 6,
+  time_s: 0.25,
+  node: 'Turn::2',
+  tree: 'Main',
+  node_id: 'a',
+  wanted: 'RUNNING',
+  got: 'IDLE',
+  path: [
+    { name: 'main', status: 'RUNNING' },
+    { name: 'Turn', status: 'IDLE' },
+  ],
+};
+const test = { file: FILE, tree: '', ticks: 1, failures: [] };
+const report = {
+  tests: [
+    { ...test, name: 'holds', line: 4, outcome: 'passed' },
+    {
+      ...test,
+      name: 'fails',
+      line: 7,
+      outcome: 'failed',
+      failures: [failure, { ...failure, node_id: '', path: [] }],
+    },
+    { ...test, name: 'real', line: 12, outcome: 'needs_python' },
+  ],
+  problems: [
+    { code: 'TG901', severity: 'error', message: 'No such key.', hint: 'Known are: a', file: FILE, line: 3 },
+  ],
+  coverage: { share: 0.838, trees: {} },
+};
+
+function open(texts: Record<string, string>, answer: object | null = report) {
+  openProject({
+    trees: { Main: { r: { type: 'Sequence', children: ['a'] }, a: { type: 'Turn' } } },
+    actions: [action('Turn')],
+    texts,
+  });
+  const { projectId } = useProjectStore.getState();
+  const { requests } = fakeServer(answer ? { [`POST /projects/${projectId}/test`]: answer } : {});
+  const navigation = watchNavigation();
+  show(<TestsPanel />);
+  return { ...navigation, requests };
+}
+
+beforeEach(() => {
+  useTests.setState(useTests.getInitialState(), true);
+  useSavingStore.setState(useSavingStore.getInitialState(), true);
+  setLanguage('en');
+});
+
+describe('TestsPanel', () => {
+  it('writes a first test where there is none', async () => {
+    const { openFile, requests } = open({});
+    expect(requests).toEqual([]);
+    await user.click(screen.getByRole('button', { name: 'Write a test' }));
+    expect(openFile).toHaveBeenCalledExactlyOnceWith(FILE, undefined);
+    expect(useProjectStore.getState().currentText(FILE)).toContain('Turn: SUCCESS');
+  });
+
+  it('runs the tests of a saved project and counts them', async () => {
+    open({ [FILE]: 'x' });
+    expect(await screen.findByTestId('tests-summary')).toHaveTextContent('1 passed, 2 failed');
+    expect(screen.getByRole('status')).toHaveTextContent('83 % of the trees covered');
+    const icons = screen.getAllByRole('img').map((icon) => icon.getAttribute('aria-label'));
+    expect(icons.map((name) => name?.split(':')[0])).toEqual(['Failed', 'Passed', 'Failed', 'Not run here']);
+  });
+
+  it('runs them again on request', async () => {
+    const { requests } = open({ [FILE]: 'x' });
+    await screen.findByTestId('tests-summary');
+    const before = requests.length;
+    await user.click(screen.getByRole('button', { name: 'Run the tests' }));
+    expect(requests.length).toBeGreaterThan(before);
+  });
+
+  it('leads to the test, to the block that failed, and to the line of an expectation', async () => {
+    const { openFile, openTree } = open({ [FILE]: 'x' });
+    await user.click(await screen.findByRole('button', { name: /fails/ }));
+    expect(openFile).toHaveBeenLastCalledWith(FILE, 7);
+    const [block, line] = screen.getAllByRole('button', { name: /Tick 6 \(0.25 s\): status after the tick/ });
+    expect(block).toHaveTextContent('main RUNNING › Turn IDLE');
+    await user.click(block!);
+    expect(openTree).toHaveBeenCalledWith('Main');
+    expect(useProjectStore.getState().revealed).toMatchObject({ tree: 'Main', node: 'a' });
+    await user.click(line!);
+    expect(openFile).toHaveBeenLastCalledWith(FILE, 9);
+    await user.click(screen.getByRole('button', { name: /No such key/ }));
+    expect(openFile).toHaveBeenLastCalledWith(FILE, 3);
+  });
+
+  it('says why the tests could not run', async () => {
+    open({ [FILE]: 'x' }, null);
+    expect(await screen.findByText(/The tests could not run/)).toBeInTheDocument();
+  });
+
+  it('follows the language', async () => {
+    open({ [FILE]: 'x' });
+    await screen.findByTestId('tests-summary');
+    act(() => setLanguage('es'));
+    expect(screen.getByTestId('tests-summary')).toHaveTextContent('1 superadas, 2 fallidas');
+  });
+});

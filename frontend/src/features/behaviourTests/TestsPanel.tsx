@@ -1,0 +1,170 @@
+import { Button, Loader, ScrollArea, Text } from '@mantine/core';
+import { IconCircleCheck, IconCircleDashed, IconCircleX, IconPlayerPlay } from '@tabler/icons-react';
+import { useEffect } from 'react';
+import { useTranslation } from 'react-i18next';
+import type { TestFailure, TestOutcome, TestReport } from '@/api/types';
+import { useProjectStore } from '@/store/project';
+import { openFile, openTree } from '@/store/project/navigation';
+import { useSavingStore } from '@/store/saving/store';
+import { FIRST_TEST, firstTest, isTestFile } from './firstTest';
+import { runTests, useTests } from './store';
+import classes from './tests.module.css';
+
+const ICONS = {
+  passed: IconCircleCheck,
+  failed: IconCircleX,
+  needs_python: IconCircleDashed,
+  not_run: IconCircleDashed,
+};
+
+/** The project's behaviour tests with their results; they run again after each save. */
+export function TestsPanel() {
+  const hasTests = useProjectStore(({ files }) => Object.keys(files).some(isTestFile));
+  return (
+    <div className={classes['panel']} data-testid="tests">
+      {hasTests ? <Tests /> : <NoTests />}
+    </div>
+  );
+}
+
+function NoTests() {
+  const { t } = useTranslation('behaviourTests');
+  const write = () => {
+    const { mainTree, diagrams, actions, addFile } = useProjectStore.getState();
+    addFile(FIRST_TEST, firstTest(mainTree, diagrams[mainTree], new Set(actions.map(({ name }) => name))));
+    openFile(FIRST_TEST);
+  };
+  return (
+    <div className={classes['none']}>
+      <Text size="sm">{t('none')}</Text>
+      <Button size="xs" variant="light" onClick={write}>
+        {t('write')}
+      </Button>
+      <Text size="xs" c="dimmed">
+        {t('learn')}
+      </Text>
+    </div>
+  );
+}
+
+function Tests() {
+  const { t } = useTranslation('behaviourTests');
+  const projectId = useProjectStore((state) => state.projectId);
+  const edits = useProjectStore((state) => state.changeCounter);
+  const isSaved = useSavingStore((state) => state.state.kind === 'saved');
+  const { project, report, isRunning, refused } = useTests();
+  useEffect(() => {
+    if (isSaved) void runTests();
+  }, [projectId, edits, isSaved]);
+  const shown = project === projectId ? report : null;
+  return (
+    <>
+      <div className={classes['bar']}>
+        <Button
+          size="compact-sm"
+          variant="light"
+          leftSection={<IconPlayerPlay size={14} aria-hidden="true" />}
+          onClick={() => void runTests()}
+        >
+          {t('run')}
+        </Button>
+        <div role="status" className={classes['summary']}>
+          {isRunning ? <Loader size={14} aria-label={t('running')} /> : null}
+          {refused !== null ? (
+            <span className={classes['bad']}>{t('refused', { reason: refused })}</span>
+          ) : shown ? (
+            <Summary report={shown} />
+          ) : null}
+        </div>
+      </div>
+      <ScrollArea className={classes['rest'] ?? ''} type="auto">
+        <ul className={classes['list']} aria-label={t('label')}>
+          {shown?.problems.map((problem, index) => (
+            <li key={`problem-${index}`}>
+              <button
+                type="button"
+                className={classes['row']}
+                data-outcome="failed"
+                onClick={() => openFile(problem.file ?? '', problem.line ?? undefined)}
+              >
+                <IconCircleX size={16} aria-label={t('outcome.failed')} role="img" />
+                <span>
+                  {problem.message} <span className={classes['muted']}>{problem.hint}</span>
+                </span>
+                <span className={classes['muted']}>{`${problem.file}:${problem.line}`}</span>
+              </button>
+            </li>
+          ))}
+          {shown?.tests.map((test) => (
+            <Row key={`${test.file}:${test.name}`} test={test} />
+          ))}
+        </ul>
+      </ScrollArea>
+    </>
+  );
+}
+
+function Summary({ report }: { readonly report: TestReport }) {
+  const { t } = useTranslation('behaviourTests');
+  const passed = report.tests.filter(({ outcome }) => outcome === 'passed').length;
+  const failed = report.tests.filter(({ outcome }) => outcome === 'failed').length + report.problems.length;
+  return (
+    <>
+      <span data-testid="tests-summary" className={failed > 0 ? classes['bad'] : undefined}>
+        {t('summary', { passed, failed })}
+      </span>
+      <span className={classes['muted']}>
+        {t('covered', { percent: Math.floor(report.coverage.share * 100) })}
+      </span>
+    </>
+  );
+}
+
+function Row({ test }: { readonly test: TestOutcome }) {
+  const { t } = useTranslation('behaviourTests');
+  const Icon = ICONS[test.outcome];
+  return (
+    <li>
+      <button
+        type="button"
+        className={classes['row']}
+        data-outcome={test.outcome}
+        onClick={() => openFile(test.file, test.line)}
+      >
+        <Icon size={16} role="img" aria-label={t(`outcome.${test.outcome}`)} />
+        <span>{test.name}</span>
+        <span className={classes['muted']}>
+          {test.outcome === 'passed' || test.outcome === 'failed'
+            ? `${test.file}:${test.line}`
+            : t(`outcome.${test.outcome}`)}
+        </span>
+      </button>
+      {test.failures.map((failure, index) => (
+        <Failure key={index} failure={failure} file={test.file} />
+      ))}
+    </li>
+  );
+}
+
+/** Why a test failed. It leads to the block, or to the line of the expectation where it is about no block. */
+function Failure({ failure, file }: { readonly failure: TestFailure; readonly file: string }) {
+  const { t } = useTranslation('behaviourTests');
+  const open = () => {
+    if (failure.node_id === '') return openFile(file, failure.line);
+    openTree(failure.tree);
+    useProjectStore.getState().reveal(failure.tree, failure.node_id);
+  };
+  return (
+    <button type="button" className={classes['failure']} onClick={open}>
+      <span>
+        {failure.tick > 0 ? `${t('tick', { tick: failure.tick, time: failure.time_s })}: ` : ''}
+        {failure.message}
+      </span>
+      {failure.path.length > 0 ? (
+        <span className={classes['path']}>
+          {failure.path.map(({ name, status }) => `${name} ${status}`).join(' › ')}
+        </span>
+      ) : null}
+    </button>
+  );
+}

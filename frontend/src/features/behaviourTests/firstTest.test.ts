@@ -1,0 +1,36 @@
+import { expect, it } from 'vitest';
+import { parse } from 'yaml';
+import type { Diagram } from '@/model/diagram';
+import { firstTest, isTestFile } from './firstTest';
+
+const diagram = {
+  root: 'r',
+  nodes: {
+    r: { type: 'Sequence', children: ['a', 'b', 'c'] },
+    a: { type: 'Turn' },
+    b: { type: 'Turn' },
+    c: { type: 'Sleep' },
+  },
+} as unknown as Diagram;
+
+it('doubles each action of the tree once', () => {
+  const written = parse(firstTest('Main: "x"', diagram, new Set(['Turn', 'Other']))) as { tests: unknown[] };
+  expect(written.tests).toEqual([
+    {
+      name: 'the first tick',
+      tree: 'Main: "x"',
+      doubles: { Turn: 'SUCCESS' },
+      ticks: 1,
+      expect: [{ at: 1, root: 'SUCCESS' }],
+    },
+  ]);
+});
+
+it('leaves the doubles out where there is no action', () => {
+  expect(firstTest('Main', undefined, new Set())).not.toContain('doubles');
+});
+
+it('knows the files of tests by their names', () => {
+  expect(['tests/a.test.yaml', 'tests/b/c.test.yml'].every(isTestFile)).toBe(true);
+  expect(['tests/a.yaml', 'a.test.yaml', 'x/tests/a.test.yaml'].some(isTestFile)).toBe(false);
+});

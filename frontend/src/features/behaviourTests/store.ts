@@ -1,0 +1,44 @@
+import { create } from 'zustand';
+import { api } from '@/api/client';
+import { ApiError } from '@/api/errors';
+import type { TestReport } from '@/api/types';
+import { useProjectStore } from '@/store/project';
+import { saveNow } from '@/store/saving/autosave';
+
+export interface TestsData {
+  /** The project that the report is about. */
+  readonly project: string | null;
+  readonly report: TestReport | null;
+  readonly isRunning: boolean;
+  /** The reason for which the last attempt gave no report. */
+  readonly refused: string | null;
+}
+
+const initial: TestsData = { project: null, report: null, isRunning: false, refused: null };
+
+export const useTests = create<TestsData>(() => initial);
+
+/** The number of the last request: answers to earlier ones come too late. */
+let last = 0;
+
+/** Saves the project and runs its behaviour tests on the server. */
+export async function runTests(): Promise<void> {
+  const { projectId } = useProjectStore.getState();
+  if (projectId === null) return;
+  const number = ++last;
+  const isCurrent = () => number === last && useProjectStore.getState().projectId === projectId;
+  if (useTests.getState().project !== projectId) useTests.setState({ ...initial, project: projectId });
+  useTests.setState({ isRunning: true });
+  try {
+    await saveNow();
+    const report = await api.test(projectId);
+    if (isCurrent()) useTests.setState({ report, refused: null });
+  } catch (error) {
+    if (isCurrent()) useTests.setState({ refused: reasonOf(error) });
+  } finally {
+    if (number === last) useTests.setState({ isRunning: false });
+  }
+}
+
+const reasonOf = (error: unknown): string =>
+  error instanceof ApiError ? error.message : error instanceof Error ? error.message : String(error);

@@ -1,0 +1,93 @@
+import { readFileSync } from 'node:fs';
+import { afterEach, beforeEach, expect, it, vi } from 'vitest';
+import type { Segment } from '@/generated/messages';
+import { useLiveStore, usePastLive } from '@/store/project/live';
+import { useProjectStore } from '@/store/project';
+import { Engine } from '@/store/recording/engine';
+import { liveSource } from '@/store/recording/liveSource';
+import type { EngineLink } from '@/store/recording/recordedRun';
+import { initialSession } from '@/store/session/reduce';
+import { useSessionStore } from '@/store/session/store';
+import { extent, followPresent, goSeconds, goTicks, lookAt, lookNow, setEngineLink } from './looking';
+import { usePastSession } from './session';
+import { isLookingBack, useMoment } from './store';
+
+const file = new Uint8Array(readFileSync('../tests/executor/recorder/samples/v1.mcap'));
+const segment = (run = 'a'): Segment => ({
+  run,
+  branch: 0,
+  number: 0,
+  version: 0,
+  from_t: 0,
+  to_t: 1,
+  bytes: file.length,
+  complete: true,
+});
+
+let stop = () => {};
+
+beforeEach(() => {
+  vi.spyOn(liveSource, 'read').mockImplementation((_, offset, length) =>
+    Promise.resolve(file.slice(offset, offset + length)),
+  );
+  setEngineLink(() => {
+    const link: EngineLink = { post: (message) => engine.receive(message), onMessage: () => {} };
+    const engine = new Engine((message) => queueMicrotask(() => link.onMessage(message)));
+    return link;
+  });
+  useSessionStore.setState({ segments: [segment()], simTime: 1 });
+  stop = followPresent();
+});
+
+afterEach(() => {
+  stop();
+  useSessionStore.setState(initialSession, true);
+});
+
+const shown = (t: number) => vi.waitFor(() => expect(useMoment.getState().shown?.t).toBe(t));
+
+it('shows a moment in all stores, and leaves those of the present alone', async () => {
+  const before = useLiveStore.getState();
+  lookAt(0.5);
+  await shown(0.5);
+  expect(usePastSession.getState()).toMatchObject({ simTime: 0.5, tick: useMoment.getState().shown!.tick });
+  expect(Object.values(usePastSession.getState().blackboard).map(({ key }) => key)).toContain('offset');
+  expect([...usePastLive.getState().statuses.values()]).toContain('RUNNING');
+  expect(useLiveStore.getState()).toBe(before);
+  expect(useSessionStore.getState().simTime).toBe(1);
+});
+
+it('stays within the run', async () => {
+  expect(extent()).toEqual({ run: 'a', from: 0, to: 1 });
+  lookAt(7);
+  await shown(1);
+  goSeconds(-3);
+  await shown(0);
+});
+
+it('goes a tick at a time, from the present too', async () => {
+  await goTicks(-1);
+  await vi.waitFor(() => expect(useMoment.getState().shown?.t).toBeLessThan(1));
+  const { t, tick } = useMoment.getState().shown!;
+  await goTicks(-1);
+  await vi.waitFor(() => expect(useMoment.getState().shown?.tick).toBe(tick - 1));
+  await goTicks(1);
+  await shown(t);
+});
+
+it('returns to the present by itself when the run is gone, or the user edits', () => {
+  lookAt(0.5);
+  useSessionStore.setState({ segments: [segment(), segment('b')] });
+  expect(isLookingBack()).toBe(false);
+  lookAt(0.5);
+  expect(isLookingBack()).toBe(true);
+  useProjectStore.setState(({ changeCounter }) => ({ changeCounter: changeCounter + 1 }));
+  expect(isLookingBack()).toBe(false);
+});
+
+it('shows nothing without a recording', () => {
+  useSessionStore.setState({ segments: [] });
+  lookAt(1);
+  lookNow();
+  expect(isLookingBack()).toBe(false);
+});

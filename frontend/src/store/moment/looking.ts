@@ -1,0 +1,227 @@
+import type { NodeStatus } from '@/generated/messages';
+import { useProjectStore } from '@/store/project';
+import { usePastLive } from '@/store/project/live';
+import { liveSource } from '@/store/recording/liveSource';
+import { RecordedRun, type EngineLink } from '@/store/recording/recordedRun';
+import type { FromEngine } from '@/store/recording/engine';
+import type { Moment, Overview } from '@/store/recording/types';
+import { useSessionStore } from '@/store/session/store';
+import type { LogLine } from '@/store/session/types';
+import { consoleOf, linesUntil, rowsOf, usePastSession } from './session';
+import { atPresent, useMoment } from './store';
+import { showPresentWorld, showWorld } from './world';
+
+/** The length of the run that can be looked at, in s; null without a recording. */
+export interface Extent {
+  readonly run: string;
+  readonly from: number;
+  readonly to: number;
+}
+
+let recorded: RecordedRun | null = null;
+let lines: readonly LogLine[] = [];
+let linesOf: Overview | null = null;
+let isAsking = false;
+let isOutdated = false;
+let run = '';
+
+function workerLink(): EngineLink {
+  const worker = new Worker(new URL('../recording/recording.worker.ts', import.meta.url), { type: 'module' });
+  const link: EngineLink = {
+    post: (message) => worker.postMessage(message),
+    onMessage: () => undefined,
+  };
+  worker.onmessage = ({ data }: MessageEvent<FromEngine>) => link.onMessage(data);
+  return link;
+}
+
+let makeLink = workerLink;
+
+/** Replaces the worker, for tests in which there is none. */
+export function setEngineLink(make: () => EngineLink): void {
+  makeLink = make;
+  recorded?.end();
+  recorded = null;
+}
+
+export function extent(): Extent | null {
+  const segments = liveSource.segments();
+  const first = segments[0];
+  if (!first) return null;
+  const from = Math.min(...segments.map(({ from_t }) => from_t));
+  const to = Math.max(...segments.map(({ to_t }) => to_t));
+  return { run: first.run, from, to };
+}
+
+/** Shows a moment of the run in all views. */
+export function lookAt(t: number, tick: number | null = null): void {
+  const now = extent();
+  if (!now) return;
+  const isFirst = useMoment.getState().t === null;
+  run = now.run;
+  useMoment.setState({
+    t: Math.min(Math.max(t, now.from), now.to),
+    tick,
+    ...(isFirst ? { failure: '' } : {}),
+  });
+  theRun().want(t);
+  void refresh();
+}
+
+/** Returns to the present. */
+export function lookNow(): void {
+  if (useMoment.getState().t === null) return;
+  const { speed } = useMoment.getState();
+  useMoment.setState({ ...atPresent, speed, overview: useMoment.getState().overview });
+  recorded?.want(null);
+  showPresentWorld();
+}
+
+/** Goes some ticks forth, or back if negative; at the present, back from its end. */
+export async function goTicks(by: number): Promise<void> {
+  const begin = await beginning();
+  if (begin === null) return;
+  const found = await theRun().ask({ what: 'tick', ...begin, by });
+  if (found) lookAt(found.t, found.tick);
+}
+
+/** Goes some seconds forth, or back if negative. */
+export function goSeconds(by: number): void {
+  const begin = useMoment.getState().t ?? extent()?.to;
+  if (begin !== undefined) lookAt(begin + by);
+}
+
+/** Goes to the next (1) or previous (-1) tick in which a node changed or returned something. */
+export async function goToChange(uid: number, direction: 1 | -1): Promise<boolean> {
+  const begin = await beginning();
+  if (begin === null) return false;
+  const found = await theRun().ask({ what: 'change', uid, ...begin, direction });
+  if (found) lookAt(found.t, found.tick);
+  return found !== null;
+}
+
+/** Returns the moment from which to continue: at the present, the end of the run, once that was read. */
+async function beginning(): Promise<{ t: number; tick: number | null } | null> {
+  const { t, tick } = useMoment.getState();
+  if (t !== null) return { t, tick };
+  const end = extent()?.to;
+  if (end === undefined) return null;
+  lookAt(end);
+  return new Promise((resolve) => {
+    const stop = useMoment.subscribe((now) => {
+      if (now.t !== null && now.shown === null) return;
+      stop();
+      resolve(now.t === null ? null : { t: now.t, tick: now.tick });
+    });
+  });
+}
+
+export function setPlaying(isPlaying: boolean): void {
+  const { t } = useMoment.getState();
+  const now = extent();
+  if (!now || useMoment.getState().isPlaying === isPlaying) return;
+  // At the end, playing begins at the start, as in any player.
+  if (isPlaying && (t === null || t >= now.to)) lookAt(now.from);
+  useMoment.setState({ isPlaying });
+  if (isPlaying) requestAnimationFrame((first) => play(first));
+}
+
+function play(last: number): void {
+  requestAnimationFrame((now) => {
+    const { isPlaying, t, speed } = useMoment.getState();
+    const end = extent()?.to;
+    if (!isPlaying || t === null || end === undefined) return;
+    const next = t + ((now - last) / 1000) * speed;
+    lookAt(next);
+    if (next >= end) useMoment.setState({ isPlaying: false });
+    else play(now);
+  });
+}
+
+function theRun(): RecordedRun {
+  recorded ??= new RecordedRun(liveSource, makeLink(), onOverview, (failure) =>
+    useMoment.setState({ failure }),
+  );
+  return recorded;
+}
+
+function onOverview(overview: Overview): void {
+  useMoment.setState({ overview });
+  void refresh();
+}
+
+/** Asks for the wanted moment; while an answer is awaited, only the newest wish is kept. */
+async function refresh(): Promise<void> {
+  if (isAsking) {
+    isOutdated = true;
+    return;
+  }
+  isAsking = true;
+  try {
+    do {
+      isOutdated = false;
+      const { t, tick, shown } = useMoment.getState();
+      if (t === null) return;
+      const known = shown ? shown.generation : -1;
+      const moment = await theRun().ask({ what: 'moment', t, tick, known });
+      if (moment && useMoment.getState().t !== null) show(moment);
+    } while (isOutdated);
+  } finally {
+    isAsking = false;
+  }
+}
+
+function show(moment: Moment): void {
+  const before = useMoment.getState();
+  const tree = moment.tree ?? before.tree;
+  if (before.overview !== linesOf && before.overview) {
+    linesOf = before.overview;
+    lines = consoleOf(before.overview);
+  }
+  const live = usePastLive.getState();
+  if (moment.tree || !before.shown) live.setTree(tree);
+  const statuses = new Map(moment.statuses);
+  live.setStatuses(tree.map(({ uid }): [number, NodeStatus] => [uid, statuses.get(uid) ?? 'IDLE']));
+  live.setPast(moment.flashes.filter(([uid]) => !statuses.has(uid)));
+  if (moment.tickT !== before.shown?.tickT) live.flash(moment.flashes);
+  const faults = (before.overview?.faults ?? []).filter((fault) => fault.t <= moment.t);
+  usePastLive.setState({ faults: new Map() });
+  for (const { uid, message } of faults) {
+    const node = tree.find((each) => each.uid === uid);
+    if (node?.node_id) live.setFault(node.node_id, node.tree_id, message);
+  }
+  usePastSession.setState(
+    {
+      ...useSessionStore.getState(),
+      tree: [...tree],
+      blackboard: rowsOf(moment, tree),
+      logs: linesUntil(lines, moment.t),
+      simTime: moment.t,
+      tick: moment.tick,
+      faults: [],
+      finished: null,
+    },
+    true,
+  );
+  useMoment.setState({ shown: moment, tree });
+  showWorld(moment);
+}
+
+/** Returns to the present when the run is gone, and when the user edits, since edits belong to the present. */
+export function followPresent(): () => void {
+  const stops = [
+    useSessionStore.subscribe((now, before) => {
+      if (now.segments !== before.segments && extent()?.run !== run) lookNow();
+    }),
+    useProjectStore.subscribe((now, before) => {
+      if (now.changeCounter !== before.changeCounter || now.projectId !== before.projectId) lookNow();
+    }),
+  ];
+  return () => {
+    stops.forEach((stop) => stop());
+    lookNow();
+    recorded?.end();
+    recorded = null;
+    useMoment.setState(atPresent);
+  };
+}

@@ -1,0 +1,65 @@
+import { readFileSync } from 'node:fs';
+import { expect, it } from 'vitest';
+import type { Segment } from '@/generated/messages';
+import { Engine, type FromEngine } from './engine';
+
+const bytes = () => new Uint8Array(readFileSync('../tests/executor/recorder/samples/v1.mcap'));
+const segment = (more: Partial<Segment> = {}): Segment => ({
+  run: 'a',
+  branch: 0,
+  number: 0,
+  version: 0,
+  from_t: 0,
+  to_t: 1,
+  bytes: bytes().length,
+  complete: true,
+  ...more,
+});
+
+/** Returns the place of the n-th chunk of a file. */
+function chunkAt(data: Uint8Array, n: number): number {
+  const view = new DataView(data.buffer);
+  let at = 8;
+  for (let found = 0; ; at += 9 + Number(view.getBigUint64(at + 1, true)))
+    if (data[at] === 6 && ++found === n) return at;
+}
+
+function engine() {
+  const told: FromEngine[] = [];
+  const made = new Engine((message) => told.push(message));
+  made.receive({ kind: 'begin', run: 'a' });
+  const ask = (t: number) => {
+    made.receive({ kind: 'ask', id: 1, ask: { what: 'moment', t, tick: null, known: -1 } });
+    return (told.at(-1) as Extract<FromEngine, { kind: 'answer' }>).answer as { tick: number } | null;
+  };
+  return { made, told, ask };
+}
+
+it('answers as soon as the part with the moment was read', () => {
+  const { made, told, ask } = engine();
+  expect(ask(0.5)).toBeNull();
+  made.receive({ kind: 'part', segment: segment(), bytes: bytes() });
+  expect(told.at(-1)).toMatchObject({ kind: 'overview', overview: { run: 'a', read: [[0, 1]] } });
+  expect(ask(0.5)!.tick).toBeGreaterThan(0);
+  expect(ask(1.5)).toBeNull();
+});
+
+it('keeps what came before a damage, and says where it is', () => {
+  const { made, told, ask } = engine();
+  const damaged = bytes();
+  const first = chunkAt(damaged, 2) + 200;
+  damaged.fill(0, first, first + 400);
+  made.receive({ kind: 'part', segment: segment(), bytes: damaged });
+  expect(told.find(({ kind }) => kind === 'failed')).toMatchObject({
+    number: 0,
+    message: expect.stringMatching(/segment 0, before byte/) as string,
+  });
+  expect(ask(0)).not.toBeNull();
+});
+
+it('forgets a segment that is gone', () => {
+  const { made, ask } = engine();
+  made.receive({ kind: 'part', segment: segment(), bytes: bytes() });
+  made.receive({ kind: 'drop', number: 0 });
+  expect(ask(0.5)).toBeNull();
+});

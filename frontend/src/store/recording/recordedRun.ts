@@ -1,0 +1,165 @@
+import type { Segment } from '@/generated/messages';
+import type { Answers, Ask, FromEngine, ToEngine } from './engine';
+import type { Overview, RecordingSource } from './types';
+
+const PART_BYTES = 1 << 20;
+/** A part may be refused while the page connects: it is asked for again, for some seconds. */
+const MOST_TRIES = 12;
+const TRY_AGAIN_MS = 500;
+
+/** The side of the page of an engine, which is a worker. */
+export interface EngineLink {
+  post(message: ToEngine): void;
+  onMessage: (message: FromEngine) => void;
+}
+
+interface Held {
+  version: number;
+  bytes: number;
+  /** Whether all of a segment that has ended was read. */
+  isWhole: boolean;
+}
+
+/**
+ * Follows the recording of a run while somebody looks back: it fetches the part that is wanted first, then the
+ * others, and asks the engine. Nothing is read for a page that shows the present.
+ */
+export class RecordedRun {
+  overview: Overview | null = null;
+  private run = '';
+  private wanted: number | null = null;
+  private isFetching = false;
+  private held = new Map<number, Held>();
+  private readonly broken = new Set<number>();
+  private readonly tries = new Map<number, number>();
+  private readonly waiting = new Map<number, (answer: Answers[keyof Answers]) => void>();
+  private nextId = 1;
+  private readonly stop: () => void;
+
+  constructor(
+    private readonly source: RecordingSource,
+    private readonly link: EngineLink,
+    private readonly onOverview: (overview: Overview) => void,
+    /** Called with the reason why a part cannot be read. */
+    private readonly onFailed: (message: string) => void,
+    private readonly tryAgainMs = TRY_AGAIN_MS,
+  ) {
+    link.onMessage = (message) => this.receive(message);
+    this.stop = source.subscribe(() => this.follow());
+  }
+
+  /** Reads what is needed for a moment, and continues with the rest; null: no more. */
+  want(t: number | null): void {
+    this.wanted = t;
+    this.follow();
+  }
+
+  ask<K extends keyof Answers>(ask: Ask & { what: K }): Promise<Answers[K]> {
+    const id = this.nextId++;
+    return new Promise((resolve) => {
+      this.waiting.set(id, resolve as (answer: Answers[keyof Answers]) => void);
+      this.link.post({ kind: 'ask', id, ask });
+    });
+  }
+
+  end(): void {
+    this.wanted = null;
+    this.stop();
+  }
+
+  private follow(): void {
+    const segments = this.source.segments();
+    const run = segments[0]?.run ?? '';
+    if (run !== this.run) {
+      this.run = run;
+      this.held = new Map();
+      this.broken.clear();
+      this.tries.clear();
+      this.overview = null;
+      this.link.post({ kind: 'begin', run });
+    }
+    for (const number of this.held.keys()) {
+      if (segments.some((segment) => segment.number === number)) continue;
+      this.held.delete(number);
+      this.link.post({ kind: 'drop', number });
+    }
+    if (this.wanted !== null && !this.isFetching) void this.fetch();
+  }
+
+  private async fetch(): Promise<void> {
+    this.isFetching = true;
+    try {
+      for (let next = this.next(); next !== null; next = this.next()) await this.fetchPart(next);
+    } finally {
+      this.isFetching = false;
+    }
+  }
+
+  private async fetchPart(segment: Segment): Promise<void> {
+    const { run } = this;
+    const held = this.held.get(segment.number) ?? { version: segment.version, bytes: 0, isWhole: false };
+    try {
+      const length = Math.min(PART_BYTES, segment.bytes - held.bytes);
+      const bytes = await this.source.read(segment, held.bytes, length);
+      if (run !== this.run) return;
+      if (bytes.length === 0) throw new Error('The part is empty.');
+      held.bytes += bytes.length;
+      held.isWhole = segment.complete && held.bytes >= segment.bytes;
+      this.held.set(segment.number, held);
+      this.tries.delete(segment.number);
+      this.link.post({ kind: 'part', segment, bytes });
+    } catch (error) {
+      if (run !== this.run) return;
+      const current = this.source.segments().find(({ number }) => number === segment.number);
+      // It was thinned or went meanwhile: the next turn reads what there is.
+      if (!current || current.version !== segment.version) return;
+      const tries = (this.tries.get(segment.number) ?? 0) + 1;
+      this.tries.set(segment.number, tries);
+      if (tries >= MOST_TRIES) {
+        this.broken.add(segment.number);
+        this.onFailed((error as Error).message);
+      } else await new Promise((resolve) => setTimeout(resolve, this.tryAgainMs));
+    }
+  }
+
+  /** Returns the segment to read next: that of the wanted moment, then those before it, then the others. */
+  private next(): Segment | null {
+    const { wanted } = this;
+    if (wanted === null) return null;
+    const open = this.source.segments().filter((segment) => this.isUnread(segment));
+    const distance = ({ from_t, to_t }: Segment) =>
+      wanted >= from_t && wanted <= to_t ? 0 : from_t > wanted ? 1e6 + from_t - wanted : wanted - to_t;
+    return open.reduce<Segment | null>(
+      (best, each) => (best === null || distance(each) < distance(best) ? each : best),
+      null,
+    );
+  }
+
+  private isUnread(segment: Segment): boolean {
+    if (this.broken.has(segment.number)) return false;
+    const held = this.held.get(segment.number);
+    if (!held) return segment.bytes > 0;
+    if (held.version === segment.version) return segment.bytes > held.bytes;
+    // A thinned segment holds less than what was read.
+    if (held.isWhole) return false;
+    this.held.delete(segment.number);
+    this.link.post({ kind: 'drop', number: segment.number });
+    return true;
+  }
+
+  private receive(message: FromEngine): void {
+    switch (message.kind) {
+      case 'overview':
+        if (message.overview.run !== this.run) return;
+        this.overview = message.overview;
+        return this.onOverview(message.overview);
+      case 'answer':
+        this.waiting.get(message.id)?.(message.answer);
+        this.waiting.delete(message.id);
+        return;
+      case 'failed':
+        if (message.number >= 0) this.broken.add(message.number);
+        this.onFailed(message.message);
+    }
+  }
+}

@@ -1,0 +1,107 @@
+import { readFileSync } from 'node:fs';
+import { expect, it } from 'vitest';
+import { RunIndex } from './runIndex';
+import { SegmentReader } from './segmentReader';
+import { STATUSES, type Moment } from './types';
+
+function sample(): { index: RunIndex; raw: { topic: string; t: number; fields: Record<string, unknown> }[] } {
+  const index = new RunIndex('r');
+  const segment = index.segment(0, 0);
+  const raw: { topic: string; t: number; fields: Record<string, unknown> }[] = [];
+  const reader = new SegmentReader('sample', (read) => {
+    segment.add(read);
+    raw.push({ topic: read.topic, t: read.t, fields: read.decode() });
+  });
+  reader.append(new Uint8Array(readFileSync('../tests/executor/recorder/samples/v1.mcap')));
+  return { index, raw };
+}
+
+const at = (index: RunIndex, t: number): Moment => index.momentAt(t)!;
+
+it('shows at each tick what the ticks until then have told', () => {
+  const { index, raw } = sample();
+  const statuses = new Map<number, string>();
+  for (const { topic, t, fields } of raw) {
+    if (topic !== '/bt/tick') continue;
+    const codes = fields['changed_status'] as ArrayLike<number>;
+    Array.from(fields['changed_uid'] as ArrayLike<number>).forEach((uid, place) => {
+      const status = STATUSES[codes[place]!]!;
+      if (status === 'IDLE') statuses.delete(uid);
+      else statuses.set(uid, status);
+    });
+    const moment = at(index, t);
+    expect(Object.fromEntries(moment.statuses)).toEqual(Object.fromEntries(statuses));
+    expect(moment.tick).toBe(fields['number']);
+    expect(moment.tickT).toBe(t);
+  }
+});
+
+it('shows each value with its writer and the time of its last write', () => {
+  const { index, raw } = sample();
+  const written = new Map<string, { t: number; value: unknown; writer: number }>();
+  for (const { topic, t, fields } of raw) {
+    if (topic === '/bt/blackboard')
+      (fields['key'] as string[]).forEach((key, place) => {
+        const value: unknown = JSON.parse((fields['value_json'] as string[])[place]!);
+        written.set(key, { t, value, writer: (fields['writer_uid'] as number[])[place]! });
+      });
+    if (topic !== '/bt/tick') continue;
+    const shown = at(index, t).entries.map(({ key, value, since, writer }) => [
+      key,
+      { t: since, value, writer },
+    ]);
+    expect(Object.fromEntries(shown)).toEqual(Object.fromEntries(written));
+  }
+  expect(written.size).toBeGreaterThan(0);
+});
+
+it('goes tick by tick, and to the changes of a node', () => {
+  const { index, raw } = sample();
+  const ticks = raw.filter(({ topic }) => topic === '/bt/tick').map(({ t }) => t);
+  expect(index.tickFrom(ticks[3]!, 1)!.t).toBe(ticks[4]);
+  expect(index.tickFrom(ticks[3]!, -1)!.t).toBe(ticks[2]);
+  expect(index.tickFrom(ticks[3]! + 0.001, -1)!.t).toBe(ticks[2]);
+  expect(index.tickFrom(ticks[3]!, -3)!.t).toBe(ticks[0]);
+  expect(index.tickFrom(ticks.at(-1)!, 1)).toBeNull();
+  const first = at(index, ticks[0]!).statuses[0]![0];
+  expect(index.changeFrom(first, ticks.at(-1)!, -1)!.t).toBeLessThan(ticks.at(-1)!);
+  expect(index.changeFrom(first, -1, 1)!.t).toBe(ticks[0]);
+});
+
+it('has poses, the scan and the picture of a moment', () => {
+  const { index } = sample();
+  const { poses, scan, pictures } = at(index, 0.75);
+  expect(poses!.poses.length).toBe(poses!.ids.length * 8);
+  expect(scan!.t).toBeLessThanOrEqual(0.75);
+  expect(scan!.ranges.length).toBeGreaterThan(10);
+  expect(pictures[0]!.jpeg.subarray(0, 2)).toEqual(new Uint8Array([0xff, 0xd8]));
+});
+
+it('sends a tree once', () => {
+  const { index } = sample();
+  const { tree, generation } = at(index, 0.5);
+  expect(tree!.length).toBeGreaterThan(3);
+  expect(index.momentAt(0.6, generation)!.tree).toBeNull();
+});
+
+it('tells the changes between two moments', () => {
+  const { index } = sample();
+  expect(index.changes(0.5, 0.5)).toEqual({ statuses: [], entries: [] });
+  expect(index.changes(0.05, 0.9)!.entries.length).toBeGreaterThan(0);
+});
+
+it('tells several ticks of one time apart', () => {
+  const index = new RunIndex('r');
+  const segment = index.segment(0, 0);
+  const add = (topic: string, t: number, fields: Record<string, unknown>) =>
+    segment.add({ topic, type: '', t, data: new Uint8Array(), decode: () => fields });
+  add('/bt/tree', 0, { generation: 1, uid: [1], parent: [0] });
+  [1, 3, 2].forEach((code, at) =>
+    add('/bt/tick', 1, { number: at + 1, changed_uid: [1], changed_status: [code] }),
+  );
+  expect(index.momentAt(1)!.statuses).toEqual([[1, 'SUCCESS']]);
+  expect(index.tickFrom(1, -1)).toEqual({ t: 1, tick: 2 });
+  expect(index.momentAt(1, -1, 2)!.statuses).toEqual([[1, 'FAILURE']]);
+  expect(index.tickFrom(1, -1, 2)).toEqual({ t: 1, tick: 1 });
+  expect(index.tickFrom(1, 1, 1)).toEqual({ t: 1, tick: 2 });
+});

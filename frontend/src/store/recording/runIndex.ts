@@ -1,0 +1,197 @@
+import type { NodeStatus } from '@/generated/messages';
+import { posesAt } from './posesAt';
+import type { Read } from './segmentReader';
+import { SegmentIndex, type State } from './segmentIndex';
+import type { TickStep } from './steps';
+import type { Changes, EntryAt, Moment, Overview, PictureAt, ScanAt, TickAt } from './types';
+
+/** The bytes of pictures that are kept; beyond them, those of the oldest segments go. */
+const MOST_PICTURE_BYTES = 128 << 20;
+const MOST_LINES = 20_000;
+const MOST_MARKS = 1000;
+
+/** A whole recording, as far as it was read: what was at each moment. */
+export class RunIndex {
+  private readonly segments = new Map<number, SegmentIndex>();
+
+  constructor(readonly run: string) {}
+
+  segment(number: number, from: number): SegmentIndex {
+    let found = this.segments.get(number);
+    if (!found) this.segments.set(number, (found = new SegmentIndex(number, from)));
+    return found;
+  }
+
+  drop(number: number): void {
+    this.segments.delete(number);
+  }
+
+  overview(): Overview {
+    const all = this.inOrder();
+    const root: [number, NodeStatus][] = [];
+    for (const segment of all) {
+      let uid = 0;
+      for (const step of segment.steps) {
+        if (step.kind === 'tree') uid = step.nodes.find(({ parent }) => parent === 0)?.uid ?? 0;
+        if (step.kind === 'tree') push(root, step.t, segment.stateAt(step.t).statuses.get(uid) ?? 'IDLE');
+        if (step.kind !== 'tick') continue;
+        const changed = step.changed.find(([each]) => each === uid);
+        if (changed) push(root, step.t, changed[1]);
+      }
+    }
+    return {
+      run: this.run,
+      read: all.map(({ from, until, to }) => [from, Math.max(until, to)] as const),
+      root,
+      marks: all.flatMap(({ marks }) => marks).slice(-MOST_MARKS),
+      lines: all.flatMap(({ lines }) => lines).slice(-MOST_LINES),
+      faults: all.flatMap(({ faults }) => faults).slice(-MOST_MARKS),
+    };
+  }
+
+  /**
+   * Returns everything at a time; null if the part of the recording with it is not read.
+   *
+   * @param known the generation of the tree that the asker has.
+   * @param tick the last of several ticks of that time; null: all of them.
+   */
+  momentAt(t: number, known = -1, tick: number | null = null): Moment | null {
+    const segment = this.at(t);
+    if (!segment) return null;
+    const state = segment.stateAt(t, tick);
+    const last = state.tick;
+    return {
+      t,
+      tick: state.number,
+      tickT: last?.t ?? null,
+      durationMs: last?.durationMs ?? null,
+      generation: state.generation,
+      tree: state.generation === known ? null : state.nodes,
+      statuses: [...state.statuses],
+      flashes: last?.flashed ?? [],
+      entries: [...state.entries].map(([id, entry]): EntryAt => ({
+        ...entry,
+        ...this.since(segment, state, id),
+      })),
+      poses: posesAt(segment.poses, t),
+      scan: scanOf(lastOf(segment.scans, t)),
+      pictures: [...segment.pictures.values()].flatMap((list) => pictureOf(lastOf(list, t)) ?? []),
+    };
+  }
+
+  /** Returns the n-th tick after a moment, or before it if n is negative; null beyond what is read. */
+  tickFrom(t: number, n: number, tick: number | null = null): TickAt | null {
+    const all = this.ticks();
+    return placed(all[lastUntil(all, t, tick) + n]);
+  }
+
+  /** Returns the next (1) or previous (-1) tick in which the node changed or returned something. */
+  changeFrom(uid: number, t: number, direction: 1 | -1, tick: number | null = null): TickAt | null {
+    const all = this.ticks();
+    const now = lastUntil(all, t, tick);
+    const has = ({ changed, flashed }: TickStep) => [...changed, ...flashed].some(([each]) => each === uid);
+    return placed(
+      direction > 0 ? all.slice(now + 1).find(has) : all.slice(0, Math.max(now, 0)).findLast(has),
+    );
+  }
+
+  /** Returns what changed from one time to another; null if one of them is not read. */
+  changes(from: number, to: number): Changes | null {
+    const [a, b] = [from, to].map((t) => this.at(t)?.stateAt(t) ?? null);
+    if (!a || !b) return null;
+    const uids = b.nodes.map(({ uid, path }) => ({ uid, path }));
+    const statuses = uids
+      .map(({ uid, path }) => ({
+        uid,
+        path,
+        from: a.statuses.get(uid) ?? 'IDLE',
+        to: b.statuses.get(uid) ?? 'IDLE',
+      }))
+      .filter((each) => each.from !== each.to);
+    const ids = new Set([...a.entries.keys(), ...b.entries.keys()]);
+    const entries = [...ids].flatMap((id) => {
+      const [before, after] = [a.entries.get(id), b.entries.get(id)];
+      const { scope = '', key = '' } = before ?? after ?? {};
+      const isSame = JSON.stringify(before?.value) === JSON.stringify(after?.value);
+      return isSame ? [] : [{ scope, key, from: before?.value, to: after?.value }];
+    });
+    return { statuses, entries };
+  }
+
+  /** Drops pictures of the oldest segments until the others fit. */
+  trim(): void {
+    const all = this.inOrder();
+    let bytes = 0;
+    for (const segment of all.toReversed()) {
+      for (const list of segment.pictures.values()) for (const { data } of list) bytes += data.length;
+      if (bytes > MOST_PICTURE_BYTES) segment.pictures.clear();
+    }
+  }
+
+  private inOrder(): SegmentIndex[] {
+    return [...this.segments.values()].sort((a, b) => a.number - b.number);
+  }
+
+  /** Returns the segment that contains a time, if that part of it was read. */
+  private at(t: number): SegmentIndex | null {
+    const found = this.inOrder().findLast(({ from }) => from <= t);
+    if (!found || found.until < found.from) return null;
+    // Between the last message of a segment and the first of the next, nothing happened.
+    const isBetween = found.isWhole && this.segments.has(found.number + 1);
+    return isBetween || t <= Math.max(found.until, found.to) ? found : null;
+  }
+
+  private ticks(): TickStep[] {
+    return this.inOrder().flatMap(({ steps }) => steps.filter((step) => step.kind === 'tick'));
+  }
+
+  /** Returns since when an entry has its value, and who wrote it, also from earlier segments. */
+  private since(segment: SegmentIndex, state: State, id: string): Pick<EntryAt, 'since' | 'writer'> {
+    const own = state.written.get(id);
+    if (own) return { since: own.t, writer: own.writer };
+    for (let number = segment.number - 1; ; number -= 1) {
+      const earlier = this.segments.get(number);
+      if (!earlier) return { since: null, writer: null };
+      const found = earlier.lastWrite(id);
+      if (found)
+        return found.isRemoved ? { since: null, writer: null } : { since: found.t, writer: found.writer };
+    }
+  }
+}
+
+const placed = (step: TickStep | undefined): TickAt | null =>
+  step ? { t: step.t, tick: step.number } : null;
+
+/** Returns the index of the last tick until a moment, which is the one that is shown; -1 before the first. */
+function lastUntil(all: readonly TickStep[], t: number, tick: number | null): number {
+  return all.findLastIndex((each) => each.t < t || (each.t === t && (tick === null || each.number <= tick)));
+}
+
+function push(root: [number, NodeStatus][], t: number, status: NodeStatus): void {
+  if (root.at(-1)?.[1] !== status) root.push([t, status]);
+}
+
+/** Returns the last of some messages up to a time. */
+function lastOf(reads: readonly Read[], t: number): Read | null {
+  return reads.findLast((each) => each.t <= t) ?? null;
+}
+
+function scanOf(read: Read | null): ScanAt | null {
+  if (!read) return null;
+  const fields = read.decode();
+  const { frame_id } = (fields['header'] ?? {}) as { frame_id?: string };
+  return {
+    t: read.t,
+    sensor: frame_id ?? '',
+    angleMin: Number(fields['angle_min']),
+    angleIncrement: Number(fields['angle_increment']),
+    rangeMax: Number(fields['range_max']),
+    ranges: Float32Array.from(fields['ranges'] as ArrayLike<number>),
+  };
+}
+
+function pictureOf(read: Read | null): PictureAt | null {
+  if (!read) return null;
+  const data = read.decode()['data'];
+  return data instanceof Uint8Array ? { t: read.t, topic: read.topic, jpeg: data } : null;
+}

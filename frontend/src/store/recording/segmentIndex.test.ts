@@ -1,0 +1,55 @@
+import { expect, it } from 'vitest';
+import type { Fields } from './cdr';
+import { isCollision, SegmentIndex } from './segmentIndex';
+import type { Read } from './segmentReader';
+
+const read = (topic: string, t: number, fields: Fields, type = ''): Read => ({
+  topic,
+  type,
+  t,
+  data: new Uint8Array(),
+  decode: () => fields,
+});
+
+const tree = { generation: 1, uid: [1, 2], parent: [0, 1], type: [], kind: [], name: [], path: ['/', '/a'] };
+
+it('begins from a keyframe, and a new tree begins idle and empty', () => {
+  const index = new SegmentIndex(0, 0);
+  index.add(read('/bt/tree', 0, tree));
+  index.add(read('/bt/keyframe', 0, { tick: 7, status: [1, 2], blackboard_json: '[["","k","int",3]]' }));
+  expect([...index.stateAt(0).statuses]).toEqual([
+    [1, 'RUNNING'],
+    [2, 'SUCCESS'],
+  ]);
+  expect(index.stateAt(0).entries.size).toBe(1);
+  expect(index.stateAt(0).number).toBe(7);
+  index.add(read('/bt/tree', 2, { ...tree, generation: 2 }));
+  expect(index.stateAt(1.9).generation).toBe(1);
+  expect(index.stateAt(2).generation).toBe(2);
+  expect(index.stateAt(2).entries.size).toBe(0);
+});
+
+it('marks faults, collisions, ends and flags, and names the node of a line', () => {
+  const index = new SegmentIndex(0, 0);
+  index.add(read('/bt/tree', 0, tree));
+  const line = (source: string, text: string, uid = 0) => ({ source, level: 'info', text, uid });
+  index.add(read('/bt/log', 1, line('action', 'hello', 2)));
+  index.add(read('/bt/log', 1, line('world', 'robot bumped into crate')));
+  index.add(read('/bt/log', 2, line('flag', 'here')));
+  index.add(read('/bt/fault', 3, { kind: 'exception', uid: 2, message: 'no', line: 1 }));
+  index.add(read('/bt/log', 4, line('session', 'The tree ended with FAILURE.')));
+  expect(index.marks.map(({ kind, t }) => [kind, t])).toEqual([
+    ['collision', 1],
+    ['flag', 2],
+    ['fault', 3],
+    ['finished', 4],
+  ]);
+  expect(index.lines[0]!.path).toBe('/a');
+  expect(isCollision({ source: 'action', text: 'I bumped into it' })).toBe(false);
+});
+
+it('refuses times that run backwards', () => {
+  const index = new SegmentIndex(0, 0);
+  index.add(read('/scan', 2, {}));
+  expect(() => index.add(read('/scan', 1, {}))).toThrow('time runs backwards');
+});

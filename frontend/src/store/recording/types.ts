@@ -1,0 +1,138 @@
+import type { LogLevel, NodeStatus, Segment, TreeNode } from '@/generated/messages';
+
+/** The statuses by their numbers in a recording. */
+export const STATUSES: readonly NodeStatus[] = ['IDLE', 'RUNNING', 'SUCCESS', 'FAILURE', 'SKIPPED'];
+
+export type StatusOf = readonly [uid: number, status: NodeStatus];
+
+/** Where the recording of a run is read from: a session, or a file on the server. */
+export interface RecordingSource {
+  segments(): readonly Segment[];
+  read(segment: Segment, offset: number, length: number): Promise<Uint8Array>;
+  /** Calls back when segments came, grew or went; returns a function that stops it. */
+  subscribe(changed: () => void): () => void;
+}
+
+/** A value of the blackboard at a moment. */
+export interface Entry {
+  readonly scope: string;
+  readonly key: string;
+  readonly type: string;
+  readonly value: unknown;
+  /** Whether the value was too long, or has no JSON form: then `value` is its beginning as text. */
+  readonly isPreview: boolean;
+}
+
+export interface EntryAt extends Entry {
+  /** The time of the last write in s; null if the part of the recording with it is not read or is gone. */
+  readonly since: number | null;
+  /** The node that wrote; null if unknown, 0 from outside, `IN_PLACE` if it was changed without a write. */
+  readonly writer: number | null;
+}
+
+export const IN_PLACE = 0xffffffff;
+
+export interface RecordedLine {
+  readonly t: number;
+  readonly source: string;
+  readonly level: LogLevel;
+  readonly text: string;
+  readonly path: string;
+}
+
+export interface RecordedFault {
+  readonly t: number;
+  readonly uid: number;
+  readonly kind: string;
+  readonly file: string;
+  readonly line: number;
+  readonly message: string;
+  readonly traceback: string;
+  readonly path: string;
+}
+
+export type MarkKind = 'fault' | 'collision' | 'finished' | 'flag';
+
+export interface Mark {
+  readonly t: number;
+  readonly kind: MarkKind;
+  readonly text: string;
+}
+
+/** A tick: several can have one time, since a world that is slow stands between them. */
+export interface TickAt {
+  readonly t: number;
+  readonly tick: number;
+}
+
+/** What belongs to the whole recording, as far as it has been read. */
+export interface Overview {
+  readonly run: string;
+  /** The ranges of time that have been read, in order, in s. */
+  readonly read: readonly (readonly [from: number, to: number])[];
+  /** The status of the root from each time on. */
+  readonly root: readonly (readonly [t: number, status: NodeStatus])[];
+  readonly marks: readonly Mark[];
+  readonly lines: readonly RecordedLine[];
+  readonly faults: readonly RecordedFault[];
+}
+
+/** Poses as on the stream: packed, of all objects. */
+export interface PosesAt {
+  readonly ids: Uint8Array;
+  readonly poses: Uint8Array;
+}
+
+export interface ScanAt {
+  readonly t: number;
+  readonly sensor: string;
+  readonly angleMin: number;
+  readonly angleIncrement: number;
+  readonly rangeMax: number;
+  readonly ranges: Float32Array;
+}
+
+export interface PictureAt {
+  readonly t: number;
+  readonly topic: string;
+  readonly jpeg: Uint8Array;
+}
+
+/** Everything that was recorded for one moment of a run. */
+export interface Moment {
+  readonly t: number;
+  /** The number of the last tick; 0 before the first. */
+  readonly tick: number;
+  /** The time of the last tick in s; null before the first. */
+  readonly tickT: number | null;
+  readonly durationMs: number | null;
+  /** The generation of the tree; its nodes are sent only when the asker does not know them. */
+  readonly generation: number;
+  readonly tree: readonly TreeNode[] | null;
+  /** The nodes that are not idle. */
+  readonly statuses: readonly StatusOf[];
+  /** Results within the last tick that did not stay. */
+  readonly flashes: readonly StatusOf[];
+  readonly entries: readonly EntryAt[];
+  readonly poses: PosesAt | null;
+  readonly scan: ScanAt | null;
+  readonly pictures: readonly PictureAt[];
+}
+
+/** What changed between two moments. */
+export interface Changes {
+  readonly statuses: readonly { uid: number; path: string; from: NodeStatus; to: NodeStatus }[];
+  readonly entries: readonly { scope: string; key: string; from: unknown; to: unknown }[];
+}
+
+/** An error of a recording: what, and where. */
+export class RecordingError extends Error {
+  override readonly name = 'RecordingError';
+  constructor(
+    readonly code: 'not_mcap' | 'damaged' | 'too_large' | 'wrong_type',
+    message: string,
+    readonly where: string,
+  ) {
+    super(`${message} (${where})`);
+  }
+}

@@ -1,0 +1,147 @@
+"""The time axis: looking back at a run, with everything that belonged to the moment."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.e2e.server import wait_until
+from tests.e2e.test_run_panels import panel
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from playwright.sync_api import Browser, Locator
+
+    from tests.e2e.observer import Observer
+    from tests.e2e.studio import Studio
+
+pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
+
+NODES = re.compile("^node-n[0-9]+$")
+
+
+def test_the_past_of_a_run_is_looked_at(
+    open_studio: Callable[[Browser], Studio], browser_without_webgl: Browser
+) -> None:
+    studio = open_studio(browser_without_webgl)
+    studio.new_from("follow_line")
+    studio.run()
+    observer = studio.observe()
+    panel(studio, "Blackboard")
+    wait_until(lambda: studio.stat("t") > 6, "the robot follows the line for a while")
+    studio.at("pause").click()
+    studio.expect_state("paused")
+    present = shown_values(studio)
+    a_drag_shows_the_past(studio)
+    nothing_acts_on_the_robot(studio)
+    each_tick_shows_what_was_seen_then(studio, observer)
+    it_plays(studio)
+    the_address_brings_it_back(studio)
+    escape_returns_to_the_present(studio, present)
+    observer.close()
+    studio.end_session()
+
+
+def axis(studio: Studio) -> Locator:
+    return studio.at("time-axis")
+
+
+def shown_values(studio: Studio) -> dict[str, str]:
+    """Returns what the blackboard panel shows."""
+    rows = studio.at("blackboard").locator("tbody tr")
+    return {row.get_attribute("data-testid") or "": value(row) for row in rows.all()}
+
+
+def value(row: Locator) -> str:
+    field = row.locator("input, select")
+    return field.input_value() if field.count() else row.locator("td").first.inner_text().split("\n")[0]
+
+
+def tick(studio: Studio) -> int:
+    return int(studio.at("moment-stats").get_attribute("data-tick") or "-1")
+
+
+def shown_t(studio: Studio) -> float:
+    return float(axis(studio).get_attribute("data-shown") or "nan")
+
+
+def a_drag_shows_the_past(studio: Studio) -> None:
+    strip = studio.at("axis-strip")
+    box = strip.bounding_box()
+    assert box
+    mouse, middle = studio.page.mouse, box["y"] + box["height"] / 2
+    mouse.move(box["x"] + box["width"] * 0.9, middle)
+    mouse.down()
+    mouse.move(box["x"] + box["width"] * 0.5, middle, steps=5)
+    mouse.up()
+    expect(studio.at("moment-stats")).to_be_visible()
+    expect(studio.at("blackboard").get_by_test_id("written").first).to_contain_text(re.compile(r"since .* s"))
+    assert 1 < shown_t(studio) < 5
+    studio.picture("axis")
+
+
+def nothing_acts_on_the_robot(studio: Studio) -> None:
+    expect(studio.at("run")).to_have_attribute("aria-disabled", "true")
+    expect(studio.at("resume")).to_be_disabled()
+    expect(studio.at("step")).to_be_disabled()
+    expect(studio.at("blackboard").locator("input, select")).to_have_count(0)
+
+
+def each_tick_shows_what_was_seen_then(studio: Studio, observer: Observer) -> None:
+    """The statuses equal those that a second client heard; it knows nothing of the recording."""
+    studio.at("axis-strip").focus()
+    for _ in range(8):
+        before = tick(studio)
+        studio.page.keyboard.press("ArrowLeft")
+        expect(studio.at("moment-stats")).to_have_attribute("data-tick", str(before - 1))
+        heard = statuses_at(observer, before - 1)
+        for block in studio.at("canvas").get_by_test_id(NODES).all():
+            node = (block.get_attribute("data-testid") or "").removeprefix("node-")
+            expect(block).to_have_attribute("data-status", heard.get(node, "IDLE"))
+
+
+def statuses_at(observer: Observer, number: int) -> dict[str, str]:
+    """Returns the statuses by block after a tick, from the events of a session."""
+    snapshot = next(event["data"] for event in observer.events if event["command"] == "snapshot")
+    blocks = {node["uid"]: node["node_id"] for node in snapshot["tree"]["nodes"]}
+    changes = list(snapshot["statuses"])
+    for event in observer.events:
+        if event["command"] == "tick" and event["data"]["n"] <= number:
+            changes += event["data"]["changed"]
+    return {blocks[uid]: status for uid, status in changes}
+
+
+def it_plays(studio: Studio) -> None:
+    before = shown_t(studio)
+    studio.at("axis-play").click()
+    wait_until(lambda: shown_t(studio) > before + 0.5, "the recording is played")
+    studio.at("axis-play").click()
+    expect(axis(studio).get_by_role("button", name="Play the recording")).to_be_visible()
+
+
+def the_address_brings_it_back(studio: Studio) -> None:
+    studio.at("axis-strip").focus()
+    studio.page.keyboard.press("Home")
+    studio.page.keyboard.press("Shift+ArrowRight")
+    studio.page.keyboard.press("Shift+ArrowRight")
+    expect(studio.page).to_have_url(re.compile(r"\?run=[0-9a-f]+&t=2\.\d"))
+    then, number = shown_t(studio), tick(studio)
+    values = shown_values(studio)
+    studio.page.reload()
+    expect(axis(studio)).to_have_attribute("data-shown", f"{then:.3f}")
+    expect(studio.at("moment-stats")).to_have_attribute("data-tick", str(number))
+    assert shown_values(studio) == values
+
+
+def escape_returns_to_the_present(studio: Studio, present: dict[str, str]) -> None:
+    assert shown_values(studio) != present
+    studio.page.keyboard.press("Escape")
+    expect(axis(studio)).not_to_have_attribute("data-past", "true")
+    expect(studio.at("sim-stats")).to_be_visible()
+    expect(studio.at("run")).to_have_attribute("aria-disabled", "false")
+    assert shown_values(studio) == present
+    expect(studio.page).to_have_url(re.compile(r"/projects/[^?]+$"))

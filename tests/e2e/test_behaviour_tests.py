@@ -1,0 +1,49 @@
+"""Behaviour tests beside the tree: they run after each save, and lead to the block that failed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from playwright.sync_api import expect
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from playwright.sync_api import Browser
+
+    from tests.e2e.studio import Studio
+
+pytestmark = [pytest.mark.e2e, pytest.mark.timeout(300)]
+FILE = "tests/bump_and_go.test.yaml"
+EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "laser_bump_and_go"
+
+
+def test_a_test_that_fails_leads_to_its_block(
+    open_studio: Callable[[Browser], Studio], browser_without_webgl: Browser
+) -> None:
+    studio = open_studio(browser_without_webgl)
+    studio.new_from("laser_bump_and_go")
+    studio.page.get_by_role("tab", name="Tests", exact=True).click()
+    panel = studio.at("tests")
+    expect(panel.get_by_test_id("tests-summary")).to_have_text("3 passed, 0 failed")
+    expect(panel.get_by_role("status")).to_contain_text("100 % of the trees covered")
+    studio.picture("tests-passed")
+    panel.get_by_role("button", name="looks at every tick").click()
+    text = (EXAMPLE / FILE).read_text(encoding="utf-8")
+    studio.replace_code(text.replace("node: Turn, status: IDLE", "node: Turn, status: RUNNING"))
+    expect(panel.get_by_test_id("tests-summary")).to_have_text("2 passed, 1 failed")
+    failure = panel.get_by_role(
+        "button", name="Tick 1 (0 s): status after the tick: wanted RUNNING, got IDLE"
+    )
+    studio.picture("tests-failed-light")
+    studio.at("theme-toggle").click()
+    studio.page.wait_for_timeout(400)  # the theme fades in; the picture is for people
+    studio.picture("tests-failed-dark")
+    failure.click()
+    expect(studio.at("inspector")).to_have_attribute("aria-label", "Turn")
+    studio.page.set_viewport_size({"width": 390, "height": 844})
+    studio.page.get_by_role("tab", name="Tests", exact=True).click()
+    expect(panel.get_by_test_id("tests-summary")).to_be_visible()
+    studio.picture("tests-narrow")

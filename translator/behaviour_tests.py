@@ -1,0 +1,107 @@
+"""Behaviour tests of a project: finds and reads `tests/*.test.yaml`, and makes the job that runs them."""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING, Any
+
+from translator.action_returns import returned_statuses
+from translator.check import check
+from translator.diagnostic import errors_in
+from translator.enums import enum_lines
+from translator.python_source import parse
+from translator.xml.write import write_document
+from translator.yaml_text import YamlError, read_yaml
+from tree_gardener.errors import Diagnostic
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from translator.action import ActionModel
+    from translator.diagnostic import Diagnostic as TreeDiagnostic
+    from translator.project import Project
+
+FOLDER = "tests/"
+ENDINGS = (".test.yaml", ".test.yml")
+_KINDS = {"condition": "Condition", "control": "control", "decorator": "decorator"}
+
+
+def paths_of_tests(files: Mapping[str, bytes]) -> list[str]:
+    """Returns the paths of the files of behaviour tests."""
+    return sorted(path for path in files if path.startswith(FOLDER) and path.endswith(ENDINGS))
+
+
+def errors_before_tests(project: Project) -> tuple[TreeDiagnostic, ...]:
+    """Returns the errors that keep the trees from being tested.
+
+    A folder of trees without a main one, such as a library, can be tested if its tests name their trees.
+    """
+    errors = errors_in(check(project))
+    return tuple(found for found in errors if found.code != "BT0100" or not project.trees)
+
+
+def to_job(project: Project, *, real: bool = False) -> tuple[dict[str, Any], list[Diagnostic]]:
+    """Returns the tests of a project as a job, and the files that cannot be read.
+
+    The job is what `tree_gardener.testing.job.Job.from_json` reads. No Python of the project is run for it.
+
+    Args:
+        project: the project.
+        real: whether the job takes the sources of the actions along, for leaves that are `real`.
+    """
+    files: list[dict[str, Any]] = []
+    problems: list[Diagnostic] = []
+    for path in paths_of_tests(project.files):
+        try:
+            read = read_yaml(project.files[path])
+        except YamlError as error:
+            problems.append(
+                Diagnostic("TG900", error.message, file=path, line=error.line, column=error.column)
+            )
+            continue
+        places = [[list(part), *place] for part, place in read.places.items()]
+        files.append({"name": path, "document": read.value, "places": places})
+    job = {
+        "format": "bt-studio/behaviour-tests",
+        "version": 1,
+        "tick_hz": float(project.settings.tick_hz),
+        "files": files,
+        "nodes": {name: leaf_model(action) for name, action in sorted(project.actions.items())},
+        "ports": {
+            tree.id: {port.name: port.default for port in tree.ports if port.default is not None}
+            for tree in project.trees.values()
+        },
+        "xml": write_document(project, after=enum_lines(project.enums)),
+        "sources": {name: action.source for name, action in project.actions.items()} if real else None,
+    }
+    return job, problems
+
+
+def leaf_model(action: ActionModel) -> dict[str, Any]:
+    """Returns what a test needs to know of an action, as `LeafModel.to_json` of the engine writes it."""
+    return {
+        "kind": _KINDS.get(action.kind) or ("SyncAction" if _is_sync(action) else "Action"),
+        "ports": [[port.direction, port.name, port.type, port.default] for port in action.ports],
+        "open": action.open,
+        "returns": sorted(returned_statuses(action.source, action.name)),
+        "children": [action.min_children, action.max_children],
+    }
+
+
+def _is_sync(action: ActionModel) -> bool:
+    """Returns whether the source says `NODE_KIND = "SyncAction"`; the model holds no such difference."""
+    if "SyncAction" not in action.source:
+        return False
+    try:
+        module = parse(action.source, action.path)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return False
+    return any(
+        isinstance(item, ast.Assign)
+        and isinstance(item.value, ast.Constant)
+        and item.value.value == "SyncAction"
+        and any(isinstance(target, ast.Name) and target.id == "NODE_KIND" for target in item.targets)
+        for cls in module.body
+        if isinstance(cls, ast.ClassDef) and cls.name == action.name
+        for item in cls.body
+    )

@@ -1,0 +1,8 @@
+"""``python -m tree_gardener.testing``: runs the job on standard input; `apart` starts it."""
+
+import sys
+
+from tree_gardener.testing.apart import serve
+
+if __name__ == "__main__":
+    sys.exit(serve())

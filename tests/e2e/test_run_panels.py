@@ -41,6 +41,9 @@ def timeline_tells_what_nodes_did(studio: Studio) -> None:
     expect(studio.at("inspector")).to_have_attribute("aria-label", "Turn")
     forward.click()
     expect(studio.at("node-statistics").locator("[data-key=runs] dd")).not_to_have_text("0")
+    # The click may have been on a bar, which shows its moment.
+    studio.page.keyboard.press("Escape")
+    expect(studio.at("sim-stats")).to_be_visible()
     pictures(studio, "timeline")
 
 

@@ -1,5 +1,6 @@
 import { screen } from '@testing-library/react';
-import { describe, expect, it } from 'vitest';
+import { describe, expect, it, vi } from 'vitest';
+import * as looking from '@/store/moment/looking';
 import type { LogLine } from '@/store/session/types';
 import { useProjectStore } from '@/store/project';
 import { treeNode } from '../../../harness/running';
@@ -19,8 +20,23 @@ const line = (more: Partial<LogLine> = {}): LogLine => ({
 });
 
 const showLine = (more: Partial<LogLine> = {}, node?: ReturnType<typeof treeNode>, launched?: string) =>
-  show(<ConsoleLine line={line(more)} files={new Set(['actions/Go.py'])} node={node} launched={launched} />);
+  show(
+    <ConsoleLine
+      line={line(more)}
+      files={new Set(['actions/Go.py'])}
+      node={node}
+      launched={launched}
+      isRecorded={false}
+    />,
+  );
 const row = () => document.querySelector('[data-level]') as HTMLElement;
+
+it('goes to the moment of a line that was recorded', async () => {
+  const look = vi.spyOn(looking, 'lookAt').mockReturnValue(undefined);
+  show(<ConsoleLine line={line()} files={new Set()} node={undefined} launched={undefined} isRecorded />);
+  await user.click(screen.getByRole('button', { name: '12.35' }));
+  expect(look).toHaveBeenCalledWith(12.345);
+});
 
 describe('ConsoleLine', () => {
   it('shows time, level, source and text', () => {

@@ -1,6 +1,7 @@
 import { Fragment, memo } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { TreeNode } from '@/generated/messages';
+import { lookAt } from '@/store/moment/looking';
 import { useProjectStore } from '@/store/project';
 import { openFile, openTree } from '@/store/project/navigation';
 import type { LogLine } from '@/store/session/types';
@@ -15,6 +16,8 @@ interface ConsoleLineProps {
   readonly node: TreeNode | undefined;
   /** The name of the launch node that printed the line. */
   readonly launched: string | undefined;
+  /** Whether the recording has the moment of the line. */
+  readonly isRecorded: boolean;
 }
 
 function showBlock({ tree_id, node_id }: TreeNode): void {
@@ -22,7 +25,8 @@ function showBlock({ tree_id, node_id }: TreeNode): void {
   useProjectStore.getState().reveal(tree_id, node_id);
 }
 
-export const ConsoleLine = memo(function ConsoleLine({ line, files, node, launched }: ConsoleLineProps) {
+export const ConsoleLine = memo(function ConsoleLine(props: ConsoleLineProps) {
+  const { line, files, node, launched, isRecorded } = props;
   const { t } = useTranslation('console');
   if (line.run !== undefined)
     return (
@@ -35,7 +39,18 @@ export const ConsoleLine = memo(function ConsoleLine({ line, files, node, launch
   const said = name || launched || line.source;
   return (
     <div className={classes['line']} data-level={line.level} data-source={line.source}>
-      <span className={classes['time']}>{line.time.toFixed(2)}</span>
+      {isRecorded ? (
+        <button
+          type="button"
+          className={classes['moment']}
+          title={t('lookAt')}
+          onClick={() => lookAt(line.time)}
+        >
+          {line.time.toFixed(2)}
+        </button>
+      ) : (
+        <span className={classes['time']}>{line.time.toFixed(2)}</span>
+      )}
       {node?.node_id ? (
         <button
           type="button"

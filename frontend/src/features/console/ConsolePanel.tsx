@@ -6,6 +6,7 @@ import { useTranslation } from 'react-i18next';
 import type { LogLevel } from '@/generated/messages';
 import { useShallow } from 'zustand/react/shallow';
 import { useProjectStore } from '@/store/project';
+import { extent } from '@/store/moment/looking';
 import { useShownSession } from '@/store/moment/session';
 import { useIsBack } from '@/store/moment/store';
 import { useSessionStore } from '@/store/session/store';
@@ -30,6 +31,12 @@ export function ConsolePanel() {
   const names = useMemo(() => new Map(launched.map(({ id, name }) => [id, name])), [launched]);
   const sources = useSources(names, filter.source);
   const lines = useMemo(() => filterLines(logs, filter), [logs, filter]);
+  const segments = useSessionStore((state) => state.segments);
+  const recordedFrom = useMemo(
+    () => (segments.length > 0 ? (extent()?.from ?? Infinity) : Infinity),
+    [segments],
+  );
+  const runFrom = useMemo(() => logs.findLast(({ run }) => run !== undefined)?.id ?? -1, [logs]);
   const [isFollowing, setFollowing] = useState(true);
   const scroller = useRef<HTMLDivElement>(null);
   // The virtualizer has mutable state, so the compiler must not memoise this component.
@@ -139,6 +146,7 @@ export function ConsolePanel() {
                     files={files}
                     node={nodeAt.get(line.node_path)}
                     launched={names.get(line.launch_node)}
+                    isRecorded={line.id > runFrom && line.time >= recordedFrom}
                   />
                 </div>
               ) : null;

@@ -1,5 +1,6 @@
 import { createEvent, fireEvent, screen, waitFor } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
+import * as looking from '@/store/moment/looking';
 import { useProjectStore } from '@/store/project';
 import { runTree, treeNode } from '../../../harness/running';
 import { openProject, show, user, watchNavigation } from '../../../harness/testing';
@@ -250,4 +251,15 @@ describe('the wheel', () => {
     expect(turn({ deltaY: 40 })).toBe(true);
     expect(span()).toEqual(['1:10', '1:40']);
   });
+});
+
+it('looks at the moment of a bar that is clicked, and of nothing else', () => {
+  const look = vi.spyOn(looking, 'lookAt').mockReturnValue(undefined);
+  run();
+  fireEvent.click(rows(), { clientX: 480, clientY: 5, detail: 1 });
+  expect(look).toHaveBeenCalledTimes(1);
+  expect(look.mock.calls[0]![0]).toBeCloseTo(98.5, 0);
+  fireEvent.click(rows(), { clientX: 480, clientY: 30, detail: 1 });
+  fireEvent.click(rows(), { clientX: 480, clientY: 5, detail: 0 });
+  expect(look).toHaveBeenCalledTimes(1);
 });

@@ -7,11 +7,21 @@ import {
   IconZoomOut,
 } from '@tabler/icons-react';
 import { useVirtualizer } from '@tanstack/react-virtual';
-import { useEffect, useMemo, useRef, useState, type KeyboardEvent, type PointerEvent } from 'react';
+import {
+  useEffect,
+  useMemo,
+  useRef,
+  useState,
+  type KeyboardEvent,
+  type MouseEvent,
+  type PointerEvent,
+} from 'react';
 import { useTranslation } from 'react-i18next';
 import { useProjectStore } from '@/store/project';
 import { openTree } from '@/store/project/navigation';
+import { lookAt } from '@/store/moment/looking';
 import { useSessionStore } from '@/store/session/store';
+import { trace } from '@/store/session/trace/trace';
 import { cancellable } from '@/ui/cancellable';
 import { useVisible } from '@/ui/useVisible';
 import { ROW_PX } from './draw';
@@ -90,6 +100,20 @@ export function TimelinePanel() {
     setTip(row ? { x: event.clientX, y: event.clientY, row, time: from + share * (to - from) } : null);
   };
 
+  /** Looks at the moment of a bar that is clicked. */
+  const lookThere = ({ clientX, clientY, detail }: MouseEvent) => {
+    const share = shareOf(clientX);
+    const box = scroller.current?.getBoundingClientRect();
+    // A click by a key has no place.
+    if (detail === 0 || hasPanned.current || share < 0 || share > 1 || !box) return;
+    const row = rows[Math.floor((clientY - box.top + (scroller.current?.scrollTop ?? 0)) / ROW_PX)];
+    const { from, to } = view.span();
+    const time = from + share * (to - from);
+    const isBar =
+      row && trace.stretches(row.uid, time, time).some(({ start, end }) => start <= time && end >= time);
+    if (isBar) lookAt(time);
+  };
+
   const select = (row: TimelineRow) => {
     if (hasPanned.current) return;
     if (!row.node) return;
@@ -164,6 +188,7 @@ export function TimelinePanel() {
           role="group"
           aria-label={t('rows')}
           onScroll={view.redraw}
+          onClick={lookThere}
           onKeyDown={onKeyDown}
           onPointerDown={onPress}
           onPointerMove={showTip}

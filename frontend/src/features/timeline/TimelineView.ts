@@ -1,3 +1,4 @@
+import { useMoment } from '@/store/moment/store';
 import { trace, HISTORY_S } from '@/store/session/trace/trace';
 import { AXIS_PX, drawTimeline, paletteOf } from './draw';
 import { spanOf, zoomed, type Span } from './span';
@@ -33,7 +34,11 @@ export class TimelineView {
     // The colours depend on the theme, so a new theme is drawn at once.
     const themed = new MutationObserver(this.redraw);
     themed.observe(document.documentElement, { attributeFilter: ['data-mantine-color-scheme'] });
+    const unfollow = useMoment.subscribe((state, before) => {
+      if (state.t !== before.t) this.redraw();
+    });
     return () => {
+      unfollow();
       clearInterval(timer);
       resized.disconnect();
       themed.disconnect();
@@ -115,6 +120,7 @@ export class TimelineView {
       uids: this.uids,
       scrollTop: this.scroller?.scrollTop ?? 0,
       palette: paletteOf(canvas),
+      moment: useMoment.getState().t,
     });
   }
 }

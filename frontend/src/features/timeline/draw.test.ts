@@ -11,6 +11,7 @@ const palette = {
   success: 'success',
   failure: 'failure',
   skipped: 'skipped',
+  moment: 'moment',
 };
 
 type Rect = readonly [color: string, x: number, y: number, width: number, height: number];
@@ -167,6 +168,7 @@ it('reads its colours from the theme', () => {
     success: 'success-bright',
     failure: 'failure-bright',
     skipped: 'skipped',
+    moment: 'text',
   };
   for (const token of Object.values(names)) element.style.setProperty(`--bts-${token}`, ` ${token} `);
   expect(paletteOf(element)).toEqual(names);

@@ -14,6 +14,7 @@ export interface Palette {
   success: string;
   failure: string;
   skipped: string;
+  moment: string;
 }
 
 export function paletteOf(element: Element): Palette {
@@ -27,6 +28,7 @@ export function paletteOf(element: Element): Palette {
     success: of('success-bright'),
     failure: of('failure-bright'),
     skipped: of('skipped'),
+    moment: of('text'),
   };
 }
 
@@ -39,6 +41,8 @@ interface Picture {
   uids: readonly number[];
   scrollTop: number;
   palette: Palette;
+  /** The moment at which the user looks; null: the present. */
+  moment?: number | null;
 }
 
 /** Draws the axis and the visible strips; hidden rows cost no time. */
@@ -74,6 +78,12 @@ export function drawTimeline(trace: Trace, picture: Picture): void {
     }
   }
   context.restore();
+
+  const { moment = null } = picture;
+  if (moment !== null && moment >= span.from && moment <= span.to) {
+    context.fillStyle = palette.moment;
+    context.fillRect(Math.round(xOf(moment)) - 1, 0, 2, height);
+  }
 
   const now = xOf(trace.now);
   if (now >= 0 && now <= width) {

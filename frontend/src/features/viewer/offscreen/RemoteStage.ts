@@ -1,3 +1,4 @@
+import { useMoment } from '@/store/moment/store';
 import { frames, shownFrames } from '@/store/session/frames';
 import { currentPoses } from '@/store/session/poses';
 import { trail } from '@/store/session/trace/trail';
@@ -79,7 +80,14 @@ export class RemoteStage {
     this.stops.push(frames.listen('scene', forward));
     // A frame contains only the poses that changed, and a scene only the initial ones, so the current poses
     // are sent too.
-    this.post({ kind: 'past', poses: [...currentPoses], trail: trail.keep() });
+    const sendPast = () => this.post({ kind: 'past', poses: [...currentPoses], trail: trail.keep() });
+    sendPast();
+    // What was shown of the past is no part of the present trail.
+    this.stops.push(
+      useMoment.subscribe((now, before) => {
+        if (before.shown && !now.shown) sendPast();
+      }),
+    );
     this.stops.push(shownFrames.listen('poses', forward), shownFrames.listen('scan', forward));
   }
 

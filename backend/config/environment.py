@@ -98,6 +98,9 @@ class Environment(TeamSettings):
     max_user_bytes: int = Field(
         default=4096 * MEBIBYTE, gt=0, description="Sum of the current files of all projects of one user."
     )
+    max_user_run_bytes: int = Field(
+        default=4096 * MEBIBYTE, gt=0, description="Sum of all stored runs of one user."
+    )
     max_user_projects: int = Field(default=2000, gt=0, description="Number of projects of one user.")
     max_request_bytes: int = Field(
         default=64 * MEBIBYTE,

@@ -51,6 +51,7 @@ INSTALLED_APPS = [
     "backend.catalog",
     "backend.projects",
     "backend.sessions",
+    "backend.runs",
 ]
 LOCAL_URLS, TEAM_URLS = "backend.config.urls", "backend.config.urls_team"
 LOCAL_MIDDLEWARE = [

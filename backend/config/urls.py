@@ -12,6 +12,7 @@ api: list[URLPattern | URLResolver] = [
     path("", include("backend.projects.api.urls")),
     path("", include("backend.catalog.urls")),
     path("", include("backend.sessions.urls")),
+    path("", include("backend.runs.urls")),
     path("", include("backend.language.urls")),
     path("", include("backend.accounts.api.urls")),
     path("openapi.json", OpenApi.as_view()),

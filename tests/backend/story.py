@@ -247,6 +247,12 @@ def _people(story, teacher, student, one, guest):
 def _run(story, teacher, one):
     session = story.ask(teacher, "POST", f"{one}/session")
     story.ask(teacher, "GET", f"sessions/{session['id']}")
+    run = story.ask(teacher, "POST", f"{one}/runs", {"run": "a1", "name": "Into the crate"}, status=201)
+    story.ask(teacher, "GET", f"{one}/runs")
+    story.ask(teacher, "GET", f"{one}/runs/{run['id']}")
+    story.ask(teacher, "PATCH", f"{one}/runs/{run['id']}", {"note": "It turned too late.", "is_shared": True})
+    story.ask(teacher, "GET", f"{one}/runs/{run['id']}/recording")
+    story.ask(teacher, "DELETE", f"{one}/runs/{run['id']}", status=204)
     story.ask(teacher, "DELETE", f"sessions/{session['id']}", status=204)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from types import SimpleNamespace
 
 import jsonschema
 import pytest
@@ -12,14 +13,26 @@ from backend.config import examples
 from backend.config.schema_view import document
 from backend.language import ruff
 from backend.language import views as language
+from backend.runs import writes as run_writes
 from backend.sessions import writes as session_writes
+from backend.sessions.choices import SessionState
 from tests.backend.accounts.conftest import PUBLIC, Person, person, stranger, team  # noqa: F401
+from tests.backend.runs.conftest import SAMPLE
 from tests.backend.story import Story, play
+from tests.fakes.recordings import TOKEN, recordings
 
 
 @pytest.fixture
-def told(person, stranger, monkeypatch):  # noqa: F811
+def manager():
+    with recordings(SAMPLE) as address:
+        yield SimpleNamespace(address=address, state=SessionState.READY)
+
+
+@pytest.fixture
+def told(person, stranger, manager, monkeypatch):  # noqa: F811
     monkeypatch.setattr(session_writes, "workers", type("Idle", (), {"submit": lambda *_: None}))
+    monkeypatch.setattr(run_writes, "live_session", lambda *_, **__: manager)
+    monkeypatch.setattr(run_writes, "manager_token", lambda _: TOKEN)
     # A team's server checks Python in containers.
     monkeypatch.setattr(language, "checker", lambda user: ruff.run_beside)
     teacher, student = person("tina", is_teacher=True), person("ben")

@@ -18,6 +18,7 @@ from backend.projects.choices import Role
 from backend.projects.models import GroupShare
 from backend.projects.sharing import memberships
 from backend.projects.storage import writes
+from backend.runs.models import Run
 from backend.sessions import writes as session_writes
 from backend.sessions.choices import SessionState
 from backend.sessions.models import Session
@@ -39,6 +40,9 @@ MANAGE_GONE = (401, 403, 404, 403, 403, 204)
 RUN = (401, 403, 404, 200, 200, 200)
 CHECK = (401, 403, 404, 200, 200, 200)
 NOT_OWNED = (401, 403, 404, 404, 404, 404)  # a session, group or invitation of another user
+RUN_READ = (401, 404, 404, 404, 404, 200)  # a teacher's run, which is not shared
+RUN_CHANGE = (401, 403, 404, 404, 404, 200)
+RUN_GONE = (401, 403, 404, 404, 404, 204)
 PERSONAL = (401, 403, 200, 200, 200, 200)
 CONTAINED = (401, 403, 503, 503, 503, 503)  # this server has no containers for reading Python
 OPEN = (401, 200, 200, 200, 200, 200)
@@ -88,6 +92,12 @@ POLICY = {
     ("delete", f"{P}/shares/links/{{link_id}}"): MANAGE_GONE,
     ("post", f"{P}/transfer"): MANAGE,
     ("post", f"{P}/session"): RUN,
+    ("get", f"{P}/runs"): READ,
+    ("post", f"{P}/runs"): (401, 403, 404, 409, 409, 409),  # no session of theirs runs
+    ("get", f"{P}/runs/{{run_id}}"): RUN_READ,
+    ("patch", f"{P}/runs/{{run_id}}"): RUN_CHANGE,
+    ("delete", f"{P}/runs/{{run_id}}"): RUN_GONE,
+    ("get", f"{P}/runs/{{run_id}}/recording"): RUN_READ,
     ("get", "/api/v1/sessions/{session_id}"): NOT_OWNED,
     ("delete", "/api/v1/sessions/{session_id}"): NOT_OWNED,
     ("get", "/api/v1/me"): OPEN,
@@ -135,6 +145,8 @@ BODIES = {
     ("post", f"{P}/transfer"): {"name": "editor"},
     ("put", f"{P}/shares/groups/{{group_id}}"): {"role": "viewer"},
     ("post", f"{P}/shares/links"): {},
+    ("post", f"{P}/runs"): {"run": "a1", "name": "First"},
+    ("patch", f"{P}/runs/{{run_id}}"): {"name": "Mine now"},
     ("patch", "/api/v1/groups/{group_id}"): {"name": "Mine now"},
     ("post", "/api/v1/groups"): {"name": "Mine"},
     ("post", "/api/v1/groups/{group_id}/invitations"): {},
@@ -176,6 +188,9 @@ def world(person, monkeypatch):  # noqa: F811
         created_at=project.created_at,
     )
     monkeypatch.setattr(session_writes, "workers", type("Idle", (), {"submit": lambda *_: None}))
+    run = Run.objects.create(
+        project=project, keeper=teacher, recorded_as="a1", length_s=1.0, size=0, created_at=project.created_at
+    )
     invitation = invitations.invite(acting_user=teacher, group=group, days=1, max_uses=1)
     values = {
         "project_id": project.id,
@@ -188,6 +203,7 @@ def world(person, monkeypatch):  # noqa: F811
         "group_id": group.id,
         "link_id": link["id"],
         "session_id": session.id,
+        "run_id": run.id,
         "invitation_id": invitation.id,
     }
     return people, values

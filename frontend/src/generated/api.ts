@@ -759,6 +759,60 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/runs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Lists the runs that you kept, those that are shared, and, for the owner, all; pinned ones first. */
+        get: operations["list_runs"];
+        put?: never;
+        /** @description Stores the recording of a run of your session. The last 20 stay, and all that are pinned. */
+        post: operations["keep_run"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/runs/{run_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Returns one run. */
+        get: operations["get_run"];
+        put?: never;
+        post?: never;
+        /** @description Deletes a run. */
+        delete: operations["delete_run"];
+        options?: never;
+        head?: never;
+        /** @description Renames, notes, pins or shares a run. */
+        patch: operations["change_run"];
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/runs/{run_id}/recording": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Returns the recording as an MCAP file, or the range of its bytes that `Range` names. */
+        get: operations["download_run"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/session": {
         parameters: {
             query?: never;
@@ -1472,6 +1526,16 @@ export interface components {
             /** @default 30 */
             max_uses?: number;
         };
+        /** @description A run of your session that is to be stored. */
+        KeepRunRequest: {
+            /** @description Its name in the event `segment`. */
+            run: string;
+            name: string;
+            /** @default  */
+            note?: string;
+            /** @default running */
+            result?: components["schemas"]["ResultEnum"];
+        };
         /** @enum {string} */
         KindEnum: "action" | "msg" | "srv";
         /** @description A read-only link. */
@@ -1587,6 +1651,13 @@ export interface components {
             /** @description package.xml, with the dependencies. */
             manifest: string;
             diagnostics: components["schemas"]["Diagnostic"][];
+        };
+        /** @description New values of a stored run; what is missing stays. */
+        PatchedChangeRunRequest: {
+            name?: string;
+            note?: string;
+            is_pinned?: boolean;
+            is_shared?: boolean;
         };
         /** @description Fields of `project.json` to change; `settings` replaces all settings. */
         PatchedEditProjectRequest: {
@@ -1741,6 +1812,8 @@ export interface components {
         RestoreRevisionRequest: {
             paths?: string[];
         };
+        /** @enum {string} */
+        ResultEnum: "running" | "success" | "failure" | "error";
         /** @description One revision of a project. */
         Revision: {
             number: number;
@@ -1763,6 +1836,36 @@ export interface components {
         RevisionList: {
             items: components["schemas"]["Revision"][];
             next_before: number | null;
+        };
+        /** @description A stored run. */
+        Run: {
+            /** Format: uuid */
+            id: string;
+            name: string;
+            note: string;
+            result: components["schemas"]["ResultEnum"];
+            /**
+             * Format: double
+             * @description Simulated time in s, from the first message to the last.
+             */
+            length_s: number;
+            /** @description In bytes. */
+            size: number;
+            is_pinned: boolean;
+            /** @description Whether all who may read the project see it. */
+            is_shared: boolean;
+            /** @description Whether you may rename, pin and delete it. */
+            may_manage: boolean;
+            /** @description The user who kept it. */
+            keeper: string;
+            /** @description The name that its session gave it. */
+            recorded_as: string;
+            /** Format: date-time */
+            created_at: string;
+        };
+        /** @description The stored runs of a project. */
+        RunList: {
+            items: components["schemas"]["Run"][];
         };
         /** @description A draft to store. */
         SaveDraftRequest: {
@@ -3651,6 +3754,203 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ProjectDetail"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_runs: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunList"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    keep_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["KeepRunRequest"];
+            };
+        };
+        responses: {
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Run"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Run"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    delete_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No response body */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    change_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["PatchedChangeRunRequest"];
+            };
+        };
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Run"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    download_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/octet-stream": Blob;
                 };
             };
             /** @description A problem document. */

@@ -1,0 +1,1 @@
+"""Stored runs: recordings of sessions that users keep with their projects."""

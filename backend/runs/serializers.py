@@ -1,0 +1,67 @@
+"""Stored runs in the API."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rest_framework import serializers
+
+from backend.runs.choices import Result
+from backend.runs.models import MAX_NAME_LENGTH, MAX_NOTE_LENGTH
+from backend.runs.queries import may_manage
+
+if TYPE_CHECKING:
+    from backend.accounts.models import User
+    from backend.runs.models import Run
+
+
+class RunSerializer(serializers.Serializer[Any]):
+    """A stored run."""
+
+    id = serializers.UUIDField()
+    name = serializers.CharField()
+    note = serializers.CharField()
+    result = serializers.ChoiceField(choices=Result.choices)
+    length_s = serializers.FloatField(help_text="Simulated time in s, from the first message to the last.")
+    size = serializers.IntegerField(help_text="In bytes.")
+    is_pinned = serializers.BooleanField()
+    is_shared = serializers.BooleanField(help_text="Whether all who may read the project see it.")
+    may_manage = serializers.BooleanField(help_text="Whether you may rename, pin and delete it.")
+    keeper = serializers.CharField(help_text="The user who kept it.")
+    recorded_as = serializers.CharField(help_text="The name that its session gave it.")
+    created_at = serializers.DateTimeField()
+
+
+class RunListSerializer(serializers.Serializer[Any]):
+    """The stored runs of a project."""
+
+    items = RunSerializer(many=True)
+
+
+class KeepRunSerializer(serializers.Serializer[Any]):
+    """A run of your session that is to be stored."""
+
+    run = serializers.RegexField(r"^[0-9a-f]{1,32}$", help_text="Its name in the event `segment`.")
+    name = serializers.CharField(max_length=MAX_NAME_LENGTH)
+    note = serializers.CharField(max_length=MAX_NOTE_LENGTH, allow_blank=True, default="")
+    result = serializers.ChoiceField(choices=Result.choices, default=Result.RUNNING)
+
+
+class ChangeRunSerializer(serializers.Serializer[Any]):
+    """New values of a stored run; what is missing stays."""
+
+    name = serializers.CharField(max_length=MAX_NAME_LENGTH, required=False)
+    note = serializers.CharField(max_length=MAX_NOTE_LENGTH, allow_blank=True, required=False)
+    is_pinned = serializers.BooleanField(required=False)
+    is_shared = serializers.BooleanField(required=False)
+
+
+def presented(run: Run, user: User) -> dict[str, Any]:
+    """Returns a run as JSON for a user."""
+    plain = ("name", "note", "result", "length_s", "size", "is_pinned", "is_shared", "recorded_as")
+    return {name: getattr(run, name) for name in plain} | {
+        "id": str(run.id),
+        "may_manage": may_manage(run, user=user),
+        "keeper": run.keeper.username,
+        "created_at": run.created_at.isoformat(),
+    }

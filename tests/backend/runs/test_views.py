@@ -1,0 +1,108 @@
+"""Stored runs as users keep, see, change and download them."""
+
+from __future__ import annotations
+
+import hashlib
+
+import pytest
+
+from backend.runs.models import PART_BYTES, Run, RunPart
+from backend.runs.views import Runs
+from tests.backend.runs.conftest import SAMPLE, keep
+
+pytestmark = pytest.mark.usefixtures("manager")
+
+
+def body(response):
+    return b"".join(response.streaming_content)
+
+
+def change(by, run, **values):
+    address = f"/api/v1/projects/{run['project']}/runs/{run['id']}"
+    return by.client.patch(address, data=values, content_type="application/json")
+
+
+def seen(by, project):
+    return [run["name"] for run in by.client.get(f"/api/v1/projects/{project.id}/runs").json()["items"]]
+
+
+def test_a_kept_run_is_listed_with_what_the_server_found_out(people):
+    answer = keep(people.editor, people.project, note="The crate fell.", result="failure")
+    assert answer.status_code == 201
+    run = answer.json()
+    assert run["length_s"] > 0
+    assert (run["size"], run["keeper"], run["result"]) == (len(SAMPLE), "editor", "failure")
+    assert (run["is_pinned"], run["is_shared"], run["may_manage"]) == (False, False, True)
+    assert seen(people.editor, people.project) == ["Kept"]
+    stored = Run.objects.get(id=run["id"])
+    assert stored.sha256 == hashlib.sha256(SAMPLE).hexdigest()
+    assert RunPart.objects.filter(run=stored).count() == -(-len(SAMPLE) // PART_BYTES)
+
+
+def test_a_run_is_seen_by_its_keeper_and_the_owner_and_once_shared_by_all_who_may_read(people):
+    run = keep(people.editor, people.project).json() | {"project": people.project.id}
+    assert seen(people.owner, people.project) == ["Kept"]
+    assert seen(people.viewer, people.project) == []
+    assert change(people.editor, run, is_shared=True).status_code == 200
+    assert seen(people.viewer, people.project) == ["Kept"]
+    assert not people.viewer.client.get(f"/api/v1/projects/{people.project.id}/runs").json()["items"][0][
+        "may_manage"
+    ]
+    answer = change(people.viewer, run, name="Mine")
+    assert (answer.status_code, answer.json()["code"]) == (403, "role_too_low")
+    assert "kept by editor" in answer.json()["detail"]
+
+
+def test_a_viewer_keeps_runs_of_their_own_and_cannot_share_them(people):
+    run = keep(people.viewer, people.project).json() | {"project": people.project.id}
+    assert change(people.viewer, run, name="Better", note="n", is_pinned=True).json()["name"] == "Better"
+    assert change(people.viewer, run, is_shared=True).json()["code"] == "role_too_low"
+    assert seen(people.editor, people.project) == []
+
+
+def test_a_deleted_run_and_a_deleted_project_leave_nothing(people):
+    run = keep(people.owner, people.project).json()
+    address = f"/api/v1/projects/{people.project.id}/runs/{run['id']}"
+    assert people.owner.client.delete(address).status_code == 204
+    assert people.owner.client.get(address).status_code == 404
+    keep(people.owner, people.project)
+    people.project.delete()
+    assert (Run.objects.count(), RunPart.objects.count()) == (0, 0)
+
+
+@pytest.mark.parametrize(
+    ("asked", "field"),
+    [
+        ({"run": "../x"}, "run"),
+        ({"name": ""}, "name"),
+        ({"name": "x" * 101}, "name"),
+        ({"result": "won"}, "result"),
+    ],
+)
+def test_values_that_cannot_be_are_named(people, asked, field):
+    answer = keep(people.owner, people.project, **asked)
+    assert (answer.status_code, answer.json()["field"]) == (422, field)
+    assert Run.objects.count() == 0
+
+
+def test_the_recording_is_downloaded_as_a_whole_and_in_ranges(people):
+    run = keep(people.owner, people.project, name="Kiste „1“").json()
+    address = f"/api/v1/projects/{people.project.id}/runs/{run['id']}/recording"
+    whole = people.owner.client.get(address)
+    assert (whole.status_code, body(whole)) == (200, SAMPLE)
+    assert whole["X-Content-Type-Options"] == "nosniff"
+    assert whole["Content-Disposition"].startswith("attachment; ")
+    assert "Kiste%20%E2%80%9E1%E2%80%9C.mcap" in whole["Content-Disposition"]
+    for begin, end in ((0, 10), (5, len(SAMPLE)), (len(SAMPLE) - 7, len(SAMPLE))):
+        part = people.owner.client.get(address, headers={"Range": f"bytes={begin}-{end - 1}"})
+        assert (part.status_code, body(part)) == (206, SAMPLE[begin:end])
+        assert part["Content-Range"] == f"bytes {begin}-{end - 1}/{len(SAMPLE)}"
+    for tag, expected in ((whole["ETag"], SAMPLE[:10]), ('"old"', SAMPLE)):
+        answer = people.owner.client.get(address, headers={"Range": "bytes=0-9", "If-Range": tag})
+        assert body(answer) == expected
+    beyond = people.owner.client.get(address, headers={"Range": f"bytes={len(SAMPLE)}-"})
+    assert (beyond.status_code, beyond.json()["code"]) == (416, "bad_range")
+
+
+def test_keeping_a_run_is_an_expensive_call():
+    assert Runs.expensive == ("POST",)

@@ -10,6 +10,7 @@ import { registerCanvasCommands } from '@/features/canvas/commands/canvasCommand
 import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
 import { ExportDialog } from '@/features/export/ExportDialog';
+import { RunsDialog } from '@/features/runs/RunsDialog';
 import { ArrivalsDialog } from '@/features/library/ArrivalsDialog';
 import { ImportReport } from '@/features/importReport/ImportReport';
 import { Guide } from '@/features/onboarding/guide/Guide';
@@ -173,6 +174,7 @@ function Workbench({ projectId }: StudioProps) {
       <ConflictDialog />
       <FileDialog />
       <ExportDialog />
+      <RunsDialog />
       <UniverseDialog />
       <NewUniverse />
       <NewRobot />

@@ -16,6 +16,7 @@ const COMMANDS = [
   'run.world',
   'run.teleop',
   'run.connectRos',
+  'run.kept',
 ];
 
 /** The menu of rare commands, and of options for the statuses on blocks. */

@@ -1,4 +1,5 @@
 import {
+  IconDeviceFloppy,
   IconDeviceGamepad2,
   IconFocus2,
   IconPlayerPauseFilled,
@@ -35,6 +36,7 @@ import {
 import { toggleFollowing } from './following';
 import { restartProject, runProject } from '@/store/run/run';
 import { setDriving, useTeleop } from '@/store/run/teleop';
+import { openRunsDialog } from '@/store/dialogs/runs';
 import { isLookingBack } from '@/store/moment/store';
 import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
@@ -149,6 +151,13 @@ const rows: UserCommand[] = [
     run: () => void takeOver(),
   },
   {
+    id: 'run.kept',
+    group: 'run',
+    labelKey: 'run:command.kept',
+    icon: IconDeviceFloppy,
+    run: openRunsDialog,
+  },
+  {
     id: 'run.end',
     group: 'run',
     labelKey: 'run:command.end',
@@ -159,7 +168,7 @@ const rows: UserCommand[] = [
 ];
 
 /** The commands that do not act on the world, or only end what acts on it. */
-const OF_THE_PAST = ['run.stop', 'run.end', 'run.followRunning', 'run.takeOver'];
+const OF_THE_PAST = ['run.stop', 'run.end', 'run.followRunning', 'run.takeOver', 'run.kept'];
 
 /** Returns a command that is not available while the page shows the past, if it acts on the world. */
 const inPresent = (row: UserCommand): UserCommand =>

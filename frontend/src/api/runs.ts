@@ -1,0 +1,31 @@
+import type { components } from '@/generated/api';
+import { dataOf, done, rest, urlOf } from './http';
+
+/** A run that was kept with its project. */
+export type StoredRun = Readonly<components['schemas']['Run']>;
+export type RunChange = Partial<Pick<StoredRun, 'name' | 'note' | 'is_pinned' | 'is_shared'>>;
+export interface RunToKeep {
+  /** The name that its session gave it. */
+  readonly run: string;
+  readonly name: string;
+  readonly note: string;
+  readonly result: StoredRun['result'];
+}
+
+const at = (project_id: string, run_id: string) => ({ path: { project_id, run_id } });
+
+/** The calls for the kept runs of a project. */
+export const runs = {
+  list: async (project_id: string, signal?: AbortSignal): Promise<readonly StoredRun[]> => {
+    const params = { path: { project_id } };
+    const call = rest.GET('/api/v1/projects/{project_id}/runs', { params, signal: signal ?? null });
+    return (await dataOf(call)).items;
+  },
+  keep: (project_id: string, body: RunToKeep): Promise<StoredRun> =>
+    dataOf(rest.POST('/api/v1/projects/{project_id}/runs', { params: { path: { project_id } }, body })),
+  change: (projectId: string, id: string, body: RunChange): Promise<StoredRun> =>
+    dataOf(rest.PATCH('/api/v1/projects/{project_id}/runs/{run_id}', { params: at(projectId, id), body })),
+  remove: (projectId: string, id: string) =>
+    done(rest.DELETE('/api/v1/projects/{project_id}/runs/{run_id}', { params: at(projectId, id) })),
+  recordingUrl: (projectId: string, id: string) => urlOf(`/projects/${projectId}/runs/${id}/recording`),
+};

@@ -1,0 +1,61 @@
+import { Button, Group, TextInput } from '@mantine/core';
+import { IconDeviceFloppy } from '@tabler/icons-react';
+import { useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import type { RunToKeep } from '@/api/runs';
+import { useSessionStore } from '@/store/session/store';
+import { recordedRun, resultOf } from './present';
+
+/** A form that keeps the run of the session, with a name and a note. */
+export function KeepForm({ onKeep }: { readonly onKeep: (run: RunToKeep) => Promise<boolean> }) {
+  const { t, i18n } = useTranslation('runs');
+  const run = useSessionStore(recordedRun);
+  const [name, setName] = useState(() => new Date().toLocaleString(i18n.language));
+  const [note, setNote] = useState('');
+  const [isKeeping, setKeeping] = useState(false);
+  if (run === undefined) return null;
+  const keep = async () => {
+    setKeeping(true);
+    const result = resultOf(useSessionStore.getState());
+    if (await onKeep({ run, name: name.trim(), note: note.trim(), result })) setNote('');
+    setKeeping(false);
+  };
+  return (
+    <form
+      aria-label={t('keepTitle')}
+      onSubmit={(event) => {
+        event.preventDefault();
+        void keep();
+      }}
+    >
+      <Group align="end" gap="xs" mb="md">
+        <TextInput
+          label={t('name')}
+          maxLength={100}
+          required
+          value={name}
+          onChange={(event) => setName(event.currentTarget.value)}
+          style={{ flex: '1 1 12rem' }}
+          data-autofocus
+        />
+        <TextInput
+          label={t('note')}
+          maxLength={2000}
+          placeholder={t('noteExample')}
+          value={note}
+          onChange={(event) => setNote(event.currentTarget.value)}
+          style={{ flex: '2 1 14rem' }}
+        />
+        <Button
+          type="submit"
+          loading={isKeeping}
+          disabled={name.trim() === ''}
+          leftSection={<IconDeviceFloppy size={16} />}
+          data-testid="keep-run"
+        >
+          {t('keep')}
+        </Button>
+      </Group>
+    </form>
+  );
+}

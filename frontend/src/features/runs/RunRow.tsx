@@ -1,0 +1,142 @@
+import { ActionIcon, Badge, Button, Group, Menu, Text, TextInput } from '@mantine/core';
+import { IconDots, IconDownload, IconPinFilled } from '@tabler/icons-react';
+import { useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { runs, type RunChange, type StoredRun } from '@/api/runs';
+import { timeAgo } from '@/ui/timeAgo';
+import { minutes } from './present';
+
+const COLORS = { success: 'green', failure: 'red', error: 'red', running: 'gray' } as const;
+const MEGA = 1e6;
+
+interface Props {
+  readonly projectId: string;
+  readonly run: StoredRun;
+  /** Whether the user's role lets them share in this project. */
+  readonly canShare: boolean;
+  readonly onChange: (change: RunChange) => Promise<boolean>;
+  readonly onRemove: () => Promise<boolean>;
+}
+
+/** A kept run: its name, length, result and note, and what can be done with it. */
+export function RunRow({ projectId, run, canShare, onChange, onRemove }: Props) {
+  const { t, i18n } = useTranslation('runs');
+  const [mode, setMode] = useState<'shown' | 'renamed' | 'removed' | 'shared'>('shown');
+  const back = () => setMode('shown');
+  return (
+    <li data-testid={`run-${run.id}`}>
+      <Group gap="xs" wrap="nowrap" justify="space-between">
+        <Group gap="xs" style={{ minWidth: 0, flex: 1 }}>
+          {run.is_pinned ? <IconPinFilled size={14} role="img" aria-label={t('pinned')} /> : null}
+          {mode === 'renamed' ? (
+            <NameField name={run.name} onDone={(name) => (back(), name && void onChange({ name }))} />
+          ) : (
+            <Text fw={600} size="sm" style={{ overflowWrap: 'anywhere' }}>
+              {run.name}
+            </Text>
+          )}
+          <Badge size="sm" variant="light" color={COLORS[run.result]}>
+            {t(`result.${run.result}`)}
+          </Badge>
+          {run.is_shared ? (
+            <Badge size="sm" variant="outline" color="gray">
+              {t('shared')}
+            </Badge>
+          ) : null}
+          <Text size="xs" c="dimmed">
+            {t('facts', {
+              length: minutes(run.length_s),
+              size: new Intl.NumberFormat(i18n.language, { maximumFractionDigits: 1 }).format(
+                run.size / MEGA,
+              ),
+              when: timeAgo(run.created_at, i18n.language),
+              keeper: run.keeper,
+            })}
+          </Text>
+        </Group>
+        <ActionIcon
+          component="a"
+          href={runs.recordingUrl(projectId, run.id)}
+          download
+          size="md"
+          aria-label={t('download', { name: run.name })}
+        >
+          <IconDownload size={16} />
+        </ActionIcon>
+        {run.may_manage ? (
+          <Menu position="bottom-end" width={240}>
+            <Menu.Target>
+              <ActionIcon size="md" aria-label={t('more', { name: run.name })}>
+                <IconDots size={16} />
+              </ActionIcon>
+            </Menu.Target>
+            <Menu.Dropdown>
+              <Menu.Item onClick={() => setMode('renamed')}>{t('rename')}</Menu.Item>
+              <Menu.Item onClick={() => void onChange({ is_pinned: !run.is_pinned })}>
+                {t(run.is_pinned ? 'unpin' : 'pin')}
+              </Menu.Item>
+              {canShare ? (
+                <Menu.Item
+                  onClick={() => (run.is_shared ? void onChange({ is_shared: false }) : setMode('shared'))}
+                >
+                  {t(run.is_shared ? 'unshare' : 'share')}
+                </Menu.Item>
+              ) : null}
+              <Menu.Divider />
+              <Menu.Item color="red" onClick={() => setMode('removed')}>
+                {t('remove')}
+              </Menu.Item>
+            </Menu.Dropdown>
+          </Menu>
+        ) : null}
+      </Group>
+      {run.note ? (
+        <Text size="sm" c="dimmed" style={{ overflowWrap: 'anywhere' }}>
+          {run.note}
+        </Text>
+      ) : null}
+      {mode === 'removed' || mode === 'shared' ? (
+        <Group gap="xs" mt={4} role="alert">
+          <Text size="sm" style={{ flex: 1 }}>
+            {t(mode === 'removed' ? 'removeSure' : 'shareSure')}
+          </Text>
+          <Button size="compact-sm" variant="default" onClick={back}>
+            {t('cancel')}
+          </Button>
+          <Button
+            size="compact-sm"
+            {...(mode === 'removed' ? { color: 'red' } : {})}
+            onClick={() => {
+              back();
+              void (mode === 'removed' ? onRemove() : onChange({ is_shared: true }));
+            }}
+          >
+            {t(mode === 'removed' ? 'remove' : 'shareNow')}
+          </Button>
+        </Group>
+      ) : null}
+    </li>
+  );
+}
+
+/** A field for a new name; Enter takes it, Escape and an empty name do not. */
+function NameField({ name, onDone }: { readonly name: string; readonly onDone: (name: string) => void }) {
+  const { t } = useTranslation('runs');
+  const [text, setText] = useState(name);
+  return (
+    <TextInput
+      size="xs"
+      aria-label={t('name')}
+      maxLength={100}
+      value={text}
+      ref={(field) => field?.focus()}
+      onChange={(event) => setText(event.currentTarget.value)}
+      onKeyDown={(event) => {
+        event.stopPropagation();
+        if (event.key === 'Enter') onDone(text.trim());
+        if (event.key === 'Escape') onDone('');
+      }}
+      onBlur={() => onDone(text.trim() === name ? '' : text.trim())}
+    />
+  );
+}

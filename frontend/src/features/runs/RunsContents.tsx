@@ -1,0 +1,34 @@
+import { Alert, Loader, Stack, Text } from '@mantine/core';
+import { useTranslation } from 'react-i18next';
+import { useProjectStore } from '@/store/project';
+import { KeepForm } from './KeepForm';
+import { RunRow } from './RunRow';
+import { useRuns } from './useRuns';
+
+/** The form that keeps the present run, and the list of the kept ones. */
+export function RunsContents() {
+  const { t } = useTranslation('runs');
+  const { projectId, found, keep, change, remove } = useRuns();
+  const canShare = useProjectStore((state) => state.role !== 'viewer');
+  const rows = found.data ?? [];
+  return (
+    <>
+      <KeepForm onKeep={keep} />
+      {found.isPending ? <Loader size="sm" aria-label={t('loading')} /> : null}
+      {found.isError ? <Alert color="red">{found.error.message}</Alert> : null}
+      {found.isSuccess && rows.length === 0 ? <Text c="dimmed">{t('none')}</Text> : null}
+      <Stack component="ul" aria-label={t('title')} gap="md" p={0} m={0} style={{ listStyle: 'none' }}>
+        {rows.map((run) => (
+          <RunRow
+            key={run.id}
+            projectId={projectId}
+            run={run}
+            canShare={canShare}
+            onChange={(body) => change(run.id, body)}
+            onRemove={() => remove(run.id)}
+          />
+        ))}
+      </Stack>
+    </>
+  );
+}

@@ -1,0 +1,56 @@
+"""Runs that are kept with their project."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from mcap.reader import make_reader
+from playwright.sync_api import expect
+
+from tests.e2e.accessibility import expect_no_findings
+from tests.e2e.server import wait_until
+
+if TYPE_CHECKING:
+    from tests.e2e.studio import Studio
+
+pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
+
+
+def test_a_run_is_kept_outlives_its_session_and_is_deleted(studio: Studio) -> None:
+    page = studio.page
+    studio.new_from("laser_bump_and_go")
+    studio.run()
+    wait_until(lambda: studio.stat("t") > 2, "the robot has driven")
+    studio.at("run-menu").click()
+    page.get_by_role("menuitem", name="Kept runs…").click()
+    dialog = page.get_by_role("dialog", name="Kept runs")
+    dialog.get_by_role("textbox", name="Name").fill("The first drive")
+    dialog.get_by_role("textbox", name="Note").fill("It keeps away from the wall.")
+    dialog.get_by_test_id("keep-run").click()
+    expect(dialog.get_by_role("listitem")).to_contain_text("The first drive")
+    for scheme in ("dark", "light"):
+        page.evaluate("s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme)
+        expect_no_findings(page, f"kept runs, {scheme}")
+        studio.picture(f"kept-runs-{scheme}")
+    page.keyboard.press("Escape")
+    studio.end_session()
+    page.reload()
+    expect(studio.at("canvas")).to_be_visible()
+
+    studio.command("Kept runs")
+    row = dialog.get_by_role("listitem")
+    expect(row).to_contain_text("It keeps away from the wall.")
+    with page.expect_download() as downloaded:
+        row.get_by_role("link", name="Download the recording").click()
+    data = Path(downloaded.value.path()).read_bytes()
+    topics = {channel.topic for _, channel, _ in make_reader(io.BytesIO(data)).iter_messages()}
+    assert {"/bt/tick", "/world/poses"} <= topics
+    page.set_viewport_size({"width": 390, "height": 800})
+    studio.picture("kept-runs-narrow")
+    row.get_by_role("button", name="Commands on").click()
+    page.get_by_role("menuitem", name="Delete").click()
+    row.get_by_role("alert").get_by_role("button", name="Delete").click()
+    expect(dialog).to_contain_text("No run has been kept yet")

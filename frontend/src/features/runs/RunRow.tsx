@@ -1,6 +1,6 @@
 import { ActionIcon, Badge, Button, Group, Menu, Text, TextInput } from '@mantine/core';
 import { IconDots, IconDownload, IconPinFilled } from '@tabler/icons-react';
-import { useState } from 'react';
+import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { runs, type RunChange, type StoredRun } from '@/api/runs';
 import { timeAgo } from '@/ui/timeAgo';
@@ -8,6 +8,7 @@ import { minutes } from './present';
 
 const COLORS = { success: 'green', failure: 'red', error: 'red', running: 'gray' } as const;
 const MEGA = 1e6;
+const CLOSED_AFTER_MS = 200;
 
 interface Props {
   readonly projectId: string;
@@ -123,20 +124,25 @@ export function RunRow({ projectId, run, canShare, onChange, onRemove }: Props) 
 function NameField({ name, onDone }: { readonly name: string; readonly onDone: (name: string) => void }) {
   const { t } = useTranslation('runs');
   const [text, setText] = useState(name);
+  const field = useRef<HTMLInputElement>(null);
+  useEffect(() => {
+    // The menu that was used gives up the focus only when it has closed.
+    const timer = setTimeout(() => field.current?.select(), CLOSED_AFTER_MS);
+    return () => clearTimeout(timer);
+  }, []);
   return (
     <TextInput
       size="xs"
       aria-label={t('name')}
       maxLength={100}
       value={text}
-      ref={(field) => field?.focus()}
+      ref={field}
       onChange={(event) => setText(event.currentTarget.value)}
       onKeyDown={(event) => {
         event.stopPropagation();
         if (event.key === 'Enter') onDone(text.trim());
         if (event.key === 'Escape') onDone('');
       }}
-      onBlur={() => onDone(text.trim() === name ? '' : text.trim())}
     />
   );
 }

@@ -8,7 +8,7 @@ import { navigate, projectPath } from '@/store/route';
 import { ProjectMenu } from './ProjectMenu';
 import classes from './projects.module.css';
 import { reasonOf } from './reason';
-import { timeAgo } from '@/ui/timeAgo';
+import { timeAgo } from '@/i18n/timeAgo';
 import { TreePicture } from './TreePicture';
 import type { useProjectCommands } from './useProjects';
 

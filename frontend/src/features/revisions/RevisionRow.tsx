@@ -2,7 +2,7 @@ import { ActionIcon } from '@mantine/core';
 import { IconChevronDown, IconChevronRight, IconTag } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import type { Revision } from '@/api/revisions';
-import { timeAgo } from '@/ui/timeAgo';
+import { timeAgo } from '@/i18n/timeAgo';
 import { useProjectStore } from '@/store/project';
 import classes from './history.module.css';
 import { LabelButton } from './LabelButton';

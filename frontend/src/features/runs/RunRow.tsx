@@ -3,7 +3,7 @@ import { IconDots, IconDownload, IconPinFilled } from '@tabler/icons-react';
 import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { runs, type RunChange, type StoredRun } from '@/api/runs';
-import { timeAgo } from '@/ui/timeAgo';
+import { timeAgo } from '@/i18n/timeAgo';
 import { minutes } from './present';
 
 const COLORS = { success: 'green', failure: 'red', error: 'red', running: 'gray' } as const;

@@ -1,0 +1,28 @@
+import { screen } from '@testing-library/react';
+import { afterEach, expect, it, vi } from 'vitest';
+import type { Segment } from '@/generated/messages';
+import { initialSession } from '@/store/session/reduce';
+import { useSessionStore } from '@/store/session/store';
+import { show, user } from '../../../harness/testing';
+import { KeepForm } from './KeepForm';
+
+afterEach(() => useSessionStore.setState(initialSession, true));
+
+it('is there only while something is recorded', () => {
+  show(<KeepForm onKeep={vi.fn()} />);
+  expect(screen.queryByRole('textbox')).toBeNull();
+});
+
+it('has a name already, and forgets the note of a kept run alone', async () => {
+  useSessionStore.setState({ segments: [{ run: 'a1' } as Segment] });
+  const onKeep = vi.fn().mockResolvedValueOnce(false).mockResolvedValue(true);
+  show(<KeepForm onKeep={onKeep} />);
+  const note = screen.getByRole('textbox', { name: 'Note' });
+  expect(screen.getByRole('textbox', { name: 'Name' })).not.toHaveValue('');
+  await user.type(note, ' slow ');
+  await user.click(screen.getByRole('button', { name: 'Keep' }));
+  expect(onKeep).toHaveBeenCalledWith(expect.objectContaining({ run: 'a1', note: 'slow' }));
+  expect(note).toHaveValue(' slow ');
+  await user.click(screen.getByRole('button', { name: 'Keep' }));
+  expect(note).toHaveValue('');
+});

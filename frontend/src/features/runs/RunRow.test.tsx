@@ -1,0 +1,56 @@
+import { screen } from '@testing-library/react';
+import { expect, it, vi } from 'vitest';
+import type { StoredRun } from '@/api/runs';
+import { show, user } from '../../../harness/testing';
+import { RunRow } from './RunRow';
+
+const run: StoredRun = {
+  id: 'r1',
+  name: 'First',
+  note: '',
+  result: 'success',
+  length_s: 5,
+  size: 100,
+  is_pinned: true,
+  is_shared: true,
+  may_manage: true,
+  keeper: 'tina',
+  recorded_as: 'a1',
+  created_at: '2026-01-01T00:00:00Z',
+};
+
+function open(canShare = true) {
+  const onChange = vi.fn().mockResolvedValue(true);
+  const onRemove = vi.fn().mockResolvedValue(true);
+  show(<RunRow projectId="p1" run={run} canShare={canShare} onChange={onChange} onRemove={onRemove} />);
+  return { onChange, onRemove };
+}
+const choose = async (name: string) => {
+  await user.click(screen.getByRole('button', { name: 'Commands on “First”' }));
+  await user.click(await screen.findByRole('menuitem', { name }));
+};
+
+it('is unpinned, and no more shared, without a question', async () => {
+  const { onChange } = open();
+  await choose('Unpin');
+  await choose('Stop sharing');
+  expect(onChange.mock.calls).toEqual([[{ is_pinned: false }], [{ is_shared: false }]]);
+});
+
+it('keeps its name with Escape, and with an empty one', async () => {
+  const { onChange } = open();
+  for (const keys of ['Other{Escape}', '{Enter}']) {
+    await choose('Rename');
+    await user.clear(await screen.findByRole('textbox', { name: 'Name' }));
+    await user.keyboard(keys);
+    expect(screen.queryByRole('textbox')).toBeNull();
+  }
+  expect(onChange).not.toHaveBeenCalled();
+});
+
+it('is not shared by those who may not', async () => {
+  open(false);
+  await user.click(screen.getByRole('button', { name: 'Commands on “First”' }));
+  expect(await screen.findByRole('menuitem', { name: 'Rename' })).toBeInTheDocument();
+  expect(screen.queryByRole('menuitem', { name: 'Stop sharing' })).toBeNull();
+});

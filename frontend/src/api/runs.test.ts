@@ -7,7 +7,7 @@ it('makes the calls for the runs of a project', async () => {
     'GET /projects/p1/runs': { items: [{ id: 'r1' }] },
     'POST /projects/p1/runs': { id: 'r2' },
     'PATCH /projects/p1/runs/r1': { id: 'r1' },
-    'DELETE /projects/p1/runs/r1': undefined,
+    'DELETE /projects/p1/runs/r1': new Response(null, { status: 204 }),
   });
   expect(await runs.list('p1')).toEqual([{ id: 'r1' }]);
   expect(await runs.keep('p1', { run: 'a1', name: 'n', note: '', result: 'running' })).toEqual({ id: 'r2' });

@@ -130,7 +130,10 @@ describe('a kept run', () => {
   });
 
   it('is deleted only after a question', async () => {
-    const asked = open({ [LIST]: { items: [run()] }, 'DELETE /projects/p1/runs/r1': undefined });
+    const asked = open({
+      [LIST]: { items: [run()] },
+      'DELETE /projects/p1/runs/r1': new Response(null, { status: 204 }),
+    });
     await choose('Delete');
     await user.click(within(await screen.findByRole('alert')).getByRole('button', { name: 'Cancel' }));
     expect(screen.queryByRole('alert')).toBeNull();

@@ -1,4 +1,4 @@
-"""Reads the length of a recording from the statistics at its end, without reading the rest. Pure.
+"""Reads the times of a recording from the statistics at its end, without reading the rest. Pure.
 
 The bytes come from an untrusted process: each number is checked before it is used. The layout is that of
 MCAP (mcap.dev/spec): summary, footer, magic.
@@ -6,7 +6,6 @@ MCAP (mcap.dev/spec): summary, footer, magic.
 
 from __future__ import annotations
 
-import math
 import struct
 from typing import TYPE_CHECKING, Final
 
@@ -29,8 +28,8 @@ class DamagedError(ValueError):
     """The bytes are no complete recording."""
 
 
-def length_of(read: Callable[[int, int], bytes], size: int) -> float:
-    """Returns the simulated time in s from the first message to the last.
+def length_of(read: Callable[[int, int], bytes], size: int) -> tuple[float, float]:
+    """Returns the simulated time of the first message, and the time from it to the last, in s.
 
     Args:
         read: returns the bytes at an offset, of a length.
@@ -66,11 +65,11 @@ def _records(data: bytes) -> Iterator[tuple[int, bytes]]:
         at += length
 
 
-def _span_s(record: bytes) -> float:
+def _span_s(record: bytes) -> tuple[float, float]:
     if len(record) < _STATISTICS.size:
         raise DamagedError("its statistics are too short")
     count, *_, start_ns, end_ns = _STATISTICS.unpack_from(record)
-    span_s = float(end_ns - start_ns) * 1e-9
-    if not count or not 0 <= span_s <= LONGEST_S or not math.isfinite(span_s):
+    start_s, span_s = float(start_ns) * 1e-9, float(end_ns - start_ns) * 1e-9
+    if not count or not 0 <= span_s <= LONGEST_S or start_s > LONGEST_S:
         raise DamagedError("it has no messages, or times that cannot be")
-    return span_s
+    return start_s, span_s

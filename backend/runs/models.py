@@ -23,7 +23,7 @@ MAX_NOTE_LENGTH: Final = 2000
 class Run(models.Model):
     """A recording that a user has kept.
 
-    `recorded_as` is the name that its session gave it. `length_s` is read from the recording; `result` is
+    `recorded_as` is the name that its session gave it. `start_s` and `length_s` are read from the recording; `result` is
     what the page reported.
     """
 
@@ -34,6 +34,7 @@ class Run(models.Model):
     name = models.CharField(max_length=MAX_NAME_LENGTH)
     note = models.TextField(blank=True)
     result = models.CharField(max_length=8, choices=Result.choices, default=Result.RUNNING)
+    start_s = models.FloatField()
     length_s = models.FloatField()
     size = models.PositiveBigIntegerField()
     sha256 = models.CharField(max_length=64)

@@ -22,6 +22,7 @@ class RunSerializer(serializers.Serializer[Any]):
     name = serializers.CharField()
     note = serializers.CharField()
     result = serializers.ChoiceField(choices=Result.choices)
+    start_s = serializers.FloatField(help_text="Simulated time of the first message in s.")
     length_s = serializers.FloatField(help_text="Simulated time in s, from the first message to the last.")
     size = serializers.IntegerField(help_text="In bytes.")
     is_pinned = serializers.BooleanField()
@@ -58,7 +59,7 @@ class ChangeRunSerializer(serializers.Serializer[Any]):
 
 def presented(run: Run, user: User) -> dict[str, Any]:
     """Returns a run as JSON for a user."""
-    plain = ("name", "note", "result", "length_s", "size", "is_pinned", "is_shared", "recorded_as")
+    plain = ("name", "note", "result", "start_s", "length_s", "size", "is_pinned", "is_shared", "recorded_as")
     return {name: getattr(run, name) for name in plain} | {
         "id": str(run.id),
         "may_manage": may_manage(run, user=user),

@@ -50,12 +50,12 @@ def keep(project_id: UUID, asked: dict[str, Any], *, acting_user: User) -> Run:
         most = queries.room(acting_user)
         size = pull(session.address, manager_token(session), asked["recorded_as"], file, most)
         try:
-            length_s = length_of(lambda at, length: _read(file, at, length), size)
+            start_s, length_s = length_of(lambda at, length: _read(file, at, length), size)
         except DamagedError as error:
             raise NoAnswerError(
                 f"What the executor gave is no recording: {error}.", hint="Run again, and keep that run."
             ) from error
-        return _store(file, project, acting_user, asked | {"size": size, "length_s": length_s})
+        return _store(file, project, acting_user, asked | {"size": size, "start_s": start_s, "length_s": length_s})
 
 
 def change(project_id: UUID, run_id: UUID, asked: dict[str, Any], *, acting_user: User) -> Run:

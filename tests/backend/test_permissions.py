@@ -189,7 +189,13 @@ def world(person, monkeypatch):  # noqa: F811
     )
     monkeypatch.setattr(session_writes, "workers", type("Idle", (), {"submit": lambda *_: None}))
     run = Run.objects.create(
-        project=project, keeper=teacher, recorded_as="a1", length_s=1.0, size=0, created_at=project.created_at
+        project=project,
+        keeper=teacher,
+        recorded_as="a1",
+        start_s=0.0,
+        length_s=1.0,
+        size=0,
+        created_at=project.created_at,
     )
     invitation = invitations.invite(acting_user=teacher, group=group, days=1, max_uses=1)
     values = {

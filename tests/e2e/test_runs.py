@@ -48,9 +48,28 @@ def test_a_run_is_kept_outlives_its_session_and_is_deleted(studio: Studio) -> No
     data = Path(downloaded.value.path()).read_bytes()
     topics = {channel.topic for _, channel, _ in make_reader(io.BytesIO(data)).iter_messages()}
     assert {"/bt/tick", "/world/poses"} <= topics
+    it_is_looked_at_without_a_session(studio)
+    studio.command("Kept runs")
     page.set_viewport_size({"width": 390, "height": 800})
     studio.picture("kept-runs-narrow")
     row.get_by_role("button", name="Commands on").click()
     page.get_by_role("menuitem", name="Delete").click()
     row.get_by_role("alert").get_by_role("button", name="Delete").click()
     expect(dialog).to_contain_text("No run has been kept yet")
+
+
+def it_is_looked_at_without_a_session(studio: Studio) -> None:
+    page, axis = studio.page, studio.at("time-axis")
+    expect(axis).to_have_count(0)
+    page.get_by_role("button", name="The first drive", exact=True).click()
+    expect(axis).to_have_attribute("data-past", "true")
+    expect(axis).to_contain_text("Kept run: The first drive")
+    strip = page.get_by_role("slider", name="Moment of the run")
+    strip.focus()
+    page.keyboard.press("Shift+ArrowRight")
+    expect(studio.at("node-n1")).to_have_attribute("data-status", "RUNNING")
+    expect(studio.at("run")).to_be_disabled()
+    studio.picture("kept-run-open")
+    page.keyboard.press("Escape")
+    expect(axis).to_have_count(0)
+    expect(studio.at("run")).to_be_enabled()

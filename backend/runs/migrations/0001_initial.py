@@ -39,6 +39,7 @@ class Migration(migrations.Migration):
                         max_length=8,
                     ),
                 ),
+                ("start_s", models.FloatField()),
                 ("length_s", models.FloatField()),
                 ("size", models.PositiveBigIntegerField()),
                 ("sha256", models.CharField(max_length=64)),

@@ -1846,6 +1846,11 @@ export interface components {
             result: components["schemas"]["ResultEnum"];
             /**
              * Format: double
+             * @description Simulated time of the first message in s.
+             */
+            start_s: number;
+            /**
+             * Format: double
              * @description Simulated time in s, from the first message to the last.
              */
             length_s: number;

@@ -3,6 +3,7 @@ import { IconPlayerPause, IconPlayerPlay } from '@tabler/icons-react';
 import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { extent as extentNow, lookNow, setPlaying } from '@/store/moment/looking';
+import { useSource } from '@/store/moment/source';
 import { PLAY_SPEEDS, useMoment } from '@/store/moment/store';
 import { useSessionStore } from '@/store/session/store';
 import classes from './axis.module.css';
@@ -12,7 +13,10 @@ import { Strip } from './Strip';
 export function TimeAxis() {
   const { t } = useTranslation('axis');
   const segments = useSessionStore((state) => state.segments);
-  const extent = useMemo(() => (segments.length > 0 ? extentNow() : null), [segments]);
+  const source = useSource((state) => state.source);
+  const kept = useSource((state) => state.kept);
+  // eslint-disable-next-line react-hooks/exhaustive-deps -- both decide what the extent is
+  const extent = useMemo(() => extentNow(), [segments, source]);
   const moment = useMoment((state) => state.t);
   const shown = useMoment((state) => state.shown);
   const isPlaying = useMoment((state) => state.isPlaying);
@@ -53,7 +57,7 @@ export function TimeAxis() {
           t('reading')
         ) : isBack ? (
           <span className={classes['back']} title={t('backHelp')}>
-            {t('back')}
+            {kept === null ? t('back') : t('kept', { name: kept })}
           </span>
         ) : null}
       </span>

@@ -9,6 +9,7 @@ const run: StoredRun = {
   name: 'First',
   note: '',
   result: 'success',
+  start_s: 0,
   length_s: 5,
   size: 100,
   is_pinned: true,
@@ -22,8 +23,10 @@ const run: StoredRun = {
 function open(canShare = true) {
   const onChange = vi.fn().mockResolvedValue(true);
   const onRemove = vi.fn().mockResolvedValue(true);
-  show(<RunRow projectId="p1" run={run} canShare={canShare} onChange={onChange} onRemove={onRemove} />);
-  return { onChange, onRemove };
+  const onOpen = vi.fn();
+  const calls = { onOpen, onChange, onRemove };
+  show(<RunRow projectId="p1" run={run} canShare={canShare} {...calls} />);
+  return calls;
 }
 const choose = async (name: string) => {
   await user.click(screen.getByRole('button', { name: 'Commands on “First”' }));
@@ -53,4 +56,10 @@ it('is not shared by those who may not', async () => {
   await user.click(screen.getByRole('button', { name: 'Commands on “First”' }));
   expect(await screen.findByRole('menuitem', { name: 'Rename' })).toBeInTheDocument();
   expect(screen.queryByRole('menuitem', { name: 'Stop sharing' })).toBeNull();
+});
+
+it('is opened by its name', async () => {
+  const { onOpen } = open();
+  await user.click(screen.getByRole('button', { name: 'First' }));
+  expect(onOpen).toHaveBeenCalledOnce();
 });

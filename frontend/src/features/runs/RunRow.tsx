@@ -15,12 +15,13 @@ interface Props {
   readonly run: StoredRun;
   /** Whether the user's role lets them share in this project. */
   readonly canShare: boolean;
+  readonly onOpen: () => void;
   readonly onChange: (change: RunChange) => Promise<boolean>;
   readonly onRemove: () => Promise<boolean>;
 }
 
 /** A kept run: its name, length, result and note, and what can be done with it. */
-export function RunRow({ projectId, run, canShare, onChange, onRemove }: Props) {
+export function RunRow({ projectId, run, canShare, onOpen, onChange, onRemove }: Props) {
   const { t, i18n } = useTranslation('runs');
   const [mode, setMode] = useState<'shown' | 'renamed' | 'removed' | 'shared'>('shown');
   const back = () => setMode('shown');
@@ -32,9 +33,15 @@ export function RunRow({ projectId, run, canShare, onChange, onRemove }: Props) 
           {mode === 'renamed' ? (
             <NameField name={run.name} onDone={(name) => (back(), name && void onChange({ name }))} />
           ) : (
-            <Text fw={600} size="sm" style={{ overflowWrap: 'anywhere' }}>
+            <Button
+              variant="subtle"
+              size="compact-sm"
+              style={{ height: 'auto', whiteSpace: 'normal' }}
+              title={t('open')}
+              onClick={onOpen}
+            >
               {run.name}
-            </Text>
+            </Button>
           )}
           <Badge size="sm" variant="light" color={COLORS[run.result]}>
             {t(`result.${run.result}`)}

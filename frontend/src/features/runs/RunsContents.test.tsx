@@ -14,6 +14,7 @@ const run = (more: Partial<StoredRun> = {}): StoredRun => ({
   name: 'Into the crate',
   note: '',
   result: 'failure',
+  start_s: 0,
   length_s: 125,
   size: 2_500_000,
   is_pinned: false,
@@ -65,7 +66,7 @@ describe('the list', () => {
 
   it('has no commands for runs of others', async () => {
     open({ [LIST]: { items: [run({ may_manage: false })] } });
-    expect(within(await row()).queryByRole('button')).toBeNull();
+    expect(within(await row()).queryByRole('button', { name: /Commands/ })).toBeNull();
   });
 
   it('shows why it cannot be read', async () => {

@@ -1,6 +1,9 @@
 import { Alert, Loader, Stack, Text } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 import { useProjectStore } from '@/store/project';
+import { closeRunsDialog } from '@/store/dialogs/runs';
+import { openKept } from '@/store/moment/looking';
+import { storedSource } from '@/store/recording/storedSource';
 import { KeepForm } from './KeepForm';
 import { RunRow } from './RunRow';
 import { useRuns } from './useRuns';
@@ -24,6 +27,10 @@ export function RunsContents() {
             projectId={projectId}
             run={run}
             canShare={canShare}
+            onOpen={() => {
+              closeRunsDialog();
+              openKept(storedSource(projectId, run), run.name);
+            }}
             onChange={(body) => change(run.id, body)}
             onRemove={() => remove(run.id)}
           />

@@ -1,5 +1,6 @@
 import { useSessionStore } from '@/store/session/store';
 import { extent, lookAt } from './looking';
+import { useSource } from './source';
 import { useMoment } from './store';
 
 const WRITE_AFTER_MS = 300;
@@ -19,7 +20,7 @@ export function followAddress(): () => void {
   const write = () => {
     timer = undefined;
     const { t } = useMoment.getState();
-    const run = extent()?.run;
+    const run = useSource.getState().kept === null ? extent()?.run : undefined;
     const query = t === null || run === undefined ? '' : `?run=${run}&t=${t.toFixed(3)}`;
     if (window.location.search === query) return;
     window.history.replaceState(window.history.state, '', window.location.pathname + query);

@@ -8,8 +8,18 @@ import { liveSource } from '@/store/recording/liveSource';
 import type { EngineLink } from '@/store/recording/recordedRun';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
-import { extent, followPresent, goSeconds, goTicks, lookAt, lookNow, setEngineLink } from './looking';
+import {
+  extent,
+  followPresent,
+  goSeconds,
+  goTicks,
+  lookAt,
+  lookNow,
+  openKept,
+  setEngineLink,
+} from './looking';
 import { usePastSession } from './session';
+import { useSource } from './source';
 import { isLookingBack, useMoment } from './store';
 
 const file = new Uint8Array(readFileSync('../tests/executor/recorder/samples/v1.mcap'));
@@ -90,4 +100,20 @@ it('shows nothing without a recording', () => {
   lookAt(1);
   lookNow();
   expect(isLookingBack()).toBe(false);
+});
+
+it('opens a kept run without a session, and closes it in the present', async () => {
+  useSessionStore.setState(initialSession, true);
+  const kept = { ...segment('kept'), from_t: 0, to_t: 1 };
+  const read = (_: unknown, offset: number, length: number) =>
+    Promise.resolve(file.slice(offset, offset + length));
+  openKept({ segments: () => [kept], subscribe: () => () => undefined, read }, 'First');
+  expect(extent()).toEqual({ run: 'kept', from: 0, to: 1 });
+  expect(useSource.getState().kept).toBe('First');
+  lookAt(0.5);
+  await shown(0.5);
+  expect(Object.values(usePastSession.getState().blackboard).map(({ key }) => key)).toContain('offset');
+  lookNow();
+  expect(useSource.getState()).toEqual({ source: liveSource, kept: null });
+  expect(extent()).toBeNull();
 });

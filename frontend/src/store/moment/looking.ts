@@ -1,13 +1,13 @@
 import type { NodeStatus } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
 import { usePastLive } from '@/store/project/live';
-import { liveSource } from '@/store/recording/liveSource';
 import { RecordedRun, type EngineLink } from '@/store/recording/recordedRun';
 import type { FromEngine } from '@/store/recording/engine';
-import type { Moment, Overview } from '@/store/recording/types';
+import type { Moment, Overview, RecordingSource } from '@/store/recording/types';
 import { useSessionStore } from '@/store/session/store';
 import type { LogLine } from '@/store/session/types';
 import { consoleOf, linesUntil, rowsOf, usePastSession } from './session';
+import { ofSession, useSource } from './source';
 import { atPresent, useMoment } from './store';
 import { showPresentWorld, showWorld } from './world';
 
@@ -45,7 +45,7 @@ export function setEngineLink(make: () => EngineLink): void {
 }
 
 export function extent(): Extent | null {
-  const segments = liveSource.segments();
+  const segments = useSource.getState().source.segments();
   const first = segments[0];
   if (!first) return null;
   const from = Math.min(...segments.map(({ from_t }) => from_t));
@@ -68,13 +68,29 @@ export function lookAt(t: number, tick: number | null = null): void {
   void refresh();
 }
 
-/** Returns to the present. */
+/** Opens a kept run at its begin. */
+export function openKept(source: RecordingSource, name: string): void {
+  lookNow();
+  change({ source, kept: name });
+  const begin = extent();
+  if (begin) lookAt(begin.from);
+}
+
+/** Returns to the present, and closes a kept run. */
 export function lookNow(): void {
   if (useMoment.getState().t === null) return;
   const { speed } = useMoment.getState();
   useMoment.setState({ ...atPresent, speed, overview: useMoment.getState().overview });
   recorded?.want(null);
+  if (useSource.getState().kept !== null) change(ofSession);
   showPresentWorld();
+}
+
+function change(source: typeof ofSession): void {
+  recorded?.end();
+  recorded = null;
+  useSource.setState(source);
+  useMoment.setState({ overview: null, failure: '' });
 }
 
 /** Goes some ticks forth, or back if negative; at the present, back from its end. */
@@ -139,7 +155,7 @@ function play(last: number): void {
 }
 
 function theRun(): RecordedRun {
-  recorded ??= new RecordedRun(liveSource, makeLink(), onOverview, (failure) =>
+  recorded ??= new RecordedRun(useSource.getState().source, makeLink(), onOverview, (failure) =>
     useMoment.setState({ failure }),
   );
   return recorded;

@@ -1,0 +1,15 @@
+import { create } from 'zustand';
+import { liveSource } from '@/store/recording/liveSource';
+import type { RecordingSource } from '@/store/recording/types';
+
+interface SourceData {
+  /** The recording at which the user looks, or would look. */
+  readonly source: RecordingSource;
+  /** The name of the kept run that is open; null: the run of the session. */
+  readonly kept: string | null;
+}
+
+export const ofSession: SourceData = { source: liveSource, kept: null };
+
+/** The recording of the time axis. Only `looking.ts` changes it. */
+export const useSource = create<SourceData>(() => ofSession);

@@ -23,8 +23,8 @@ MAX_NOTE_LENGTH: Final = 2000
 class Run(models.Model):
     """A recording that a user has kept.
 
-    `recorded_as` is the name that its session gave it. `start_s` and `length_s` are read from the recording; `result` is
-    what the page reported.
+    `recorded_as` is the name that its session gave it. `start_s` and `length_s` are read from the recording;
+    `result` is what the page reported.
     """
 
     id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)

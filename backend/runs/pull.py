@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import http.client
 import re
 import socket
@@ -17,10 +18,15 @@ __all__ = ["pull"]
 
 ANSWER_S: Final = 130.0  # the manager joins the segments for at most two minutes
 DEADLINE_S: Final = 300.0
+MOST_TRIES: Final = 3
 CHUNK_BYTES: Final = 1 << 20
 MOST_PART_BYTES: Final = 16 << 20
 _RANGE: Final = re.compile(r"bytes (\d{1,15})-(\d{1,15})/(\d{1,15})")
 _AGAIN: Final = "Try again; the run stays recorded while the session lives."
+
+
+class _ChangedError(Exception):
+    """Another client made the manager join the recording again, so that it has become longer."""
 
 
 class _UnixConnection(http.client.HTTPConnection):
@@ -53,9 +59,14 @@ def pull(address: str, token: str, recorded_as: str, out: IO[bytes], most: int) 
     """
     end_s = time.monotonic() + DEADLINE_S
     try:
-        return _pull(address, token, recorded_as, out, most, end_s)
+        for _ in range(MOST_TRIES):
+            out.seek(0)
+            out.truncate()
+            with contextlib.suppress(_ChangedError):
+                return _pull(address, token, recorded_as, out, most, end_s)
     except (OSError, http.client.HTTPException) as error:
         raise NoAnswerError("The executor did not give the recording.", hint=_AGAIN) from error
+    raise NoAnswerError("The recording changed each time that it was read.", hint=_AGAIN)
 
 
 def _pull(  # noqa: PLR0913, PLR0917 - as `pull`, and the deadline
@@ -77,7 +88,7 @@ def _pull(  # noqa: PLR0913, PLR0917 - as `pull`, and the deadline
                     hint="Delete runs that you no longer need.",
                 )
             if tag not in (None, answer.headers.get("ETag")):
-                raise NoAnswerError("The recording changed while it was read.", hint=_AGAIN)
+                raise _ChangedError
             tag = answer.headers.get("ETag")
             for chunk in _chunks(answer, length):
                 out.write(chunk)

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from backend.accounts.models import User
     from backend.projects.models import Project
 
-__all__ = ["may_manage", "parts", "room", "run", "runs"]
+__all__ = ["may_manage", "may_share", "parts", "room", "run", "runs"]
 
 
 def runs(project_id: UUID, *, user: User) -> list[Run]:
@@ -56,6 +56,11 @@ def run(project_id: UUID, run_id: UUID, *, user: User, need: Need = Need.READ) -
 def may_manage(found: Run, *, user: User) -> bool:
     """Returns whether a user may rename, pin and delete a run."""
     return found.keeper_id == user.pk or found.project.role == Role.OWNER
+
+
+def may_share(found: Run, *, user: User) -> bool:
+    """Returns whether a user may share a run: who kept it, and may write in the project."""
+    return found.keeper_id == user.pk and found.project.role >= Role.EDITOR
 
 
 def room(user: User) -> int:

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 from rest_framework import serializers
 
+from backend.projects.api.serializers import StrictSerializer
 from backend.runs.choices import Result
 from backend.runs.models import MAX_NAME_LENGTH, MAX_NOTE_LENGTH
-from backend.runs.queries import may_manage
+from backend.runs.queries import may_manage, may_share
 
 if TYPE_CHECKING:
     from backend.accounts.models import User
@@ -28,6 +29,7 @@ class RunSerializer(serializers.Serializer[Any]):
     is_pinned = serializers.BooleanField()
     is_shared = serializers.BooleanField(help_text="Whether all who may read the project see it.")
     may_manage = serializers.BooleanField(help_text="Whether you may rename, pin and delete it.")
+    may_share = serializers.BooleanField(help_text="Whether you may share it with the project.")
     keeper = serializers.CharField(help_text="The user who kept it.")
     recorded_as = serializers.CharField(help_text="The name that its session gave it.")
     created_at = serializers.DateTimeField()
@@ -39,7 +41,7 @@ class RunListSerializer(serializers.Serializer[Any]):
     items = RunSerializer(many=True)
 
 
-class KeepRunSerializer(serializers.Serializer[Any]):
+class KeepRunSerializer(StrictSerializer):
     """A run of your session that is to be stored."""
 
     run = serializers.RegexField(r"^[0-9a-f]{1,32}$", help_text="Its name in the event `segment`.")
@@ -48,7 +50,7 @@ class KeepRunSerializer(serializers.Serializer[Any]):
     result = serializers.ChoiceField(choices=Result.choices, default=Result.RUNNING)
 
 
-class ChangeRunSerializer(serializers.Serializer[Any]):
+class ChangeRunSerializer(StrictSerializer):
     """New values of a stored run; what is missing stays."""
 
     name = serializers.CharField(max_length=MAX_NAME_LENGTH, required=False)
@@ -63,6 +65,7 @@ def presented(run: Run, user: User) -> dict[str, Any]:
     return {name: getattr(run, name) for name in plain} | {
         "id": str(run.id),
         "may_manage": may_manage(run, user=user),
+        "may_share": may_share(run, user=user),
         "keeper": run.keeper.username,
         "created_at": run.created_at.isoformat(),
     }

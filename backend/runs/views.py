@@ -79,6 +79,8 @@ class Runs(ResourceViewSet):
         """Returns the recording as an MCAP file, or the range of its bytes that `Range` names."""
         run = queries.run(project_id, run_id, user=user_of(request))
         tag = f'"{run.sha256}"'
+        if request.headers.get("If-None-Match") == tag:
+            return Response(status=304, headers={"ETag": tag})
         is_same = request.headers.get("If-Range", tag) == tag
         wanted = asked_range(request.headers.get("Range", ""), run.size) if is_same else None
         return _answer(run, wanted, tag)

@@ -55,17 +55,20 @@ def keep(project_id: UUID, asked: dict[str, Any], *, acting_user: User) -> Run:
             raise NoAnswerError(
                 f"What the executor gave is no recording: {error}.", hint="Run again, and keep that run."
             ) from error
-        return _store(file, project, acting_user, asked | {"size": size, "start_s": start_s, "length_s": length_s})
+        found = {"size": size, "start_s": start_s, "length_s": length_s, "sha256": _digest(file)}
+        return _store(file, project, acting_user, asked | found)
 
 
 def change(project_id: UUID, run_id: UUID, asked: dict[str, Any], *, acting_user: User) -> Run:
-    """Changes name, note and pin of a run, and whether it is shared.
+    """Changes name, note and pin of a run, and whether it is shared. Only its keeper may share it.
 
     Raises:
         RoleTooLowError: the run is another user's, or the user may not share in this project.
     """
-    need = Need.WRITE if "is_shared" in asked else Need.RUN
-    run = queries.run(project_id, run_id, user=acting_user, need=need)
+    shares = asked.get("is_shared", False)
+    run = queries.run(project_id, run_id, user=acting_user, need=Need.WRITE if shares else Need.RUN)
+    if shares and run.keeper_id != acting_user.pk:
+        raise _of_another(run, "They can share it.")
     _require_own(run, acting_user)
     for name, value in asked.items():
         setattr(run, name, value)
@@ -86,11 +89,13 @@ def delete(project_id: UUID, run_id: UUID, *, acting_user: User) -> None:
 
 def _require_own(run: Run, user: User) -> None:
     if not queries.may_manage(run, user=user):
-        raise RoleTooLowError(
-            f"“{run.name}” was kept by {run.keeper.username}.",
-            hint="They or the owner of the project can change it.",
-            role=run.project.role.label,
-        )
+        raise _of_another(run, "They or the owner of the project can change it.")
+
+
+def _of_another(run: Run, hint: str) -> RoleTooLowError:
+    return RoleTooLowError(
+        f"“{run.name}” was kept by {run.keeper.username}.", hint=hint, role=run.project.role.label
+    )
 
 
 @transaction.atomic
@@ -100,9 +105,7 @@ def _store(file: IO[bytes], project: Project, keeper: User, values: dict[str, An
         raise RunQuotaError(
             "Other runs that you kept meanwhile took the space.", hint="Delete runs that you no longer need."
         )
-    run = Run.objects.create(
-        project=project, keeper=keeper, created_at=timezone.now(), sha256=_digest(file), **values
-    )
+    run = Run.objects.create(project=project, keeper=keeper, created_at=timezone.now(), **values)
     file.seek(0)
     number = 0
     while data := file.read(PART_BYTES):

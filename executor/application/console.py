@@ -32,13 +32,22 @@ class Console(io.TextIOBase):
         locator: finds the node whose action wrote a line.
         original: the replaced stream; the lines are written to it if the channel is closed, as in a process
             that an action forked.
+        now_s: returns the simulated time in s; 0 while it is not known.
     """
 
-    def __init__(self, level: LogLevel, send: Callable[[Log], None], locator: Locator, original: Any) -> None:
+    def __init__(
+        self,
+        level: LogLevel,
+        send: Callable[[Log], None],
+        locator: Locator,
+        original: Any,
+        now_s: Callable[[], float],
+    ) -> None:
         self._level = level
         self._send = send
         self._locator = locator
         self._original = original
+        self._now_s = now_s
         self._pending = threading.local()
         self._limit = RateLimit()
         self._lock = threading.Lock()
@@ -94,7 +103,8 @@ class Console(io.TextIOBase):
         self._emit(line[:LINE_CHARACTERS], self._locator.node_of(sys._getframe(2)))
 
     def _emit(self, line: str, node: Any) -> None:
-        message = Log(self._level, line)
+        # The session's own time lags by up to a period of the world's reports.
+        message = Log(self._level, line, time=self._now_s() or None)
         if node is not None:
             message.node_id, message.node_path = node.node_id, node.path
         try:

@@ -189,8 +189,8 @@ class Application:
     def _redirect_output(self) -> None:
         from executor.application.console import Console  # noqa: PLC0415
 
-        sys.stdout = Console("info", self._channel.send, self._locator, sys.__stdout__)
-        sys.stderr = Console("error", self._channel.send, self._locator, sys.__stderr__)
+        sys.stdout = Console("info", self._channel.send, self._locator, sys.__stdout__, self._now)
+        sys.stderr = Console("error", self._channel.send, self._locator, sys.__stderr__, self._now)
 
     def _join(self, start: StartApplication) -> None:
         """Replaces the ROS graph that the spare joined, if the application needs another graph."""

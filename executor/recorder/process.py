@@ -15,6 +15,7 @@ import signal
 import struct
 import sys
 import time
+from collections import deque
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
 __all__ = ["RecorderProcess", "main"]
 
 LOOK_S: Final = 1.0
+TOLD_S: Final = 1.0
 MOST_SOURCES: Final = 16
 BRANCH: Final = 0
 _NO_FIELDS: Final = (KeyError, TypeError, ValueError, AttributeError, OverflowError, struct.error)
@@ -64,6 +66,7 @@ class RecorderProcess:
         self._shelf: Shelf | None = None
         self._writer: RunWriter | None = None
         self._refused: set[str] = set()
+        self._told: deque[tuple[float, child_messages.Told]] = deque()
         self._look_s = time.monotonic()
 
     def run(self) -> None:
@@ -85,6 +88,7 @@ class RecorderProcess:
                 self._accept()
             else:
                 self._take(self._sources[key.fd])
+        self._write_told()
         if time.monotonic() - self._look_s >= LOOK_S:
             self._look_s = time.monotonic()
             self._channel.send(child_messages.Beat(0))
@@ -118,11 +122,23 @@ class RecorderProcess:
             self._change_run(self._shelf, message.run, about, files)
 
     def _tell(self, message: child_messages.Told) -> None:
-        writer = self._writer
-        if writer is None or writer.run != message.run:
-            return
-        # The manager's time may still be that of the run before; it is never ahead of world and application.
-        t_ns = min(max(0, round(message.t * 1e9)), writer.now_ns)
+        """Keeps a message of the manager until world and application have sent what was before it.
+
+        They send in batches. It does not wait for long: the time may still be that of the run before.
+        """
+        if self._writer is not None and self._writer.run == message.run:
+            self._told.append((time.monotonic() + TOLD_S, message))
+
+    def _write_told(self, *, all_: bool = False) -> None:
+        while self._told and (writer := self._writer) is not None:
+            until_s, message = self._told[0]
+            t_ns = max(0, round(message.t * 1e9))
+            if not all_ and t_ns > writer.now_ns and time.monotonic() < until_s:
+                return
+            self._told.popleft()
+            self._write_line(writer, min(t_ns, writer.now_ns), message)
+
+    def _write_line(self, writer: RunWriter, t_ns: int, message: child_messages.Told) -> None:
         uid = writer.moment.uid(message.data.get("node_path") or "")
         if (line := told(message.name, t_ns, message.data, uid)) is not None:
             self._guarded(lambda: writer.record(*line))
@@ -203,6 +219,7 @@ class RecorderProcess:
         self._writer = RunWriter(shelf, run, about, files)
 
     def _end_run(self) -> None:
+        self._write_told(all_=True)
         if self._writer is not None:
             self._writer.end()
 
@@ -232,6 +249,7 @@ class RecorderProcess:
 
     def _stop_run(self, error: OSError) -> None:
         writer, self._writer = self._writer, None
+        self._told.clear()
         if writer is None:
             return
         self._refused.add(writer.run)

@@ -18,8 +18,8 @@ TOKEN = "t0ken"
 def recordings(data: bytes, *, part: int = 100_000, fault: str = "", token: str = TOKEN) -> Iterator[str]:
     """Gives `data` as the run `a1`, in parts; yields the address.
 
-    Faults: `changes` (another ETag for each part), `cut` (a part ends early), `skips` (another part than was
-    asked for), `huge` (claims 1 TB), `hangs_up`, `conflict`.
+    Faults: `changes` (another ETag for each part), `grows` (another ETag once), `cut` (a part ends early),
+    `skips` (another part than was asked for), `huge` (claims 1 TB), `hangs_up`, `conflict`.
     """
 
     class Manager(BaseHTTPRequestHandler):
@@ -43,10 +43,14 @@ def recordings(data: bytes, *, part: int = 100_000, fault: str = "", token: str 
             Manager.parts += 1
             self.send_response(206)
             self.send_header("Content-Range", f"bytes {begin}-{begin + len(body) - 1}/{total}")
-            self.send_header("ETag", f'"{Manager.parts if fault == "changes" else 0}"')
+            self.send_header("ETag", f'"{Manager.tag()}"')
             self.send_header("Content-Length", str(len(body)))
             self.end_headers()
             self.wfile.write(body[:-1] if fault == "cut" else body)
+
+        @classmethod
+        def tag(cls) -> int:
+            return cls.parts if fault == "changes" else int(fault == "grows" and cls.parts > 2)
 
         def log_message(self, format: str, *args: object) -> None:  # noqa: A002 - its name there
             pass

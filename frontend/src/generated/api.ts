@@ -1861,6 +1861,8 @@ export interface components {
             is_shared: boolean;
             /** @description Whether you may rename, pin and delete it. */
             may_manage: boolean;
+            /** @description Whether you may share it with the project. */
+            may_share: boolean;
             /** @description The user who kept it. */
             keeper: string;
             /** @description The name that its session gave it. */

@@ -23,10 +23,17 @@ def test_all_parts_become_one_file():
     assert out.getvalue() == DATA
 
 
+def test_a_recording_that_grew_meanwhile_is_read_again():
+    out = io.BytesIO()
+    with recordings(DATA, fault="grows") as address:
+        assert pull(address, TOKEN, "a1", out, MOST) == len(DATA)
+    assert out.getvalue() == DATA
+
+
 @pytest.mark.parametrize(
     ("fault", "error", "text"),
     [
-        ("changes", NoAnswerError, "changed while it was read"),
+        ("changes", NoAnswerError, "changed each time that it was read"),
         ("cut", NoAnswerError, "did not give|ended too early"),
         ("skips", NoAnswerError, "another part"),
         ("hangs_up", NoAnswerError, "did not give"),

@@ -6,6 +6,8 @@ import hashlib
 
 import pytest
 
+from backend.projects.choices import Role
+from backend.projects.sharing import memberships
 from backend.runs.models import PART_BYTES, Run, RunPart
 from backend.runs.views import Runs
 from tests.backend.runs.conftest import SAMPLE, keep
@@ -100,9 +102,27 @@ def test_the_recording_is_downloaded_as_a_whole_and_in_ranges(people):
     for tag, expected in ((whole["ETag"], SAMPLE[:10]), ('"old"', SAMPLE)):
         answer = people.owner.client.get(address, headers={"Range": "bytes=0-9", "If-Range": tag})
         assert body(answer) == expected
+    assert people.owner.client.get(address, headers={"If-None-Match": whole["ETag"]}).status_code == 304
     beyond = people.owner.client.get(address, headers={"Range": f"bytes={len(SAMPLE)}-"})
     assert (beyond.status_code, beyond.json()["code"]) == (416, "bad_range")
 
 
 def test_keeping_a_run_is_an_expensive_call():
     assert Runs.expensive == ("POST",)
+
+
+def test_only_its_keeper_shares_a_run_and_takes_it_back_also_as_a_viewer(people):
+    run = keep(people.editor, people.project).json() | {"project": people.project.id}
+    answer = change(people.owner, run, is_shared=True)
+    assert (answer.status_code, answer.json()["code"]) == (403, "role_too_low")
+    assert change(people.editor, run, is_shared=True).status_code == 200
+    owner = people.owner.user
+    memberships.share_with_person(people.project.id, "editor", Role.VIEWER, acting_user=owner)
+    assert change(people.editor, run, is_shared=False).status_code == 200
+    assert change(people.editor, run, is_shared=True).status_code == 403
+
+
+def test_a_misspelt_field_is_an_error(people):
+    run = keep(people.owner, people.project).json() | {"project": people.project.id}
+    answer = change(people.owner, run, is_pined=True)
+    assert (answer.status_code, answer.json()["field"]) == (422, "is_pined")

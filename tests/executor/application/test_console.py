@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 def test_a_line_is_sent_when_it_is_complete() -> None:
     said: list[Log] = []
-    console = Console("info", said.append, Locator(), io.StringIO())
+    console = Console("info", said.append, Locator(), io.StringIO(), lambda: 1.5)
     print("one\ntw", end="", file=console)
     assert [log.text for log in said] == ["one"]
     print("o", file=console)
@@ -26,7 +26,7 @@ def test_a_line_is_sent_when_it_is_complete() -> None:
 
 def test_a_flood_is_cut_and_counted() -> None:
     said: list[Log] = []
-    console = Console("info", said.append, Locator(), io.StringIO())
+    console = Console("info", said.append, Locator(), io.StringIO(), lambda: 0.0)
     for number in range(100_000):
         console.write(f"{number}\n")
     assert 0 < len(said) < 50_000
@@ -37,5 +37,5 @@ def test_a_forked_process_prints_to_the_stream_below() -> None:
         raise ChannelClosed
 
     original = io.StringIO()
-    Console("error", closed, Locator(), original).write("last words\n")
+    Console("error", closed, Locator(), original, lambda: 0.0).write("last words\n")
     assert original.getvalue() == "last words\n"

@@ -158,6 +158,17 @@ async def test_writes_have_their_writer_and_prints_their_node():
         assert {w for f in writes for w in f["writer_uid"]} == {uid}
         lines = [f for topic, _, f in found if topic == "/bt/log" and f["text"].startswith("tick")]
         assert {line["uid"] for line in lines} == {uid}
+        written = {
+            json.loads(v): f["stamp"]
+            for f in writes
+            for k, v in zip(f["key"], f["value_json"], strict=True)
+            if k == "count"
+        }
+        printed = {int(line["text"].split()[1]): line["stamp"] for line in lines}
+        # A line is printed in the tick of its write.
+        inner = [n for n in printed if {n - 1, n, n + 1} <= written.keys()]
+        assert inner
+        assert [n for n in inner if not written[n - 1] <= printed[n] <= written[n + 1]] == []
 
 
 @pytest.mark.parametrize("kind", ["recorder", "world", "application"])

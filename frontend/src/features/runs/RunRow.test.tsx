@@ -15,17 +15,18 @@ const run: StoredRun = {
   is_pinned: true,
   is_shared: true,
   may_manage: true,
+  may_share: true,
   keeper: 'tina',
   recorded_as: 'a1',
   created_at: '2026-01-01T00:00:00Z',
 };
 
-function open(canShare = true) {
+function open(more: Partial<StoredRun> = {}) {
   const onChange = vi.fn().mockResolvedValue(true);
   const onRemove = vi.fn().mockResolvedValue(true);
   const onOpen = vi.fn();
   const calls = { onOpen, onChange, onRemove };
-  show(<RunRow projectId="p1" run={run} canShare={canShare} {...calls} />);
+  show(<RunRow projectId="p1" run={{ ...run, ...more }} {...calls} />);
   return calls;
 }
 const choose = async (name: string) => {
@@ -52,10 +53,10 @@ it('keeps its name with Escape, and with an empty one', async () => {
 });
 
 it('is not shared by those who may not', async () => {
-  open(false);
+  open({ is_shared: false, may_share: false });
   await user.click(screen.getByRole('button', { name: 'Commands on “First”' }));
   expect(await screen.findByRole('menuitem', { name: 'Rename' })).toBeInTheDocument();
-  expect(screen.queryByRole('menuitem', { name: 'Stop sharing' })).toBeNull();
+  expect(screen.queryByRole('menuitem', { name: 'Share with the project…' })).toBeNull();
 });
 
 it('is opened by its name', async () => {

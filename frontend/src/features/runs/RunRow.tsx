@@ -13,15 +13,13 @@ const CLOSED_AFTER_MS = 200;
 interface Props {
   readonly projectId: string;
   readonly run: StoredRun;
-  /** Whether the user's role lets them share in this project. */
-  readonly canShare: boolean;
   readonly onOpen: () => void;
   readonly onChange: (change: RunChange) => Promise<boolean>;
   readonly onRemove: () => Promise<boolean>;
 }
 
 /** A kept run: its name, length, result and note, and what can be done with it. */
-export function RunRow({ projectId, run, canShare, onOpen, onChange, onRemove }: Props) {
+export function RunRow({ projectId, run, onOpen, onChange, onRemove }: Props) {
   const { t, i18n } = useTranslation('runs');
   const [mode, setMode] = useState<'shown' | 'renamed' | 'removed' | 'shared'>('shown');
   const back = () => setMode('shown');
@@ -83,7 +81,7 @@ export function RunRow({ projectId, run, canShare, onOpen, onChange, onRemove }:
               <Menu.Item onClick={() => void onChange({ is_pinned: !run.is_pinned })}>
                 {t(run.is_pinned ? 'unpin' : 'pin')}
               </Menu.Item>
-              {canShare ? (
+              {run.is_shared || run.may_share ? (
                 <Menu.Item
                   onClick={() => (run.is_shared ? void onChange({ is_shared: false }) : setMode('shared'))}
                 >

@@ -20,6 +20,7 @@ const run = (more: Partial<StoredRun> = {}): StoredRun => ({
   is_pinned: false,
   is_shared: false,
   may_manage: true,
+  may_share: true,
   keeper: 'tina',
   recorded_as: 'a1',
   created_at: new Date().toISOString(),

@@ -1,6 +1,5 @@
 import { Alert, Loader, Stack, Text } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
-import { useProjectStore } from '@/store/project';
 import { closeRunsDialog } from '@/store/dialogs/runs';
 import { openKept } from '@/store/moment/looking';
 import { storedSource } from '@/store/recording/storedSource';
@@ -12,7 +11,6 @@ import { useRuns } from './useRuns';
 export function RunsContents() {
   const { t } = useTranslation('runs');
   const { projectId, found, keep, change, remove } = useRuns();
-  const canShare = useProjectStore((state) => state.role !== 'viewer');
   const rows = found.data ?? [];
   return (
     <>
@@ -26,7 +24,6 @@ export function RunsContents() {
             key={run.id}
             projectId={projectId}
             run={run}
-            canShare={canShare}
             onOpen={() => {
               closeRunsDialog();
               openKept(storedSource(projectId, run), run.name);

@@ -133,7 +133,9 @@ class RecorderProcess:
         while self._told and (writer := self._writer) is not None:
             until_s, message = self._told[0]
             t_ns = max(0, round(message.t * 1e9))
-            if not all_ and t_ns > writer.now_ns and time.monotonic() < until_s:
+            path = message.data.get("node_path")
+            is_early = t_ns > writer.now_ns or (path and not writer.moment.uid(path))
+            if is_early and not all_ and time.monotonic() < until_s:
                 return
             self._told.popleft()
             self._write_line(writer, min(t_ns, writer.now_ns), message)

@@ -12,7 +12,6 @@ from translator.enums import enum_lines
 from translator.python_source import parse
 from translator.xml.write import write_document
 from translator.yaml_text import YamlError, read_yaml
-from tree_gardener.errors import Diagnostic
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,6 +19,7 @@ if TYPE_CHECKING:
     from translator.action import ActionModel
     from translator.diagnostic import Diagnostic as TreeDiagnostic
     from translator.project import Project
+    from tree_gardener.errors import Diagnostic
 
 FOLDER = "tests/"
 ENDINGS = (".test.yaml", ".test.yml")
@@ -49,6 +49,8 @@ def to_job(project: Project, *, real: bool = False) -> tuple[dict[str, Any], lis
         project: the project.
         real: whether the job takes the sources of the actions along, for leaves that are `real`.
     """
+    from tree_gardener.errors import Diagnostic  # noqa: PLC0415 - the engine loads py_trees
+
     files: list[dict[str, Any]] = []
     problems: list[Diagnostic] = []
     for path in paths_of_tests(project.files):

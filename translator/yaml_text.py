@@ -7,9 +7,8 @@ from typing import Any, Final
 
 import yaml
 
-MAX_BYTES: Final = 2_000_000
-MAX_VALUES: Final = 100_000
-MAX_DEPTH: Final = 32
+from translator.limits import YAML_BYTES, YAML_LEVELS, YAML_VALUES
+
 _TAGS: Final = frozenset(
     f"tag:yaml.org,2002:{name}" for name in ("str", "int", "float", "bool", "null", "seq", "map")
 )
@@ -41,8 +40,8 @@ def read_yaml(raw: bytes) -> YamlText:
     Raises:
         YamlError: it is not YAML, or uses a feature that is refused.
     """
-    if len(raw) > MAX_BYTES:
-        raise YamlError(f"the document is larger than {MAX_BYTES} bytes")
+    if len(raw) > YAML_BYTES:
+        raise YamlError(f"the document is larger than {YAML_BYTES} bytes")
     try:
         text = raw.decode("utf-8-sig")
         _measure(text)
@@ -75,11 +74,11 @@ def _measure(text: str) -> None:
             depth += 1
         elif isinstance(event, yaml.CollectionEndEvent):
             depth -= 1
-        if depth > MAX_DEPTH:
-            raise _at(mark, f"the document is nested deeper than {MAX_DEPTH}")
+        if depth > YAML_LEVELS:
+            raise _at(mark, f"the document is nested deeper than {YAML_LEVELS}")
         values += isinstance(event, yaml.NodeEvent)
-        if values > MAX_VALUES:
-            raise _at(mark, f"the document has more than {MAX_VALUES} values")
+        if values > YAML_VALUES:
+            raise _at(mark, f"the document has more than {YAML_VALUES} values")
 
 
 def _read(node: yaml.Node, path: Path, places: dict[Path, tuple[int, int]], loader: Any) -> Any:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from translator.yaml_text import MAX_BYTES, YamlError, read_yaml
+from translator.limits import YAML_BYTES
+from translator.yaml_text import YamlError, read_yaml
 
 BOMB = "a: &a [x, x, x, x, x, x, x, x, x]\n" + "".join(
     f"{chr(98 + i)}: &{chr(98 + i)} [{', '.join([f'*{chr(97 + i)}'] * 9)}]\n" for i in range(9)
@@ -36,7 +37,7 @@ def test_values_have_their_places():
         (b"a: " + b"[" * 100 + b"]" * 100, 1, "nested deeper than 32"),
         (b"[" + b"1," * 100_001 + b"]", 1, "more than 100000 values"),
         (b"a: 1\n---\nb: 2", 2, "document"),
-        (b"#" * (MAX_BYTES + 1), 1, "larger than"),
+        (b"#" * (YAML_BYTES + 1), 1, "larger than"),
     ],
 )
 def test_what_is_refused_says_where(raw, line, said):

@@ -34,6 +34,12 @@ export const LIMITS = {
   xml_includes: 200,
   /** Bare characters of one XML file that a repair is offered for. */
   xml_repairs: 1000,
+  /** Bytes of a file of behaviour tests. */
+  yaml_bytes: 2000000,
+  /** Values in a file of behaviour tests. */
+  yaml_values: 100000,
+  /** Levels of nested values in a file of behaviour tests. */
+  yaml_levels: 32,
   /** Characters of one tree as text, JSON or XML, where the XML is edited beside the canvas. */
   tree_text_characters: 2000000,
   /** Characters of the ID of a tree, and of a name in `project.json`. */

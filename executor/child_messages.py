@@ -1,10 +1,10 @@
 """Messages between the manager and its child processes, defined once for both ends.
 
-Each message is a tagged struct; its tag is the field ``type``. A channel decodes one of six unions:
+Each message is a tagged struct; its tag is the field ``type``. A channel decodes one of these unions:
 
     ToWorld, FromWorld                world process (`executor.world.process`)
     ToApplication, FromApplication    application process (`executor.application.process`)
-    ToRecorder, FromRecorder          recorder process (`executor.recorder.process`)
+    ToRecorder, FromRecorder          recorder process (`executor.recorder_messages`)
 
 Bytes that are not a message of the union cannot be decoded: the manager ends such a child with a fault that
 says why, and a child ends itself. Both ends always have the same version, so nothing is versioned here.
@@ -25,11 +25,11 @@ from executor import messages
 Event = TypeVar("Event", bound=Struct)
 
 
-class _Message(Struct, tag_field="type", omit_defaults=True):
+class Message(Struct, tag_field="type", omit_defaults=True):
     """Base class of messages without an answer."""
 
 
-class _Asked(Struct, tag_field="type", omit_defaults=True, kw_only=True):
+class Asked(Struct, tag_field="type", omit_defaults=True, kw_only=True):
     """Base class of a request or of its answer.
 
     `request` is its token, or None if no client waits for an answer.
@@ -41,19 +41,19 @@ class _Asked(Struct, tag_field="type", omit_defaults=True, kw_only=True):
 # --- to both --------------------------------------------------------------------------------------
 
 
-class Stop(_Message, tag="stop"):
+class Stop(Message, tag="stop"):
     """Ends the process."""
 
 
-class Pause(_Asked, tag="pause"):
+class Pause(Asked, tag="pause"):
     """Pauses simulated time, or ticks."""
 
 
-class Resume(_Asked, tag="resume"):
+class Resume(Asked, tag="resume"):
     """Resumes simulated time, or ticks."""
 
 
-class BeginRecording(_Message, tag="begin_recording"):
+class BeginRecording(Message, tag="begin_recording"):
     """Begins the recording of a run: all that follows belongs to it.
 
     With `resets` simulated time goes back to 0 now; the application notices it a little later.
@@ -66,7 +66,7 @@ class BeginRecording(_Message, tag="begin_recording"):
 # --- to the world ---------------------------------------------------------------------------------
 
 
-class StartWorld(_Message, tag="start"):
+class StartWorld(Message, tag="start"):
     """Builds a world.
 
     `universe` is an id or a document; with `none` the process joins an outside ROS graph instead.
@@ -84,27 +84,27 @@ class StartWorld(_Message, tag="start"):
     domain_id: int = 0
 
 
-class StepWorld(_Asked, tag="step"):
+class StepWorld(Asked, tag="step"):
     """Simulates `dt_s` seconds of a paused world."""
 
     dt_s: float
 
 
-class Reset(_Asked, tag="reset"):
+class Reset(Asked, tag="reset"):
     """Resets the world to its initial state."""
 
 
-class SetSpeed(_Asked, tag="set_speed"):
+class SetSpeed(Asked, tag="set_speed"):
     """Sets the number of simulated seconds for each second of real time."""
 
     speed: float
 
 
-class StopRobot(_Message, tag="stop_robot"):
+class StopRobot(Message, tag="stop_robot"):
     """Sets the target velocity of every robot to zero."""
 
 
-class Teleop(_Message, tag="teleop"):
+class Teleop(Message, tag="teleop"):
     """Drives the first robot. With `goes_on`, a paused world runs for a moment so that the robot moves."""
 
     linear: float
@@ -112,14 +112,14 @@ class Teleop(_Message, tag="teleop"):
     goes_on: bool = False
 
 
-class MoveBody(_Asked, tag="move_body"):
+class MoveBody(Asked, tag="move_body"):
     """Moves a body to a pose."""
 
     id: str
     pose: tuple[float, float, float, float, float, float]
 
 
-class Subscribe(_Message, tag="subscribe"):
+class Subscribe(Message, tag="subscribe"):
     """Subscribes a client to a stream, or changes the subscription."""
 
     client: str
@@ -130,7 +130,7 @@ class Subscribe(_Message, tag="subscribe"):
     sensor: str = ""
 
 
-class Unsubscribe(_Message, tag="unsubscribe"):
+class Unsubscribe(Message, tag="unsubscribe"):
     """Ends a client's subscription to a stream."""
 
     client: str
@@ -138,18 +138,18 @@ class Unsubscribe(_Message, tag="unsubscribe"):
     sensor: str = ""
 
 
-class Pace(_Message, tag="pace"):
+class Pace(Message, tag="pace"):
     """Reports the share of pictures for which a client was too slow, 0 to 1."""
 
     client: str
     lost: float
 
 
-class ListTopics(_Asked, tag="list_topics"):
+class ListTopics(Asked, tag="list_topics"):
     """Requests the topics of the ROS graph."""
 
 
-class EchoTopic(_Asked, tag="echo_topic"):
+class EchoTopic(Asked, tag="echo_topic"):
     """Requests the messages of a topic; a `patient` request waits for a topic that does not exist yet."""
 
     topic: str
@@ -157,7 +157,7 @@ class EchoTopic(_Asked, tag="echo_topic"):
     patient: bool = False
 
 
-class PublishTopic(_Asked, tag="publish_topic"):
+class PublishTopic(Asked, tag="publish_topic"):
     """Publishes one message."""
 
     topic: str
@@ -165,7 +165,7 @@ class PublishTopic(_Asked, tag="publish_topic"):
     message: dict[str, Any]
 
 
-class DescribeType(_Asked, tag="describe_type"):
+class DescribeType(Asked, tag="describe_type"):
     """Requests the fields of a message type."""
 
     message_type: str
@@ -174,7 +174,7 @@ class DescribeType(_Asked, tag="describe_type"):
 # --- to the application ---------------------------------------------------------------------------
 
 
-class StartApplication(_Message, tag="start"):
+class StartApplication(Message, tag="start"):
     """Loads the application in `app_dir`, which then waits, paused.
 
     With `outside`, it uses the time of an outside ROS graph.
@@ -189,17 +189,17 @@ class StartApplication(_Message, tag="start"):
     outside: bool = False
 
 
-class StepTick(_Message, tag="step"):
+class StepTick(Message, tag="step"):
     """Ticks once; the answer is a `Stepped`."""
 
 
-class SetTickRate(_Asked, tag="set_tick_rate"):
+class SetTickRate(Asked, tag="set_tick_rate"):
     """Sets the number of ticks for each second of simulated time."""
 
     tick_hz: float
 
 
-class SetBlackboard(_Message, tag="set_blackboard"):
+class SetBlackboard(Message, tag="set_blackboard"):
     """Writes an entry of the blackboard; the answer is a `BlackboardSet`."""
 
     scope: str
@@ -207,54 +207,13 @@ class SetBlackboard(_Message, tag="set_blackboard"):
     value: Any
 
 
-class SetPort(_Asked, tag="set_port"):
+class SetPort(Asked, tag="set_port"):
     """Gives a port of a node another text, or none; a `PortSet` comes before the answer."""
 
     node_id: str
     path: str
     port: str
     value: str | None
-
-
-# --- to the recorder ------------------------------------------------------------------------------
-
-
-class StartRecorder(_Message, tag="start"):
-    """Records into a folder; what another recorder left there is taken over.
-
-    With `is_whole` the recordings have no budgets.
-    """
-
-    folder: str
-    is_whole: bool = False
-
-
-class BeginRun(_Message, tag="begin_run"):
-    """Begins the recording of a run; `folder` has the files of its project."""
-
-    run: str
-    about: dict[str, str]
-    folder: str
-
-
-class Told(_Message, tag="told"):
-    """An event of the session that belongs to a run, at a simulated time in s."""
-
-    run: str
-    name: str
-    t: float
-    data: dict[str, Any]
-
-
-class ReadSegment(_Asked, tag="read_segment"):
-    """Requests a part of a segment, which is sent to a client as a frame before the answer."""
-
-    client: str
-    run: str
-    segment: int
-    version: int
-    offset: int
-    length: int
 
 
 # --- from both ------------------------------------------------------------------------------------
@@ -276,7 +235,7 @@ class Place(Struct, omit_defaults=True):
     traceback: str = ""
 
 
-class Beat(_Message, tag="beat"):
+class Beat(Message, tag="beat"):
     """Sign of life of a child (`executor.supervision.pulse`).
 
     Attributes:
@@ -292,7 +251,7 @@ class Beat(_Message, tag="beat"):
     place: Place | None = None
 
 
-class Log(_Message, tag="log"):
+class Log(Message, tag="log"):
     """One line of output; if `time` is None, the session's own time is used."""
 
     level: messages.LogLevel
@@ -302,11 +261,11 @@ class Log(_Message, tag="log"):
     time: float | None = None
 
 
-class Starting(_Message, tag="starting"):
+class Starting(Message, tag="starting"):
     """The child received its start message."""
 
 
-class Answer(_Asked, tag="answer"):
+class Answer(Asked, tag="answer"):
     """A request was carried out, or failed with an error."""
 
     error: messages.Error | None = None
@@ -315,7 +274,7 @@ class Answer(_Asked, tag="answer"):
 # --- from the world -------------------------------------------------------------------------------
 
 
-class WorldReady(_Message, tag="ready"):
+class WorldReady(Message, tag="ready"):
     """The world is built, and paused."""
 
     renderer: str = ""
@@ -323,14 +282,14 @@ class WorldReady(_Message, tag="ready"):
     universe: str = ""
 
 
-class Progress(_Message, tag="progress"):
+class Progress(Message, tag="progress"):
     """The progress of the start: `fraction` is 0 to 1."""
 
     fraction: float
     message: str
 
 
-class Failed(_Asked, tag="error"):
+class Failed(Asked, tag="error"):
     """A message without a token could not be carried out."""
 
     code: str
@@ -348,13 +307,13 @@ class TopicMismatch(messages.TopicMismatch, tag_field="type", tag="topic_mismatc
     """The event `topic_mismatch` for clients."""
 
 
-class Topics(_Asked, tag="topics"):
+class Topics(Asked, tag="topics"):
     """The event `topics` for clients."""
 
     topics: list[messages.TopicInfo]
 
 
-class TopicMessage(_Asked, tag="topic_message"):
+class TopicMessage(Asked, tag="topic_message"):
     """The event `topic_message`; its field `type` is called `message_type` here."""
 
     topic: str
@@ -364,7 +323,7 @@ class TopicMessage(_Asked, tag="topic_message"):
     cut: dict[str, int] = {}
 
 
-class TypeDescription(_Asked, tag="type_description"):
+class TypeDescription(Asked, tag="type_description"):
     """The event `type_description`; its field `type` is called `message_type` here."""
 
     message_type: str
@@ -372,7 +331,7 @@ class TypeDescription(_Asked, tag="type_description"):
     example: dict[str, Any]
 
 
-class Frame(_Message, tag="frame"):
+class Frame(Message, tag="frame"):
     """A frame of the stream socket for one client (None: for all).
 
     `data` is the encoded frame; the manager does not change it. A newer frame of the same `stream` replaces
@@ -389,23 +348,23 @@ class Frame(_Message, tag="frame"):
 # --- from the application -------------------------------------------------------------------------
 
 
-class ApplicationReady(_Message, tag="ready"):
+class ApplicationReady(Message, tag="ready"):
     """The application is loaded, and paused."""
 
 
-class Paused(_Message, tag="paused"):
+class Paused(Message, tag="paused"):
     """Ticks are paused."""
 
 
-class Resumed(_Message, tag="resumed"):
+class Resumed(Message, tag="resumed"):
     """Ticks are resumed."""
 
 
-class Stepped(_Message, tag="stepped"):
+class Stepped(Message, tag="stepped"):
     """One tick was executed."""
 
 
-class BlackboardSet(_Message, tag="blackboard_set"):
+class BlackboardSet(Message, tag="blackboard_set"):
     """An entry was written, or `error` is the reason why not."""
 
     error: str = ""
@@ -435,15 +394,6 @@ class Fault(messages.Fault, tag_field="type", tag="fault"):
 
 class Finished(messages.Finished, tag_field="type", tag="finished"):
     """The event `finished` for clients."""
-
-
-# --- from the recorder ----------------------------------------------------------------------------
-
-
-class Recorded(_Message, tag="recorded"):
-    """The event `segment` for clients."""
-
-    segment: messages.Segment
 
 
 WorldCommand = (
@@ -509,10 +459,6 @@ FromApplication = (
     | Fault
     | Finished
 )
-ToRecorder = StartRecorder | Stop | BeginRun | Told | ReadSegment
-FromRecorder = Beat | Log | Answer | Frame | Recorded
-decode_to_recorder: Final = msgspec.msgpack.Decoder(ToRecorder).decode
-decode_from_recorder: Final = msgspec.msgpack.Decoder(FromRecorder).decode
 decode_to_world: Final = msgspec.msgpack.Decoder(ToWorld).decode
 decode_from_world: Final = msgspec.msgpack.Decoder(FromWorld).decode
 decode_to_application: Final = msgspec.msgpack.Decoder(ToApplication).decode
@@ -530,7 +476,6 @@ Request = (
     | DescribeType
     | SetTickRate
     | SetPort
-    | ReadSegment
 )
 """Messages that a child answers with `Answer`."""
 

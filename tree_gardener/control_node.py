@@ -69,6 +69,7 @@ class ControlNode:
         SUCCESS, FAILURE and RUNNING become the node's status; children keep their status until you reset
         them. SKIPPED does not change the node's status. Any other value, including None, is a TickError.
         """
+        # Abstract. The text names the class, since users write it, and this becomes a fault of their node.
         raise NotImplementedError(f"{type(self).__name__} has no method update")
 
     def halt(self) -> None:

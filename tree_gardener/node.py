@@ -173,6 +173,8 @@ class Node:
 
     # -- ticking ------------------------------------------------------------------------------------
 
+    # The next two are abstract: each family of nodes has its own.
+
     def execute(self) -> Status:
         """Ticks the node: applies its rule, sets its status, returns the result."""
         raise NotImplementedError

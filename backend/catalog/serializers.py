@@ -6,7 +6,8 @@ from typing import Any
 
 from rest_framework import serializers
 
-from backend.projects.api.serializers import ActionSerializer, ObjectField
+from backend.core.rest.fields import ObjectField
+from backend.projects.api.serializers import ActionSerializer
 
 
 class NodesSerializer(serializers.Serializer[Any]):

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from rest_framework import serializers
 
-from backend.projects.api.serializers import StrictSerializer
+from backend.core.rest.fields import StrictSerializer
 from backend.runs.choices import Result
 from backend.runs.models import MAX_NAME_LENGTH, MAX_NOTE_LENGTH
 from backend.runs.queries import may_manage, may_share

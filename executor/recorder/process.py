@@ -21,8 +21,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import msgspec
 
-from executor import __version__, child_messages
-from executor.child_messages import FromRecorder, ToRecorder, decode_to_recorder
+from executor import __version__, child_messages, recorder_messages
 from executor.messages import Error, RecordingPart, Segment
 from executor.recorder.definitions import DefinitionError
 from executor.recorder.link import ADDRESS_VARIABLE, Dump, Heard, Mark, Record
@@ -31,6 +30,7 @@ from executor.recorder.run_writer import RunWriter
 from executor.recorder.shelf import Budgets, Shelf
 from executor.recorder.sources import BrokenSource, Source, listen, take_source
 from executor.recorder.telling import told
+from executor.recorder_messages import FromRecorder, ToRecorder, decode_to_recorder
 from executor.supervision.channel import Channel, ChannelClosed, ChannelError
 from executor.supervision.confine import die_with_parent
 
@@ -66,7 +66,7 @@ class RecorderProcess:
         self._shelf: Shelf | None = None
         self._writer: RunWriter | None = None
         self._refused: set[str] = set()
-        self._told: deque[tuple[float, child_messages.Told]] = deque()
+        self._told: deque[tuple[float, recorder_messages.Told]] = deque()
         self._look_s = time.monotonic()
 
     def run(self) -> None:
@@ -102,18 +102,18 @@ class RecorderProcess:
             match message:
                 case child_messages.Stop():
                     raise _Stop
-                case child_messages.StartRecorder():
+                case recorder_messages.StartRecorder():
                     budgets = None if message.is_whole else Budgets()
                     self._shelf = Shelf(Path(message.folder), self._announce, budgets)
                     self._shelf.recover()
-                case child_messages.BeginRun():
+                case recorder_messages.BeginRun():
                     self._begin(message)
-                case child_messages.Told():
+                case recorder_messages.Told():
                     self._tell(message)
-                case child_messages.ReadSegment():
+                case recorder_messages.ReadSegment():
                     self._answer(message)
 
-    def _begin(self, message: child_messages.BeginRun) -> None:
+    def _begin(self, message: recorder_messages.BeginRun) -> None:
         about = {**message.about, "bt_studio": __version__, "python": platform.python_version()}
         about["platform"] = platform.platform()
         if self._shelf is not None and (self._writer is None or self._writer.run != message.run):
@@ -121,7 +121,7 @@ class RecorderProcess:
             about["project"] = project_name(files)
             self._change_run(self._shelf, message.run, about, files)
 
-    def _tell(self, message: child_messages.Told) -> None:
+    def _tell(self, message: recorder_messages.Told) -> None:
         """Keeps a message of the manager until world and application have sent what was before it.
 
         They send in batches. It does not wait for long: the time may still be that of the run before.
@@ -140,16 +140,16 @@ class RecorderProcess:
             self._told.popleft()
             self._write_line(writer, min(t_ns, writer.now_ns), message)
 
-    def _write_line(self, writer: RunWriter, t_ns: int, message: child_messages.Told) -> None:
+    def _write_line(self, writer: RunWriter, t_ns: int, message: recorder_messages.Told) -> None:
         uid = writer.moment.uid(message.data.get("node_path") or "")
         if (line := told(message.name, t_ns, message.data, uid)) is not None:
             self._guarded(lambda: writer.record(*line))
 
-    def _answer(self, message: child_messages.ReadSegment) -> None:
+    def _answer(self, message: recorder_messages.ReadSegment) -> None:
         error = self._read(message)
         self._channel.send(child_messages.Answer(request=message.request, error=error))
 
-    def _read(self, message: child_messages.ReadSegment) -> Error | None:
+    def _read(self, message: recorder_messages.ReadSegment) -> Error | None:
         segment = self._find(message)
         if segment is None or self._shelf is None:
             text = f"Segment {message.segment}.{message.version} of run {message.run} is not recorded."
@@ -163,7 +163,7 @@ class RecorderProcess:
         self._channel.send(child_messages.Frame(message.client, lane, _encode(part), keep=True))
         return None
 
-    def _find(self, message: child_messages.ReadSegment) -> shelf.Segment | None:
+    def _find(self, message: recorder_messages.ReadSegment) -> shelf.Segment | None:
         known = list(self._shelf.segments) if self._shelf is not None else []
         if self._writer is not None:
             known.append(self._writer.open_segment)
@@ -174,7 +174,7 @@ class RecorderProcess:
         times = segment.from_ns * 1e-9, segment.to_ns * 1e-9
         place = segment.run, BRANCH, segment.number, segment.version
         self._channel.send(
-            child_messages.Recorded(Segment(*place, *times, segment.bytes, segment.is_complete))
+            recorder_messages.Recorded(Segment(*place, *times, segment.bytes, segment.is_complete))
         )
 
     # --- the sources ------------------------------------------------------------------------------

@@ -14,19 +14,19 @@ from executor.child_messages import (
     Failed,
     Fault,
     FromApplication,
-    FromRecorder,
     FromWorld,
     Log,
-    Recorded,
     Sim,
     Starting,
     Tick,
     Tree,
     WorldReady,
 )
+from executor.recorder_messages import Recorded
 from executor.session.vitals import Vitals
 
 if TYPE_CHECKING:
+    from executor.recorder_messages import FromRecorder
     from executor.session.events import Kind
 
 __all__ = ["Child"]

@@ -12,7 +12,8 @@ from executor.session.events import Interrupt, Kill, Retire, Spawn, Tell
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from executor.child_messages import Request, ToApplication, ToRecorder, ToWorld
+    from executor.child_messages import Request, ToApplication, ToWorld
+    from executor.recorder_messages import ReadSegment, ToRecorder
     from executor.session.events import ChildExited, ChildLooked, ChildSaid, ChildTraced, Effect, Kind
 
 __all__ = ["Children"]
@@ -84,12 +85,12 @@ class Children:
         """Sends a message to the recorder, if there is one."""
         self._tell("recorder", message)
 
-    def ask(self, child: Child, message: Request, token: str) -> None:
+    def ask(self, child: Child, message: Request | ReadSegment, token: str) -> None:
         """Sends a request to a child; its answer will have the same token."""
         message.request = token
         self._effect(Tell(child.kind, child.number, message))
 
-    def order(self, kind: Kind, message: Request) -> tuple[Child, str]:
+    def order(self, kind: Kind, message: Request | ReadSegment) -> tuple[Child, str]:
         """Sends a request that no client asked for.
 
         Returns the child and the token of the expected answer.

@@ -15,13 +15,12 @@ if TYPE_CHECKING:
 
     from executor.child_messages import (
         FromApplication,
-        FromRecorder,
         FromWorld,
         ToApplication,
-        ToRecorder,
         ToWorld,
     )
     from executor.launching.model import NodeSpec
+    from executor.recorder_messages import FromRecorder, ToRecorder
     from executor.universes.document import Problem
 
 __all__ = [

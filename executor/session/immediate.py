@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Final, TypeVar
 
 from msgspec import Struct
 
-from executor import child_messages, messages
+from executor import child_messages, messages, recorder_messages
 from executor.session import streaming
 from executor.session.clients import MOST_ECHOED_BY_VIEWER, MOST_STREAMS
 from executor.session.ladder import State
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from executor.child_messages import Request
+    from executor.recorder_messages import ReadSegment
     from executor.session.events import CommandCame, Kind
     from executor.session.stage import Stage
 
@@ -30,7 +31,7 @@ def _ask(  # noqa: PLR0913 - one question
     stage: Stage,
     event: CommandCame,
     kind: Kind,
-    message: Request,
+    message: Request | ReadSegment,
     *,
     topic: str = "",
     patience_s: float = ANSWER_S,
@@ -158,7 +159,7 @@ def _read_recording(stage: Stage, event: CommandCame, data: messages.ReadRecordi
     if stage.children.get("recorder") is None:
         stage.output.refuse(event, "not_recorded", "This session is not recorded.")
         return
-    message = child_messages.ReadSegment(
+    message = recorder_messages.ReadSegment(
         client=event.client,
         run=data.run,
         segment=data.segment,

@@ -10,7 +10,7 @@ from uuid import uuid4
 
 from msgspec import to_builtins
 
-from executor import child_messages, messages
+from executor import child_messages, messages, recorder_messages
 from executor.session.questions import answer, answer_late
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ class Recording:
         self._folder, self._is_whole = folder, is_whole
         self._silent_s, self._looked_s = 0.0, None
         self._stage.children.ensure("recorder")
-        self._stage.children.tell_recorder(child_messages.StartRecorder(folder, is_whole))
+        self._stage.children.tell_recorder(recorder_messages.StartRecorder(folder, is_whole))
         if self.run:
             self._begin_run()
 
@@ -67,13 +67,13 @@ class Recording:
         if not (self.run and isinstance(event, _TOLD)):
             return
         t_s = getattr(event, "time", 0.0) or self._stage.sim_time_s
-        self._stage.children.tell_recorder(child_messages.Told(self.run, name, t_s, to_builtins(event)))
+        self._stage.children.tell_recorder(recorder_messages.Told(self.run, name, t_s, to_builtins(event)))
 
     def flag(self, text: str) -> bool:
         """Marks the present moment; returns whether there is a recording."""
         if not self.run or self._stage.children.get("recorder") is None:
             return False
-        told = child_messages.Told(self.run, "flag", self._stage.sim_time_s, {"text": text})
+        told = recorder_messages.Told(self.run, "flag", self._stage.sim_time_s, {"text": text})
         self._stage.children.tell_recorder(told)
         return True
 
@@ -86,7 +86,7 @@ class Recording:
             return
         self._silent_s = 0.0
         match event.message:
-            case child_messages.Recorded(segment=segment):
+            case recorder_messages.Recorded(segment=segment):
                 stage.output.emit(segment)
             case child_messages.Log(level=level, text=text):
                 stage.output.emit(messages.Log("manager", level, text, time=stage.sim_time_s))
@@ -132,4 +132,4 @@ class Recording:
     def _begin_run(self) -> None:
         stage = self._stage
         about = {"universe": stage.mirror.universe, "seed": str(stage.run.seed)}
-        stage.children.tell_recorder(child_messages.BeginRun(self.run, about, stage.run.folder))
+        stage.children.tell_recorder(recorder_messages.BeginRun(self.run, about, stage.run.folder))

@@ -16,12 +16,11 @@ import psutil
 
 from executor.child_messages import (
     FromApplication,
-    FromRecorder,
     FromWorld,
     ToApplication,
-    ToRecorder,
     ToWorld,
 )
+from executor.recorder_messages import FromRecorder, ToRecorder
 from executor.supervision.channel import AsyncChannel, ChannelClosed, ChannelError, socket_pair
 from executor.supervision.confine import INTERRUPT_SIGNAL, PARENT_VARIABLE
 from executor.supervision.output import LineReader

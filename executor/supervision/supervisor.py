@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any, Final
 import psutil
 
 from executor import child_messages
-from executor.child_messages import Frame, decode_from_application, decode_from_recorder, decode_from_world
+from executor.child_messages import Frame, decode_from_application, decode_from_world
+from executor.recorder_messages import decode_from_recorder
 from executor.session.events import (
     ChildExited,
     ChildLooked,

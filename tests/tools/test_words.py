@@ -56,3 +56,8 @@ def test_the_place_is_the_line_of_the_word():
 
 def test_every_clean_file_or_folder_exists():
     assert list(words.files(LIST.clean, LIST))
+
+
+def test_names_of_behaviour_tests_are_prose_and_other_values_of_yaml_are_not(tmp_path):
+    for name, read in (("a.test.yaml", words.markdown_texts), ("a.yaml", words.hash_texts)):
+        assert words.reader(tmp_path / name) is read

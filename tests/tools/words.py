@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 ROOT: Final = Path(__file__).resolve().parents[2]
 LIST: Final = Path(__file__).with_name("words.toml")
+BEHAVIOUR_TESTS: Final = ".test.yaml"
 FOLDERS_LEFT_OUT: Final = {"node_modules", "__pycache__", "dist", "locales"}
 # Spans that are not our own prose; their replacement keeps the line breaks.
 QUOTED: Final = re.compile(r"```.*?```|``[^`]*``|`[^`]*`|“[^”]*”|„[^“]*“|«[^»]*»", re.DOTALL)
@@ -156,6 +157,8 @@ READERS: Final[dict[str, Callable[[str], Iterator[Text]]]] = {
 
 def reader(path: Path) -> Callable[[str], Iterator[Text]] | None:
     """Returns the function that reads such a file, or None where it holds no prose of ours."""
+    if path.name.endswith(BEHAVIOUR_TESTS):
+        return markdown_texts  # the names of the tests are shown to users
     return READERS.get(path.suffix) or READERS.get(path.name)
 
 

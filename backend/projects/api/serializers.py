@@ -10,66 +10,17 @@ from drf_spectacular.utils import extend_schema_field
 from rest_framework import serializers
 
 from backend.core.limits import LIMITS
+from backend.core.rest.fields import (
+    ObjectField,
+    StrictBooleanField,
+    StrictIntegerField,
+    StrictSerializer,
+    TextField,
+)
 from backend.projects.storage.changes import Content, FileChange
 from backend.projects.storage.names import MAX_NAME_LENGTH, MAX_PATH_LENGTH
 
-OBJECT = {"type": "object", "additionalProperties": {}}
 MAX_REVISION = 2**31 - 1
-
-
-@extend_schema_field(OBJECT)
-class ObjectField(serializers.JSONField):
-    """A JSON object."""
-
-    def to_internal_value(self, data: Any) -> Any:
-        """Refuses every other JSON value."""
-        value = super().to_internal_value(data)
-        if not isinstance(value, dict):
-            raise serializers.ValidationError("This must be a JSON object.")
-        return value
-
-
-class TextField(serializers.CharField):
-    """Text that is kept unchanged: it is not trimmed. Numbers and booleans are refused."""
-
-    def __init__(self, **kwargs: Any) -> None:
-        super().__init__(**{"trim_whitespace": False, "allow_blank": True, **kwargs})
-
-    def to_internal_value(self, data: Any) -> str:
-        """Returns the text; refuses any other value."""
-        if not isinstance(data, str):
-            raise serializers.ValidationError("This must be text.")
-        return super().to_internal_value(data)
-
-
-class StrictIntegerField(serializers.IntegerField):
-    """An integer; text that looks like a number is refused."""
-
-    def to_internal_value(self, data: Any) -> int:
-        """Returns the integer; refuses text and booleans."""
-        if isinstance(data, bool) or not isinstance(data, int):
-            raise serializers.ValidationError("This must be a whole number.")
-        return super().to_internal_value(data)
-
-
-class StrictBooleanField(serializers.BooleanField):
-    """True or false; words for these values are refused."""
-
-    def to_internal_value(self, data: Any) -> bool:
-        """Returns the boolean; refuses any other value."""
-        if not isinstance(data, bool):
-            raise serializers.ValidationError("This must be true or false.")
-        return data
-
-
-class StrictSerializer(serializers.Serializer[Any]):
-    """Refuses unknown fields, so that a misspelt field is never ignored."""
-
-    def to_internal_value(self, data: Any) -> Any:
-        """Returns the checked values; an error names each unknown field."""
-        if isinstance(data, dict) and (unknown := set(data) - set(self.fields)):
-            raise serializers.ValidationError({str(min(unknown))[:100]: "There is no such field."})
-        return super().to_internal_value(data)
 
 
 class DiagnosticSerializer(serializers.Serializer[Any]):
@@ -338,70 +289,6 @@ class CheckSerializer(StrictSerializer):
     """Files that differ from the stored ones, for a check before saving."""
 
     files = OverlayFileSerializer(many=True, required=False, default=list)
-
-
-class TestPathSerializer(serializers.Serializer[Any]):
-    """A node on the way from the root, with its status after the tick."""
-
-    name = serializers.CharField()
-    status = serializers.CharField()
-
-
-class TestFailureSerializer(serializers.Serializer[Any]):
-    """The reason for which a behaviour test failed."""
-
-    message = serializers.CharField()
-    line = serializers.IntegerField(help_text="Line of the expectation in the file.")
-    tick = serializers.IntegerField(help_text="From 1; 0 before the first tick.")
-    time_s = serializers.FloatField()
-    node = serializers.CharField(help_text="Path of the node; empty if it is about no single node.")
-    tree = serializers.CharField()
-    node_id = serializers.CharField(help_text="Id of the node in the diagram.")
-    wanted = serializers.CharField()
-    got = serializers.CharField()
-    path = TestPathSerializer(many=True)
-
-
-class TestOutcomeSerializer(serializers.Serializer[Any]):
-    """The outcome of one behaviour test."""
-
-    name = serializers.CharField()
-    file = serializers.CharField()
-    line = serializers.IntegerField()
-    tree = serializers.CharField(help_text="Empty for the main tree.")
-    outcome = serializers.ChoiceField(choices=["passed", "failed", "needs_python", "not_run"])
-    ticks = serializers.IntegerField()
-    failures = TestFailureSerializer(many=True)
-
-
-class CoveredNodeSerializer(serializers.Serializer[Any]):
-    """The items of a node that tests can reach, each with whether one did."""
-
-    name = serializers.CharField()
-    type = serializers.CharField()
-    items = serializers.DictField(child=serializers.BooleanField())
-
-
-class CoveredTreeSerializer(serializers.Serializer[Any]):
-    """The coverage of one tree, by node id."""
-
-    share = serializers.FloatField()
-    nodes = serializers.DictField(child=CoveredNodeSerializer())
-
-
-class CoverageSerializer(serializers.Serializer[Any]):
-    """The coverage of all trees, by tree id."""
-
-    share = serializers.FloatField()
-    trees = serializers.DictField(child=CoveredTreeSerializer())
-
-
-class TestReportSerializer(serializers.Serializer[Any]):
-    """The results of a project's behaviour tests."""
-
-    tests = TestOutcomeSerializer(many=True)
-    problems = DiagnosticSerializer(many=True)
-    coverage = CoverageSerializer()
 
 
 class InspectActionSerializer(StrictSerializer):

@@ -18,6 +18,7 @@ from backend.projects.api import presentation
 from backend.projects.api import serializers as s
 from backend.projects.api.idempotency import once
 from backend.projects.api.schema import NOT_SOUND, ConflictProblemSerializer
+from backend.projects.api.serializers_tests import TestReportSerializer
 from backend.projects.documents import checking, templates
 from backend.projects.storage import names, queries, writes
 from backend.projects.storage.access import Need
@@ -270,7 +271,7 @@ class Projects(ResourceViewSet):
     @extend_schema(
         operation_id="test_project",
         request=s.CheckSerializer,
-        responses={200: s.TestReportSerializer} | NOT_SOUND,
+        responses={200: TestReportSerializer} | NOT_SOUND,
         tags=["projects"],
     )
     @action(detail=True, methods=["post"], expensive=("POST",))

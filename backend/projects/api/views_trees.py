@@ -12,6 +12,7 @@ from rest_framework.response import Response
 from backend.accounts.api.requests import parsed
 from backend.accounts.api.viewsets import ResourceViewSet
 from backend.core.limits import LIMITS
+from backend.core.rest.fields import StrictSerializer, TextField
 from backend.projects.api import serializers as s
 from backend.projects.documents import checking
 
@@ -22,15 +23,15 @@ if TYPE_CHECKING:
 MAX_TEXT = LIMITS["tree_text_characters"]
 
 
-class WriteTreeSerializer(s.StrictSerializer):
+class WriteTreeSerializer(StrictSerializer):
     """A diagram that is to be converted to XML."""
 
-    diagram = s.TextField(max_length=MAX_TEXT, help_text="Diagram JSON, as in trees/<TreeID>.json.")
-    base = s.TextField(
+    diagram = TextField(max_length=MAX_TEXT, help_text="Diagram JSON, as in trees/<TreeID>.json.")
+    base = TextField(
         required=False, default="", max_length=MAX_TEXT, help_text="An earlier text, to be patched."
     )
     ids = serializers.ListField(
-        child=s.TextField(max_length=LIMITS["name_characters"]),
+        child=TextField(max_length=LIMITS["name_characters"]),
         required=False,
         default=list,
         max_length=LIMITS["nodes_per_tree"],
@@ -38,11 +39,11 @@ class WriteTreeSerializer(s.StrictSerializer):
     )
 
 
-class ReadTreeSerializer(s.StrictSerializer):
+class ReadTreeSerializer(StrictSerializer):
     """An edited XML text of a tree."""
 
-    xml = s.TextField(max_length=MAX_TEXT)
-    diagram = s.TextField(max_length=MAX_TEXT, help_text="The diagram before the text was edited.")
+    xml = TextField(max_length=MAX_TEXT)
+    diagram = TextField(max_length=MAX_TEXT, help_text="The diagram before the text was edited.")
 
 
 class NodeRangeSerializer(serializers.Serializer[Any]):

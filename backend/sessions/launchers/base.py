@@ -67,6 +67,8 @@ class Launcher:
             lacking = ", ".join(missing or ["name"])
             raise TypeError(f"The launcher {cls.__name__} does not define {lacking}.")
 
+    # `__init_subclass__` refuses a launcher that does not define the next three.
+
     def start(self, spec: Spec) -> Started:
         """Starts an executor, and waits until its manager listens."""
         raise NotImplementedError

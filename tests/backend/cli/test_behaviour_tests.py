@@ -42,7 +42,7 @@ def test_a_failure_names_everything_and_ends_with_status_1(project, capsys, tmp_
     tree = project / "trees" / "MainTree.json"
     tree.write_text(tree.read_text().replace('"ReactiveSequence"', '"Sequence"'))
     with pytest.raises(CliError) as ended:
-        run_tests(str(project), "stands still", junit=tmp_path / "j.xml")
+        run_tests(str(project), "does not drive", junit=tmp_path / "j.xml")
     assert ended.value.status == 1
     out = capsys.readouterr().out
     assert "FAILED  tests/bump_and_go.test.yaml:14: turns while something is near" in out

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from executor import child_messages, messages
+from executor import child_messages, messages, recorder_messages
 from executor.session.events import ChildExited, ChildLooked, ChildSaid, RecordingWanted, Spawn, StreamOpened
 from executor.session.ladder import State
 from executor.session.recording import MOST_LOST, SILENT_S
@@ -20,7 +20,7 @@ def segment(number: int = 0, size: int = 10) -> messages.Segment:
     return messages.Segment("a1", 0, number, 0, 0.0, 1.0, size)
 
 
-def says(play: Play, message: child_messages.FromRecorder) -> None:
+def says(play: Play, message: recorder_messages.FromRecorder) -> None:
     number = play.session.children.living["recorder"].number
     play.happens(ChildSaid("recorder", number, message))
 
@@ -31,7 +31,7 @@ def told(play: Play, kind: type) -> list:
 
 def test_a_run_begins_at_the_recorder_before_world_and_application():
     play = recorded()
-    [begun] = told(play, child_messages.BeginRun)
+    [begun] = told(play, recorder_messages.BeginRun)
     assert begun.folder == "/somewhere"
     runs = told(play, child_messages.BeginRecording)
     assert [run.run for run in runs] == [begun.run] * 2
@@ -51,7 +51,7 @@ def test_without_a_wish_nothing_is_recorded():
 def test_a_reset_begins_another_run():
     play = recorded()
     play.command("reset_world")
-    first, second = told(play, child_messages.BeginRun)
+    first, second = told(play, recorder_messages.BeginRun)
     assert first.run != second.run
 
 
@@ -59,15 +59,15 @@ def test_lines_faults_and_flags_are_recorded():
     play = recorded()
     play.child_says("application", "log", level="info", text="hello", time=2.0)
     assert play.reply(play.command("flag", text="here")) == "ack"
-    lines = [(t.name, t.t, t.data["text"]) for t in told(play, child_messages.Told)]
+    lines = [(t.name, t.t, t.data["text"]) for t in told(play, recorder_messages.Told)]
     assert lines == [("log", 2.0, "hello"), ("flag", play.session.sim_time_s, "here")]
 
 
 def test_all_clients_get_segments_and_a_late_one_too():
     play = recorded()
-    says(play, child_messages.Recorded(segment(0)))
-    says(play, child_messages.Recorded(segment(1)))
-    says(play, child_messages.Recorded(segment(0, size=0)))
+    says(play, recorder_messages.Recorded(segment(0)))
+    says(play, recorder_messages.Recorded(segment(1)))
+    says(play, recorder_messages.Recorded(segment(0, size=0)))
     assert [s.number for s in play.sent("segment")] == [0, 1, 0]
     assert play.session.snapshot().segments == [segment(1)]
 
@@ -79,7 +79,7 @@ def test_a_read_is_asked_of_the_recorder_and_answered_by_it():
     assert play.reply(request) == "no_stream"
     play.happens(StreamOpened("d"))
     request = play.command("read_recording")
-    [asked] = told(play, child_messages.ReadSegment)
+    [asked] = told(play, recorder_messages.ReadSegment)
     assert (asked.client, asked.length) == ("d", 100)
     says(play, child_messages.Answer(request=asked.request))
     assert play.reply(request) == "ack"
@@ -100,7 +100,7 @@ def test_a_recorder_that_dies_is_replaced_and_the_run_continues():
     lines = [line.text for line in play.sent("log")]
     assert lines[0] == "The recorder was killed by SIGKILL. Another one records from here; the run continues."
     assert lines[-1] == "The recorder was killed by SIGKILL. Nothing more is recorded; the run continues."
-    runs = {begun.run for begun in told(play, child_messages.BeginRun)}
+    runs = {begun.run for begun in told(play, recorder_messages.BeginRun)}
     assert len(runs) == 1
     assert [line.level for line in play.sent("log")] == ["warning"] * len(lines)
 

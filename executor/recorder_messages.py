@@ -1,0 +1,65 @@
+"""Messages between the manager and the recorder; those of other children are in `executor.child_messages`."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import msgspec
+
+from executor import messages  # noqa: TC001 - msgspec reads the annotations
+from executor.child_messages import Answer, Asked, Beat, Frame, Log, Message, Stop
+
+# --- to the recorder ------------------------------------------------------------------------------
+
+
+class StartRecorder(Message, tag="start"):
+    """Records into a folder; what another recorder left there is taken over.
+
+    With `is_whole` the recordings have no budgets.
+    """
+
+    folder: str
+    is_whole: bool = False
+
+
+class BeginRun(Message, tag="begin_run"):
+    """Begins the recording of a run; `folder` has the files of its project."""
+
+    run: str
+    about: dict[str, str]
+    folder: str
+
+
+class Told(Message, tag="told"):
+    """An event of the session that belongs to a run, at a simulated time in s."""
+
+    run: str
+    name: str
+    t: float
+    data: dict[str, Any]
+
+
+class ReadSegment(Asked, tag="read_segment"):
+    """Requests a part of a segment, which is sent to a client as a frame before the answer."""
+
+    client: str
+    run: str
+    segment: int
+    version: int
+    offset: int
+    length: int
+
+
+# --- from the recorder ----------------------------------------------------------------------------
+
+
+class Recorded(Message, tag="recorded"):
+    """The event `segment` for clients."""
+
+    segment: messages.Segment
+
+
+ToRecorder = StartRecorder | Stop | BeginRun | Told | ReadSegment
+FromRecorder = Beat | Log | Answer | Frame | Recorded
+decode_to_recorder: Final = msgspec.msgpack.Decoder(ToRecorder).decode
+decode_from_recorder: Final = msgspec.msgpack.Decoder(FromRecorder).decode

@@ -87,38 +87,26 @@ async def _run(
     progress: Callable[[Report], None],
     say: Callable[[str], None],
 ) -> Report:
-    if options.recording is None:
-        return await _run_in(None, project, app_zip, options, progress, say)
-    with kept_run(options.recording) as folder:
-        return await _run_in(folder, project, app_zip, options, progress, say)
-
-
-async def _run_in(  # noqa: PLR0913, PLR0917 - as `_run`, and where it is recorded
-    recordings: Path | None,
-    project: Project,
-    app_zip: bytes,
-    options: HeadlessOptions,
-    progress: Callable[[Report], None],
-    say: Callable[[str], None],
-) -> Report:
-    token = secrets.token_urlsafe()
-    settings = ManagerSettings(port=0, token=token, records=recordings is not None, recordings=recordings)
-    manager = Manager(settings)
-    try:
-        port = await manager.start()
-        url, headers = f"ws://127.0.0.1:{port}", {"Authorization": f"Bearer {token}"}
-        more: dict[str, Any] = {"max_size": None, "compression": None, "proxy": None}
-        async with connect(f"{url}/control", additional_headers=headers, **more) as control:
-            introspection = msgspec.json.decode(await control.recv())["data"]
-            stream_url = f"{url}/stream?client={introspection['client_id']}"
-            async with connect(stream_url, additional_headers=headers, **more) as stream:
-                runner = _Runner(control, stream, project.settings, say)
-                if options.serve_viewer:
-                    await runner.serve_viewer()
-                data = _run_data(project, app_zip, options)
-                return await runner.run(data, options.duration_s, progress)
-    finally:
-        await manager.close()
+    keeping = contextlib.nullcontext() if options.recording is None else kept_run(options.recording)
+    with keeping as folder:
+        token = secrets.token_urlsafe()
+        settings = ManagerSettings(port=0, token=token, records=folder is not None, recordings=folder)
+        manager = Manager(settings)
+        try:
+            port = await manager.start()
+            url, headers = f"ws://127.0.0.1:{port}", {"Authorization": f"Bearer {token}"}
+            more: dict[str, Any] = {"max_size": None, "compression": None, "proxy": None}
+            async with connect(f"{url}/control", additional_headers=headers, **more) as control:
+                introspection = msgspec.json.decode(await control.recv())["data"]
+                stream_url = f"{url}/stream?client={introspection['client_id']}"
+                async with connect(stream_url, additional_headers=headers, **more) as stream:
+                    runner = _Runner(control, stream, project.settings, say)
+                    if options.serve_viewer:
+                        await runner.serve_viewer()
+                    data = _run_data(project, app_zip, options)
+                    return await runner.run(data, options.duration_s, progress)
+        finally:
+            await manager.close()
 
 
 class _Runner:

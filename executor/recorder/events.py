@@ -25,20 +25,15 @@ if TYPE_CHECKING:
 __all__ = ["CODES", "EventRecorder", "laser_scan"]
 
 CODES: Final = {"IDLE": 0, "RUNNING": 1, "SUCCESS": 2, "FAILURE": 3, "SKIPPED": 4}
-FLUSH_S: Final = 1.0
 
 
 class EventRecorder:
-    """Writes events and frames into a recording.
-
-    `now_s` arguments are times of a clock that limits what is lost: once a second, all is written to disk.
-    """
+    """Writes events and frames into a recording."""
 
     def __init__(self, writer: RecordingWriter) -> None:
         self._writer = writer
         self._generation = 0
         self._uids: dict[str, int] = {}
-        self._flush_s: float | None = None
 
     def event(self, name: str, t_s: float, tick: int, data: Mapping[str, Any]) -> None:
         """Writes an event of the control socket; those without a place in a recording are left out.
@@ -68,14 +63,6 @@ class EventRecorder:
         """Writes a scan of the stream as `sensor_msgs/LaserScan`."""
         t_ns = nanoseconds(frame["t"])
         self._writer.write("/scan", "sensor_msgs/msg/LaserScan", t_ns, laser_scan(t_ns, frame))
-
-    def flush_due(self, now_s: float) -> bool:
-        """Writes all to disk if a second has passed since the last time; returns whether it did."""
-        if self._flush_s is not None and now_s - self._flush_s < FLUSH_S:
-            return False
-        self._flush_s = now_s
-        self._writer.flush()
-        return True
 
     # --- inside ---
 

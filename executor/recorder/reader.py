@@ -48,6 +48,7 @@ class RecordingError(Exception):
     def __init__(self, name: str, offset: int, message: str, hint: str) -> None:
         super().__init__(f"{name}:{offset}: {message} ({hint})")
         self.offset = offset
+        self.message = message
         self.hint = hint
 
 
@@ -185,6 +186,8 @@ class RecordReader:
                 yield Attachment.read(stream)
             case Opcode.METADATA:
                 yield Metadata.read(stream)
+            case 0:
+                raise self._error(at, "a record has no kind", "The file is damaged there.")
             case _:
                 pass  # indexes, and records that newer writers add
 

@@ -9,7 +9,7 @@ from mcap.records import Attachment, Channel, Message, Metadata, Schema
 from mcap.writer import CompressionType, Writer
 
 from executor.recorder.reader import Limits, RecordReader
-from executor.recorder.writer import CHUNK_BYTES
+from executor.recorder.writer import CHUNK_BYTES, LIBRARY
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -68,7 +68,7 @@ def _copy(
     readers: Sequence[RecordReader], out: BinaryIO, keeps: Callable[[str, str, int], bool] | None = None
 ) -> tuple[int, int]:
     writer = Writer(out, chunk_size=CHUNK_BYTES, compression=CompressionType.ZSTD)
-    writer.start(profile="ros2", library="bt-studio")
+    writer.start(profile="ros2", library=LIBRARY)
     schemas: dict[tuple[str, bytes], int] = {}
     channels: dict[tuple[str, int], int] = {}
     seen: set[tuple[str, bytes]] = set()

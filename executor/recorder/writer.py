@@ -18,9 +18,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import Any
 
-__all__ = ["CHUNK_BYTES", "FORMAT_VERSION", "RecordingWriter", "nanoseconds"]
+__all__ = ["CHUNK_BYTES", "FORMAT_VERSION", "LIBRARY", "RecordingWriter", "nanoseconds"]
 
 CHUNK_BYTES: Final = 256 * 1024
+LIBRARY: Final = "bt-studio"
+"""The name of the writer in the head of each file."""
 FORMAT_VERSION: Final = 1
 """The version of our types. A reader of this version reads all lower ones."""
 _SEQUENCES: Final = 1 << 32
@@ -42,7 +44,7 @@ class RecordingWriter:
     def __init__(self, file: BinaryIO, about: Mapping[str, str]) -> None:
         self._file = file
         self._writer = Writer(file, chunk_size=CHUNK_BYTES, compression=CompressionType.ZSTD)
-        self._writer.start(profile="ros2", library="bt-studio")
+        self._writer.start(profile="ros2", library=LIBRARY)
         self._writer.add_metadata("bt-studio", {"format_version": str(FORMAT_VERSION), **about})
         self._schemas: dict[str, int] = {}
         self._channels: dict[tuple[str, str], int] = {}

@@ -8,10 +8,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from executor.recorder.definitions import DefinitionError, full_text
-from executor.ros.raw_take import ignore, take
+from executor.ros.raw_subscription import DEPTH, LARGE_TYPES, subscribe_raw
+from executor.ros.raw_take import take
 from executor.ros.values import message_type
 
 if TYPE_CHECKING:
@@ -23,12 +23,9 @@ __all__ = ["GraphTap"]
 
 LOOK_S: Final = 0.5
 MOST_TOPICS: Final = 64
-MOST_TAKEN: Final = 50
 NODE: Final = "_bt_studio_recorder"
 """The name of a hidden node: users did not start it, so their lists of nodes do not show it."""
 _LEFT_OUT: Final = frozenset({"/rosout", "/parameter_events", "/clock"})
-# To subscribe to them costs more than the rest of the recording.
-_LARGE: Final = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2"})
 
 
 class GraphTap:
@@ -68,7 +65,7 @@ class GraphTap:
             self._look_s = now_s + LOOK_S
             self._look()
         for topic, (kind, subscription) in self._subscriptions.items():
-            for _ in range(MOST_TAKEN):
+            for _ in range(DEPTH):
                 data = take(subscription)
                 if data is None:
                     break
@@ -93,21 +90,15 @@ class GraphTap:
         for topic in present - self._left_out - self._refused - self._subscriptions.keys():
             publishers = self._node.get_publishers_info_by_topic(topic)
             if publishers:
-                self._add(topic, publishers)
+                self._add(topic, publishers[0].topic_type)
         for topic in [topic for topic in self._subscriptions if not self._node.count_publishers(topic)]:
             self._node.destroy_subscription(self._subscriptions.pop(topic)[1])
 
-    def _add(self, topic: str, publishers: list[Any]) -> None:
-        kind = publishers[0].topic_type
+    def _add(self, topic: str, kind: str) -> None:
         reason = self._reason_against(kind)
         if not reason:
-            is_latched = all(
-                end.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL for end in publishers
-            )
             try:
-                made = self._node.create_subscription(
-                    message_type(kind), topic, ignore, _qos(is_latched=is_latched), raw=True
-                )
+                made = subscribe_raw(self._node, topic, message_type(kind))
             except (ValueError, RuntimeError) as error:
                 reason = str(error).partition("\n")[0]
             else:
@@ -119,19 +110,10 @@ class GraphTap:
     def _reason_against(self, kind: str) -> str:
         if len(self._subscriptions) >= MOST_TOPICS:
             return f"a recording holds at most {MOST_TOPICS} topics of other processes"
-        if kind in _LARGE:
+        if kind in LARGE_TYPES:
             return f"messages of the type {kind} are too large; publish a CompressedImage"
         try:
             full_text(kind)
         except DefinitionError as error:
             return str(error)
         return ""
-
-
-def _qos(*, is_latched: bool) -> QoSProfile:
-    """Returns what each publisher of a topic can serve; a latched one also gives its last messages."""
-    return QoSProfile(
-        depth=MOST_TAKEN,
-        reliability=ReliabilityPolicy.RELIABLE if is_latched else ReliabilityPolicy.BEST_EFFORT,
-        durability=DurabilityPolicy.TRANSIENT_LOCAL if is_latched else DurabilityPolicy.VOLATILE,
-    )

@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 
 from rclpy.exceptions import NameValidationException
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 
 from executor import child_messages
@@ -24,6 +23,8 @@ from executor.child_messages import (
 from executor.messages import TopicInfo
 from executor.ros.graph_ends import shown_ends
 from executor.ros.outlet import Outlet, Piped
+from executor.ros.raw_subscription import LARGE_TYPES, subscribe_raw
+from executor.ros.raw_take import take
 from executor.ros.values import FieldError, describe, fill, flatten, message_type
 
 if TYPE_CHECKING:
@@ -46,14 +47,6 @@ ECHO_MAX_HZ: Final = 60.0
 MOST_ECHOED: Final = 24
 MOST_PUBLISHERS: Final = 50
 MOST_NODES: Final = 20
-_QOS: Final = QoSProfile(
-    depth=50, reliability=ReliabilityPolicy.BEST_EFFORT, durability=DurabilityPolicy.VOLATILE
-)
-_LATCHED_QOS: Final = QoSProfile(
-    depth=50, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL
-)
-# Types whose rates are not measured for a list: a subscription to images would start the renderer.
-_UNMEASURED: Final = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2"})
 
 
 class TopicError(ValueError):
@@ -145,7 +138,7 @@ class Topics:
                 reader.node.destroy_subscription(reader.subscription)
                 continue
             newest = None
-            while (taken := _take_raw(reader.subscription)) is not None:
+            while (taken := take(reader.subscription)) is not None:
                 reader.received.append((now_s, len(taken)))
                 newest = taken
             while reader.received and reader.received[0][0] < now_s - WINDOW_S:
@@ -160,7 +153,7 @@ class Topics:
         rows = []
         for name, there in sorted(self._node.get_topic_names_and_types()):
             types = self._types(name, there)
-            if types[0] not in _UNMEASURED and name not in self._readers:
+            if types[0] not in LARGE_TYPES and name not in self._readers:
                 self._subscribe(name, types[0], now_s)
             reader = self._readers.get(name)
             if reader is not None:
@@ -219,14 +212,8 @@ class Topics:
             kind = message_type(type_name)
         except ValueError:
             return False  # the topic is listed without a rate
-        publishers = self._node.get_publishers_info_by_topic(name)
-        latched = bool(publishers) and all(
-            end.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL for end in publishers
-        )
-        qos = _LATCHED_QOS if latched else _QOS
         node = self._node_for(name, kind)
-        subscription = node.create_subscription(kind, name, _ignore, qos, raw=True)
-        self._readers[name] = _Reader(type_name, subscription, now_s, node)
+        self._readers[name] = _Reader(type_name, subscribe_raw(node, name, kind), now_s, node)
         return True
 
     def _send_echo(self, name: str, reader: _Reader, raw: bytes) -> None:
@@ -318,13 +305,3 @@ def _rates(reader: _Reader | None, now_s: float) -> tuple[float | None, float | 
 def _sentence(error: Exception) -> str:
     text = str(error).rstrip(".")
     return f"{text[:1].upper()}{text[1:]}." if not isinstance(error, FieldError) else f"{text}."
-
-
-def _take_raw(subscription: Any) -> bytes | None:
-    with subscription.handle:
-        taken = subscription.handle.take_message(subscription.msg_type, True)  # noqa: FBT003
-    return None if taken is None else taken[0]
-
-
-def _ignore(message: object) -> None:
-    """Serves as the callback of subscriptions; it is never called, since no executor spins this node."""

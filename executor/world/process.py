@@ -12,6 +12,7 @@ import os
 import signal
 import sys
 import time
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -27,7 +28,7 @@ from executor.universes.document import DocumentError, Problem
 from executor.world.interface import WorldError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection
+    from collections.abc import Callable
 
     from rclpy.context import Context
 
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
     from executor.ros.topics import TopicReply
     from executor.world.simulation.loop import SimulationLoop
     from executor.world.simulation.outside_graph import OutsideGraph
-    from executor.world.simulation.recording import GraphTap, MakeGraphTap, WorldRecorder
+    from executor.world.simulation.recording import WorldRecorder
 
 _log = logging.getLogger(__name__)
 
@@ -190,7 +191,8 @@ class WorldProcess:
             self._start_outside(message)
             return
         from executor.navigation.start import make_navigation  # noqa: PLC0415
-        from executor.ros.mismatches import Mismatches  # noqa: PLC0415 - ROS reads the environment
+        from executor.ros.graph_tap import GraphTap  # noqa: PLC0415 - ROS reads the environment
+        from executor.ros.mismatches import Mismatches  # noqa: PLC0415
         from executor.ros.node import WorldNode  # noqa: PLC0415
         from executor.ros.outlet import Outlet  # noqa: PLC0415
         from executor.ros.tap import TopicTap  # noqa: PLC0415
@@ -220,7 +222,8 @@ class WorldProcess:
         self._close.append(node.close)
         self._topics = Topics(node.node, self._answer, commands=node, outlet=outlet)
         recorder = WorldRecorder(world, sensors, node, TopicTap, os.environ.get(ADDRESS_VARIABLE, ""))
-        recorder.join(self._graph_tap_maker(context))
+        recorder.join(partial(GraphTap, context))
+        self._close.append(recorder.close)
         self._recorder = recorder
         loop = SimulationLoop(world, sensors, node, self._send_frame, speed=message.speed)
         loop.watchers += [recorder.look, self._topics.poll, Mismatches(node.node, self._channel.send).poll]
@@ -230,19 +233,6 @@ class WorldProcess:
             loop.parts.append(navigation)
         self._loop = loop
         self._channel.send(child_messages.WorldReady(renderer.name, has_tf(), world.name))
-
-    def _graph_tap_maker(self, context: Context) -> MakeGraphTap:
-        """Returns what makes the tap of a graph; it is closed with the world."""
-        from executor.ros import graph_tap  # noqa: PLC0415 - ROS reads the environment
-
-        def make(
-            own: Collection[str], write: Callable[[str, str, bytes], None], note: Callable[[str], None]
-        ) -> GraphTap:
-            tap = graph_tap.GraphTap(context, own, write, note)
-            self._close.append(tap.close)
-            return tap
-
-        return make
 
     def _start_outside(self, message: StartWorld) -> None:
         from executor.ros.mismatches import Mismatches  # noqa: PLC0415 - ROS reads the environment

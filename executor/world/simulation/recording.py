@@ -47,6 +47,9 @@ class GraphTap(Protocol):
     def restart(self) -> None:
         """Begins again, with the latched messages."""
 
+    def close(self) -> None:
+        """Takes nothing more."""
+
 
 class MakeGraphTap(Protocol):
     """Makes a tap of a graph."""
@@ -124,6 +127,11 @@ class WorldRecorder:
         if self._link.is_recording and frame.stream.partition("/")[0] == "camera":
             camera = _decode_camera(frame.data)
             self._tap.jpeg(f"/world/camera/{camera.sensor}", camera.jpeg, camera.t, camera.sensor)
+
+    def close(self) -> None:
+        """Ends the tap of the graph."""
+        if self._graph_tap is not None:
+            self._graph_tap.close()
 
     # --- inside ---
 

@@ -84,15 +84,3 @@ def test_a_scan_is_one_of_ros():
     )
     assert (read.angle_min, read.angle_max, read.range_max) == (-0.5, 0.5, 8.0)
     assert read.ranges.tolist() == [1.0, float("inf"), 2.0]
-
-
-def test_all_is_on_disk_once_a_second():
-    file = io.BytesIO()
-    recorder = EventRecorder(RecordingWriter(file, {}))
-    assert [recorder.flush_due(now) for now in (10.0, 10.5, 10.99, 11.0, 11.5)] == [
-        True,
-        False,
-        False,
-        True,
-        False,
-    ]

@@ -71,8 +71,15 @@ def test_a_bomb_is_refused_before_it_is_unpacked():
         read(chunk(b"", 1000, "zstd", bomb))
 
 
+def test_zeros_are_no_records():
+    for data in (MAGIC + bytes(1000), chunk(bytes(1000))):
+        with pytest.raises(RecordingError, match=r"f\.mcap:8: a record has no kind"):
+            read(data)
+
+
 def test_many_small_bombs_are_counted_together():
-    one = chunk(bytes(1 << 20), compression="zstd", packed=zstandard.compress(bytes(1 << 20)))
+    data = struct.pack("<BQ", 0x80, (1 << 20) - 9) + bytes((1 << 20) - 9)  # a record of another writer
+    one = chunk(data, compression="zstd", packed=zstandard.compress(data))
     with pytest.raises(RecordingError, match="too large unpacked"):
         read(MAGIC + one[len(MAGIC) :] * 5, total_bytes=4 << 20)
 

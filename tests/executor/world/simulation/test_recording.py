@@ -32,6 +32,8 @@ class Topics:
 class Others:
     """Takes the place of the tap of a graph, in which others publish one topic at a high rate."""
 
+    closed = 0
+
     def __init__(self, own: Any, write: Any, note: Any) -> None:
         assert own == {"/scan"}
         self._write = write
@@ -47,6 +49,9 @@ class Others:
 
     def restart(self) -> None:
         self.restarts += 1
+
+    def close(self) -> None:
+        Others.closed += 1
 
 
 def no_renderer() -> Any:
@@ -78,6 +83,8 @@ def test_scene_poses_dumps_and_pictures_are_sent(monkeypatch):
         recorder.look(0.0)
         messages += source.messages()
         source.connection.close()
+    recorder.close()
+    assert Others.closed == 1
     world.close()
     assert messages[0] == Mark("a1")
     assert isinstance(messages[1], Record)

@@ -1,0 +1,94 @@
+"""Finds what a file from outside is, and writes it as a recording."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, BinaryIO, Final
+
+from mcap.records import Header
+
+from executor.recorder.outside import bags, btlog, btsqlite, tables
+from executor.recorder.outside.limits import Counter
+from executor.recorder.reader import MAGIC, Limits, RecordReader
+from executor.recorder.recover import recover
+from executor.recorder.writer import LIBRARY, RecordingWriter
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+__all__ = ["Converted", "convert_outside"]
+
+_PACKED: Final = {b"\x1f\x8b": "gzip", b"PK": "a zip", b"\x28\xb5\x2f\xfd": "zstd"}
+_KNOWN: Final = "Known are MCAP, bags of ROS 2, and the .btlog and SQLite logs of BehaviorTree.CPP."
+
+
+@dataclass(frozen=True)
+class Converted:
+    """The result: the number of messages, and the bytes at the end that were not whole."""
+
+    messages: int
+    lost_bytes: int = 0
+
+
+def convert_outside(source: Path, out: BinaryIO, limits: Limits | None = None, name: str = "") -> Converted:
+    """Writes a file, or a folder of a bag, as a recording.
+
+    Args:
+        source: the file or folder.
+        out: the recording.
+        limits: the most that the source may hold.
+        name: its name in errors; by default that of the path.
+
+    Raises:
+        RecordingError: it is no log that can be read, or hostile; mostly an `OutsideError`.
+        OSError: a file cannot be read or written.
+    """
+    counter = Counter(name or source.name, limits or Limits())
+    if source.is_dir():
+        files = bags.files_of_bag(source)
+        if not files or len(files) > bags.MOST_FILES:
+            text = "it has no .mcap or .db3 file" if not files else "it has too many files"
+            raise counter.error("not_a_log", 0, text, _KNOWN)
+        return _written(out, lambda writer: bags.convert_bag(files, counter, writer))
+    with source.open("rb") as file:
+        begin = file.read(64)
+        file.seek(0)
+        if begin.startswith(btlog.BEGIN):
+            return _written(out, lambda writer: btlog.convert_btlog(file, counter, writer))
+        if begin.startswith(MAGIC):
+            if _is_ours(file, counter):
+                file.seek(0)
+                found = recover(file, counter.name, out, counter.limits)
+                return Converted(found.messages, found.lost_bytes)
+            return _written(out, lambda writer: bags.convert_bag([source], counter, writer))
+    if begin.startswith(tables.BEGIN):
+        return _of_tables(source, counter, out)
+    for mark, kind in _PACKED.items():
+        if begin.startswith(mark):
+            raise counter.error("not_a_log", 0, f"it is packed by {kind}", "Unpack it first.")
+    raise counter.error("not_a_log", 0, "it is no log of a known kind", _KNOWN)
+
+
+def _written(out: BinaryIO, write: Callable[[RecordingWriter], None]) -> Converted:
+    writer = RecordingWriter(out, {})
+    write(writer)
+    writer.finish()
+    return Converted(writer.messages)
+
+
+def _is_ours(file: BinaryIO, counter: Counter) -> bool:
+    """Returns whether a file was written by BT Studio, so that it is copied with all its topics."""
+    for record in RecordReader(file, counter.name, counter.limits):
+        return isinstance(record, Header) and record.library == LIBRARY
+    return False
+
+
+def _of_tables(source: Path, counter: Counter, out: BinaryIO) -> Converted:
+    with tables.Tables(source, counter, {**btsqlite.TABLES, **bags.TABLES}) as opened:
+        names = opened.names()
+    if names >= set(btsqlite.TABLES):
+        return _written(out, lambda writer: btsqlite.convert_btsqlite(source, counter, writer))
+    if names >= set(bags.TABLES):
+        return _written(out, lambda writer: bags.convert_bag([source], counter, writer))
+    raise counter.error("not_a_log", 0, "it has no tables of a known kind", _KNOWN)

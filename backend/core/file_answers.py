@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import IO, TYPE_CHECKING, Any, Final
+from urllib.parse import quote
 
 from django.http import StreamingHttpResponse
 
@@ -10,6 +11,14 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 PART: Final = 1024 * 1024
+
+
+def saved_as(filename: str) -> dict[str, str]:
+    """Returns the headers that make the browser save a file instead of displaying it."""
+    return {
+        "Content-Disposition": f"attachment; filename*=UTF-8''{quote(filename, safe='')}",
+        "Content-Security-Policy": "default-src 'none'; sandbox",
+    }
 
 
 class FileAnswer(StreamingHttpResponse):

@@ -48,6 +48,11 @@ class StudioError(Exception):
     retry_after_s: ClassVar[int] = 0
     """Seconds after which the client may try again; 0 if a repetition does not help."""
 
+    @property
+    def headers(self) -> dict[str, str]:
+        """The headers of the answer."""
+        return {"Retry-After": str(self.retry_after_s)} if self.retry_after_s else {}
+
     def __init__(self, detail: str, *, hint: str = "", field: str = "", **extra: Any) -> None:
         super().__init__(detail)
         self.detail = detail
@@ -112,7 +117,7 @@ def exception_handler(error: Exception, context: dict[str, Any]) -> Response | N
     headers: dict[str, str] = {}
     if isinstance(error, StudioError):
         document = error.document()
-        headers |= {"Retry-After": str(error.retry_after_s)} if error.retry_after_s else {}
+        headers |= error.headers
     elif isinstance(error, Http404):
         document = problem(404, "not_found", detail="There is nothing at this address.")
     elif isinstance(error, OperationalError):

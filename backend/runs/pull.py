@@ -5,11 +5,11 @@ from __future__ import annotations
 import contextlib
 import http.client
 import re
-import socket
 import time
 from typing import IO, TYPE_CHECKING, Final
 
 from backend.runs.errors import NoAnswerError, NotRecordedError, RunQuotaError
+from backend.sessions.keeper.unix_http import UnixHTTPConnection
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -27,19 +27,6 @@ _AGAIN: Final = "Try again; the run stays recorded while the session lives."
 
 class _ChangedError(Exception):
     """Another client made the manager join the recording again, so that it has become longer."""
-
-
-class _UnixConnection(http.client.HTTPConnection):
-    """A connection to a unix socket."""
-
-    def __init__(self, path: str) -> None:
-        super().__init__("localhost", timeout=ANSWER_S)
-        self._path = path
-
-    def connect(self) -> None:
-        self.sock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
-        self.sock.settimeout(ANSWER_S)
-        self.sock.connect(self._path)
 
 
 def pull(address: str, token: str, recorded_as: str, out: IO[bytes], most: int) -> int:
@@ -101,7 +88,7 @@ def _pull(  # noqa: PLR0913, PLR0917 - as `pull`, and the deadline
 def _connection(address: str) -> http.client.HTTPConnection:
     kind, _, path = address.partition(":")
     if kind == "unix":
-        return _UnixConnection(path)
+        return UnixHTTPConnection(path, ANSWER_S)
     return http.client.HTTPConnection(address, timeout=ANSWER_S)
 
 

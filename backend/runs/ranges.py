@@ -31,5 +31,5 @@ def asked_range(header: str, size: int) -> tuple[int, int] | None:
         if last and int(last) < begin:
             return None
     if begin >= end:
-        raise BadRangeError(f"The recording has {size} bytes.", hint="Ask for bytes before its end.")
+        raise BadRangeError(size)
     return begin, end

@@ -2,29 +2,38 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-from urllib.parse import quote
+from functools import partial
+from typing import TYPE_CHECKING, Any, Final
 
+from django.http import HttpResponse
 from drf_spectacular.types import OpenApiTypes
-from drf_spectacular.utils import extend_schema
+from drf_spectacular.utils import OpenApiParameter, extend_schema
 from rest_framework.decorators import action
 from rest_framework.response import Response
 
 from backend.accounts.api.requests import parsed, user_of
 from backend.accounts.api.viewsets import ResourceViewSet
-from backend.core.file_answers import FileAnswer
+from backend.core.file_answers import FileAnswer, saved_as
 from backend.core.scratch import scratch
-from backend.runs import queries, writes
+from backend.ingress.bodies import body_of
+from backend.runs import logs, queries, writes
 from backend.runs import serializers as s
 from backend.runs.ranges import asked_range
+from backend.workers.aside import conversions
+from backend.workers.deferred import Deferred
 
 if TYPE_CHECKING:
+    from concurrent.futures import Future
     from uuid import UUID
 
     from django.http.response import HttpResponseBase
     from rest_framework.request import Request
 
+    from backend.accounts.models import User
     from backend.runs.models import Run
+
+
+MOST_PART_BYTES: Final = 8 << 20
 
 
 class Runs(ResourceViewSet):
@@ -48,6 +57,29 @@ class Runs(ResourceViewSet):
         asked, user = parsed(s.KeepRunSerializer, request.data), user_of(request)
         values: dict[str, Any] = {"recorded_as": asked.pop("run"), **asked}
         return Response(s.presented(writes.keep(project_id, values, acting_user=user), user), status=201)
+
+    @extend_schema(
+        operation_id="keep_log",
+        parameters=[OpenApiParameter("filename", str, description="The name of the file; the run gets it.")],
+        request={"application/octet-stream": OpenApiTypes.BINARY},
+        responses={201: s.RunSerializer},
+        tags=["runs"],
+    )
+    @action(detail=False, methods=["post"], expensive=("POST",))
+    def logs(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Stores a log of a robot as a run. The body is the file.
+
+        Known are MCAP, one file of a bag of ROS 2, and the `.btlog` and SQLite logs of BehaviorTree.CPP.
+        """
+        user, name = user_of(request), request.query_params.get("filename", "")
+        project, body = logs.may_keep(project_id, acting_user=user), body_of(request)
+        work = conversions.ask(f"user {user.pk}", partial(logs.read_log, body, name))
+
+        def kept(done: Future[logs.Recording]) -> Response:
+            run = logs.keep_log(project, done.result(), acting_user=user)
+            return Response(s.presented(run, user), status=201)
+
+        return Deferred(self, request, work, kept)
 
     @extend_schema(operation_id="get_run", responses=s.RunSerializer, tags=["runs"])
     def retrieve(self, request: Request, project_id: UUID, run_id: UUID) -> Response:
@@ -77,35 +109,38 @@ class Runs(ResourceViewSet):
     @action(detail=True)
     def recording(self, request: Request, project_id: UUID, run_id: UUID) -> HttpResponseBase:
         """Returns the recording as an MCAP file, or the range of its bytes that `Range` names."""
-        run = queries.run(project_id, run_id, user=user_of(request))
+        user = user_of(request)
+        run = queries.run(project_id, run_id, user=user)
         tag = f'"{run.sha256}"'
+        headers = saved_as(f"{run.name}.mcap") | {
+            "Content-Type": "application/octet-stream",
+            "X-Content-Type-Options": "nosniff",
+            "Accept-Ranges": "bytes",
+            "Cache-Control": "private, no-cache",
+            "ETag": tag,
+        }
         if request.headers.get("If-None-Match") == tag:
             return Response(status=304, headers={"ETag": tag})
         is_same = request.headers.get("If-Range", tag) == tag
         wanted = asked_range(request.headers.get("Range", ""), run.size) if is_same else None
-        return _answer(run, wanted, tag)
+        return _whole(run, user, headers) if wanted is None else _part(run, *wanted, headers)
 
 
-def _answer(run: Run, wanted: tuple[int, int] | None, tag: str) -> HttpResponseBase:
-    begin, end = wanted or (0, run.size)
-    file = scratch().file(expected=end - begin)
+def _part(run: Run, begin: int, end: int, headers: dict[str, str]) -> HttpResponse:
+    """Returns a range of a recording, or its beginning if it is long: the client asks for the rest."""
+    end = min(end, begin + MOST_PART_BYTES)
+    headers |= {"Content-Range": f"bytes {begin}-{end - 1}/{run.size}"}
+    return HttpResponse(b"".join(queries.parts(run, begin, end)), status=206, headers=headers)
+
+
+def _whole(run: Run, user: User, headers: dict[str, str]) -> FileAnswer:
+    """Returns a recording by a temporary file; each user, and all guests of a project, have one at a time."""
+    who = f"guests of {run.project_id}" if user.is_guest else user.pk
+    file = scratch().file(expected=run.size, key=f"download of {who}")
     try:
-        for part in queries.parts(run, begin, end):
+        for part in queries.parts(run, 0, run.size):
             file.write(part)
     except BaseException:
         file.close()
         raise
-    name = quote(run.name, safe="")
-    headers = {
-        "Content-Type": "application/octet-stream",
-        "Content-Disposition": f"attachment; filename=\"run.mcap\"; filename*=UTF-8''{name}.mcap",
-        "X-Content-Type-Options": "nosniff",
-        "Accept-Ranges": "bytes",
-        "ETag": tag,
-        "Cache-Control": "private, no-cache",
-    }
-    if wanted is None:
-        return FileAnswer(file, headers=headers)
-    return FileAnswer(
-        file, status=206, headers=headers | {"Content-Range": f"bytes {begin}-{end - 1}/{run.size}"}
-    )
+    return FileAnswer(file, headers=headers)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from typing import IO, TYPE_CHECKING, Any, Final
 
 from django.db import transaction
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from backend.accounts.models import User
     from backend.projects.models import Project
 
-__all__ = ["MOST_UNPINNED", "change", "delete", "keep"]
+__all__ = ["MOST_UNPINNED", "change", "delete", "keep", "stored"]
 
 MOST_UNPINNED: Final = 20
 
@@ -48,15 +49,27 @@ def keep(project_id: UUID, asked: dict[str, Any], *, acting_user: User) -> Run:
         raise NotRecordedError("No session of yours runs this project.", hint="Press Run, then keep the run.")
     with scratch().file(key=f"run of {acting_user.pk}") as file:
         most = queries.room(acting_user)
-        size = pull(session.address, manager_token(session), asked["recorded_as"], file, most)
+        pull(session.address, manager_token(session), asked["recorded_as"], file, most)
         try:
-            start_s, length_s = length_of(lambda at, length: _read(file, at, length), size)
+            return stored(file, project, acting_user, asked)
         except DamagedError as error:
             raise NoAnswerError(
                 f"What the executor gave is no recording: {error}.", hint="Run again, and keep that run."
             ) from error
-        found = {"size": size, "start_s": start_s, "length_s": length_s, "sha256": _digest(file)}
-        return _store(file, project, acting_user, asked | found)
+
+
+def stored(file: IO[bytes], project: Project, keeper: User, values: dict[str, Any]) -> Run:
+    """Stores a recording as a run; without the name that a session gave it, its hash names it.
+
+    Raises:
+        DamagedError: the file is no recording.
+        RunQuotaError: the keeper's runs take all the space that they may.
+    """
+    size = file.seek(0, os.SEEK_END)
+    start_s, length_s = length_of(lambda at, length: _read(file, at, length), size)
+    sha256 = _digest(file)
+    found = {"size": size, "start_s": start_s, "length_s": length_s, "sha256": sha256}
+    return _store(file, project, keeper, {"recorded_as": sha256[:32]} | values | found)
 
 
 def change(project_id: UUID, run_id: UUID, asked: dict[str, Any], *, acting_user: User) -> Run:

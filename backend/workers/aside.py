@@ -87,4 +87,5 @@ class Aside:
 
 
 unpacking: Final = Aside("unpacking", threads=2, per_owner=1, waiting=8)
+conversions: Final = Aside("conversions", threads=2, per_owner=1, waiting=8)
 checkers: Final = Aside("checkers", threads=4, per_owner=2, waiting=32)

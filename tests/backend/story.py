@@ -12,6 +12,8 @@ import zipfile
 
 from django.core.files.uploadedfile import SimpleUploadedFile
 
+from tests.executor.recorder.outside.logs import SAMPLES
+
 FORWARD = '''"""Drives ahead."""
 
 from geometry_msgs.msg import Twist
@@ -79,11 +81,13 @@ class Story:
         ]
         self._ids = {}
 
-    def ask(self, who, method, path, body=None, *, status=200, file=None):
+    def ask(self, who, method, path, body=None, *, status=200, file=None, data=None):
         """Makes one request; returns its answer as JSON, or unchanged."""
         address = f"/api/v1/{path}"
         if file is not None:
             response = who.client.post(address, {"file": SimpleUploadedFile(*file)})
+        elif data is not None:
+            response = who.client.generic(method, address, data, "application/octet-stream")
         else:
             data = {} if body is None else {"data": json.dumps(body), "content_type": "application/json"}
             response = who.client.generic(method, address, **data)
@@ -253,6 +257,8 @@ def _run(story, teacher, one):
     story.ask(teacher, "PATCH", f"{one}/runs/{run['id']}", {"note": "It turned too late.", "is_shared": True})
     story.ask(teacher, "GET", f"{one}/runs/{run['id']}/recording")
     story.ask(teacher, "DELETE", f"{one}/runs/{run['id']}", status=204)
+    log = (SAMPLES / "patrol.btlog").read_bytes()
+    story.ask(teacher, "POST", f"{one}/runs/logs?filename=patrol.btlog", data=log, status=201)
     story.ask(teacher, "DELETE", f"sessions/{session['id']}", status=204)
 
 

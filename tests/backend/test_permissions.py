@@ -94,6 +94,7 @@ POLICY = {
     ("post", f"{P}/session"): RUN,
     ("get", f"{P}/runs"): READ,
     ("post", f"{P}/runs"): (401, 403, 404, 409, 409, 409),  # no session of theirs runs
+    ("post", f"{P}/runs/logs"): (401, 403, 404, 503, 503, 503),  # no containers for reading logs
     ("get", f"{P}/runs/{{run_id}}"): RUN_READ,
     ("patch", f"{P}/runs/{{run_id}}"): RUN_CHANGE,
     ("delete", f"{P}/runs/{{run_id}}"): RUN_GONE,

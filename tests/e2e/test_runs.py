@@ -16,6 +16,7 @@ from tests.e2e.server import wait_until
 if TYPE_CHECKING:
     from tests.e2e.studio import Studio
 
+LOGS = Path(__file__).parents[1] / "executor" / "recorder" / "outside" / "samples"
 pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
 
 
@@ -56,6 +57,42 @@ def test_a_run_is_kept_outlives_its_session_and_is_deleted(studio: Studio) -> No
     page.get_by_role("menuitem", name="Delete").click()
     row.get_by_role("alert").get_by_role("button", name="Delete").click()
     expect(dialog).to_contain_text("No run has been kept yet")
+
+
+def test_the_log_of_another_robot_is_opened_on_the_axis(studio: Studio) -> None:
+    page, axis = studio.page, studio.at("time-axis")
+    studio.new_from("laser_bump_and_go")
+    studio.command("Kept runs")
+    dialog = page.get_by_role("dialog", name="Kept runs")
+    expect(dialog.get_by_role("button", name="Open a log of a robot…")).to_be_visible()
+    studio.picture("kept-runs-open-log")
+    dialog.locator("input[type=file]").set_input_files(LOGS / "patrol.btlog")
+    expect(dialog).to_have_count(0)
+    expect(axis).to_contain_text("Kept run: patrol.btlog")
+    strip = page.get_by_role("slider", name="Moment of the run")
+    strip.focus()
+    page.keyboard.press("End")
+    recorded = studio.at("recorded-tree")
+    expect(recorded.get_by_role("listitem").filter(has_text="patrol")).to_have_attribute(
+        "data-status", "SUCCESS"
+    )
+    for scheme in ("dark", "light"):
+        page.evaluate("s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme)
+        studio.picture(f"log-of-a-robot-{scheme}")
+    page.keyboard.press("Escape")
+    expect(axis).to_have_count(0)
+    expect(recorded).to_have_count(0)
+
+    studio.may_be_refused("422 POST .*/runs/logs")
+    data = page.evaluate_handle(
+        "bytes => { const all = new DataTransfer();"
+        "all.items.add(new File([new Uint8Array(bytes)], 'broken.btlog')); return all; }",
+        list((LOGS / "patrol.btlog").read_bytes()[:300]),
+    )
+    page.dispatch_event("body", "drop", {"dataTransfer": data})
+    expect(page.get_by_text("The log cannot be opened")).to_be_visible()
+    expect(page.get_by_text("it ends within its tree")).to_be_visible()
+    studio.picture("log-refused")
 
 
 def it_is_looked_at_without_a_session(studio: Studio) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import partial
 from typing import IO, TYPE_CHECKING, Any
-from urllib.parse import quote
 
 from django.http import HttpResponse
 from drf_spectacular.types import OpenApiTypes
@@ -16,6 +15,7 @@ from rest_framework.response import Response
 
 from backend.accounts.api.requests import user_of
 from backend.accounts.api.viewsets import ResourceViewSet
+from backend.core.file_answers import saved_as
 from backend.core.problems import InvalidInputError
 from backend.core.rest.openapi import IDEMPOTENCY_KEY
 from backend.ingress.bodies import body_of
@@ -42,14 +42,6 @@ if TYPE_CHECKING:
 def download(data: bytes | str, content_type: str, filename: str) -> HttpResponse:
     """Returns bytes that the browser saves and never displays; stored content must not run as a page."""
     return HttpResponse(data, headers={"Content-Type": content_type} | saved_as(filename))
-
-
-def saved_as(filename: str) -> dict[str, str]:
-    """Returns the headers that make the browser save a file instead of displaying it."""
-    return {
-        "Content-Disposition": f"attachment; filename*=UTF-8''{quote(filename, safe='')}",
-        "Content-Security-Policy": "default-src 'none'; sandbox",
-    }
 
 
 def flag(request: Request, name: str) -> bool:

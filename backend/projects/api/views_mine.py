@@ -16,8 +16,8 @@ from backend.accounts.api.viewsets import ResourceViewSet
 from backend.accounts.audit import note
 from backend.accounts.writes import delete_account
 from backend.config.environment import environment
+from backend.core.file_answers import saved_as
 from backend.core.problems import InvalidInputError, NotFoundError
-from backend.projects.api.views_files import saved_as
 from backend.projects.documents import personal_data
 from backend.projects.storage import usage
 

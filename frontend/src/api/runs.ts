@@ -23,6 +23,16 @@ export const runs = {
   },
   keep: (project_id: string, body: RunToKeep): Promise<StoredRun> =>
     dataOf(rest.POST('/api/v1/projects/{project_id}/runs', { params: { path: { project_id } }, body })),
+  // The file is the body itself.
+  addLog: (project_id: string, file: File): Promise<StoredRun> =>
+    dataOf(
+      rest.POST('/api/v1/projects/{project_id}/runs/logs', {
+        params: { path: { project_id }, query: { filename: file.name } },
+        body: file,
+        bodySerializer: (body) => body,
+        headers: { 'Content-Type': 'application/octet-stream' },
+      }),
+    ),
   change: (projectId: string, id: string, body: RunChange): Promise<StoredRun> =>
     dataOf(rest.PATCH('/api/v1/projects/{project_id}/runs/{run_id}', { params: at(projectId, id), body })),
   remove: (projectId: string, id: string) =>

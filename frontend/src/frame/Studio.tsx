@@ -10,6 +10,7 @@ import { registerCanvasCommands } from '@/features/canvas/commands/canvasCommand
 import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
 import { ExportDialog } from '@/features/export/ExportDialog';
+import { RecordedTree } from '@/features/runs/RecordedTree';
 import { RunsDialog } from '@/features/runs/RunsDialog';
 import { ArrivalsDialog } from '@/features/library/ArrivalsDialog';
 import { ImportReport } from '@/features/importReport/ImportReport';
@@ -167,6 +168,7 @@ function Workbench({ projectId }: StudioProps) {
         <PresentationBar />
         {model && modelWidth ? <Dock model={model} width={modelWidth} key={modelWidth} /> : null}
       </main>
+      <RecordedTree />
       <TimeAxis />
       <StatusBar />
       <Guide />

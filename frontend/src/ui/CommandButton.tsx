@@ -2,7 +2,7 @@ import { ActionIcon, Tooltip, type ActionIconProps } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 import { perform, useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
-import { usePressed } from './usePressed';
+import { usePressed } from './hooks/usePressed';
 
 interface CommandButtonProps extends Pick<ActionIconProps, 'color' | 'variant' | 'size'> {
   readonly command: string;

@@ -14,7 +14,7 @@ pytestmark = pytest.mark.usefixtures("manager")
 
 
 def body(response):
-    return b"".join(response.streaming_content)
+    return response.getvalue()
 
 
 def test_parts_join_at_their_borders(people, monkeypatch):

@@ -8,6 +8,7 @@ import pytest
 
 from backend.projects.choices import Role
 from backend.projects.sharing import memberships
+from backend.runs import views
 from backend.runs.models import PART_BYTES, Run, RunPart
 from backend.runs.views import Runs
 from tests.backend.runs.conftest import SAMPLE, keep
@@ -16,7 +17,7 @@ pytestmark = pytest.mark.usefixtures("manager")
 
 
 def body(response):
-    return b"".join(response.streaming_content)
+    return response.getvalue()
 
 
 def change(by, run, **values):
@@ -105,6 +106,7 @@ def test_the_recording_is_downloaded_as_a_whole_and_in_ranges(people):
     assert people.owner.client.get(address, headers={"If-None-Match": whole["ETag"]}).status_code == 304
     beyond = people.owner.client.get(address, headers={"Range": f"bytes={len(SAMPLE)}-"})
     assert (beyond.status_code, beyond.json()["code"]) == (416, "bad_range")
+    assert beyond["Content-Range"] == f"bytes */{len(SAMPLE)}"
 
 
 def test_keeping_a_run_is_an_expensive_call():
@@ -126,3 +128,17 @@ def test_a_misspelt_field_is_an_error(people):
     run = keep(people.owner, people.project).json() | {"project": people.project.id}
     answer = change(people.owner, run, is_pined=True)
     assert (answer.status_code, answer.json()["field"]) == (422, "is_pined")
+
+
+def test_a_user_downloads_one_whole_recording_at_a_time_and_a_long_range_comes_in_parts(people, monkeypatch):
+    run = keep(people.owner, people.project).json()
+    address = f"/api/v1/projects/{people.project.id}/runs/{run['id']}/recording"
+    first = people.owner.client.get(address)
+    second = people.owner.client.get(address)
+    assert (second.status_code, second.json()["code"]) == (429, "throttled")
+    assert body(first) == SAMPLE
+    assert body(people.owner.client.get(address)) == SAMPLE
+    monkeypatch.setattr(views, "MOST_PART_BYTES", 1000)
+    part = people.owner.client.get(address, headers={"Range": "bytes=5-"})
+    assert part["Content-Range"] == f"bytes 5-1004/{len(SAMPLE)}"
+    assert body(part) == SAMPLE[5:1005]

@@ -6,7 +6,7 @@ import type { Conflict } from '@/api/types';
 import { resolveConflict } from '@/store/saving/conflicts';
 import { useSavingStore } from '@/store/saving/store';
 import { lazyPart } from '@/ui/parts';
-import { useIsNarrow } from '@/ui/useIsNarrow';
+import { useIsNarrow } from '@/ui/hooks/useIsNarrow';
 import classes from './code.module.css';
 
 const MergeView = lazyPart(async () => (await import('./MergeView')).MergeView);

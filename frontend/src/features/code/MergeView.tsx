@@ -7,7 +7,7 @@ import classes from './code.module.css';
 import { editorTheme } from './editorTheme';
 import { languageOf } from './modes';
 import { phrases } from './phrases';
-import { useIsNarrow } from '@/ui/useIsNarrow';
+import { useIsNarrow } from '@/ui/hooks/useIsNarrow';
 
 interface MergeViewProps {
   readonly path: string;

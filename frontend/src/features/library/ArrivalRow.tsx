@@ -8,7 +8,7 @@ import { useProjectStore } from '@/store/project';
 import { isInsertedInto } from '@/store/project/bringing';
 import { treeIdOf } from '@/store/project/state';
 import { lazyPart } from '@/ui/parts';
-import { useIsNarrow } from '@/ui/useIsNarrow';
+import { useIsNarrow } from '@/ui/hooks/useIsNarrow';
 import classes from './library.module.css';
 
 const SourceView = lazyPart(async () => (await import('@/features/inspector/SourceView')).SourceView);

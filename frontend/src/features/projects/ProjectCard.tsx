@@ -7,7 +7,7 @@ import { projectNameProblem } from '@/features/settings/names';
 import { navigate, projectPath } from '@/store/route';
 import { ProjectMenu } from './ProjectMenu';
 import classes from './projects.module.css';
-import { reasonOf } from './reason';
+import { reasonOf } from '@/api/reason';
 import { timeAgo } from '@/i18n/timeAgo';
 import { TreePicture } from './TreePicture';
 import type { useProjectCommands } from './useProjects';

@@ -13,7 +13,7 @@ import { NewProject } from './NewProject';
 import { ProjectList } from './ProjectList';
 import classes from './projects.module.css';
 import { RepairDialog } from './RepairDialog';
-import { useFileDrop } from './useFileDrop';
+import { useFileDrop } from '@/ui/hooks/useFileDrop';
 import { useImport } from './useImport';
 import { useProjectCommands } from './useProjects';
 import { useStartCommands } from './useStartCommands';

@@ -7,7 +7,7 @@ import { ApiError } from '@/api/errors';
 import type { Diagnostic } from '@/api/types';
 import { announceImport } from '@/store/dialogs/importReport';
 import { navigate, projectPath } from '@/store/route';
-import { reasonOf } from './reason';
+import { reasonOf } from '@/api/reason';
 
 /** The translator's code for a character that a repair would escape. */
 const REPAIRABLE = 'BT0740';

@@ -4,7 +4,7 @@ import { useTranslation } from 'react-i18next';
 import { api, type ProjectShelf, type ProjectSort } from '@/api/client';
 import type { ProjectDetail, ProjectSummary } from '@/api/types';
 import { navigate, projectPath } from '@/store/route';
-import { reasonOf } from './reason';
+import { reasonOf } from '@/api/reason';
 import { undoNotification } from '@/ui/undoNotification';
 
 /** Returns the projects of one shelf, page by page. */

@@ -5,7 +5,7 @@ import type { Revision } from '@/api/revisions';
 import { useTabs } from '@/workspace/tabs';
 import { openTab } from '@/workspace/tabs';
 import { treePath } from '@/store/project/state';
-import { useVisible } from '@/ui/useVisible';
+import { useVisible } from '@/ui/hooks/useVisible';
 import { useComparison } from './compare';
 import { groupRevisions, type RevisionGroup } from './groups';
 import classes from './history.module.css';

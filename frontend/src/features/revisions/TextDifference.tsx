@@ -6,7 +6,7 @@ import { useTranslation } from 'react-i18next';
 import { editorTheme } from '@/features/code/editorTheme';
 import { languageOf } from '@/features/code/modes';
 import { phrases } from '@/features/code/phrases';
-import { useIsNarrow } from '@/ui/useIsNarrow';
+import { useIsNarrow } from '@/ui/hooks/useIsNarrow';
 import { dimMetadata } from '@/features/xml/ranges';
 import classes from './history.module.css';
 

@@ -4,7 +4,7 @@ import { useTranslation } from 'react-i18next';
 import { perform } from '@/commands/registry';
 import { shortcutLabel } from '@/commands/shortcuts';
 import { CommandButton } from '@/ui/CommandButton';
-import { usePressed } from '@/ui/usePressed';
+import { usePressed } from '@/ui/hooks/usePressed';
 import { useRunStore } from '@/store/run/store';
 import { doesWorldRunAlone } from '@/store/session/clock';
 import { useSessionStore } from '@/store/session/store';

@@ -1,9 +1,10 @@
-import { Alert, Loader, Stack, Text } from '@mantine/core';
+import { Alert, Group, Loader, Stack, Text } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 import { closeRunsDialog } from '@/store/dialogs/runs';
 import { openKept } from '@/store/moment/looking';
 import { storedSource } from '@/store/recording/storedSource';
 import { KeepForm } from './KeepForm';
+import { LogButton } from './LogButton';
 import { RunRow } from './RunRow';
 import { useRuns } from './useRuns';
 
@@ -15,6 +16,9 @@ export function RunsContents() {
   return (
     <>
       <KeepForm onKeep={keep} />
+      <Group justify="flex-end" mb="xs">
+        <LogButton projectId={projectId} />
+      </Group>
       {found.isPending ? <Loader size="sm" aria-label={t('loading')} /> : null}
       {found.isError ? <Alert color="red">{found.error.message}</Alert> : null}
       {found.isSuccess && rows.length === 0 ? <Text c="dimmed">{t('none')}</Text> : null}

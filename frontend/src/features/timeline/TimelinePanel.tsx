@@ -23,7 +23,7 @@ import { lookAt } from '@/store/moment/looking';
 import { useSessionStore } from '@/store/session/store';
 import { trace } from '@/store/session/trace/trace';
 import { cancellable } from '@/ui/cancellable';
-import { useVisible } from '@/ui/useVisible';
+import { useVisible } from '@/ui/hooks/useVisible';
 import { ROW_PX } from './draw';
 import { Legend } from './Legend';
 import { rowsOf, type TimelineRow } from './rows';

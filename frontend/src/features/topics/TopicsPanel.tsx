@@ -6,7 +6,7 @@ import { perform } from '@/commands/registry';
 import { refreshTopics } from '@/store/run/topics';
 import { useSessionStore } from '@/store/session/store';
 import { useTopicsStore } from '@/store/session/topics';
-import { useVisible } from '@/ui/useVisible';
+import { useVisible } from '@/ui/hooks/useVisible';
 import { lazyPart } from '@/ui/parts';
 import { EchoList } from './EchoList';
 import { LaunchNodes } from './LaunchNodes';

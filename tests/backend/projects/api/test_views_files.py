@@ -5,7 +5,8 @@ from __future__ import annotations
 import io
 import zipfile
 
-from backend.projects.api.views_files import download, saved_as
+from backend.core.file_answers import saved_as
+from backend.projects.api.views_files import download
 
 
 def test_a_file_and_the_whole_project_are_downloaded(api, project):

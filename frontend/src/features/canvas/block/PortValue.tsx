@@ -3,7 +3,7 @@ import { useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useShownValue } from '@/store/moment/values';
 import type { ShownPort } from '@/store/session/values/shown';
-import { useVisible } from '@/ui/useVisible';
+import { useVisible } from '@/ui/hooks/useVisible';
 import { shortValue, SPARK, sparkPoints } from './spark';
 import classes from './PortValue.module.css';
 

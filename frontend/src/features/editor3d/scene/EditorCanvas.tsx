@@ -6,7 +6,7 @@ import '@/features/viewer/scene/three';
 import { FirstPicture } from '@/features/viewer/scene/FirstPicture';
 import { Loading3d } from '@/features/viewer/pictures/Loading3d';
 import { hasWebGl, isSoftwareWebGl } from '@/features/viewer/webgl';
-import { useVisible } from '@/ui/useVisible';
+import { useVisible } from '@/ui/hooks/useVisible';
 import classes from '../editor3d.module.css';
 
 interface EditorCanvasProps {

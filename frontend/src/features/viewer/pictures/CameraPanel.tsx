@@ -2,7 +2,7 @@ import { ActionIcon, NativeSelect, Tooltip } from '@mantine/core';
 import { IconPlus } from '@tabler/icons-react';
 import { useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { useVisible } from '@/ui/useVisible';
+import { useVisible } from '@/ui/hooks/useVisible';
 import { useScene } from '../useScene';
 import { useStream } from '../useStream';
 import classes from '../viewer.module.css';

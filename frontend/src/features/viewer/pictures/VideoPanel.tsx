@@ -14,7 +14,7 @@ import { panned, poseOf, START, turned, zoomed, type Orbit } from './orbit';
 import { PicturePanel } from './PicturePanel';
 import { TeleopPad } from '../TeleopPad';
 import { useStream } from '../useStream';
-import { useVisible } from '@/ui/useVisible';
+import { useVisible } from '@/ui/hooks/useVisible';
 import classes from '../viewer.module.css';
 import { hasWebGl } from '../webgl';
 

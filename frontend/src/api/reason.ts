@@ -1,4 +1,4 @@
-import { ApiError } from '@/api/errors';
+import { ApiError } from './errors';
 
 /** Returns the server's message together with its hint. */
 export function reasonOf(error: Error): string {

@@ -1,6 +1,6 @@
 import { fireEvent, screen } from '@testing-library/react';
 import { expect, it } from 'vitest';
-import { show } from '../../harness/testing';
+import { show } from '../../../harness/testing';
 import { usePressed } from './usePressed';
 
 function Sample() {

@@ -1,0 +1,35 @@
+import { Button, FileButton } from '@mantine/core';
+import { IconFolderOpen } from '@tabler/icons-react';
+import { useQueryClient } from '@tanstack/react-query';
+import { useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { LOG_ENDINGS, openLog } from './openLog';
+
+/** A button that opens the log of a robot on the time axis. */
+export function LogButton({ projectId }: { readonly projectId: string }) {
+  const { t } = useTranslation('runs');
+  const client = useQueryClient();
+  const [isReading, setReading] = useState(false);
+  const open = async (file: File | null) => {
+    if (!file) return;
+    setReading(true);
+    await openLog(projectId, file, client, t);
+    setReading(false);
+  };
+  return (
+    <FileButton onChange={(file) => void open(file)} accept={LOG_ENDINGS.join(',')}>
+      {(props) => (
+        <Button
+          {...props}
+          variant="default"
+          size="compact-sm"
+          loading={isReading}
+          leftSection={<IconFolderOpen size={16} />}
+          title={t('log.kinds')}
+        >
+          {t('log.open')}
+        </Button>
+      )}
+    </FileButton>
+  );
+}

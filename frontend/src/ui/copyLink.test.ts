@@ -15,9 +15,9 @@ it('copies an address, and says what it opens', async () => {
   const writeText = vi.fn(() => Promise.resolve());
   clipboard(writeText);
   show(createElement('main'));
-  await copyLink('https://x/projects/p1?run=a', 'Whoever may see the run');
+  await copyLink('https://x/projects/p1?run=a', 'All who may see the run');
   expect(writeText).toHaveBeenCalledWith('https://x/projects/p1?run=a');
-  expect(await screen.findByText('Whoever may see the run')).toBeInTheDocument();
+  expect(await screen.findByText('All who may see the run')).toBeInTheDocument();
 });
 
 it('shows the address where the browser denies the clipboard', async () => {

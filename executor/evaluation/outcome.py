@@ -24,7 +24,7 @@ OUTCOMES: Final = (*COUNTED, *NOT_COUNTED)
 
 @dataclass(frozen=True)
 class Outcome:
-    """The outcome of one run. It has no wall-clock time and no name of the machine, so that equal runs are equal.
+    """The outcome of one run, without wall-clock time or name of the machine, so that equal runs are equal.
 
     Attributes:
         seed: the seed.

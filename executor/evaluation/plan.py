@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from executor.evaluation.document import ENDING, FOLDER, Evaluation
 from executor.evaluation.drawing import bounds_of
+from executor.evaluation.faults import fault_problems
 from executor.evaluation.variation import Target, port_text, resolve, targets
 from executor.headless.files import write_files
 from executor.robots.config import RobotConfig, load_robot
@@ -101,7 +102,7 @@ def make_plan(project: Project, name: str) -> Plan:
     found, problems = resolve(evaluation, known, universe, located.place)
     plan = Plan(project, name, evaluation, universe, configs, found)
     problems += _sensor_problems(plan, located) + _port_problems(plan, located)
-    problems += list(_judge_problems(plan, located.place))
+    problems += [*_judge_problems(plan, located.place), *fault_problems(plan, located.place)]
     if problems:
         raise DocumentError(sorted(problems, key=lambda problem: (problem.line, problem.column)), file)
     return plan
@@ -210,8 +211,6 @@ def _judge_problems(plan: Plan, place: Callable[..., tuple[int, int]]) -> Iterat
         if item.python is not None and python_file(item.python) not in plan.project.files:
             text = f"there is no file {python_file(item.python)}"
             yield Problem(text, *place((*path, "python")), "BTV003", f"write it beside {plan.file}")
-    if evaluation.faults:
-        yield Problem("faults cannot be run yet", *place(("faults",)), "BTV005")
 
 
 def python_file(name: str) -> str:

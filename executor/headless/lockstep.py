@@ -14,10 +14,12 @@ import time
 import traceback
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.headless.files import write_files
 from executor.headless.lines import mismatch_line
+from executor.headless.output import RecordedOutput, recorded
 from executor.headless.report import NodeCount, Report, quantiles
 from executor.ros.environment import lockstep_environment
 from executor.supervision.scratch import Scratch
@@ -27,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from executor.child_messages import TopicMismatch
+    from executor.child_messages import Log, TopicMismatch
     from executor.headless.recorder import RunRecorder
     from executor.headless.recording import Recording
     from executor.ros.spin import DrainingExecutor
@@ -111,6 +113,8 @@ class _Run:
         self.moved: Callable[[], None] = lambda: None
         self._stack: list[Callable[[], object]] = []
         self._recorder: RunRecorder | None = None  # set when the tree is loaded
+        self._output: tuple[Any, Any] = (None, None)
+        self._printed: list[Log] = []  # before there is a recorder
 
     def set_up(self) -> None:
         """Makes the world and the application. Call `close` afterwards, also after an error."""
@@ -244,11 +248,13 @@ class _Run:
         prepare()
         self._stack.append(enter(folder.path))
         self._randomness = seed_randomness(self._options.seed)
-        tree = Tree.from_xml(text, clock=_WorldClock(self._world))
-        tree.on_warning = lambda node, message: self._say(f"{node.path}: {message}")
         self._locator = Locator()
-        self._locator.learn(tree)
-        tree.setup(node=self._application)
+        self._record_output()
+        with recorded(*self._output):
+            tree = Tree.from_xml(text, clock=_WorldClock(self._world))
+            tree.on_warning = lambda node, message: self._say(f"{node.path}: {message}")
+            self._locator.learn(tree)
+            tree.setup(node=self._application)
         self._stack.append(tree.shutdown)
         self._counts = tree.count_results()
         return tree
@@ -269,7 +275,25 @@ class _Run:
             return None
         from executor.headless.recorder import RunRecorder  # noqa: PLC0415 - few runs are recorded
 
-        return RunRecorder(recording, self._world, self._sensors, self._node, self._tree)
+        recorder = RunRecorder(recording, self._world, self._sensors, self._node, self._tree)
+        for line in self._printed:
+            recorder.printed(line)
+        recorder.look()
+        return recorder
+
+    def _record_output(self) -> None:
+        """Prepares the streams that also write what users' code prints into the recording."""
+        if self._options.recording is None:
+            return
+
+        def print_(line: Log) -> None:
+            if self._recorder is None:
+                self._printed.append(line)
+            else:
+                self._recorder.printed(line)
+
+        make = partial(RecordedOutput, send=print_, locator=self._locator, now_s=lambda: self._world.time_s)
+        self._output = make("info", original=sys.stdout), make("error", original=sys.stderr)
 
     # --- running ---
 
@@ -301,7 +325,8 @@ class _Run:
     def _call_back(self) -> bool:
         """Runs the callbacks of the actions; returns whether all succeeded."""
         try:
-            self._executor.drain()
+            with recorded(*self._output):
+                self._executor.drain()
         except (Exception, SystemExit) as error:
             self._note_broken(error)
             return False
@@ -309,7 +334,8 @@ class _Run:
 
     def _tick(self, runner: Any) -> Status | None:
         began_s = time.perf_counter()
-        status: Status | None = runner.tick_due(self._world.time_s)
+        with recorded(*self._output):
+            status: Status | None = runner.tick_due(self._world.time_s)
         self._durations.append(time.perf_counter() - began_s)
         return status
 

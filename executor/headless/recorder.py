@@ -15,7 +15,7 @@ from executor.world.simulation.streams import Streams
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from executor.child_messages import Frame
+    from executor.child_messages import Frame, Log
     from executor.headless.recording import Recording
     from executor.ros.node import WorldNode
     from executor.world.interface import World
@@ -72,6 +72,10 @@ class RunRecorder:
     def says(self, level: str, text: str) -> None:
         """Writes a line of the run."""
         self._tree.says(level, text)
+
+    def printed(self, line: Log) -> None:
+        """Writes a line that an action printed."""
+        self._tree.says(line.level, line.text, line.node_path, source="action")
 
     def finished(self, status: Status | None) -> None:
         """Writes the end of the tree."""

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from executor.recorder.shelf import Shelf
 
-__all__ = ["SEGMENT_NS", "RunWriter"]
+__all__ = ["LATEST_NS", "SEGMENT_NS", "RunWriter"]
 
 SEGMENT_NS: Final = 20_000_000_000
 LATEST_NS: Final = 10**7 * 1_000_000_000

@@ -1,4 +1,4 @@
-"""What actions print in lock-step is printed and recorded."""
+"""Lines that actions print in lock-step are printed and recorded."""
 
 from __future__ import annotations
 

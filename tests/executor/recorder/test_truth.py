@@ -1,4 +1,4 @@
-"""What the page shows of a moment is what was: compared with an observer in the run, not the recorder."""
+"""The page shows of a moment what was: compared with an observer in the run, not the recorder."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ pytestmark = [pytest.mark.simulation, pytest.mark.timeout(600)]
 
 
 class Seen:
-    """What the observer in a run wrote down."""
+    """The notes of the observer in a run."""
 
     def __init__(self, path: Path) -> None:
         notes = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]

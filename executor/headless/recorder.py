@@ -90,8 +90,10 @@ class RunRecorder:
         return nanoseconds(self._world.time_s)
 
     def _write_frame(self, frame: Frame) -> None:
-        topic, name = f"/world/{frame.stream}", {"scene": "Scene", "poses": "Poses"}[frame.stream]
-        self._record(topic, name, {"stamp": self._now_ns(), "data": frame.data})
+        if frame.stream == "scene":
+            self._guarded(lambda: self._writer.scene(self._now_ns(), frame.data))
+        else:
+            self._record("/world/poses", "Poses", {"stamp": self._now_ns(), "data": frame.data})
 
     def _record(self, topic: str, name: str, fields: Mapping[str, Any]) -> None:
         self._guarded(lambda: self._writer.record(topic, name, fields))

@@ -37,7 +37,7 @@ beforeEach(() => {
 });
 
 describe('why a block was ticked', () => {
-  it('is told from the root on, and follows the ticks', () => {
+  it('has its reasons from the root on, and follows the ticks', () => {
     show(<WhySection tree="Main" node="f" />);
     expect(screen.getByText('No tick of this tree is known yet.')).toBeVisible();
     tick(4, [

@@ -27,7 +27,7 @@ function codes(
 }
 
 describe('the reasons of controls', () => {
-  it('a Sequence resumes, goes on, and waits', () => {
+  it('a Sequence resumes, continues, and waits', () => {
     const before: Pair[] = [
       [1, 'RUNNING'],
       [2, 'SUCCESS'],
@@ -73,7 +73,7 @@ describe('the reasons of controls', () => {
     ).toBe('no decided 3 FAILURE');
   });
 
-  it('IfThenElse keeps its choice, WhileDoElse chooses anew', () => {
+  it('IfThenElse keeps its choice, WhileDoElse chooses at each tick', () => {
     const before: Pair[] = [
       [1, 'RUNNING'],
       [2, 'SUCCESS'],

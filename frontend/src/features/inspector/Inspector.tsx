@@ -1,6 +1,7 @@
 import { memo, useDeferredValue, useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { Diagram, NodeId } from '@/model/diagram';
+import { NodeCoverage } from '@/features/behaviourTests/NodeCoverage';
 import { NodeStatistics } from '@/features/timeline/NodeStatistics';
 import { WhySection } from '@/features/why/WhySection';
 import { useProjectStore } from '@/store/project';
@@ -74,6 +75,7 @@ const Fields = memo(function Fields({ diagram, count, id }: Shown) {
       <ConditionList {...target} />
       <CommentField {...target} />
       <LookFields {...target} />
+      <NodeCoverage tree={tree} node={target.id} />
       <NodeStatistics tree={tree} node={target.id} />
       <NodeDocs spec={spec} />
       {spec?.source === 'action' && <ActionSource action={node.type} />}

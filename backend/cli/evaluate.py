@@ -19,9 +19,10 @@ if TYPE_CHECKING:
     from executor.evaluation.plan import Plan
     from executor.evaluation.pool.worker import Done
     from executor.evaluation.results import Results
-    from executor.evaluation.summary import Summary
+    from executor.evaluation.summary import Pairs, Summary
 
 ONLY_FAILED = "only-failed"
+AGAINST = "against"
 
 
 def evaluate(  # noqa: PLR0913, PLR0917 - one an option
@@ -36,9 +37,13 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     workers: Annotated[
         int | None, typer.Option(min=1, max=1024, help="Runs at a time; one a processor without it.")
     ] = None,
+    against: Annotated[
+        str | None,
+        typer.Option(help="An older version to compare with: a folder, a revision of git, or NAME@7."),
+    ] = None,
     gate: Annotated[
         list[str] | None,
-        typer.Option(help="success>=0.95, rate(success)>=0.95 or p95(MEASURE)<=12; may be repeated."),
+        typer.Option(help="success>=0.95, rate(success)>=0.95, p95(MEASURE)<=12 or no-worse."),
     ] = None,
     junit: Annotated[Path | None, typer.Option(help="File for the results, as JUnit's XML.")] = None,
     report: Annotated[Path | None, typer.Option(help="Folder for runs.jsonl and report.html.")] = None,
@@ -60,6 +65,7 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     from backend.cli.errors import CliError
     from backend.cli.evaluation import SINGLE, evaluations_of
     from backend.cli.run import fix_hashes
+    from executor.evaluation.summary import pair
 
     fix_hashes(SINGLE)
     if as_list:
@@ -75,11 +81,20 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     chosen = _seeds(plan, seeds, report if only_failed else None)
     if only_failed and report is not None:
         report /= ONLY_FAILED
+    older = None if against is None else _older_plan(plan, project, against)
+    if older is None and any(each.kind == "no-worse" for each in gates):
+        raise typer.BadParameter("name the older version with --against", param_hint="--gate no-worse")
     _warn(gates, plan, len(chosen))
     results, kept = _open_results(plan, report, chosen, resume=resume, strict=strict)
     progress, is_interrupted = _run(plan, chosen, workers, kept, results)
     summary = progress.summary(chosen, sequential=plan.evaluation.until is not None)
-    verdicts = _finish(plan, project, summary, gates, results)
+    pairs: Pairs | None = None
+    if older is not None and not is_interrupted:
+        folder = None if report is None else report / AGAINST
+        seeds_run = [outcome.seed for outcome in summary.outcomes]
+        before, is_interrupted = _run_older(older, seeds_run, workers, folder, resume=resume, strict=strict)
+        pairs = pair(before, summary.outcomes)
+    verdicts = _finish(plan, project, summary, gates, results, pairs)
     if junit is not None:
         from backend.cli._translation import write_file
         from backend.cli.evaluation_junit import junit_xml
@@ -118,6 +133,31 @@ def _plan(project: str, name: str | None, runs: int | None, *, to_the_end: bool,
     if runs is not None or is_part:
         evaluation = evaluation.model_copy(update={"until": None, "runs": runs or evaluation.most_runs})
     return dataclasses.replace(plan, evaluation=evaluation, to_the_end=to_the_end)
+
+
+def _older_plan(plan: Plan, project: str, against: str) -> Plan:
+    """Returns the plan of the older version, in the worlds of the newer one."""
+    from backend.cli.evaluation import explained
+    from backend.cli.evaluation_against import open_older
+
+    with explained():
+        older = plan.with_project(open_older(plan.project, project, against))
+    evaluation = older.evaluation.model_copy(update={"until": None, "runs": older.evaluation.most_runs})
+    return dataclasses.replace(older, evaluation=evaluation)
+
+
+def _run_older(  # noqa: PLR0913 - as the options say
+    plan: Plan, seeds: Sequence[int], workers: int | None, folder: Path | None, *, resume: bool, strict: bool
+) -> tuple[list[Outcome], bool]:
+    """Runs the older version on the same seeds; returns its outcomes, and whether Ctrl+C ended it."""
+    is_begun = folder is not None and (folder / "evaluation.json").exists()
+    results, kept = _open_results(plan, folder, seeds, resume=resume and is_begun, strict=strict)
+    print("the older version:", flush=True)
+    progress, is_interrupted = _run(plan, seeds, workers, kept, results)
+    outcomes = list(progress.summary(seeds, sequential=False).outcomes)
+    if results is not None:
+        results.finish(outcomes)
+    return outcomes, is_interrupted
 
 
 def _seeds(plan: Plan, listed: str | None, failed_in: Path | None) -> list[int]:
@@ -226,8 +266,13 @@ def _say(text: str) -> None:
         sys.stderr.flush()
 
 
-def _finish(
-    plan: Plan, project: str, summary: Summary, gates: Sequence[Gate], results: Results | None
+def _finish(  # noqa: PLR0913, PLR0917 - all that the results are of
+    plan: Plan,
+    project: str,
+    summary: Summary,
+    gates: Sequence[Gate],
+    results: Results | None,
+    pairs: Pairs | None,
 ) -> list[Verdict]:
     """Prints and writes the results; returns the verdicts of the gates."""
     from executor.evaluation.gates import check_gate
@@ -238,7 +283,9 @@ def _finish(
     for outcome in summary.worst()[:3]:
         print(f"    seed {outcome.seed} {outcome.outcome} after {outcome.end_s:.1f} s: {outcome.why}")
         print(f"        {command_of(project, plan.name, outcome.seed)}")
-    verdicts = [check_gate(gate, summary) for gate in gates]
+    for line in pairs.lines() if pairs is not None else ():
+        print(line)
+    verdicts = [check_gate(gate, summary, pairs) for gate in gates]
     for verdict in verdicts:
         print(verdict)
     if results is not None:
@@ -251,6 +298,7 @@ def _finish(
             path=project,
             evaluation=plan.name,
             gates=[(str(verdict), verdict.passes) for verdict in verdicts],
+            pairs=pairs,
             fingerprints=[each["id"] for each in header["fingerprints"]],
         )
         results.write("report.html", report_html(document))

@@ -56,7 +56,11 @@ class Plan:
 
         Raises:
             DocumentError: an entry names nothing in the other version.
+            TranslatorError: the other version has errors.
         """
+        errors = errors_in(check(project))
+        if errors:
+            raise TranslatorError(errors)
         other = replace(self, project=project)
         known = targets(self.universe, self.configs[0] if self.configs else None, project)
         found, problems = resolve(self.evaluation, known, self.universe, lambda _: (1, 1))

@@ -30,7 +30,7 @@ it('lists the nodes of a foreign tree with what they did', () => {
   show(<RecordedTree />);
   expect(screen.queryByTestId('recorded-tree')).toBeNull();
   act(() => {
-    useSource.setState({ kept: 'patrol.btlog' });
+    useSource.setState({ kept: { id: 'r1', name: 'patrol.btlog' } });
     useMoment.setState({
       t: 1,
       shown,

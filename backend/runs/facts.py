@@ -1,6 +1,6 @@
 """Finds out what a recording says about its run, in a child with limits; nothing of it is read here.
 
-The child is `executor.recorder.summary`, known by its command alone. Its picture is decoded and encoded anew
+The child is `executor.recorder.summary`, known by its command alone. Its picture is decoded and encoded again
 in the pool of workers. What both say is compared with bounds before it is used.
 """
 
@@ -57,7 +57,7 @@ class _Told(msgspec.Struct):
 
 
 class Facts(msgspec.Struct):
-    """What the server found out about a run.
+    """The facts that the server found out about a run.
 
     Attributes:
         start_s, length_s: the time of the first message, and from it to the last one, in s.

@@ -50,7 +50,7 @@ SAME_S: Final = 1.0
 
 
 class Source(NamedTuple):
-    """A session that has the recording of a run."""
+    """A session from which the recording of a run is fetched."""
 
     project: Project
     address: str
@@ -59,7 +59,7 @@ class Source(NamedTuple):
 
 
 class Fetched(NamedTuple):
-    """A recording that was fetched from its session, and what it says. Whoever takes it closes the file."""
+    """A recording that was fetched from its session, and what it says. The caller closes the file."""
 
     file: IO[bytes]
     facts: Facts

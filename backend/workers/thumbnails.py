@@ -1,6 +1,6 @@
 """Small pictures of runs: what a camera saw, else a drawing of the world and the robot's way, or of the tree.
 
-The input was written by an untrusted process. So a picture is decoded within bounds and encoded anew, and a
+The input was written by an untrusted process. So a picture is decoded within bounds and encoded again, and a
 drawing is made of numbers alone.
 """
 

@@ -1,4 +1,4 @@
-"""What a recording says about its run as a whole, for lists of runs.
+"""Reads from a recording the facts of its run as a whole, for lists of runs.
 
 facts     times, result, last picture, trail and tree, in one pass over the records
 places    where the bodies of the world are, seen from above

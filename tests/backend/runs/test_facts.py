@@ -1,4 +1,4 @@
-"""What the server finds out about a recording, from a child and a worker that it does not trust."""
+"""The facts that the server finds out about a recording, from a child and a worker that it does not trust."""
 
 from __future__ import annotations
 

@@ -164,7 +164,7 @@ def test_a_folder_stays_while_the_database_is_away(people, folder, monkeypatch):
         raise OperationalError("away")
 
     with monkeypatch.context() as patch:
-        patch.setattr(last.writes, "store_last", away)
+        patch.setattr("backend.runs.writes.store_last", away)
         last.sweep()
     assert len(list(folder.iterdir())) == 1
     last.sweep()

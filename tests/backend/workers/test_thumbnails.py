@@ -12,7 +12,7 @@ import simplejpeg
 from backend.workers.thumbnails import thumbnail
 
 SVG = "{http://www.w3.org/2000/svg}"
-NOTHING = {"boxes": [], "trail": [], "rows": []}
+NOTHING: dict[str, list] = {"boxes": [], "trail": [], "rows": []}
 
 
 def jpeg(height, width, color=(200, 30, 30)):
@@ -29,7 +29,7 @@ def test_a_picture_is_made_small_and_keeps_its_colour(size):
     assert np.abs(pixels.mean(axis=(0, 1)) - (200, 30, 30)).max() < 12
 
 
-def test_a_picture_is_encoded_anew():
+def test_a_picture_is_encoded_again():
     source = jpeg(20, 20)
     hidden = source[:2] + b"\xff\xfe" + struct.pack(">H", 2 + 8) + b"<script>" + source[2:]
     assert simplejpeg.decode_jpeg(hidden).shape == (20, 20, 3)

@@ -1,4 +1,4 @@
-"""What a recording says about its run as a whole."""
+"""The facts of a run as a whole, read from its recording."""
 
 from __future__ import annotations
 

@@ -1363,6 +1363,7 @@ export interface components {
             file: string;
             line: number | null;
             column: number | null;
+            path: components["schemas"]["Step"][];
         };
         /** @enum {string} */
         DiagnosticSeverityEnum: "error" | "warning" | "note";
@@ -1983,6 +1984,18 @@ export interface components {
         };
         /** @enum {string} */
         StateEnum: "queued" | "starting" | "ready" | "failed" | "ended";
+        /** @description A node on the path of a finding's reason. */
+        Step: {
+            tree: string;
+            node: string;
+            label: string;
+            /** @description What it can return. */
+            results: string[];
+            /** @description reads, writes or commands; empty for a node on the way. */
+            role: string;
+            /** @description The key or topic. */
+            what: string;
+        };
         /** @description A template of new projects. */
         Template: {
             id: string;

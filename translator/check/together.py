@@ -47,8 +47,8 @@ def check_together(context: Context) -> None:
 def _check_running(context: Context, tree: Tree, node: Node, later: Mapping[str, int]) -> None:
     """Reports a child of a reactive node that waits, and then lets another one wait: it starts again.
 
-    Each tick begins at the first child. One that was RUNNING, and has continued to a child that is RUNNING now,
-    is reset: at the next tick it is RUNNING again, and the other one is halted.
+    Each tick begins at the first child. One that was RUNNING, and has continued to another that is RUNNING,
+    is reset: at the next tick it is RUNNING again, and the other is halted.
     """
     first: Node | None = None
     for child in node.children:

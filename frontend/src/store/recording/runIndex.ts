@@ -69,6 +69,8 @@ export class RunIndex {
       tree: state.generation === known ? null : state.nodes,
       statuses: [...state.statuses],
       flashes: last?.flashed ?? [],
+      was: state.was,
+      isHalted: state.isHalted,
       entries: [...state.entries].map(([id, entry]): EntryAt => ({
         ...entry,
         ...this.since(segment, state, id),

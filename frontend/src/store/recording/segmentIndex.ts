@@ -10,6 +10,7 @@ import {
   type Mark,
   type RecordedFault,
   type RecordedLine,
+  type StatusOf,
 } from './types';
 
 export const entryId = ({ scope, key }: Pick<Entry, 'scope' | 'key'>) => `${scope}\u0000${key}`;
@@ -28,6 +29,10 @@ export interface State {
   written: Map<string, Written>;
   tick: TickStep | null;
   number: number;
+  /** The statuses before the last tick, of the nodes that it changed. */
+  was: readonly StatusOf[];
+  /** Whether the tree was halted after the last tick: that has the number of the tick. */
+  isHalted: boolean;
 }
 
 /** What a segment holds, sorted by what it is asked for. */
@@ -103,6 +108,8 @@ export class SegmentIndex {
       written: new Map(),
       tick: null,
       number: 0,
+      was: [],
+      isHalted: false,
     };
     for (const step of this.steps.slice(Math.max(begin, 0), last + 1)) {
       apply(state, step);
@@ -171,6 +178,8 @@ function apply(state: State, step: Step): void {
       state.statuses = new Map();
       state.entries = new Map();
       state.tick = null;
+      state.was = [];
+      state.isHalted = false;
       return;
     case 'keyframe':
       state.statuses = new Map();
@@ -182,6 +191,8 @@ function apply(state: State, step: Step): void {
       state.number = step.tick;
       return;
     case 'tick':
+      state.was = step.changed.map(([uid]) => [uid, state.statuses.get(uid) ?? 'IDLE']);
+      state.isHalted = step.number === state.number && state.tick !== null;
       for (const [uid, status] of step.changed) {
         if (status === 'IDLE') state.statuses.delete(uid);
         else state.statuses.set(uid, status);

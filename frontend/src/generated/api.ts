@@ -2040,6 +2040,12 @@ export interface components {
             outcome: components["schemas"]["OutcomeEnum"];
             ticks: number;
             failures: components["schemas"]["TestFailure"][];
+            /** @description What the test reached: items by tree and node. */
+            reached: {
+                [key: string]: {
+                    [key: string]: string[];
+                };
+            };
         };
         /** @description A node on the way from the root, with its status after the tick. */
         TestPath: {

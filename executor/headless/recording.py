@@ -70,7 +70,7 @@ class Recording:
                 self.writer.finish()
         except OSError as error:
             self.stop(error)
-        with contextlib.suppress(OSError):  # what could not be written is told already
+        with contextlib.suppress(OSError):  # the reason was written already
             self._file.close()
 
 

@@ -1,4 +1,4 @@
-"""A long session in compressed time: disk and memory stay in their bounds, and the last ten minutes are there."""
+"""A long session in compressed time stays in its bounds of disk and memory, and keeps ten minutes."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_an_hour_stays_in_its_bounds_of_disk_and_memory(tmp_path: Path) -> None:
             size = sum(path.stat().st_size for path in tmp_path.rglob("*") if path.is_file())
             most = max(most, size)
     assert process.memory_info().rss - at_start < GROWTH_BYTES
-    # Pictures of an ended segment are counted when it ends, and while one is written anew both are there.
+    # Pictures of an ended segment are counted when it ends, and while one is written again both are there.
     assert most <= budgets.pictures + budgets.others + 2 * open_bytes
     pictures = sum(one.picture_bytes for one in shelf.segments)
     assert budgets.pictures / 4 < pictures <= budgets.pictures
@@ -80,6 +80,4 @@ def write_second(writer: RunWriter, second: int, chance: random.Random, scans: l
             writer.write("/odom", "nav_msgs/msg/Odometry", t_ns, chance.randbytes(100) + bytes(600))
     if second % 5 == 0:
         world = chance.randbytes(20_000)
-        writer.record(
-            "/bt/keyframe", "Keyframe", writer.moment.keyframe((second + 1) * SECOND - 1, 0, world)
-        )
+        writer.record("/bt/keyframe", "Keyframe", writer.moment.keyframe((second + 1) * SECOND - 1, 0, world))

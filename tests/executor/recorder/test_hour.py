@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 import struct
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 import psutil
@@ -56,7 +56,7 @@ def test_an_hour_stays_in_its_bounds_of_disk_and_memory(tmp_path: Path) -> None:
 
 def write_tree(writer: RunWriter) -> None:
     texts = ("type", "kind", "name", "path", "node_id", "tree_id", "ports_json")
-    tree = {"generation": 1, "uid": list(range(1, 31)), "parent": [0] + [1] * 29}
+    tree: dict[str, Any] = {"generation": 1, "uid": list(range(1, 31)), "parent": [0] + [1] * 29}
     tree |= {name: [f"{name} {uid}" for uid in range(30)] for name in texts}
     writer.record("/bt/tree", "Tree", {"stamp": 0, **tree})
 
@@ -66,7 +66,12 @@ def write_second(writer: RunWriter, second: int, chance: random.Random, scans: l
     for step in range(60):
         t_ns = second * SECOND + step * SECOND // 60
         if step % 3 == 0:
-            tick = {"generation": 1, "number": second * 20 + step // 3, "duration_ms": 1.0, "fingerprint": 1}
+            tick: dict[str, Any] = {
+                "generation": 1,
+                "number": second * 20 + step // 3,
+                "duration_ms": 1.0,
+                "fingerprint": 1,
+            }
             tick |= {"changed_uid": [3, 4], "changed_status": b"\1\0", "flashed_uid": [5]}
             writer.record("/bt/tick", "Tick", {"stamp": t_ns, "flashed_status": b"\2", **tick})
         if step % 2 == 0:

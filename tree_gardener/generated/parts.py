@@ -47,16 +47,18 @@ class Rule(NamedTuple):
         results: the result for a child's SUCCESS and for its FAILURE, or what a leaf of constant result
             returns; for an ordered or reactive node, the result that continues and the one that ends.
         execute: the method that the code stands for; a class whose method was replaced is left alone.
+        go_on: the method of composites that continues after a child; likewise.
     """
 
     kind: str
     results: tuple[str, str]
-    execute: Callable[[Any], Any]
+    execute: Callable[..., Any]
+    go_on: Callable[..., Any] | None
 
 
 S, F = "SUCCESS", "FAILURE"
 RULES: Final[Mapping[type, Rule]] = {
-    cls: Rule(kind, results, cls.execute)
+    cls: Rule(kind, results, cls.execute, getattr(cls, "go_on", None))
     for cls, kind, results in (
         (Sequence, ORDERED, (S, F)),
         (Fallback, ORDERED, (F, S)),
@@ -142,8 +144,11 @@ class Region(NamedTuple):
 
 def rule_of(node: Node) -> Rule | None:
     """Returns the rule of a node's class; None if there is none, or its method was replaced."""
-    rule = RULES.get(type(node))
-    return rule if rule is not None and type(node).execute is rule.execute else None
+    cls = type(node)
+    rule = RULES.get(cls)
+    if rule is None or cls.execute is not rule.execute or getattr(cls, "go_on", None) is not rule.go_on:
+        return None
+    return rule
 
 
 class Planner:

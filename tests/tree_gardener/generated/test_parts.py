@@ -76,10 +76,13 @@ def test_a_node_with_a_hook_is_called() -> None:
     assert [part.kind for part in region.root.children] == ["stateful", CALL]
 
 
-def test_a_class_whose_method_was_replaced_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("method", ["execute", "go_on"])
+def test_a_class_whose_method_was_replaced_is_left_alone(
+    method: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     tree = load("<Sequence><Inverter><Succeeding/></Inverter><Succeeding/></Sequence>")
     assert CALL not in kinds(regions(tree)[0].root)
-    monkeypatch.setattr(Inverter, "execute", lambda self: Status.SUCCESS)
+    monkeypatch.setattr(Inverter, method, lambda self, *_: Status.SUCCESS)
     assert rule_of(tree.nodes[1]) is None
     assert [part.kind for part in regions(tree)[0].root.children] == [CALL, "stateful"]
 

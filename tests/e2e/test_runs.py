@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -107,6 +108,13 @@ def it_is_looked_at_without_a_session(studio: Studio) -> None:
     expect(studio.at("node-n1")).to_have_attribute("data-status", "RUNNING")
     expect(studio.at("run")).to_be_disabled()
     studio.picture("kept-run-open")
+    expect(page).to_have_url(re.compile(r"\?run=[0-9a-f-]{36}&t=\d"))
+    then = axis.get_attribute("data-shown")
+    page.reload()
+    expect(axis).to_contain_text("Kept run: The first drive")
+    expect(axis).to_have_attribute("data-shown", then or "")
+    expect(studio.at("node-n1")).to_have_attribute("data-status", "RUNNING")
+    strip.focus()
     page.keyboard.press("Escape")
     expect(axis).to_have_count(0)
     expect(studio.at("run")).to_be_enabled()

@@ -101,3 +101,13 @@ def trees(draw, *, tree_id="MainTree", leaves=(*LEAVES, "Script", "Open"), plain
     root = grow(1)
     assert all(node.type in builtins() or node.type == "Open" for node in made.values())
     return Tree(tree_id, root, made)
+
+
+def without_braces(tree: Tree) -> Tree:
+    """Returns a tree whose ports hold no braces: a brace without its partner is refused before a run."""
+    brackets = str.maketrans("{}", "()")
+    made = {
+        key: replace(node, ports={port: text.translate(brackets) for port, text in node.ports.items()})
+        for key, node in tree.nodes.items()
+    }
+    return replace(tree, nodes=made)

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from tests.budget import count
 from tests.translator.conftest import OPEN_ACTION
-from tests.translator.strategies import LEAVES, trees
+from tests.translator.strategies import LEAVES, trees, without_braces
 from translator import Project, Settings, Tree, check, from_xml, load, self_contained, to_xml
 from translator.diagram import diagram_text, restore
 from translator.importer import project_files
@@ -59,7 +59,7 @@ def test_xml_alone_restores_the_diagram(tree):
 @examples
 @given(trees())
 def test_every_tree_loads_in_tree_gardener_with_the_same_structure(tree):
-    project = project_of(tree)
+    project = project_of(without_braces(tree))
     running = RunningTree.from_xml(self_contained(project))
     assert [node.node_id for node in running.nodes] == [node.id for node in tree.walk()]
     assert [node.type for node in running.nodes] == [node.type for node in tree.walk()]

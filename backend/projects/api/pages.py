@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+from urllib.parse import urlencode
 
 from django.http import HttpRequest, HttpResponse, HttpResponseRedirect
 from django.views.decorators.cache import never_cache
@@ -17,12 +18,14 @@ if TYPE_CHECKING:
     from collections.abc import MutableMapping
 
 MAX_LINKS = 50
+# What the address of a project says of the moment at which the page looks.
+MOMENT = ("run", "t")
 
 
 @never_cache
 @require_safe
 def shared(request: HttpRequest, token: str) -> HttpResponse:
-    """Stores the link in this browser's session, and redirects to the project."""
+    """Stores the link in this browser's session, and redirects to the project, or to the moment of a run."""
     identity = links.identity_of("shared", token)
     found = open_links([identity]).first() if identity else None
     if found is None:
@@ -30,4 +33,5 @@ def shared(request: HttpRequest, token: str) -> HttpResponse:
     kept: MutableMapping[str, str] = dict(request.session.get(LINKS, {}))
     kept[str(found.project_id)] = str(found.id)
     request.session[LINKS] = dict(list(kept.items())[-MAX_LINKS:])
-    return HttpResponseRedirect(f"/projects/{found.project_id}")
+    moment = urlencode({name: request.GET[name] for name in MOMENT if name in request.GET})
+    return HttpResponseRedirect(f"/projects/{found.project_id}{moment and '?'}{moment}")

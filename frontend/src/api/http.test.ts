@@ -45,10 +45,11 @@ it('goes to the sign-in page when the user is signed out, and still rejects', as
   const problem = { title: 'Sign in', code: 'not_authenticated', status: 401 };
   fakeServer({ 'GET /me': Response.json(problem, { status: 401 }) });
   const { origin, pathname } = window.location;
+  const search = '?run=0a&t=1';
   const assign = vi.fn();
-  vi.stubGlobal('location', { origin, pathname, assign });
+  vi.stubGlobal('location', { origin, pathname, search, assign });
   await expect(api.me()).rejects.toMatchObject({ code: 'not_authenticated', status: 401 });
-  expect(assign).toHaveBeenCalledWith(`/accounts/login/?next=${encodeURIComponent(pathname)}`);
+  expect(assign).toHaveBeenCalledWith(`/accounts/login/?next=${encodeURIComponent(pathname + search)}`);
 });
 
 it.each([409, 422, 503])('throws the problem of a refusal with %i', async (status) => {

@@ -33,7 +33,7 @@ const encoded = (name: string, value: string): string =>
   name === 'path' ? value.split('/').map(encodeURIComponent).join('/') : encodeURIComponent(value);
 
 function signInPath(): string {
-  return `/accounts/login/?next=${encodeURIComponent(window.location.pathname)}`;
+  return `/accounts/login/?next=${encodeURIComponent(window.location.pathname + window.location.search)}`;
 }
 
 /** Returns the body of an answer; the middleware has already thrown a refusal. */

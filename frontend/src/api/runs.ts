@@ -21,6 +21,8 @@ export const runs = {
     const call = rest.GET('/api/v1/projects/{project_id}/runs', { params, signal: signal ?? null });
     return (await dataOf(call)).items;
   },
+  get: (projectId: string, id: string): Promise<StoredRun> =>
+    dataOf(rest.GET('/api/v1/projects/{project_id}/runs/{run_id}', { params: at(projectId, id) })),
   keep: (project_id: string, body: RunToKeep): Promise<StoredRun> =>
     dataOf(rest.POST('/api/v1/projects/{project_id}/runs', { params: { path: { project_id } }, body })),
   // The file is the body itself.

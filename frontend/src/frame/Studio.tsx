@@ -6,6 +6,7 @@ import { useTranslation } from 'react-i18next';
 import { ApiError } from '@/api/errors';
 import { closePalette } from '@/commands/palette';
 import { useShortcuts } from '@/commands/shortcuts';
+import { registerTestCommands } from '@/features/behaviourTests/commands';
 import { registerCanvasCommands } from '@/features/canvas/commands/canvasCommands';
 import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
@@ -17,6 +18,7 @@ import { ImportReport } from '@/features/importReport/ImportReport';
 import { Guide } from '@/features/onboarding/guide/Guide';
 import { Shortcuts } from '@/features/onboarding/Shortcuts';
 import { registerAxisCommands } from '@/features/axis/commands';
+import { showMissingRun } from '@/features/axis/showMissingRun';
 import { TimeAxis } from '@/features/axis/TimeAxis';
 import { RunStrip } from '@/features/run/strip/RunStrip';
 import { registerRunCommands } from '@/features/run/commands';
@@ -74,7 +76,7 @@ export function Studio({ projectId }: StudioProps) {
   const opening = useProject(projectId);
   if (opening.kind === 'failed') return <CannotOpen error={opening.error} />;
   if (opening.kind === 'loading') return <Waiting reason="openingProject" />;
-  return <Workbench projectId={projectId} />;
+  return <Workbench projectId={projectId} joined={opening.joined} />;
 }
 
 function CannotOpen({ error }: { readonly error: Error }) {
@@ -93,7 +95,11 @@ function CannotOpen({ error }: { readonly error: Error }) {
   );
 }
 
-function Workbench({ projectId }: StudioProps) {
+interface WorkbenchProps extends StudioProps {
+  readonly joined: Promise<void>;
+}
+
+function Workbench({ projectId, joined }: WorkbenchProps) {
   const isNarrow = useMediaQuery('(max-width: 900px)', false, { getInitialValueInEffect: false });
   const width = isNarrow ? 'narrow' : 'wide';
   const model = useTabs((state) => state.model);
@@ -114,9 +120,10 @@ function Workbench({ projectId }: StudioProps) {
       registerRunCommands(),
       registerAxisCommands(),
       followPresent(),
-      followAddress(),
+      followAddress(joined, showMissingRun),
       registerRateCommands(),
       registerKeyCommands(),
+      registerTestCommands(),
       registerSearchCommands(),
       registerTopicCommands(),
       registerFrameCommands(),
@@ -145,7 +152,7 @@ function Workbench({ projectId }: StudioProps) {
       unregister.forEach((undo) => undo?.());
       useTabs.setState({ model: null, target: null });
     };
-  }, []);
+  }, [joined]);
 
   useEffect(() => {
     if (model && modelWidth === width) return;

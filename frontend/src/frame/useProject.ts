@@ -10,7 +10,9 @@ import { showServerNotice } from './showServerNotice';
 import { notifyRemoteSave } from './notifyRemoteSave';
 import { leave, reattach } from '@/store/session/connection';
 
-type Opening = { kind: 'loading' } | { kind: 'open' } | { kind: 'failed'; error: Error };
+/** An open project has `joined`, which resolves when its session was joined, or there is none. */
+type Opening =
+  { kind: 'loading' } | { kind: 'open'; joined: Promise<void> } | { kind: 'failed'; error: Error };
 
 /** Opens a project: loads it, restores unsaved edits, starts autosaving, and joins its running session. */
 export function useProject(projectId: string): Opening {
@@ -25,9 +27,8 @@ export function useProject(projectId: string): Opening {
         startAutosave();
         unwatch = watchPython();
         restoreDraft(detail);
-        setOpening({ kind: 'open' });
+        setOpening({ kind: 'open', joined: reattach(projectId) });
         unfollow = followRevisions(projectId, notifyRemoteSave, showServerNotice);
-        void reattach(projectId);
         void loadOffered();
       },
       (error: Error) => {

@@ -27,6 +27,16 @@ def test_a_link_opens_one_project_until_it_is_revoked(person):
     guest.get(f"projects/{one}", expect=404)
 
 
+def test_a_link_leads_to_a_moment_of_a_run(person):
+    owner = person("olga")
+    project = project_of(owner)
+    link = owner.post(f"projects/{project}/shares/links", {}, expect=201)["links"][0]
+    path = link["url"].partition(PUBLIC)[2]
+    answer = Person().page(f"{path}?run=0f6a&t=2.5&next=//elsewhere")
+    assert answer["Location"] == f"/projects/{project}?run=0f6a&t=2.5"
+    assert Person().page(f"{path}?run=%0d%0aX:1")["Location"] == f"/projects/{project}?run=%0D%0AX%3A1"
+
+
 def test_sharing_by_address_lists_the_project_with_its_owner(person):
     owner, friend = person("olga"), person("fred")
     one = project_of(owner)

@@ -39,7 +39,7 @@ export function UserMenu() {
   );
   if (!me || me.mode === 'local') return null;
   if (me.role === 'guest') {
-    const back = encodeURIComponent(window.location.pathname);
+    const back = encodeURIComponent(window.location.pathname + window.location.search);
     return (
       <Button component="a" href={`/accounts/login/?next=${back}`} variant="default" size="xs">
         {t('signIn')}

@@ -1,5 +1,5 @@
 import { ActionIcon, Button, NativeSelect, Tooltip } from '@mantine/core';
-import { IconPlayerPause, IconPlayerPlay } from '@tabler/icons-react';
+import { IconLink, IconPlayerPause, IconPlayerPlay } from '@tabler/icons-react';
 import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { extent as extentNow, lookNow, setPlaying } from '@/store/moment/looking';
@@ -7,6 +7,7 @@ import { useSource } from '@/store/moment/source';
 import { PLAY_SPEEDS, useMoment } from '@/store/moment/store';
 import { useSessionStore } from '@/store/session/store';
 import classes from './axis.module.css';
+import { copyShownLink } from './commands';
 import { Strip } from './Strip';
 
 /** The time axis of the recorded run, below everything. */
@@ -57,13 +58,20 @@ export function TimeAxis() {
           t('reading')
         ) : isBack ? (
           <span className={classes['back']} title={t('backHelp')}>
-            {kept === null ? t('back') : t('kept', { name: kept })}
+            {kept === null ? t('back') : t('kept', { name: kept.name })}
           </span>
         ) : null}
       </span>
       <span className={classes['time']} data-testid="axis-time">
         {isBack ? `${moment.toFixed(2)} / ${extent.to.toFixed(1)} s` : `${extent.to.toFixed(1)} s`}
       </span>
+      {isBack ? (
+        <Tooltip label={t('link.copy')}>
+          <ActionIcon aria-label={t('link.copy')} data-testid="axis-link" onClick={copyShownLink}>
+            <IconLink size={16} />
+          </ActionIcon>
+        </Tooltip>
+      ) : null}
       <Tooltip label={`${t('toLive')} (Esc)`} disabled={!isBack}>
         <Button
           size="compact-xs"

@@ -4,13 +4,18 @@ import {
   IconChevronLeftPipe,
   IconChevronRight,
   IconChevronRightPipe,
+  IconLink,
   IconPlayerPlay,
 } from '@tabler/icons-react';
 import { registerCommands, type UserCommand } from '@/commands/registry';
+import { t } from '@/i18n';
+import { linkTo, shownAddress } from '@/store/moment/address';
 import { extent, goTicks, goToChange, lookNow, setPlaying } from '@/store/moment/looking';
 import { isLookingBack, useMoment } from '@/store/moment/store';
+import { useSource } from '@/store/moment/source';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
+import { copyLink } from '@/ui/copyLink';
 
 const hasRecording = () => extent() !== null;
 
@@ -81,6 +86,25 @@ const rows: readonly UserCommand[] = [
     enabled: () => hasRecording() && selectedUid() !== null,
     run: () => toChange(1),
   },
+  {
+    id: 'time.copyLink',
+    group: 'run',
+    labelKey: 'axis:command.copyLink',
+    icon: IconLink,
+    enabled: isLookingBack,
+    run: copyShownLink,
+  },
 ];
+
+/** Copies the link to the shown moment, and says who can open it. */
+export function copyShownLink(): void {
+  const shown = shownAddress();
+  const { projectId } = useProjectStore.getState();
+  if (!shown || projectId === null) return;
+  const { kept } = useSource.getState();
+  const at = (shown.t ?? 0).toFixed(2);
+  const note = kept ? t('axis:link.ofKept', { name: kept.name, t: at }) : t('axis:link.ofSession');
+  void copyLink(linkTo(projectId, shown), note);
+}
 
 export const registerAxisCommands = () => registerCommands(rows);

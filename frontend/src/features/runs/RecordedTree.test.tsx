@@ -14,6 +14,8 @@ const node = (uid: number, parent: number, name: string, type = name): TreeNode 
 const shown = {
   statuses: [[1, 'RUNNING']],
   flashes: [[2, 'FAILURE']],
+  was: [],
+  isHalted: false,
 } as unknown as Moment;
 
 beforeEach(() => {
@@ -30,7 +32,7 @@ it('lists the nodes of a foreign tree with what they did', () => {
   show(<RecordedTree />);
   expect(screen.queryByTestId('recorded-tree')).toBeNull();
   act(() => {
-    useSource.setState({ kept: 'patrol.btlog' });
+    useSource.setState({ kept: { id: 'r1', name: 'patrol.btlog' } });
     useMoment.setState({
       t: 1,
       shown,

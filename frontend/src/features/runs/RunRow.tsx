@@ -1,9 +1,11 @@
 import { ActionIcon, Badge, Button, Group, Menu, Text, TextInput } from '@mantine/core';
-import { IconDots, IconDownload, IconPinFilled } from '@tabler/icons-react';
+import { IconDots, IconDownload, IconLink, IconPinFilled } from '@tabler/icons-react';
 import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { runs, type RunChange, type StoredRun } from '@/api/runs';
 import { timeAgo } from '@/i18n/timeAgo';
+import { linkTo } from '@/store/moment/address';
+import { copyLink } from '@/ui/copyLink';
 import { minutes } from './present';
 
 const COLORS = { success: 'green', failure: 'red', error: 'red', running: 'gray' } as const;
@@ -68,6 +70,19 @@ export function RunRow({ projectId, run, onOpen, onChange, onRemove }: Props) {
           aria-label={t('download', { name: run.name })}
         >
           <IconDownload size={16} />
+        </ActionIcon>
+        <ActionIcon
+          size="md"
+          aria-label={t('link.copy', { name: run.name })}
+          title={t('link.copy', { name: run.name })}
+          onClick={() =>
+            void copyLink(
+              linkTo(projectId, { run: run.id, t: null }),
+              t(run.is_shared ? 'link.shared' : 'link.private'),
+            )
+          }
+        >
+          <IconLink size={16} />
         </ActionIcon>
         {run.may_manage ? (
           <Menu position="bottom-end" width={240}>

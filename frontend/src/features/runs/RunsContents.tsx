@@ -30,7 +30,7 @@ export function RunsContents() {
             run={run}
             onOpen={() => {
               closeRunsDialog();
-              openKept(storedSource(projectId, run), run.name);
+              openKept(storedSource(projectId, run), run);
             }}
             onChange={(body) => change(run.id, body)}
             onRemove={() => remove(run.id)}

@@ -23,6 +23,6 @@ it('sends the file as it is, and opens what was kept on the axis', async () => {
   useRunsDialog.setState({ isOpen: true });
   await openLog('p1', new File(['log'], 'patrol.btlog'), new QueryClient(), t);
   expect(requests.map(({ method, path }) => `${method} ${path}`)).toContain(POST);
-  expect(useSource.getState().kept).toBe('patrol.btlog');
+  expect(useSource.getState().kept).toMatchObject({ id: 'r1', name: 'patrol.btlog' });
   expect(useRunsDialog.getState().isOpen).toBe(false);
 });

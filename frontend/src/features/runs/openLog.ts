@@ -26,7 +26,7 @@ export async function openLog(
     const run = await runs.addLog(projectId, file);
     notifications.hide(id);
     closeRunsDialog();
-    openKept(storedSource(projectId, run), run.name);
+    openKept(storedSource(projectId, run), run);
   } catch (error) {
     notifications.hide(id);
     notifications.show({ color: 'red', title: t('log.failed'), message: reasonOf(error as Error) });

@@ -1,37 +1,105 @@
+import { ApiError } from '@/api/errors';
+import { runs, type StoredRun } from '@/api/runs';
+import { useProjectStore } from '@/store/project';
+import { storedSource } from '@/store/recording/storedSource';
+import { projectPath } from '@/store/route';
 import { useSessionStore } from '@/store/session/store';
-import { extent, lookAt } from './looking';
+import { extent, lookAt, openKept } from './looking';
 import { useSource } from './source';
 import { useMoment } from './store';
 
 const WRITE_AFTER_MS = 300;
+const SESSION_RUN = /^[0-9a-f]{1,64}$/;
+const KEPT_RUN = /^[0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12}$/;
 
-/** Returns the moment that an address names: `?run=…&t=…`. */
-export function momentOf(search: string): { run: string; t: number } | null {
-  const query = new URLSearchParams(search);
-  const run = query.get('run');
-  const t = Number(query.get('t') ?? 'none');
-  return run !== null && /^[0-9a-f]{1,64}$/.test(run) && Number.isFinite(t) && t >= 0 ? { run, t } : null;
+/** A moment of a run of a session, or of a kept one, whose id is a UUID. */
+export interface Address {
+  readonly run: string;
+  readonly isKept: boolean;
+  /** In s; null: the begin. */
+  readonly t: number | null;
 }
 
-/** Goes to the moment of the address as soon as its run is there, and keeps the address up to date. */
-export function followAddress(): () => void {
+/** Why the run of an address is not shown: it is not there for this user, or it could not be asked for. */
+export type Missing =
+  { readonly what: 'kept' | 'session' } | { readonly what: 'failed'; readonly reason: string };
+
+/** Returns the moment that an address names: `?run=…&t=…`. */
+export function momentOf(search: string): Address | null {
+  const query = new URLSearchParams(search);
+  const run = query.get('run') ?? '';
+  const isKept = KEPT_RUN.test(run);
+  if (!isKept && !SESSION_RUN.test(run)) return null;
+  const text = query.get('t');
+  if (text === null) return { run, isKept, t: null };
+  const t = Number(text);
+  return Number.isFinite(t) && t >= 0 ? { run, isKept, t } : null;
+}
+
+/** Returns the query that names a moment. */
+export const queryOf = ({ run, t }: Pick<Address, 'run' | 't'>): string =>
+  `?run=${run}${t === null ? '' : `&t=${t.toFixed(3)}`}`;
+
+/** Returns the whole address of a moment of a project's run, to be sent to others. */
+export const linkTo = (projectId: string, moment: Pick<Address, 'run' | 't'>): string =>
+  window.location.origin + projectPath(projectId) + queryOf(moment);
+
+/** Returns the run and moment at which the user looks; null at the present. */
+export function shownAddress(): Address | null {
+  const { t } = useMoment.getState();
+  const { kept } = useSource.getState();
+  const run = kept?.id ?? extent()?.run;
+  return t === null || run === undefined ? null : { run, isKept: kept !== null, t };
+}
+
+/**
+ * Goes to the moment of the address as soon as its run is there, and keeps the address up to date.
+ *
+ * @param joined resolves when the page has joined the project's session, or knows that there is none.
+ * @param onMissing is called if the run of the address cannot be shown.
+ */
+export function followAddress(joined: Promise<void>, onMissing: (missing: Missing) => void): () => void {
+  const projectId = useProjectStore.getState().projectId ?? '';
   let wanted = momentOf(window.location.search);
   let timer: ReturnType<typeof setTimeout> | undefined;
   const write = () => {
     timer = undefined;
-    const { t } = useMoment.getState();
-    const run = useSource.getState().kept === null ? extent()?.run : undefined;
-    const query = t === null || run === undefined ? '' : `?run=${run}&t=${t.toFixed(3)}`;
+    const shown = shownAddress();
+    const query = shown === null ? '' : queryOf(shown);
     if (window.location.search === query) return;
     window.history.replaceState(window.history.state, '', window.location.pathname + query);
   };
-  const go = () => {
-    if (!wanted || extent()?.run !== wanted.run) return;
+  const go = (): boolean => {
+    if (!wanted || wanted.isKept || extent()?.run !== wanted.run) return false;
     const { t } = wanted;
     wanted = null;
-    lookAt(t);
+    lookAt(t ?? extent()?.from ?? 0);
+    return true;
   };
-  go();
+  const open = (run: StoredRun) => {
+    const t = wanted?.t ?? null;
+    wanted = null;
+    openKept(storedSource(projectId, run), run, t);
+  };
+  const seek = async (asked: Address) => {
+    if (!asked.isKept) await joined;
+    const isOpen = () => wanted !== asked || go();
+    if (isOpen()) return;
+    try {
+      // A run of a session that has ended may have been kept.
+      const run = asked.isKept
+        ? await runs.get(projectId, asked.run)
+        : (await runs.list(projectId)).find(({ recorded_as }) => recorded_as === asked.run);
+      if (isOpen()) return;
+      if (run) open(run);
+      else onMissing({ what: 'session' });
+    } catch (error) {
+      if (isOpen()) return;
+      const isGone = error instanceof ApiError && error.status === 404;
+      onMissing(isGone ? { what: 'kept' } : { what: 'failed', reason: (error as Error).message });
+    }
+  };
+  if (wanted && !go()) void seek(wanted);
   const stops = [
     useSessionStore.subscribe((now, before) => {
       if (now.segments !== before.segments) go();
@@ -43,6 +111,7 @@ export function followAddress(): () => void {
     }),
   ];
   return () => {
+    wanted = null;
     clearTimeout(timer);
     stops.forEach((stop) => stop());
   };

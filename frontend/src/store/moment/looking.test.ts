@@ -107,9 +107,9 @@ it('opens a kept run without a session, and closes it in the present', async () 
   const kept = { ...segment('kept'), from_t: 0, to_t: 1 };
   const read = (_: unknown, offset: number, length: number) =>
     Promise.resolve(file.slice(offset, offset + length));
-  openKept({ segments: () => [kept], subscribe: () => () => undefined, read }, 'First');
+  openKept({ segments: () => [kept], subscribe: () => () => undefined, read }, { id: 'r1', name: 'First' });
   expect(extent()).toEqual({ run: 'kept', from: 0, to: 1 });
-  expect(useSource.getState().kept).toBe('First');
+  expect(useSource.getState().kept?.name).toBe('First');
   lookAt(0.5);
   await shown(0.5);
   expect(Object.values(usePastSession.getState().blackboard).map(({ key }) => key)).toContain('offset');

@@ -7,7 +7,7 @@ import type { Moment, Overview, RecordingSource } from '@/store/recording/types'
 import { useSessionStore } from '@/store/session/store';
 import type { LogLine } from '@/store/session/types';
 import { consoleOf, linesUntil, rowsOf, usePastSession } from './session';
-import { ofSession, useSource } from './source';
+import { ofSession, useSource, type Kept } from './source';
 import { atPresent, useMoment } from './store';
 import { showPresentWorld, showWorld } from './world';
 
@@ -68,12 +68,12 @@ export function lookAt(t: number, tick: number | null = null): void {
   void refresh();
 }
 
-/** Opens a kept run at its begin. */
-export function openKept(source: RecordingSource, name: string): void {
+/** Opens a kept run at a moment, or at its begin. */
+export function openKept(source: RecordingSource, kept: Kept, t: number | null = null): void {
   lookNow();
-  change({ source, kept: name });
+  change({ source, kept });
   const begin = extent();
-  if (begin) lookAt(begin.from);
+  if (begin) lookAt(t ?? begin.from);
 }
 
 /** Returns to the present, and closes a kept run. */

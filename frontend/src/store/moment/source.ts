@@ -2,11 +2,18 @@ import { create } from 'zustand';
 import { liveSource } from '@/store/recording/liveSource';
 import type { RecordingSource } from '@/store/recording/types';
 
+/** A kept run that is open. */
+export interface Kept {
+  /** Its id, which its address has. */
+  readonly id: string;
+  readonly name: string;
+}
+
 interface SourceData {
   /** The recording at which the user looks, or would look. */
   readonly source: RecordingSource;
-  /** The name of the kept run that is open; null: the run of the session. */
-  readonly kept: string | null;
+  /** The kept run that is open; null: the run of the session. */
+  readonly kept: Kept | null;
 }
 
 export const ofSession: SourceData = { source: liveSource, kept: null };

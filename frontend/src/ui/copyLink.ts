@@ -1,0 +1,18 @@
+import { notifications } from '@mantine/notifications';
+import { t } from '@/i18n';
+
+/** Copies an address, and says what it opens; where the browser denies the clipboard, the address is shown. */
+export async function copyLink(address: string, note: string): Promise<void> {
+  try {
+    await navigator.clipboard.writeText(address);
+    notifications.show({ title: t('axis:link.copied'), message: note });
+  } catch {
+    notifications.show({
+      color: 'yellow',
+      title: t('axis:link.notCopied'),
+      message: address,
+      autoClose: false,
+      styles: { description: { overflowWrap: 'anywhere', userSelect: 'all' } },
+    });
+  }
+}

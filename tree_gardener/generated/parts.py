@@ -40,7 +40,7 @@ _CONDITIONS: Final = frozenset((*DECIDING, WHILE, ON_SUCCESS, ON_FAILURE, POST))
 
 
 class Rule(NamedTuple):
-    """What the code of a class of nodes does.
+    """The code for a class of nodes.
 
     Attributes:
         kind: one of the words above.
@@ -81,7 +81,7 @@ RULES: Final[Mapping[type, Rule]] = {
 
 
 class Variant(NamedTuple):
-    """What runs round the nodes: whether they are observed, and leaves are marked, timed or counted."""
+    """Tells whether nodes are observed, and whether leaves are marked, timed or counted."""
 
     is_observed: bool
     marks: bool
@@ -99,7 +99,7 @@ class Part(NamedTuple):
         first: the position of its first value, its node.
         has: the values that it brings, a letter for each.
         position: its position among its parent's children, or in the slice of them.
-        is_bundled: whether its mark is in the next bundle, if it lets its parent go on.
+        is_bundled: whether its mark is in the next bundle, if its parent continues after it.
         is_slice: whether the function ticks a slice of the root's children, without its start and end.
         children: its children.
     """

@@ -180,7 +180,7 @@ class Recovery:
     def climb(self, node: Node, part: Part, status: Status) -> Status | None:
         """Continues in the nodes above with the result of a node; returns the root's result.
 
-        A slice of a ParallelAll goes on by itself, for which None is returned.
+        A slice of a ParallelAll continues by itself, for which None is returned.
         """
         position = self.position(node, part)
         above: Any = node.parent

@@ -58,13 +58,13 @@ ATTRIBUTES: Final = frozenset(
     ("failure", "reported", "running", "skips", "slowest", "status", "success", "ticks"),
 )
 VARIABLES: Final = frozenset(("duration", "error", "kept", "result", "returned", "start"))
-"""The variables, besides ``ticks0``, ``ticks1`` … for the nodes whose children are called."""
+"""The variables, except ``ticks0``, ``ticks1`` … for the nodes whose children are called."""
 
 OTHER: Final = {S: F, F: S}
 
 
 class Meaning(NamedTuple):
-    """What is on a line.
+    """The meaning of a line.
 
     Attributes:
         part: the part whose value is called there.

@@ -162,7 +162,7 @@ class Run:
             self.seen.append([dataclasses.astuple(count) for count in self.tree.count_results()])
 
     def change(self) -> None:
-        """Lets a hook, an observer, marks or counts come or go."""
+        """Adds or removes a hook, an observer, marks or counts."""
         chance, tree = self.chance, self.tree
         kind = chance.random()
         if kind < 0.5:

@@ -169,7 +169,7 @@ def test_an_observer_that_comes_within_a_tick_knows_all_statuses_after_the_next_
         assert reported.get(node.uid, Status.IDLE) is node.status
 
 
-def test_a_tree_that_is_halted_within_a_tick_goes_on_as_without_code() -> None:
+def test_a_tree_that_is_halted_within_a_tick_continues_as_without_code() -> None:
     found = []
     for on in (True, False):
         tree = load(

@@ -1,4 +1,4 @@
-"""What is written into one function."""
+"""The nodes that are written into one function."""
 
 from __future__ import annotations
 

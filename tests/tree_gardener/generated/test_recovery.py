@@ -1,4 +1,4 @@
-"""What leaves the usual way continues in the nodes' own methods."""
+"""Ticks that leave the usual way continue in the nodes' own methods."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def test_the_trace_of_an_error_that_passes_through_has_no_line_twice() -> None:
     assert len(ticks) <= 2
 
 
-def test_a_failure_that_is_counted_lets_the_tick_go_on() -> None:
+def test_a_failure_that_is_counted_does_not_end_the_tick() -> None:
     tree = load("<Fallback><Succeeding _failureIf='true'/><Raising/><Succeeding/></Fallback>")
     errors: list[TickError] = []
     tree.on_error = errors.append
@@ -78,7 +78,7 @@ def test_a_failure_that_is_counted_lets_the_tick_go_on() -> None:
     assert tree.nodes[2].behaviour.status is F
 
 
-def test_a_parallel_goes_on_after_an_exception() -> None:
+def test_a_parallel_continues_after_an_exception() -> None:
     class Late(py_trees.behaviour.Behaviour):
         ticks = 0
 

@@ -81,7 +81,7 @@ RULES: Final[Mapping[type, Rule]] = {
 
 
 class Variant(NamedTuple):
-    """Tells whether nodes are observed, and whether leaves are marked, timed or counted."""
+    """Whether nodes are observed, and whether leaves are marked, timed or counted."""
 
     is_observed: bool
     marks: bool

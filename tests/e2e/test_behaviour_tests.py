@@ -143,10 +143,13 @@ def a_moment_of_the_past_is_written(studio: Studio) -> None:
 
 def it_fails_with_a_mark_when_the_tree_changes(studio: Studio) -> None:
     studio.page.get_by_role("tab", name="MainTree", exact=True).click()
-    studio.at("node-n3").click()
-    studio.page.keyboard.press("Delete")
+    studio.at("node-n4").click()
+    studio.page.keyboard.press("Control+ArrowLeft")  # it steers before it looks
     summary = studio.at("tests").get_by_test_id("tests-summary")
     expect(summary).to_have_text("0 passed, 1 failed")
+    expect(studio.at("failure-mark").first).to_be_visible()
     studio.picture("moment-failed")
+    studio.at("node-n4").click()
     studio.page.keyboard.press("Control+z")
     expect(summary).to_have_text("1 passed, 0 failed")
+    expect(studio.at("failure-mark")).to_have_count(0)

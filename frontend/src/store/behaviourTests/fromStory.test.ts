@@ -237,7 +237,7 @@ describe('the run', () => {
     ]);
   });
 
-  it('goes on after a root that has ended', () => {
+  it('continues after a root that has ended', () => {
     const done = tick(1, { flashed: [[1, 'SUCCESS']] });
     expect(draftOf(story([done, tick(2, running)]), project)).toMatchObject({
       repeat: true,

@@ -56,7 +56,7 @@ describe('storyUntil', () => {
     expect(numbers([one], 1, null)).toEqual([1, 2, 3]);
   });
 
-  it('goes on over segments that follow each other', () => {
+  it('continues over segments that follow each other', () => {
     const first = segment(0, tree(0), tick(1), tick(2, [[1, 'RUNNING']]));
     const second = segment(1, tree(3), keyframe(3, 2, [1, 0]), tick(3), tick(4));
     expect(storyUntil([first, second], 9, null)).toMatchObject({ isWhole: true });

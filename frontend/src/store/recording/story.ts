@@ -55,7 +55,7 @@ export function storyUntil(segments: readonly SegmentIndex[], t: number, tick: n
   return teller.story();
 }
 
-/** Puts the steps of a recording together; a gap, or another tree, begins anew. */
+/** Puts the steps of a recording together; a gap, or another tree, begins a new story. */
 class Teller {
   private generation: number | null = null;
   private segment = -1;
@@ -71,7 +71,7 @@ class Teller {
   begin(segment: number): void {
     const follows = segment === this.segment + 1 || this.segment < 0;
     this.segment = segment;
-    // What was told of another segment may not follow: its keyframe says so.
+    // A segment that does not follow the last one has a gap before it.
     if (!follows) this.last = -1;
   }
 
@@ -82,7 +82,7 @@ class Teller {
     this.nodes = nodes;
     this.statuses = new Map();
     this.entries = new Map();
-    this.anew(!isFirst);
+    this.restart(!isFirst);
   }
 
   keyframe(tick: number, status: ArrayLike<number>, entries: readonly Entry[]): void {
@@ -93,7 +93,7 @@ class Teller {
       if (name !== 'IDLE') this.statuses.set(uid, name);
     });
     this.entries = new Map(entries.map((entry) => [entryId(entry), entry]));
-    this.anew(tick === 0 || (this.isWhole && this.ticks.length === 0));
+    this.restart(tick === 0 || (this.isWhole && this.ticks.length === 0));
     this.last = tick;
   }
 
@@ -104,7 +104,7 @@ class Teller {
   tick(tick: StoryTick): void {
     // A halt after the last tick has the number of that tick, and is none.
     if (tick.number === this.last && this.ticks.length > 0) return;
-    if (this.ticks.length > 0 && tick.number !== this.last + 1) this.anew(false);
+    if (this.ticks.length > 0 && tick.number !== this.last + 1) this.restart(false);
     if (this.ticks.length === 0) {
       this.begun = { statuses: [...this.statuses], entries: [...this.entries.values()] };
       this.isWhole ||= tick.number === 1;
@@ -127,7 +127,7 @@ class Teller {
     return { nodes: this.nodes, ...this.begun, ticks: this.ticks, isWhole: this.isWhole };
   }
 
-  private anew(isWhole: boolean): void {
+  private restart(isWhole: boolean): void {
     this.ticks = [];
     this.isWhole = isWhole;
     this.pending = [];

@@ -3,6 +3,7 @@ import { useTranslation } from 'react-i18next';
 import type { Diagram, NodeId } from '@/model/diagram';
 import { NodeCoverage } from '@/features/behaviourTests/NodeCoverage';
 import { NodeStatistics } from '@/features/timeline/NodeStatistics';
+import { WhySection } from '@/features/why/WhySection';
 import { useProjectStore } from '@/store/project';
 import { CommandButton } from '@/ui/CommandButton';
 import { ActionSource } from './ActionSource';
@@ -68,6 +69,7 @@ const Fields = memo(function Fields({ diagram, count, id }: Shown) {
     <section className={classes['inspector']} aria-label={node.name ?? node.type} data-testid="inspector">
       <NodeHeader {...target} />
       <NodeProblems diagram={target.diagram} id={target.id} />
+      <WhySection tree={tree} node={target.id} />
       {node.type === 'SubTree' && <TreeField {...target} />}
       <PortList {...target} />
       <ConditionList {...target} />

@@ -14,6 +14,8 @@ const node = (uid: number, parent: number, name: string, type = name): TreeNode 
 const shown = {
   statuses: [[1, 'RUNNING']],
   flashes: [[2, 'FAILURE']],
+  was: [],
+  isHalted: false,
 } as unknown as Moment;
 
 beforeEach(() => {

@@ -12,6 +12,8 @@ const moment = (entries: EntryAt[]): Moment => ({
   tree: null,
   statuses: [],
   flashes: [],
+  was: [],
+  isHalted: false,
   entries,
   poses: null,
   scan: null,

@@ -56,6 +56,8 @@ const moment = (t: number, x: number): Moment => ({
   tree: null,
   statuses: [],
   flashes: [],
+  was: [],
+  isHalted: false,
   entries: [],
   poses: poses(t, x),
   scan,

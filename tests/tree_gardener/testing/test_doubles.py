@@ -83,17 +83,15 @@ def test_an_open_leaf_takes_any_port():
 def played(body, steps, ticks):
     built = tree(body)
     leaf = next(node for node in built.nodes if node.type == "Drive")
-    behaviour = DoubleBehaviour(leaf, Double("x", steps))
-    update = behaviour.update
     seen = []
 
-    def watched():
-        status = update()
-        seen.append((built.tick_number, status))
-        return status
+    class Watched(DoubleBehaviour):
+        def update(self):
+            status = super().update()
+            seen.append((built.tick_number, status))
+            return status
 
-    behaviour.update = watched
-    leaf.bind(behaviour)
+    leaf.bind(Watched(leaf, Double("x", steps)))
     for _ in range(ticks):
         built.tick_exactly_once()
     return [(tick, status.name) for tick, status in seen]

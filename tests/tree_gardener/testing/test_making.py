@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from typing import Any
 
 import pytest
 
@@ -10,7 +11,8 @@ from tests.tree_gardener.testing.random_trees import LEAVES, RandomLeaf, random_
 from tests.tree_gardener.testing.trees_under_test import document
 from tree_gardener.clock import ManualClock
 from tree_gardener.errors import TickError
-from tree_gardener.status import IDLE
+from tree_gardener.observe import TickChanges
+from tree_gardener.status import IDLE, Status
 from tree_gardener.testing import LeafModel, Suite, read_tests
 from tree_gardener.testing.making import Maker
 from tree_gardener.tree import Tree
@@ -75,8 +77,10 @@ def recorded(body, seed, ticks=60):
         if isinstance(leaf := getattr(node, "instance_behaviour", None), RandomLeaf):
             leaf.chance = random.Random(seed * 1000 + node.uid)  # noqa: S311 - a reproducible tree, no secret
             leaves[node.uid] = node.name
-    steps = {name: [] for name in leaves.values()}
-    statuses, roots, seen = [], [], []
+    steps: dict[str, list[dict[str, Any]]] = {name: [] for name in leaves.values()}
+    statuses: list[list[Status]] = []
+    roots: list[Status] = []
+    seen: list[TickChanges] = []
     tree.observe(seen.append)
     for number in range(1, ticks + 1):
         clock.sleep((number - 1) / 20.0 - clock.now())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -11,11 +11,13 @@ from tests.tree_gardener.testing.random_trees import LEAVES, RandomLeaf, random_
 from tests.tree_gardener.testing.trees_under_test import document
 from tree_gardener.clock import ManualClock
 from tree_gardener.errors import TickError
-from tree_gardener.observe import TickChanges
 from tree_gardener.status import IDLE, Status
 from tree_gardener.testing import LeafModel, Suite, read_tests
 from tree_gardener.testing.making import Maker
 from tree_gardener.tree import Tree
+
+if TYPE_CHECKING:
+    from tree_gardener.observe import TickChanges
 
 MODELS = {
     "Act": LeafModel("Action", (("output", "value", "double", None),), open=False),

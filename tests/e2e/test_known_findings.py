@@ -13,6 +13,8 @@ from tests.e2e.test_hands_projects import drop
 from tests.e2e.test_problems import show_problems
 
 if TYPE_CHECKING:
+    from playwright.sync_api import Locator
+
     from tests.e2e.studio import Studio
 
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(300)]
@@ -27,6 +29,10 @@ TREE = b"""<root BTCPP_format="4" main_tree_to_execute="Main">
 REASON = "it fails as soon as the camera is there"
 
 
+def shown_tree(studio: Studio, tree: str) -> Locator:
+    return studio.page.locator(f'[data-testid="canvas"][data-tree="{tree}"]')
+
+
 def test_a_finding_is_followed_fixed_silenced_and_reported_again(studio: Studio) -> None:
     page = studio.page
     drop(studio, "known.xml", TREE)
@@ -39,9 +45,9 @@ def test_a_finding_is_followed_fixed_silenced_and_reported_again(studio: Studio)
         studio.picture(f"known-findings-{scheme}")
 
     sure.get_by_role("list", name="Reason").get_by_role("button").last.click()
-    expect(studio.at("canvas")).to_have_attribute("data-tree", "Ready")
+    expect(shown_tree(studio, "Ready")).to_be_visible()
     sure.get_by_role("list", name="Reason").get_by_role("button").first.click()
-    expect(studio.at("canvas")).to_have_attribute("data-tree", "Main")
+    expect(shown_tree(studio, "Main")).to_be_visible()
 
     spin = problems.get_by_role("listitem").filter(has=page.locator('[data-code="BT0120"]'))
     spin.get_by_test_id("fix-insert-delay").click()
@@ -53,6 +59,8 @@ def test_a_finding_is_followed_fixed_silenced_and_reported_again(studio: Studio)
     sure.get_by_role("button", name="More about BT0119").click()
     page.get_by_role("menuitem", name="Silence here…").click()
     dialog = page.get_by_role("dialog", name="Silence BT0119 at this block")
+    expect(dialog).to_be_visible()
+    expect_accessible(studio, "dark")
     studio.picture("known-silence")
     page.keyboard.type(REASON)
     page.keyboard.press("Tab")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import pytest
 
@@ -49,7 +50,7 @@ def test_an_error_cannot_be_silenced(make_project):
 
 
 def test_other_nodes_are_still_looked_at(make_project):
-    rows = {"n1": {"type": "Sequence", "children": ["x", "y"]}}
+    rows: dict[str, Any] = {"n1": {"type": "Sequence", "children": ["x", "y"]}}
     rows |= {"x": {"type": "ForceSuccess", "children": ["a"], "silenced": {"BT0119": REASON}}, "a": LEAF}
     rows |= {"y": {"type": "ForceSuccess", "children": ["b"]}, "b": LEAF}
     context = Context(make_project(rows))

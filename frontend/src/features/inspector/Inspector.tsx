@@ -14,7 +14,7 @@ import { NodeDocs } from './NodeDocs';
 import { NodeHeader } from './NodeHeader';
 import { NodeProblems } from './NodeProblems';
 import { PortList } from './PortList';
-import { SilencedList } from './SilencedList';
+import { SilencedList } from './findings/SilencedList';
 import { targetOf } from './target';
 import { TreeDescription } from './tree/TreeDescription';
 import { TreeField } from './TreeField';

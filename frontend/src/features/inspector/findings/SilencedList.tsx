@@ -2,9 +2,9 @@ import { Button } from '@mantine/core';
 import { IconBellOff } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { unsilence } from '@/store/project/edits/silence';
-import { Section } from './Section';
-import type { Target } from './target';
-import classes from './Inspector.module.css';
+import { Section } from '../Section';
+import type { Target } from '../target';
+import classes from '../Inspector.module.css';
 
 /** The findings that are silenced at the block, each with its reason, and a way back. */
 export function SilencedList({ id, node, tree }: Target) {

@@ -1,7 +1,7 @@
 import { screen } from '@testing-library/react';
 import { expect, it } from 'vitest';
-import { nodeOf, openProject, show, user } from '../../../harness/testing';
-import { shownTarget } from '../../../harness/target';
+import { nodeOf, openProject, show, user } from '../../../../harness/testing';
+import { shownTarget } from '../../../../harness/target';
 import { SilencedList } from './SilencedList';
 
 const List = shownTarget('Main', SilencedList);

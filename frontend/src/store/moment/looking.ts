@@ -6,6 +6,7 @@ import type { FromEngine } from '@/store/recording/engine';
 import type { Moment, Overview, RecordingSource } from '@/store/recording/types';
 import { useSessionStore } from '@/store/session/store';
 import type { LogLine } from '@/store/session/types';
+import { identified, recordedTrees } from './recordedTrees';
 import { consoleOf, linesUntil, rowsOf, usePastSession } from './session';
 import { ofSession, useSource, type Kept } from './source';
 import { atPresent, useMoment } from './store';
@@ -189,7 +190,8 @@ async function refresh(): Promise<void> {
 
 function show(moment: Moment): void {
   const before = useMoment.getState();
-  const tree = moment.tree ?? before.tree;
+  const tree = moment.tree ? identified(moment.tree) : before.tree;
+  const trees = moment.tree ? recordedTrees(tree, moment.files ?? {}) : before.trees;
   if (before.overview !== linesOf && before.overview) {
     linesOf = before.overview;
     lines = consoleOf(before.overview);
@@ -219,7 +221,7 @@ function show(moment: Moment): void {
     },
     true,
   );
-  useMoment.setState({ shown: moment, tree });
+  useMoment.setState({ shown: moment, tree, trees });
   showWorld(moment);
 }
 

@@ -10,6 +10,7 @@ const moment = (entries: EntryAt[]): Moment => ({
   durationMs: null,
   generation: 1,
   tree: null,
+  files: null,
   statuses: [],
   flashes: [],
   entries,

@@ -54,6 +54,7 @@ const moment = (t: number, x: number): Moment => ({
   durationMs: null,
   generation: 1,
   tree: null,
+  files: null,
   statuses: [],
   flashes: [],
   entries: [],

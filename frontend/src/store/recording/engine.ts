@@ -64,7 +64,14 @@ export class Engine {
     const index = this.index.segment(number, from_t);
     let reader = this.readers.get(number);
     if (!reader)
-      this.readers.set(number, (reader = new SegmentReader(`segment ${number}`, (read) => index.add(read))));
+      this.readers.set(
+        number,
+        (reader = new SegmentReader(
+          `segment ${number}`,
+          (read) => index.add(read),
+          (name, data) => index.attach(name, data),
+        )),
+      );
     try {
       reader.append(bytes);
       if (reader.offset >= size) index.to = to_t;

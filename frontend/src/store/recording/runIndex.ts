@@ -67,6 +67,7 @@ export class RunIndex {
       durationMs: last?.durationMs ?? null,
       generation: state.generation,
       tree: state.generation === known ? null : state.nodes,
+      files: state.generation === known ? null : state.files,
       statuses: [...state.statuses],
       flashes: last?.flashed ?? [],
       entries: [...state.entries].map(([id, entry]): EntryAt => ({

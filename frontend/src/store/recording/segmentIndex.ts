@@ -1,5 +1,5 @@
 import { decode } from '@msgpack/msgpack';
-import type { LogLevel, NodeStatus, Poses, TreeNode } from '@/generated/messages';
+import type { LogLevel, NodeStatus, Poses } from '@/generated/messages';
 import type { PosesFrame } from './posesAt';
 import type { Read } from './segmentReader';
 import { keyframeStep, tickStep, treeStep, writesStep, type Step, type TickStep, type Write } from './steps';
@@ -10,9 +10,13 @@ import {
   type Mark,
   type RecordedFault,
   type RecordedLine,
+  type RecordedNode,
 } from './types';
 
 export const entryId = ({ scope, key }: Pick<Entry, 'scope' | 'key'>) => `${scope}\u0000${key}`;
+
+const DIAGRAM = /^project\/trees\/[^/]+\.json$/;
+const TEXT = new TextDecoder();
 
 interface Written {
   readonly t: number;
@@ -22,7 +26,8 @@ interface Written {
 /** The state of tree and blackboard after some steps. */
 export interface State {
   generation: number;
-  nodes: readonly TreeNode[];
+  nodes: readonly RecordedNode[];
+  files: Readonly<Record<string, string>>;
   statuses: Map<number, NodeStatus>;
   entries: Map<string, Entry>;
   written: Map<string, Written>;
@@ -46,6 +51,7 @@ export class SegmentIndex {
   /** Whether all was read, and nothing follows. */
   isWhole = false;
   private paths = new Map<number, string>();
+  private files: Readonly<Record<string, string>> = {};
 
   constructor(
     readonly number: number,
@@ -62,7 +68,7 @@ export class SegmentIndex {
     if (read.type === 'sensor_msgs/msg/CompressedImage') return this.addPicture(read);
     switch (topic) {
       case '/bt/tree': {
-        const step = treeStep(t, read.decode());
+        const step = treeStep(t, read.decode(), this.files);
         this.paths = new Map(step.nodes.map(({ uid, path }) => [uid, path]));
         return void this.steps.push(step);
       }
@@ -83,6 +89,12 @@ export class SegmentIndex {
     }
   }
 
+  /** Takes an attached file: it belongs to the trees that follow. */
+  attach(name: string, data: Uint8Array): void {
+    if (!DIAGRAM.test(name)) return;
+    this.files = { ...this.files, [name]: TEXT.decode(data) };
+  }
+
   /**
    * Returns the state at a time; before its first tree, that tree as it begins. Of several ticks
    * of that time, the last is `tick`.
@@ -98,6 +110,7 @@ export class SegmentIndex {
     const state: State = {
       generation: 0,
       nodes: [],
+      files: {},
       statuses: new Map(),
       entries: new Map(),
       written: new Map(),
@@ -168,6 +181,7 @@ function apply(state: State, step: Step): void {
     case 'tree':
       state.generation = step.generation;
       state.nodes = step.nodes;
+      state.files = step.files;
       state.statuses = new Map();
       state.entries = new Map();
       state.tick = null;

@@ -13,6 +13,11 @@ export interface RecordingSource {
   subscribe(changed: () => void): () => void;
 }
 
+/** A node as it ran, with what its ports were given. */
+export interface RecordedNode extends TreeNode {
+  readonly ports: Readonly<Record<string, string>>;
+}
+
 /** A value of the blackboard at a moment. */
 export interface Entry {
   readonly scope: string;
@@ -108,7 +113,9 @@ export interface Moment {
   readonly durationMs: number | null;
   /** The generation of the tree; its nodes are sent only when the asker does not know them. */
   readonly generation: number;
-  readonly tree: readonly TreeNode[] | null;
+  readonly tree: readonly RecordedNode[] | null;
+  /** The attached diagrams by their names in the recording; sent with the nodes. */
+  readonly files: Readonly<Record<string, string>> | null;
   /** The nodes that are not idle. */
   readonly statuses: readonly StatusOf[];
   /** Results within the last tick that did not stay. */

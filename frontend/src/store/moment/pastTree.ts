@@ -1,0 +1,44 @@
+import { create } from 'zustand';
+import type { NodeId } from '@/model/diagram';
+import { useProjectStore } from '@/store/project';
+import { useMoment } from './store';
+
+interface PastTree {
+  /** The tree that the user chose to see; null: the active one of the project, or the main one of the run. */
+  readonly tree: string | null;
+  /** The selected block of it. */
+  readonly node: NodeId | null;
+  readonly view: 'canvas' | 'list';
+  /** Whether what changed since is marked. */
+  readonly isCompared: boolean;
+}
+
+const atFirst: PastTree = { tree: null, node: null, view: 'canvas', isCompared: false };
+
+/** What the user sees of the tree as it ran. No edit depends on it. */
+export const usePastTree = create<PastTree>(() => atFirst);
+
+useMoment.subscribe((now, before) => {
+  if (now.shown === null && before.shown !== null) usePastTree.setState(atFirst, true);
+});
+
+/** Returns the recorded tree that is shown; null if the run has none. */
+export function shownTree(
+  wanted: string | null,
+  trees: readonly string[],
+  active: string | null,
+): string | null {
+  for (const id of [wanted, active]) if (id !== null && trees.includes(id)) return id;
+  return trees[0] ?? null;
+}
+
+/** Selects a block of the tree as it ran, and the same block of the present tree where it exists. */
+export function selectPast(tree: string, node: NodeId | null): void {
+  usePastTree.setState({ tree, node });
+  const { activeTree, diagrams, select } = useProjectStore.getState();
+  if (node !== null && diagrams[tree]?.nodes[node]) select(tree, [node]);
+  else if (activeTree !== null) select(activeTree, []);
+}
+
+/** Shows another tree of the run. */
+export const openPastTree = (tree: string): void => usePastTree.setState({ tree, node: null });

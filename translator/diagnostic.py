@@ -40,6 +40,39 @@ class Place:
 
 
 @dataclass(frozen=True, slots=True)
+class Step:
+    """A node on the path of a finding's reason.
+
+    Attributes:
+        results: the results that it can return, such as SUCCESS; empty where they do not matter.
+        role: what it does there: `reads`, `writes`, `commands`; "" where it is on the way.
+        what: the key or topic.
+    """
+
+    tree: str
+    node: str
+    label: str
+    results: tuple[str, ...] = ()
+    role: str = ""
+    what: str = ""
+
+    def to_json(self) -> dict[str, Any]:
+        """Returns the form that the REST interface, the editor and `--json` share."""
+        return {
+            "tree": self.tree,
+            "node": self.node,
+            "label": self.label,
+            "results": list(self.results),
+            "role": self.role,
+            "what": self.what,
+        }
+
+    def __str__(self) -> str:
+        does = f"{self.role} {self.what}" if self.role else "/".join(self.results)
+        return f"{self.tree}/{self.label}" + (f" ({does})" if does else "")
+
+
+@dataclass(frozen=True, slots=True)
 class Rule:
     """One row of the table of codes."""
 
@@ -55,6 +88,7 @@ class Diagnostic:
     """One finding. `str()` returns the line that the command line prints.
 
     `values` are the values in message and hint; a translated text is made from the code and these values.
+    `path` leads over the nodes from which the finding follows.
     """
 
     code: str
@@ -63,6 +97,7 @@ class Diagnostic:
     hint: str
     place: Place
     values: Mapping[str, str] = field(default_factory=dict, compare=False)
+    path: tuple[Step, ...] = field(default=(), compare=False)
 
     @property
     def is_error(self) -> bool:
@@ -84,6 +119,7 @@ class Diagnostic:
             "file": place.file,
             "line": place.line,
             "column": place.column,
+            "path": [step.to_json() for step in self.path],
         }
 
     def moved(self, **changes: Any) -> Diagnostic:
@@ -95,7 +131,8 @@ class Diagnostic:
         where = [place.file or place.tree or "project", str(place.line or 1), str(place.column or 1)]
         inside = f" [{place.node}]" if place.node else ""
         hint = f" ({self.hint})" if self.hint else ""
-        return f"{':'.join(where)}: {self.code}{inside} {self.message}{hint}"
+        path = f" [path: {' → '.join(str(step) for step in self.path)}]" if self.path else ""
+        return f"{':'.join(where)}: {self.code}{inside} {self.message}{hint}{path}"
 
 
 class TranslatorError(Exception):

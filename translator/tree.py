@@ -216,6 +216,22 @@ def reachable_trees(trees: Mapping[str, Tree], main: str) -> list[str]:
     return list(found)
 
 
+def callees_first(trees: Mapping[str, Tree]) -> list[str]:
+    """Returns the ids of trees so that each comes after those that it calls, unless they call it too."""
+    order: dict[str, None] = {}
+    seen: set[str] = set()
+    stack = [(tree_id, False) for tree_id in reversed(list(trees))]
+    while stack:
+        tree_id, is_finished = stack.pop()
+        if is_finished:
+            order.setdefault(tree_id)
+        elif tree_id not in seen:
+            seen.add(tree_id)
+            stack.append((tree_id, True))
+            stack.extend((node.tree, False) for node in trees[tree_id].subtree_calls() if node.tree in trees)
+    return list(order)
+
+
 def used_types(trees: Iterable[Tree]) -> set[str]:
     """Returns the types of all nodes of the trees, without drafts."""
     return {node.type for tree in trees for node in tree.walk()}

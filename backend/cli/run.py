@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from executor.headless.live import HeadlessOptions
     from executor.headless.lockstep import LockstepOptions
     from executor.headless.report import Report
@@ -38,6 +40,10 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
         typer.Option("--serve-viewer/--headless", help="Show the run on a page; its link is printed first."),
     ] = False,
     report: Annotated[Path | None, typer.Option(help="File for the report, as JSON.")] = None,
+    evaluation: Annotated[
+        str | None,
+        typer.Option(help="Run one seed of this evaluation, in lock-step, and judge it."),
+    ] = None,
     record: Annotated[
         Path | None,
         typer.Option(help="MCAP file (.mcap) for all that happens in the run."),
@@ -52,8 +58,14 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     from tree_gardener.stubs import stubs_sentence
 
     _refuse_contradictions(record, universe, lockstep=lockstep, viewer=viewer)
+    if evaluation is not None:
+        from backend.cli.evaluation import run_one
+
+        _refuse_with_evaluation(universe, robot, duration, viewer=viewer)
+        run_one(project, evaluation, seed, record=record, report=report, as_json=as_json)
+        return
     if lockstep:
-        _fix_hashes()
+        fix_hashes()
     stubs: list[str] = []
     try:
         opened = cli.open_project(project)
@@ -100,15 +112,28 @@ def _refuse_contradictions(
         raise typer.BadParameter(text, param_hint="--record")
 
 
-def _fix_hashes() -> None:
+def _refuse_with_evaluation(
+    universe: str | None, robot: str | None, duration: float | None, *, viewer: bool
+) -> None:
+    given = {"--universe": universe, "--robot": robot, "--duration": duration}
+    given["--serve-viewer"] = viewer or None
+    for name, value in given.items():
+        if value is not None:
+            text = "the evaluation decides this; leave out one of the two"
+            raise typer.BadParameter(text, param_hint=name)
+
+
+def fix_hashes(others: Mapping[str, str] | None = None) -> None:
     """Starts the command again with `PYTHONHASHSEED=0`, which Python reads only at its start.
 
-    Otherwise the hashes of texts differ in each process, and so does the order of sets of texts.
+    Otherwise the hashes of texts differ in each process, and so does the order of sets of texts. `others` are
+    further variables that libraries read when they are loaded.
     """
+    wanted = {"PYTHONHASHSEED": "0", **(others or {})}
     is_command = Path(sys.argv[0]).name in {"bt-studio", "main.py"}
-    if is_command and os.environ.get("PYTHONHASHSEED") != "0":
+    if is_command and any(os.environ.get(name) != value for name, value in wanted.items()):
         sys.stdout.flush()
-        environment = {**os.environ, "PYTHONHASHSEED": "0"}
+        environment = {**os.environ, **wanted}
         os.execve(sys.executable, [sys.executable, *sys.orig_argv[1:]], environment)  # noqa: S606 - itself
 
 

@@ -65,6 +65,7 @@ def _outcome(case: Case, outcome: str, result: Result | None) -> dict[str, Any]:
         "tree": case.tree,
         "outcome": outcome,
         "ticks": result.ticks if result is not None else 0,
+        "reached": result.seen if result is not None else {},
         "failures": [
             {
                 "message": failure.message,

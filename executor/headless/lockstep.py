@@ -8,18 +8,19 @@ be called immediately after publishing.
 from __future__ import annotations
 
 import math
-import os
 import sys
 import time
 import traceback
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.headless.files import write_files
 from executor.headless.lines import mismatch_line
+from executor.headless.output import RecordedOutput, recorded
 from executor.headless.report import NodeCount, Report, quantiles
-from executor.ros.environment import lockstep_environment
+from executor.ros.environment import use_lockstep_environment
 from executor.supervision.scratch import Scratch
 from tree_gardener.errors import describe
 
@@ -27,13 +28,16 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from executor.child_messages import TopicMismatch
+    from executor.child_messages import Log, TopicMismatch
     from executor.headless.recorder import RunRecorder
     from executor.headless.recording import Recording
+    from executor.ros.node import WorldNode
     from executor.ros.spin import DrainingExecutor
     from executor.world.physics.bullet import BulletWorld
+    from executor.world.sensing.sensors import Sensors
     from translator import Project
     from tree_gardener import Status, TickError, Tree
+    from tree_gardener.hooks import ResultCount
 
     Progress = Callable[[float], None]
     Watch = Callable[[BulletWorld, Tree], None]
@@ -57,6 +61,8 @@ class LockstepOptions:
     on_finish: str | None = None
     on_error: str | None = None
     recording: Path | None = None
+    outlasts_tree: bool = False
+    """Whether the world continues after the root has finished."""
 
 
 def run_lockstep(  # noqa: PLR0913 - a run, and who listens to it
@@ -85,8 +91,8 @@ def run_lockstep(  # noqa: PLR0913 - a run, and who listens to it
         TickError: the setup of an action raised.
         HeadlessError: the recording cannot be written.
     """
-    _use_environment()
-    run = _Run(_open(project), options or LockstepOptions(), say or _say)
+    use_lockstep_environment()
+    run = LockstepRun(_open(project), options or LockstepOptions(), say or _say)
     run.moved = moved or run.moved
     try:
         run.set_up()
@@ -95,8 +101,26 @@ def run_lockstep(  # noqa: PLR0913 - a run, and who listens to it
         run.close()
 
 
-class _Run:
-    """One run: the world, the application, and the ROS connection between them."""
+class LockstepRun:
+    """One run: the world, the application, and the ROS connection between them.
+
+    Evaluations derive from it; they make another world, and end by what `moved` raises.
+
+    Attributes:
+        moved: called after each step of the world; what it raises ends the run.
+        world: the world, after `set_up`.
+        tree: the tree, after `set_up`.
+        node: the world's ROS node, after `set_up`.
+        sensors: the sensors of the world, after `set_up`.
+        report: what is known of the run so far.
+        has_ended: whether the tree has ended.
+        counts: the results of each node, in the order of the nodes; empty before `set_up`.
+    """
+
+    world: BulletWorld
+    tree: Tree
+    node: WorldNode
+    sensors: Sensors
 
     def __init__(self, project: Project, options: LockstepOptions, say: Callable[[str], None]) -> None:
         settings = project.settings
@@ -106,20 +130,24 @@ class _Run:
         self._tick_hz = options.tick_hz or settings.tick_hz
         self._on_finish = options.on_finish or settings.on_finish
         self._on_error = options.on_error or settings.on_error
-        self._report = Report()
+        self.report = Report()
         self._durations: list[float] = []
         self.moved: Callable[[], None] = lambda: None
         self._stack: list[Callable[[], object]] = []
         self._recorder: RunRecorder | None = None  # set when the tree is loaded
+        self._output: tuple[Any, Any] = (None, None)
+        self._printed: list[Log] = []  # before there is a recorder
+        self.has_ended = False
+        self.counts: list[ResultCount] = []
 
     def set_up(self) -> None:
         """Makes the world and the application. Call `close` afterwards, also after an error."""
         project = self._project
         recording = self._open_recording(project)
-        self._world = self._make_world(project)
-        self._stack.append(self._world.close)
+        self.world = self.make_world(self._write_assets())
+        self._stack.append(self.world.close)
         self._join_ros()
-        self._tree = self._make_tree(project)
+        self.tree = self._make_tree(project)
         self._recorder = self._make_recorder(recording)
 
     def play(self, progress: Progress | None, watch: Watch | None) -> Report:
@@ -127,7 +155,7 @@ class _Run:
         from tree_gardener.runner import Runner  # noqa: PLC0415 - after the environment
 
         runner = Runner(
-            self._tree,
+            self.tree,
             tick_hz=self._tick_hz,
             on_finish=self._on_finish,
             on_error=self._on_error,
@@ -136,31 +164,30 @@ class _Run:
         began_s = time.perf_counter()
         ticks = math.floor(self._options.duration_s * self._tick_hz + 1e-9)
         for number in range(ticks):
-            self._advance(round(number / self._tick_hz / self._world.step_s))
+            self._advance(round(number / self._tick_hz / self.world.step_s))
             if not self._call_back():
-                self._report.root_status = "FAILURE"
+                self.report.root_status = "FAILURE"
                 break
             if number % max(1, round(self._tick_hz * MISMATCHES_S)) == 1:
                 self._mismatches.look()
             if watch is not None:
-                watch(self._world, self._tree)
+                watch(self.world, self.tree)
             status = self._tick(runner)
-            self._node.poll()
-            for note in self._node.take_notes():
+            self.node.poll()
+            for note in self.node.take_notes():
                 print(note, file=sys.stderr)  # noqa: T201 - what the console of a session shows
                 if self._recorder is not None:
                     self._recorder.says("warning", note)
-            self._sample(number)
+            self.sample(number)
             if progress is not None and number % max(1, round(self._tick_hz)) == 0:
-                progress(self._world.time_s)
+                progress(self.world.time_s)
             if runner.is_finished:
-                self._report.root_status = (status or runner.status).name
-                if self._recorder is not None:
-                    self._recorder.finished(status)
-                break
+                self._note_end(status, runner.status)
+                if runner.error is not None or not self._options.outlasts_tree:
+                    break
         else:
-            self._advance(round(ticks / self._tick_hz / self._world.step_s))
-            self._report.root_status = runner.status.name
+            self._advance(round(ticks / self._tick_hz / self.world.step_s))
+            self.report.root_status = runner.status.name
         return self._finish(began_s, runner.statistics.overruns)
 
     def close(self) -> None:
@@ -170,18 +197,23 @@ class _Run:
 
     # --- setting up ---
 
-    def _make_world(self, project: Project) -> BulletWorld:
+    def make_world(self, assets: Path) -> BulletWorld:
+        """Returns the world; `assets` is the folder with the project's robots and meshes."""
         from executor.world.simulation.launch import make_world  # noqa: PLC0415 - slow to load
 
-        universe = self._options.universe or project.settings.universe
+        settings, options = self._project.settings, self._options
+        universe = options.universe or settings.universe
         file = f"universes/{universe}.yaml"
-        own = project.files.get(file)
-        robot = self._options.robot or project.settings.robot
+        own = self._project.files.get(file)
         text = own.decode("utf-8") if own is not None else universe
+        robot = options.robot or settings.robot
+        return make_world(text, seed=options.seed, robot=robot, assets=assets, file=file)
+
+    def _write_assets(self) -> Path:
         scratch = Scratch()
         self._stack.append(scratch.remove)
-        _write_assets(project, scratch.path)
-        return make_world(text, seed=self._options.seed, robot=robot, assets=scratch.path, file=file)
+        _write_assets(self._project, scratch.path)
+        return scratch.path
 
     def _join_ros(self) -> None:
         from rclpy.parameter import Parameter  # noqa: PLC0415 - ROS reads the environment when loaded
@@ -200,16 +232,16 @@ class _Run:
         default = DefaultContext(simulated=True)
         context = default.context
         self._stack.append(default.close)
-        self._sensors = Sensors(self._world, make_renderer)
-        self._stack.append(self._sensors.close)
-        renamed = {place.id: place.topics for place in self._world.universe.robots}
-        true_poses = {place.id for place in self._world.universe.robots if place.ground_truth}
-        self._node = WorldNode(
-            self._world, context, topics=renamed, true_poses=true_poses, clock_hz=self._tick_hz
+        self.sensors = Sensors(self.world, make_renderer)
+        self._stack.append(self.sensors.close)
+        renamed = {place.id: place.topics for place in self.world.universe.robots}
+        true_poses = {place.id for place in self.world.universe.robots if place.ground_truth}
+        self.node = WorldNode(
+            self.world, context, topics=renamed, true_poses=true_poses, clock_hz=self._tick_hz
         )
-        self._stack.append(self._node.close)
-        self._stack.append(share_commands(self._node, context))
-        self._navigation = make_navigation(self._world, context)
+        self._stack.append(self.node.close)
+        self._stack.append(share_commands(self.node, context))
+        self._navigation = make_navigation(self.world, context)
         if self._navigation is not None:
             self._stack.append(self._navigation.close)
         self._application = ActionNode(
@@ -222,7 +254,7 @@ class _Run:
         self._executor.add_node(self._application)
         self._stack.append(self._executor.shutdown)
         self._mismatches = Mismatches(self._application, self._say_mismatch)
-        self._stack.append(wait_in_simulation(lambda: self._world.time_s, self._let_time_pass))
+        self._stack.append(wait_in_simulation(lambda: self.world.time_s, self._let_time_pass))
 
     def _say_mismatch(self, found: TopicMismatch) -> None:
         if not found.resolved:
@@ -244,13 +276,15 @@ class _Run:
         prepare()
         self._stack.append(enter(folder.path))
         self._randomness = seed_randomness(self._options.seed)
-        tree = Tree.from_xml(text, clock=_WorldClock(self._world))
-        tree.on_warning = lambda node, message: self._say(f"{node.path}: {message}")
         self._locator = Locator()
-        self._locator.learn(tree)
-        tree.setup(node=self._application)
+        self._record_output()
+        with recorded(*self._output):
+            tree = Tree.from_xml(text, clock=_WorldClock(self.world))
+            tree.on_warning = lambda node, message: self._say(f"{node.path}: {message}")
+            self._locator.learn(tree)
+            tree.setup(node=self._application)
         self._stack.append(tree.shutdown)
-        self._counts = tree.count_results()
+        self.counts = tree.count_results()
         return tree
 
     def _open_recording(self, project: Project) -> Recording | None:
@@ -269,39 +303,58 @@ class _Run:
             return None
         from executor.headless.recorder import RunRecorder  # noqa: PLC0415 - few runs are recorded
 
-        return RunRecorder(recording, self._world, self._sensors, self._node, self._tree)
+        recorder = RunRecorder(recording, self.world, self.sensors, self.node, self.tree)
+        for line in self._printed:
+            recorder.printed(line)
+        recorder.look()
+        return recorder
+
+    def _record_output(self) -> None:
+        """Prepares the streams that also write what users' code prints into the recording."""
+        if self._options.recording is None:
+            return
+
+        def print_(line: Log) -> None:
+            if self._recorder is None:
+                self._printed.append(line)
+            else:
+                self._recorder.printed(line)
+
+        make = partial(RecordedOutput, send=print_, locator=self._locator, now_s=lambda: self.world.time_s)
+        self._output = make("info", original=sys.stdout), make("error", original=sys.stderr)
 
     # --- running ---
 
     def _advance(self, until_step: int) -> None:
         """Steps the world up to a step; its sensors measure at their rates meanwhile, as in real time."""
-        done = round(self._world.time_s / self._world.step_s)
+        done = round(self.world.time_s / self.world.step_s)
         if done == 0:
-            self._node.publish(self._sensors)
+            self.node.publish(self.sensors)
         while done < until_step:
             count = min(until_step - done, PERIOD_STEPS - done % PERIOD_STEPS)
-            self._world.step(count)
+            self.world.step(count)
             self.moved()
             done += count
-            self._sensors.changed()
+            self.sensors.changed()
             if done % PERIOD_STEPS == 0 or done == until_step:
                 if self._navigation is not None:
                     self._navigation.poll()
-                self._node.publish(self._sensors)
+                self.node.publish(self.sensors)
                 if self._recorder is not None:
                     self._recorder.look()
 
     def _let_time_pass(self) -> None:
         """Simulates for a short time while an action waits in rclpy, as real time would pass."""
-        if self._world.time_s >= self._options.duration_s:
+        if self.world.time_s >= self._options.duration_s:
             raise TimeoutError(TOO_LONG)
-        self._advance(round(self._world.time_s / self._world.step_s) + PERIOD_STEPS)
-        self._node.poll()
+        self._advance(round(self.world.time_s / self.world.step_s) + PERIOD_STEPS)
+        self.node.poll()
 
     def _call_back(self) -> bool:
         """Runs the callbacks of the actions; returns whether all succeeded."""
         try:
-            self._executor.drain()
+            with recorded(*self._output):
+                self._executor.drain()
         except (Exception, SystemExit) as error:
             self._note_broken(error)
             return False
@@ -309,14 +362,15 @@ class _Run:
 
     def _tick(self, runner: Any) -> Status | None:
         began_s = time.perf_counter()
-        status: Status | None = runner.tick_due(self._world.time_s)
+        with recorded(*self._output):
+            status: Status | None = runner.tick_due(self.world.time_s)
         self._durations.append(time.perf_counter() - began_s)
         return status
 
     def _note_broken(self, error: BaseException) -> None:
         """Stores the exception of a callback."""
         place = self._locator.place_of_error(error)
-        self._report.errors.append(
+        self.report.errors.append(
             {
                 "node_path": place.node_path,
                 "node_id": place.node_id,
@@ -324,14 +378,14 @@ class _Run:
                 "line": place.line,
                 "message": describe(error),
                 "traceback": "".join(traceback.format_exception(error)),
-                "t": self._world.time_s,
+                "t": self.world.time_s,
             }
         )
 
     def _note_fault(self, error: TickError) -> None:
         if self._recorder is not None:
             self._recorder.raised(error)
-        self._report.errors.append(
+        self.report.errors.append(
             {
                 "node_path": error.path,
                 "node_id": error.node_id,
@@ -339,37 +393,47 @@ class _Run:
                 "line": error.line,
                 "message": error.message,
                 "traceback": error.traceback_text,
-                "t": self._world.time_s,
+                "t": self.world.time_s,
             }
         )
 
-    def _sample(self, tick: int) -> None:
-        every = max(1, round(self._tick_hz / TRAJECTORY_HZ))
-        if tick % every or not self._world.robots:
+    def _note_end(self, status: Status | None, last: Status) -> None:
+        """Stores the result of the tree, once."""
+        if self.has_ended:
             return
-        robot = self._world.robots[0]
+        self.has_ended = True
+        self.report.root_status = (status or last).name
+        if self._recorder is not None:
+            self._recorder.finished(status)
+
+    def sample(self, tick: int) -> None:
+        """Adds the pose of the first robot, and the nearest range of its scan, to the report."""
+        every = max(1, round(self._tick_hz / TRAJECTORY_HZ))
+        if tick % every or not self.world.robots:
+            return
+        robot = self.world.robots[0]
         x, y, yaw = robot.pose
-        self._report.trajectory.append([round(v, 6) for v in (self._world.time_s, x, y, yaw)])
+        self.report.trajectory.append([round(v, 6) for v in (self.world.time_s, x, y, yaw)])
         for lidar in robot.config.lidars[:1]:
-            nearest = float(self._sensors.scan(robot, lidar).ranges.min())
-            best = self._report.min_range_m
+            nearest = float(self.sensors.scan(robot, lidar).ranges.min())
+            best = self.report.min_range_m
             if math.isfinite(nearest) and (best is None or nearest < best):
-                self._report.min_range_m = round(nearest, 6)
+                self.report.min_range_m = round(nearest, 6)
 
     def _finish(self, began_s: float, overruns: int) -> Report:
-        report = self._report
+        report = self.report
         report.wall_time_s = time.perf_counter() - began_s
-        report.sim_time_s = self._world.time_s
+        report.sim_time_s = self.world.time_s
         report.real_time_factor = report.sim_time_s / max(report.wall_time_s, 1e-9)
-        report.ticks = self._tree.tick_number
+        report.ticks = self.tree.tick_number
         report.tick_ms, report.overruns = quantiles(self._durations), overruns
         report.nodes = [
             NodeCount(node.path, count.ticks, count.success, count.failure, count.running)
-            for node, count in zip(self._tree.nodes, self._counts, strict=True)
+            for node, count in zip(self.tree.nodes, self.counts, strict=True)
         ]
-        report.random = self._world.has_drawn or not self._randomness.is_untouched
-        if self._world.robots:
-            robot = self._world.robots[0]
+        report.random = self.world.has_drawn or not self._randomness.is_untouched
+        if self.world.robots:
+            robot = self.world.robots[0]
             report.distance_m, report.collisions = round(robot.distance_m, 6), robot.collisions
         return report
 
@@ -378,11 +442,11 @@ class _WorldClock:
     """The clock of the tree: simulated time for Delay, Timeout and Sleep."""
 
     def __init__(self, world: BulletWorld) -> None:
-        self._world = world
+        self.world = world
 
     def now(self) -> float:
         """Returns the simulated time in s."""
-        return self._world.time_s
+        return self.world.time_s
 
     def sleep(self, duration_s: float) -> None:
         """Does nothing: simulated time does not pass within a tick."""
@@ -405,9 +469,3 @@ def _write_assets(project: Project, folder: Path) -> None:
 
 def _say(line: str) -> None:
     sys.stderr.write(f"{line}\n")
-
-
-def _use_environment() -> None:
-    """Sets the environment that isolates ROS from other processes, unless ROS was loaded before."""
-    if "rclpy" not in sys.modules:
-        os.environ.update(lockstep_environment())

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from executor.recorder.reader import RecordingError
 from executor.recorder.recover import join
-from executor.recorder.shelf import files_of
+from executor.recorder.shelf import files_of, parts_of
 from executor.supervision.confine import die_with_parent
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def join_run(folder: Path, run: str, out: Path) -> int:
         return 0
     with contextlib.ExitStack() as stack:
         sources = [(stack.enter_context(path.open("rb")), path.name) for path in files]
-        return join(sources, stack.enter_context(out.open("wb")))
+        return join(sources, stack.enter_context(out.open("wb")), parts=parts_of(folder, run))
 
 
 def join_newest(folder: Path, out: Path) -> int:

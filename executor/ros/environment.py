@@ -5,6 +5,8 @@ Set them before `rclpy` is imported.
 
 from __future__ import annotations
 
+import os
+import sys
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Final
@@ -30,6 +32,12 @@ def lockstep_environment() -> dict[str, str]:
     profile = str(LOCKSTEP_PROFILE)
     names = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
     return ros_environment(0) | dict.fromkeys(names, profile)
+
+
+def use_lockstep_environment() -> None:
+    """Sets the variables of `lockstep_environment` in this process, unless ROS was loaded before."""
+    if "rclpy" not in sys.modules:
+        os.environ.update(lockstep_environment())
 
 
 def has_tf() -> bool:

@@ -31,6 +31,7 @@ FILES: Final[dict[str, tuple[str, ...]]] = {
 """Permitted suffixes of a model's file, for each shape that has a file."""
 TEXTURES: Final = ("asphalt", "brick", "carpet", "checker", "grass", "tiles", "wood")
 """Names of the built-in textures."""
+SMALLEST_AREA_M2: Final = 1e-6
 PICTURES: Final = (".png", ".jpg", ".jpeg")
 _AXES: Final = ("x", "y", "z", "roll", "pitch", "yaw")
 _RANDOM_KEY: Final = re.compile(
@@ -208,6 +209,38 @@ class Light(_Strict):
         return value
 
 
+class Area(_Strict):
+    """A named region of the floor: a `box` [x min, y min, x max, y max], or a `polygon` of corners, in m."""
+
+    box: tuple[Finite, Finite, Finite, Finite] | None = None
+    polygon: tuple[tuple[Finite, Finite], ...] | None = Field(default=None, min_length=3, max_length=200)
+
+    @model_validator(mode="after")
+    def _has_one_shape(self) -> Self:
+        if (self.box is None) == (self.polygon is None):
+            raise ValueError("an area has either a `box` or a `polygon`")
+        if self.box is not None and not (self.box[0] < self.box[2] and self.box[1] < self.box[3]):
+            raise ValueError(
+                "the `box` of an area is [x min, y min, x max, y max], each min less than its max"
+            )
+        if abs(self._signed_m2()) < SMALLEST_AREA_M2:
+            raise ValueError("the corners of the `polygon` lie on a line")
+        return self
+
+    @property
+    def corners(self) -> tuple[tuple[float, float], ...]:
+        """The corners in order, of a box too."""
+        if self.box is not None:
+            x0, y0, x1, y1 = self.box
+            return (x0, y0), (x1, y0), (x1, y1), (x0, y1)
+        return self.polygon or ()
+
+    def _signed_m2(self) -> float:
+        corners = self.corners
+        pairs = zip(corners, corners[1:] + corners[:1], strict=True)
+        return sum(a[0] * b[1] - b[0] * a[1] for a, b in pairs) / 2
+
+
 class View(_Strict):
     """Initial view of the world: eye and target in m."""
 
@@ -216,7 +249,7 @@ class View(_Strict):
 
 
 class Universe(_Strict):
-    """A universe: ground, ceiling, models, people, robots and light."""
+    """A universe: ground, ceiling, models, people, robots, light, and named areas of the floor."""
 
     format: Literal["bt-studio/universe"]
     version: Literal[1]
@@ -229,6 +262,7 @@ class Universe(_Strict):
     robots: tuple[RobotPlace, ...] = Field(default=(RobotPlace(),), max_length=10)
     lights: tuple[Light, ...] = Field(default=(Light(),), min_length=1, max_length=4)
     view: View = View()
+    areas: dict[Name, Area] = Field(default_factory=dict, max_length=200)
     random: dict[str, tuple[Finite, Finite]] = Field(default_factory=dict)
 
     @model_validator(mode="after")

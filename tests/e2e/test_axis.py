@@ -41,6 +41,7 @@ def test_the_past_of_a_run_is_looked_at(
     the_tree_as_it_ran_is_looked_at(studio)
     nothing_acts_on_the_robot(studio)
     each_tick_shows_what_was_seen_then(studio, observer)
+    why_is_answered_as_the_run_was(studio, observer)
     it_plays(studio)
     the_address_brings_it_back(studio)
     escape_returns_to_the_present(studio, present)
@@ -83,7 +84,7 @@ def a_drag_shows_the_past(studio: Studio) -> None:
     expect(studio.at("moment-stats")).to_be_visible()
     expect(studio.at("blackboard").get_by_test_id("written").first).to_contain_text(re.compile(r"since .* s"))
     end = float(strip.get_attribute("aria-valuemax") or "nan")
-    assert 0.4 < shown_t(studio) / end < 0.6
+    wait_until(lambda: 0.4 < shown_t(studio) / end < 0.6, "the middle of the run is shown")
     studio.picture("axis")
 
 
@@ -127,6 +128,25 @@ def each_tick_shows_what_was_seen_then(studio: Studio, observer: Observer) -> No
         for block in studio.at("recorded-canvas").get_by_test_id(NODES).all():
             node = (block.get_attribute("data-testid") or "").removeprefix("node-")
             expect(block).to_have_attribute("data-status", heard.get(node, "IDLE"))
+
+
+def why_is_answered_as_the_run_was(studio: Studio, observer: Observer) -> None:
+    """Each block has an answer, and no answer contradicts what a second client heard of the tick."""
+    number = tick(studio)
+    told = next(e["data"] for e in observer.events if e["command"] == "tick" and e["data"]["n"] == number)
+    snapshot = next(event["data"] for event in observer.events if event["command"] == "snapshot")
+    blocks = {node["uid"]: node["node_id"] for node in snapshot["tree"]["nodes"]}
+    returned = {blocks[uid] for uid, status in told["changed"] + told["flashed"] if status != "IDLE"}
+    for block in studio.at("recorded-canvas").get_by_test_id(NODES).all():
+        block.click()
+        studio.page.keyboard.press("Alt+w")
+        question = studio.at("why-question")
+        expect(question).to_contain_text(f"(tick {number})")
+        node = (block.get_attribute("data-testid") or "").removeprefix("node-")
+        assert node not in returned or "not ticked" not in question.inner_text()
+    studio.picture("why")
+    studio.at("why-step").first.click()
+    studio.at("axis-strip").focus()
 
 
 def statuses_at(observer: Observer, number: int) -> dict[str, str]:

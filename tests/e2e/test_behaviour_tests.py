@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -30,7 +31,8 @@ def test_a_test_that_fails_leads_to_its_block(
     expect(panel.get_by_test_id("tests-summary")).to_have_text("3 passed, 0 failed")
     expect(panel.get_by_role("status")).to_contain_text("100 % of the trees covered")
     studio.picture("tests-passed")
-    panel.get_by_role("button", name="looks at every tick").click()
+    what_a_test_covers_is_on_the_canvas(studio)
+    panel.get_by_role("button", name=re.compile("^Passed looks at every tick")).click()
     text = (EXAMPLE / FILE).read_text(encoding="utf-8")
     studio.replace_code(text.replace("node: Turn, status: IDLE", "node: Turn, status: RUNNING"))
     expect(panel.get_by_test_id("tests-summary")).to_have_text("2 passed, 1 failed")
@@ -43,7 +45,44 @@ def test_a_test_that_fails_leads_to_its_block(
     studio.picture("tests-failed-dark")
     failure.click()
     expect(studio.at("inspector")).to_have_attribute("aria-label", "Turn")
+    a_mark_leads_to_the_line_and_back(studio)
     studio.page.set_viewport_size({"width": 390, "height": 844})
     studio.page.get_by_role("tab", name="Tests", exact=True).click()
     expect(panel.get_by_test_id("tests-summary")).to_be_visible()
     studio.picture("tests-narrow")
+    studio.page.get_by_role("tab", name="MainTree", exact=True).click()
+    studio.page.keyboard.press("Alt+KeyC")
+    expect(studio.at("coverage-legend")).to_be_visible()
+    studio.picture("coverage-narrow")
+
+
+def what_a_test_covers_is_on_the_canvas(studio: Studio) -> None:
+    studio.page.keyboard.press("Alt+KeyC")
+    legend = studio.at("coverage-legend")
+    expect(legend).to_contain_text("100 %")
+    expect(studio.at("coverage-mark")).to_have_count(6)
+    one = "drives ahead while the way is free"
+    legend.get_by_role("combobox").select_option(label=one)
+    expect(legend).not_to_contain_text("100 %")
+    studio.at("node-n3").click()
+    expect(studio.at("node-coverage")).to_contain_text("Partly covered")
+    studio.picture("coverage-light")
+    studio.at("theme-toggle").click()
+    studio.page.wait_for_timeout(400)  # the theme fades in; the picture is for people
+    studio.picture("coverage-dark")
+    studio.at("theme-toggle").click()
+    legend.get_by_role("button", name="Hide the coverage").click()
+    expect(studio.at("coverage-mark")).to_have_count(0)
+
+
+def a_mark_leads_to_the_line_and_back(studio: Studio) -> None:
+    mark = studio.at("failure-mark")
+    expect(mark).to_have_attribute("aria-label", re.compile("wanted RUNNING, got IDLE"))
+    studio.picture("tests-mark")
+    mark.click()
+    editor = studio.at("code-editor")
+    expect(editor).to_have_attribute("data-path", FILE)
+    editor.locator(".cm-lintRange-error").first.hover()
+    studio.page.get_by_role("button", name="Show the block").click()
+    expect(studio.at("canvas")).to_be_visible()
+    expect(mark).to_be_visible()

@@ -7,6 +7,7 @@ import re
 from typing import TYPE_CHECKING
 
 from translator.action import source_text
+from translator.action_returns import returns_of
 from translator.diagnostic import Place, diagnostic
 from translator.python_source import parse
 from translator.text import is_clean
@@ -32,6 +33,9 @@ def check_actions(context: Context) -> None:
             place = Place(action.path, line=1)
             context.found.append(diagnostic("BT0614", place))
         context.found.extend(_unknown_types(action))
+        if name in used and (returns := returns_of(action.source, name)).problem:
+            place = Place(action.path, line=returns.line)
+            context.found.append(diagnostic("BT0617", place, name=name, problem=returns.problem))
 
 
 def _unknown_types(action: ActionModel) -> Iterator[Diagnostic]:

@@ -7,10 +7,11 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from translator.diagnostic import Diagnostic, Place, Severity, diagnostic
+from translator.check.results import Results, interpret
+from translator.diagnostic import Diagnostic, Place, Severity, Step, diagnostic
 from translator.diagram import diagram_path
 from translator.enums import constants
-from translator.tree import Node, Tree, reachable_trees
+from translator.tree import Node, Tree, callees_first, reachable_trees
 
 if TYPE_CHECKING:
     from translator.catalog import NodeModel
@@ -43,10 +44,27 @@ class Context:
         """Returns the trees that can be reached from the main tree."""
         return set(reachable_trees(self.project.trees, self.project.settings.main_tree))
 
+    @cached_property
+    def order(self) -> list[str]:
+        """Returns the trees so that each comes after those that it calls."""
+        return callees_first(self.project.trees)
+
+    @cached_property
+    def results(self) -> Results:
+        """Returns the results that each node can return."""
+        return interpret(self.project, self.order)
+
     def report(
-        self, code: str, tree: Tree, node: Node | None = None, port: str = "", /, **values: object
+        self,
+        code: str,
+        tree: Tree,
+        node: Node | None = None,
+        port: str = "",
+        steps: tuple[Step, ...] = (),
+        /,
+        **values: object,
     ) -> None:
-        """Adds a finding at a node of a tree."""
+        """Adds a finding at a node of a tree. `steps` lead over the nodes from which it follows."""
         place = Place(
             file=tree.file or diagram_path(tree.id),
             tree=tree.id,
@@ -56,6 +74,8 @@ class Context:
             column=node.span.column if node and node.span else None,
         )
         found = diagnostic(code, place, **values)
+        if steps:
+            found = replace(found, path=steps)
         if found.is_error and code.startswith(_INSTANTIATED) and tree.id not in self.reachable:
             # The engine never builds a tree that nothing calls, so the rest can run.
             found = replace(found, severity=Severity.WARNING)

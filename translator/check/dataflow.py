@@ -39,7 +39,7 @@ def check_dataflow(context: Context) -> None:
     """Reports keys that nothing writes, and outputs that nothing reads."""
     trees = context.project.trees
     keys: dict[str, _Keys] = {}
-    for tree_id in _callees_first(context):
+    for tree_id in context.order:
         keys[tree_id] = _keys_of(context, trees[tree_id], keys)
     global_writes = {key for item in keys.values() for key in item.written if key.startswith("@")}
     if (main := context.project.main) is not None and main.id in keys:
@@ -51,23 +51,6 @@ def check_dataflow(context: Context) -> None:
             _report_lost_writes(context, trees[tree_id], node, keys)
     if main is not None and main.id in keys:
         _report_main(context, main, keys[main.id], global_writes, global_reads)
-
-
-def _callees_first(context: Context) -> list[str]:
-    """Returns the trees so that each comes after those that it calls; cycles are reported elsewhere."""
-    trees = context.project.trees
-    order: dict[str, None] = {}
-    open_: set[str] = set()
-    stack = [(tree_id, False) for tree_id in reversed(list(trees))]
-    while stack:
-        tree_id, finished = stack.pop()
-        if finished:
-            order.setdefault(tree_id)
-        elif tree_id not in open_:
-            open_.add(tree_id)
-            stack.append((tree_id, True))
-            stack.extend((node.tree, False) for node in trees[tree_id].subtree_calls() if node.tree in trees)
-    return list(order)
 
 
 def _keys_of(context: Context, tree: Tree, keys: dict[str, _Keys]) -> _Keys:

@@ -1,114 +1,112 @@
-"""Checks for children that can never be ticked, by the statuses that each node can return."""
+"""Checks for branches that can never be ticked, by the results that each node can return."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
+
+from translator.check.reason import because
+from translator.check.results.controls import FALLBACKS, RESTING, SEQUENCES, threshold
+from translator.check.results.sets import ALL, FALSE, TRUE, F, K, R, S, literal, whole, words
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Iterator
 
     from translator.check.context import Context
     from translator.tree import Node, Tree
 
-S, F, R, K = "S", "F", "R", "K"
-ANY = frozenset({S, F, R, K})
-_GOES_ON = {
-    "Sequence": {S, K},
-    "AsyncSequence": {S, K},
-    "SequenceWithMemory": {S, K},
-    "ReactiveSequence": {S, K},
-    "Fallback": {F, K},
-    "AsyncFallback": {F, K},
-    "ReactiveFallback": {F, K},
-}
-_SURE_LEAVES = {"AlwaysSuccess", "AlwaysFailure", "Script"}
-Outcomes = frozenset[str]
+_NEVER: Final = (("_failureIf", TRUE), ("_successIf", TRUE), ("_skipIf", TRUE), ("_while", FALSE))
+_COUNTS: Final = {"Repeat": "num_cycles", "RetryUntilSuccessful": "num_attempts"}
 
 
 def check_reachability(context: Context) -> None:
-    """Reports, for each node, the first child that can never be ticked because of its earlier siblings."""
+    """Reports each branch that can never be ticked, at its first node; nothing is said of what is below."""
     for tree in context.project.trees.values():
-        outcomes: dict[str, Outcomes] = {}
-        for node in tree.post_order():
-            outcomes[node.id] = _outcomes(node, [outcomes.get(child, ANY) for child in node.children])
-            _check_children(context, tree, node, outcomes)
+        stack = [root for root in (tree.root,) if root is not None and root in tree.nodes]
+        while stack:
+            node = tree.nodes[stack.pop()]
+            if node.disabled or _is_never_ticked(context, tree, node):
+                continue
+            unreached = _unreached(context, tree, node)
+            stack.extend(child for child in reversed(node.children) if child not in unreached)
 
 
-def _check_children(context: Context, tree: Tree, node: Node, outcomes: dict[str, Outcomes]) -> None:
-    goes_on = _GOES_ON.get(node.type)
-    if goes_on is not None:
-        for elder, child in zip(node.children, node.children[1:], strict=False):
-            if outcomes.get(elder, ANY).isdisjoint(goes_on):
-                _report(context, tree, node, tree.nodes[child], (tree.nodes[elder], outcomes[elder]))
-                return
-    elif node.type in {"IfThenElse", "WhileDoElse"} and len(node.children) >= 2:
-        condition = outcomes.get(node.children[0], ANY)
-        for child, needed in zip(node.children[1:3], (S, F), strict=False):
-            if needed not in condition:
-                _report(context, tree, node, tree.nodes[child], (tree.nodes[node.children[0]], condition))
+def _is_never_ticked(context: Context, tree: Tree, node: Node) -> bool:
+    """Reports a node that a constant pre-condition keeps from being ticked."""
+    for name, values in _NEVER:
+        text = node.conditions.get(name, "").strip()
+        if text in values:
+            said = {"child": node.label, "port": name, "parent": node.label, "value": text}
+            context.report("BT0117", tree, node, name, **said)
+            return True
+    return False
 
 
-_WORDS = {S: "succeeds", F: "fails", R: "runs", K: "is skipped"}
+def _unreached(context: Context, tree: Tree, node: Node) -> set[str]:
+    """Reports the branches of a node that it never ticks; returns their first nodes."""
+    for port, first in _by_ports(node):
+        child = tree.nodes[node.children[first]]
+        value = node.ports.get(port, "")
+        said = {"child": child.label, "port": port, "parent": node.label, "value": value}
+        context.report("BT0117", tree, child, port, because(context, tree, (node,)), **said)
+        return set(node.children[first:])
+    for index, elder in _by_siblings(context, tree, node):
+        _report(context, tree, node, index, elder)
+        branch = node.type in RESTING or node.type == "TryCatch"
+        return set(node.children[index : index + 1] if branch else node.children[index:])
+    return set()
 
 
-def _report(context: Context, tree: Tree, node: Node, child: Node, cause: tuple[Node, Outcomes]) -> None:
-    elder, outcomes = cause
-    says = " or ".join(_WORDS[status] for status in (S, F, R, K) if status in outcomes)
-    context.report("BT0114", tree, child, child=child.label, parent=node.label, elder=elder.label, says=says)
+def _by_ports(node: Node) -> Iterator[tuple[str, int]]:
+    """Yields a port whose value keeps the children from an index on from being ticked."""
+    count = len(node.children)
+    if node.type in _COUNTS and count:
+        times = whole(node, _COUNTS[node.type])
+        if times is not None and (times == 0 or times < -1):
+            yield _COUNTS[node.type], 0
+    elif node.type == "Precondition" and count and (literal(node, "if") or "").strip() in FALSE:
+        yield "if", 0
+    elif node.type == "Parallel" and count > 1:
+        wanted = whole(node, "success_count", -1)
+        if wanted is not None and threshold(wanted, count) == 0:
+            yield "success_count", 1
 
 
-def _outcomes(node: Node, children: list[Outcomes]) -> Outcomes:
-    """Returns the statuses that a node may return; `ANY` if they are unknown."""
-    if node.disabled:
-        return frozenset({K})
-    rule = _RULES.get(node.type) if children or node.type in _SURE_LEAVES else None
-    result = rule(children) if rule is not None else ANY
-    extra = {
-        "_failureIf": {F},
-        "_successIf": {S},
-        "_skipIf": {K},
-        "_while": {K},
-    }
-    for condition in node.conditions:
-        result |= extra.get(condition, set())
-    return result
+def _by_siblings(context: Context, tree: Tree, node: Node) -> Iterator[tuple[int, int]]:
+    """Yields the first child that is never reached, and the earlier one that keeps it from that."""
+    sets = [context.results.of(tree, child) for child in node.children]
+    if node.type in SEQUENCES or node.type in FALLBACKS:
+        goes_on = S | K if node.type in SEQUENCES else F | K
+        yield from _after(sets, goes_on)
+    elif context.results.is_library(node.type) and node.type in _NAV2:
+        yield from _after(sets, _NAV2[node.type])
+    elif node.type == "ParallelAll":
+        return
+    elif node.type in RESTING and len(sets) > 1:
+        for index, needed in ((1, S), (2, F)):
+            if index < len(sets) and not sets[0] & needed:
+                yield index, 0
+    elif node.type == "TryCatch" and len(sets) > 1:
+        yield from _after(sets[:-1], S | K)
+        if not any(each & F for each in sets[:-1]):
+            yield len(sets) - 1, len(sets) - 2
 
 
-def _sequence(children: list[Outcomes], *, success: str, failure: str) -> Outcomes:
-    result: set[str] = set()
-    skippable = True
-    for child in children:
-        result |= child & {failure, R}
-        skippable = skippable and K in child
-        if child.isdisjoint({success, K}):
-            break
+_NAV2: Final = {"RecoveryNode": F, "NonblockingSequence": S | R, "PipelineSequence": ALL & ~F}
+
+
+def _after(sets: list[int], goes_on: int) -> Iterator[tuple[int, int]]:
+    for index in range(1, len(sets)):
+        if not sets[index - 1] & goes_on:
+            yield index, index - 1
+            return
+
+
+def _report(context: Context, tree: Tree, node: Node, index: int, elder_index: int) -> None:
+    child, elder = tree.nodes[node.children[index]], tree.nodes[node.children[elder_index]]
+    results = context.results.of(tree, elder.id)
+    said = {"child": child.label, "parent": node.label, "elder": elder.label, "says": words(results)}
+    path = because(context, tree, (node, elder))
+    if node.type in FALLBACKS and elder_index == 0:
+        context.report("BT0118", tree, elder, "", path, **said)
     else:
-        result |= {success} if any(success in child for child in children) else set()
-        result |= {K} if skippable else set()
-    return frozenset(result)
-
-
-def _swap(children: list[Outcomes]) -> Outcomes:
-    return frozenset({S: F, F: S}.get(status, status) for status in children[0])
-
-
-def _force(status: str) -> Callable[[list[Outcomes]], Outcomes]:
-    return lambda children: frozenset(status if found in {S, F} else found for found in children[0])
-
-
-_RULES: dict[str, Callable[[list[Outcomes]], Outcomes]] = {
-    "AlwaysSuccess": lambda _: frozenset({S}),
-    "AlwaysFailure": lambda _: frozenset({F}),
-    "Script": lambda _: frozenset({S}),
-    "Inverter": _swap,
-    "ForceSuccess": _force(S),
-    "ForceFailure": _force(F),
-    "KeepRunningUntilFailure": lambda children: frozenset({R}) | (children[0] & {F}),
-    "Sequence": lambda children: _sequence(children, success=S, failure=F),
-    "ReactiveSequence": lambda children: _sequence(children, success=S, failure=F),
-    "AsyncSequence": lambda children: _sequence(children, success=S, failure=F) | {R},
-    "SequenceWithMemory": lambda children: _sequence(children, success=S, failure=F) | {R},
-    "Fallback": lambda children: _sequence(children, success=F, failure=S),
-    "ReactiveFallback": lambda children: _sequence(children, success=F, failure=S),
-    "AsyncFallback": lambda children: _sequence(children, success=F, failure=S) | {R},
-}
+        context.report("BT0114", tree, child, "", path, **said)

@@ -23,6 +23,17 @@ from backend.projects.storage.names import MAX_NAME_LENGTH, MAX_PATH_LENGTH
 MAX_REVISION = 2**31 - 1
 
 
+class StepSerializer(serializers.Serializer[Any]):
+    """A node on the path of a finding's reason."""
+
+    tree = serializers.CharField()
+    node = serializers.CharField()
+    label = serializers.CharField()  # type: ignore[assignment]
+    results = serializers.ListField(child=serializers.CharField(), help_text="What it can return.")
+    role = serializers.CharField(help_text="reads, writes or commands; empty for a node on the way.")
+    what = serializers.CharField(help_text="The key or topic.")
+
+
 class DiagnosticSerializer(serializers.Serializer[Any]):
     """One finding of the translator."""
 
@@ -37,6 +48,7 @@ class DiagnosticSerializer(serializers.Serializer[Any]):
     file = serializers.CharField()
     line = serializers.IntegerField(allow_null=True)
     column = serializers.IntegerField(allow_null=True)
+    path = StepSerializer(many=True)
 
 
 class PortSerializer(serializers.Serializer[Any]):

@@ -41,6 +41,10 @@ class TestOutcomeSerializer(serializers.Serializer[Any]):
     outcome = serializers.ChoiceField(choices=["passed", "failed", "needs_python", "not_run"])
     ticks = serializers.IntegerField()
     failures = TestFailureSerializer(many=True)
+    reached = serializers.DictField(
+        child=serializers.DictField(child=serializers.ListField(child=serializers.CharField())),
+        help_text="What the test reached: items by tree and node.",
+    )
 
 
 class CoveredNodeSerializer(serializers.Serializer[Any]):

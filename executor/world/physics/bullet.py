@@ -31,7 +31,7 @@ from executor.world.physics.robot import BulletRobot
 from executor.world.sensing.rays import RayCaster
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
     from pathlib import Path
 
     import numpy as np
@@ -79,6 +79,10 @@ class BulletWorld:
         seed: the seed of the universe's random values and of the sensors' noise.
         robot: the id of a robot that replaces the one of the universe.
         assets: the folder with the project's robots and meshes.
+        configs: the configuration of each robot, where they are known already.
+
+    Attributes:
+        on_collision: called at the start of each collision, with the robot; `take_collisions` returns it too.
 
     Raises:
         RobotError: a robot of the universe does not exist or is invalid.
@@ -87,13 +91,22 @@ class BulletWorld:
     step_s: Final = 1.0 / STEP_HZ
 
     def __init__(
-        self, universe: Universe, *, seed: int = 0, robot: str | None = None, assets: Path | None = None
+        self,
+        universe: Universe,
+        *,
+        seed: int = 0,
+        robot: str | None = None,
+        assets: Path | None = None,
+        configs: Sequence[RobotConfig] | None = None,
     ) -> None:
+        self.on_collision: Callable[[str, Collision], None] | None = None
         self._universe = draw(universe, seed)
         self._seed = seed
-        self._configs: list[RobotConfig] = [
-            load_robot(robot or place.model, assets) for place in universe.robots
-        ]
+        self._configs: list[RobotConfig] = (
+            [load_robot(robot or place.model, assets) for place in universe.robots]
+            if configs is None
+            else list(configs)
+        )
         self._assemblies = {
             model.file: read_assembly(model, assets) for model in self._universe.models if model.is_assembly
         }
@@ -149,6 +162,22 @@ class BulletWorld:
         """The people, in the universe's order."""
         return self._content.actors
 
+    @property
+    def bullet(self) -> Bullet:
+        """The physics server, for questions about distances."""
+        return self._bullet
+
+    def solids(self) -> dict[str, tuple[int, ...]]:
+        """Returns the bodies of each thing that robots can touch, without the ground."""
+        content = self._content
+        solid = {model.id for model in self._universe.models if model.solid}
+        found: dict[str, tuple[int, ...]] = {
+            id_: (body.uid,) for id_, body in content.bodies.items() if id_ in solid
+        }
+        found |= {id_: (made.uid,) for id_, made in content.assemblies.items()}
+        found |= {actor.id: tuple(actor.uids) for actor in content.actors}
+        return found | {robot.id: (robot.uid,) for robot in content.robots}
+
     def step(self, count: int = 1) -> None:
         """Simulates `count` steps of 1/240 s."""
         bullet, robots = self._bullet, self._content.robots
@@ -162,6 +191,8 @@ class BulletWorld:
                 collision = robot.observe_contact(now_s, self._obstacle_name)
                 if collision is not None:
                     self._collisions.append((robot.id, collision))
+                    if self.on_collision is not None:
+                        self.on_collision(robot.id, collision)
             if self._steps % CONTROL_EVERY == 0:
                 for robot in robots:
                     robot.measure(now_s, CONTROL_EVERY / STEP_HZ)

@@ -145,6 +145,11 @@ class BulletRobot:
         wheels = {name: (state[0], state[1]) for name, state in zip(names, states, strict=True)}
         return wheels | self._motors.states() if self._motors else wheels
 
+    def wheel_power_w(self) -> float:
+        """Returns the mechanical power of the wheels' motors, in W; braking counts as driving does."""
+        states = self._bullet.getJointStates(self.uid, self._wheel_joints)
+        return float(sum(abs(state[1] * state[3]) for state in states))
+
     def scan(self, lidar: Lidar) -> LidarReading:
         """Returns a scan at the current time."""
         return self._lidars[lidar.name].scan(self._clock_s, self._pose_of(lidar.link))

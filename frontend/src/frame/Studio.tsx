@@ -6,6 +6,7 @@ import { useTranslation } from 'react-i18next';
 import { ApiError } from '@/api/errors';
 import { closePalette } from '@/commands/palette';
 import { useShortcuts } from '@/commands/shortcuts';
+import { registerTestCommands } from '@/features/behaviourTests/commands';
 import { registerCanvasCommands } from '@/features/canvas/commands/canvasCommands';
 import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
@@ -123,6 +124,7 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
       followAddress(joined, showMissingRun),
       registerRateCommands(),
       registerKeyCommands(),
+      registerTestCommands(),
       registerSearchCommands(),
       registerTopicCommands(),
       registerFrameCommands(),

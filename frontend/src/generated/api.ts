@@ -1342,6 +1342,7 @@ export interface components {
             file: string;
             line: number | null;
             column: number | null;
+            path: components["schemas"]["Step"][];
         };
         /** @enum {string} */
         DiagnosticSeverityEnum: "error" | "warning" | "note";
@@ -1956,6 +1957,18 @@ export interface components {
         };
         /** @enum {string} */
         StateEnum: "queued" | "starting" | "ready" | "failed" | "ended";
+        /** @description A node on the path of a finding's reason. */
+        Step: {
+            tree: string;
+            node: string;
+            label: string;
+            /** @description What it can return. */
+            results: string[];
+            /** @description reads, writes or commands; empty for a node on the way. */
+            role: string;
+            /** @description The key or topic. */
+            what: string;
+        };
         /** @description A template of new projects. */
         Template: {
             id: string;
@@ -2000,6 +2013,12 @@ export interface components {
             outcome: components["schemas"]["OutcomeEnum"];
             ticks: number;
             failures: components["schemas"]["TestFailure"][];
+            /** @description What the test reached: items by tree and node. */
+            reached: {
+                [key: string]: {
+                    [key: string]: string[];
+                };
+            };
         };
         /** @description A node on the way from the root, with its status after the tick. */
         TestPath: {

@@ -1,10 +1,11 @@
 import { act, screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it } from 'vitest';
 import { setLanguage } from '@/i18n';
+import { useCoverage } from '@/store/behaviourTests/coverage';
+import { useTests } from '@/store/behaviourTests/report';
 import { useProjectStore } from '@/store/project';
 import { useSavingStore } from '@/store/saving/store';
 import { action, fakeServer, openProject, show, user, watchNavigation } from '../../../harness/testing';
-import { useTests } from './store';
 import { TestsPanel } from './TestsPanel';
 
 const FILE = 'tests/main.test.yaml';
@@ -23,7 +24,7 @@ const failure = {
     { name: 'Turn', status: 'IDLE' },
   ],
 };
-const test = { file: FILE, tree: '', ticks: 1, failures: [] };
+const test = { file: FILE, tree: '', ticks: 1, failures: [], reached: {} };
 const report = {
   tests: [
     { ...test, name: 'holds', line: 4, outcome: 'passed' },
@@ -39,7 +40,7 @@ const report = {
   problems: [
     { code: 'TG901', severity: 'error', message: 'No such key.', hint: 'Known are: a', file: FILE, line: 3 },
   ],
-  coverage: { share: 0.838, trees: {} },
+  coverage: { share: 0.838, trees: { Main: { share: 0.838, nodes: {} } } },
 };
 
 function open(texts: Record<string, string>, answer: object | null = report) {
@@ -88,7 +89,7 @@ describe('TestsPanel', () => {
 
   it('leads to the test, to the block that failed, and to the line of an expectation', async () => {
     const { openFile, openTree } = open({ [FILE]: 'x' });
-    await user.click(await screen.findByRole('button', { name: /fails/ }));
+    await user.click(await screen.findByRole('button', { name: /^Failed ?fails/ }));
     expect(openFile).toHaveBeenLastCalledWith(FILE, 7);
     const [block, line] = screen.getAllByRole('button', { name: /Tick 6 \(0.25 s\): status after the tick/ });
     expect(block).toHaveTextContent('main RUNNING › Turn IDLE');
@@ -104,6 +105,20 @@ describe('TestsPanel', () => {
   it('says why the tests could not run', async () => {
     open({ [FILE]: 'x' }, null);
     expect(await screen.findByText(/The tests could not run/)).toBeInTheDocument();
+  });
+
+  it('shows the coverage of a tree, and of one test', async () => {
+    const { openTree } = open({ [FILE]: 'x' });
+    await user.click(await screen.findByRole('button', { name: 'Main 83 %' }));
+    expect(openTree).toHaveBeenLastCalledWith('Main');
+    expect(useCoverage.getState()).toMatchObject({ isShown: true, chosen: null });
+    const one = screen.getByRole('button', { name: 'Show what “holds” covers' });
+    await user.click(one);
+    expect(useCoverage.getState().chosen).toBe(`${FILE}: holds`);
+    expect(one).toHaveAttribute('aria-pressed', 'true');
+    await user.click(one);
+    expect(useCoverage.getState().isShown).toBe(false);
+    expect(screen.queryByRole('button', { name: /what “real” covers/ })).toBeNull();
   });
 
   it('follows the language', async () => {

@@ -1,13 +1,20 @@
-import { Button, Loader, ScrollArea, Text } from '@mantine/core';
-import { IconCircleCheck, IconCircleDashed, IconCircleX, IconPlayerPlay } from '@tabler/icons-react';
-import { useEffect } from 'react';
+import { ActionIcon, Button, Loader, ScrollArea, Text } from '@mantine/core';
+import {
+  IconCircleCheck,
+  IconCircleDashed,
+  IconCircleX,
+  IconPercentage60,
+  IconPlayerPlay,
+} from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import type { TestFailure, TestOutcome, TestReport } from '@/api/types';
+import { showCoverage, testKey, useCoverage } from '@/store/behaviourTests/coverage';
+import { revealFailure } from '@/store/behaviourTests/failures';
+import { reportOf, runTests, useTests } from '@/store/behaviourTests/report';
+import { useHasTests, useTestsAfterSave } from '@/store/behaviourTests/useTestsAfterSave';
 import { useProjectStore } from '@/store/project';
 import { openFile, openTree } from '@/store/project/navigation';
-import { useSavingStore } from '@/store/saving/store';
-import { FIRST_TEST, firstTest, isTestFile } from './firstTest';
-import { runTests, useTests } from './store';
+import { FIRST_TEST, firstTest } from './firstTest';
 import classes from './tests.module.css';
 
 const ICONS = {
@@ -19,7 +26,7 @@ const ICONS = {
 
 /** The project's behaviour tests with their results; they run again after each save. */
 export function TestsPanel() {
-  const hasTests = useProjectStore(({ files }) => Object.keys(files).some(isTestFile));
+  const hasTests = useHasTests();
   return (
     <div className={classes['panel']} data-testid="tests">
       {hasTests ? <Tests /> : <NoTests />}
@@ -50,13 +57,9 @@ function NoTests() {
 function Tests() {
   const { t } = useTranslation('behaviourTests');
   const projectId = useProjectStore((state) => state.projectId);
-  const edits = useProjectStore((state) => state.changeCounter);
-  const isSaved = useSavingStore((state) => state.state.kind === 'saved');
-  const { project, report, isRunning, refused } = useTests();
-  useEffect(() => {
-    if (isSaved) void runTests();
-  }, [projectId, edits, isSaved]);
-  const shown = project === projectId ? report : null;
+  const { isRunning, refused } = useTests();
+  const shown = useTests((state) => reportOf(state, projectId));
+  useTestsAfterSave();
   return (
     <>
       <div className={classes['bar']}>
@@ -76,6 +79,7 @@ function Tests() {
             <Summary report={shown} />
           ) : null}
         </div>
+        {shown ? <TreeShares report={shown} /> : null}
       </div>
       <ScrollArea className={classes['rest'] ?? ''} type="auto">
         <ul className={classes['list']} aria-label={t('label')}>
@@ -120,11 +124,34 @@ function Summary({ report }: { readonly report: TestReport }) {
   );
 }
 
+/** The share of each tree; a press shows the tree with its coverage. */
+function TreeShares({ report }: { readonly report: TestReport }) {
+  const { t } = useTranslation('behaviourTests');
+  return (
+    <ul className={classes['shares']} aria-label={t('trees')}>
+      {Object.entries(report.coverage.trees).map(([tree, { share }]) => (
+        <li key={tree}>
+          <button type="button" className={classes['share']} onClick={() => showOn(tree, null)}>
+            {t('treeShare', { tree, percent: Math.floor(share * 100) })}
+          </button>
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+function showOn(tree: string, chosen: string | null): void {
+  openTree(tree || useProjectStore.getState().mainTree);
+  showCoverage(true, chosen);
+}
+
 function Row({ test }: { readonly test: TestOutcome }) {
   const { t } = useTranslation('behaviourTests');
   const Icon = ICONS[test.outcome];
+  const isCovering = useCoverage(({ isShown, chosen }) => isShown && chosen === testKey(test));
+  const ran = test.outcome === 'passed' || test.outcome === 'failed';
   return (
-    <li>
+    <li className={classes['test']}>
       <button
         type="button"
         className={classes['row']}
@@ -134,11 +161,23 @@ function Row({ test }: { readonly test: TestOutcome }) {
         <Icon size={16} role="img" aria-label={t(`outcome.${test.outcome}`)} />
         <span>{test.name}</span>
         <span className={classes['muted']}>
-          {test.outcome === 'passed' || test.outcome === 'failed'
-            ? `${test.file}:${test.line}`
-            : t(`outcome.${test.outcome}`)}
+          {ran ? `${test.file}:${test.line}` : t(`outcome.${test.outcome}`)}
         </span>
       </button>
+      {ran && (
+        <ActionIcon
+          className={classes['covers'] ?? ''}
+          size={24}
+          variant={isCovering ? 'light' : 'subtle'}
+          color="gray"
+          aria-pressed={isCovering}
+          aria-label={t('showOf', { name: test.name })}
+          title={t('showOf', { name: test.name })}
+          onClick={() => (isCovering ? showCoverage(false) : showOn(test.tree, testKey(test)))}
+        >
+          <IconPercentage60 size={15} aria-hidden="true" />
+        </ActionIcon>
+      )}
       {test.failures.map((failure, index) => (
         <Failure key={index} failure={failure} file={test.file} />
       ))}
@@ -151,8 +190,7 @@ function Failure({ failure, file }: { readonly failure: TestFailure; readonly fi
   const { t } = useTranslation('behaviourTests');
   const open = () => {
     if (failure.node_id === '') return openFile(file, failure.line);
-    openTree(failure.tree);
-    useProjectStore.getState().reveal(failure.tree, failure.node_id);
+    revealFailure(failure);
   };
   return (
     <button type="button" className={classes['failure']} onClick={open}>

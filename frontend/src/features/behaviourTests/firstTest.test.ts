@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest';
 import { parse } from 'yaml';
 import type { Diagram } from '@/model/diagram';
-import { firstTest, isTestFile } from './firstTest';
+import { firstTest } from './firstTest';
 
 const diagram = {
   root: 'r',
@@ -28,9 +28,4 @@ it('doubles each action of the tree once', () => {
 
 it('leaves the doubles out where there is no action', () => {
   expect(firstTest('Main', undefined, new Set())).not.toContain('doubles');
-});
-
-it('knows the files of tests by their names', () => {
-  expect(['tests/a.test.yaml', 'tests/b/c.test.yml'].every(isTestFile)).toBe(true);
-  expect(['tests/a.yaml', 'a.test.yaml', 'x/tests/a.test.yaml'].some(isTestFile)).toBe(false);
 });

@@ -2,9 +2,6 @@ import type { Diagram } from '@/model/diagram';
 
 export const FIRST_TEST = 'tests/main.test.yaml';
 
-/** Returns whether a file holds behaviour tests. */
-export const isTestFile = (path: string): boolean => /^tests\/.*\.test\.ya?ml$/.test(path);
-
 /** Returns the text of a first test of a tree, with a double for each of its leaves that is an action. */
 export function firstTest(tree: string, diagram: Diagram | undefined, actions: ReadonlySet<string>): string {
   const types = Object.values(diagram?.nodes ?? {}).map(({ type }) => type);

@@ -14,7 +14,7 @@ export interface MenuPoint {
 
 /** The groups of a block's menu, by the `id` of the commands. */
 const ON_BLOCK = [
-  ['canvas.fix'],
+  ['canvas.fix', 'canvas.why'],
   ['canvas.look'],
   ['canvas.open'],
   [

@@ -8,6 +8,7 @@ import {
 } from '@xyflow/react';
 import { useCallback, useMemo, useRef, useState, type MouseEvent } from 'react';
 import { useTranslation } from 'react-i18next';
+import { CoverageLegend } from '@/features/behaviourTests/CoverageLegend';
 import { isMinimapShown, setEditor, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
 import { Announcer } from './Announcer';
@@ -257,6 +258,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
       <OutOfSight layout={layout} onBack={focus} />
       <Breadcrumbs treeId={treeId} />
       <CanvasToolbar treeId={treeId} />
+      <CoverageLegend treeId={treeId} />
       {find && <FindBar treeId={treeId} onClose={focus} />}
       <BlockMenu
         point={menu}

@@ -5,6 +5,7 @@ import { EditorView } from '@codemirror/view';
 import { Center, Text } from '@mantine/core';
 import { useEffect, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
+import { reportOf, useTests } from '@/store/behaviourTests/report';
 import { useLanguageStore } from '@/store/language';
 import { lintSoon } from '@/store/problems/lint';
 import { isSuperseded } from '@/store/problems/syntax';
@@ -22,6 +23,7 @@ import { uriOf } from './language/uris';
 import { LanguageStatus } from './LanguageStatus';
 import { ReferencesPanel } from './places/ReferencesPanel';
 import { RenameDialog } from './places/RenameDialog';
+import { testMarks } from './testMarks';
 import { textMarks, useTextErrors } from './textErrors';
 
 interface CodeTabProps {
@@ -147,6 +149,8 @@ function useMarks(view: ViewRef, path: string, text: string | null, label: strin
   const errors = useTextFindings((state) => state.errors[path]);
   const diagnostics = useProjectStore((state) => state.diagnostics);
   const faults = useSessionStore((state) => state.faults);
+  const projectId = useProjectStore((state) => state.projectId);
+  const report = useTests((state) => reportOf(state, projectId));
   useEffect(() => {
     const editor = view.current;
     if (!editor) return;
@@ -158,10 +162,11 @@ function useMarks(view: ViewRef, path: string, text: string | null, label: strin
       ...(served ?? []).map((finding) => servedMark(doc, finding)),
       ...lintMarks(doc, found),
       ...textMarks(doc, errors),
+      ...testMarks(doc, path, report),
     ];
     editor.dispatch(setDiagnostics(editor.state, marks));
     // When findings and text arrive together, the new text moves the marks, so they must be set again.
-  }, [view, path, diagnostics, faults, text, served, linted, errors, label]);
+  }, [view, path, diagnostics, faults, text, served, linted, errors, report, label]);
 }
 
 function useLineTarget(view: ViewRef, path: string, text: string | null): void {

@@ -10,7 +10,7 @@ const SEVERITY = { error: 'error', warning: 'warning', note: 'info' } as const;
  * Returns the range of the word at a position, or of the rest of the line; column 0 means the first character
  * that is not blank.
  */
-function spanAt(doc: Text, line: number, column: number): { from: number; to: number } {
+export function spanAt(doc: Text, line: number, column: number): { from: number; to: number } {
   const { from, to, text } = doc.line(Math.min(Math.max(line, 1), doc.lines));
   const indent = text.length - text.trimStart().length;
   const start = from + (column > 0 ? Math.min(column - 1, text.length) : indent);

@@ -1,7 +1,9 @@
 import { memo, useDeferredValue, useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { Diagram, NodeId } from '@/model/diagram';
+import { NodeCoverage } from '@/features/behaviourTests/NodeCoverage';
 import { NodeStatistics } from '@/features/timeline/NodeStatistics';
+import { WhySection } from '@/features/why/WhySection';
 import { useProjectStore } from '@/store/project';
 import { CommandButton } from '@/ui/CommandButton';
 import { ActionSource } from './ActionSource';
@@ -67,11 +69,13 @@ const Fields = memo(function Fields({ diagram, count, id }: Shown) {
     <section className={classes['inspector']} aria-label={node.name ?? node.type} data-testid="inspector">
       <NodeHeader {...target} />
       <NodeProblems diagram={target.diagram} id={target.id} />
+      <WhySection tree={tree} node={target.id} />
       {node.type === 'SubTree' && <TreeField {...target} />}
       <PortList {...target} />
       <ConditionList {...target} />
       <CommentField {...target} />
       <LookFields {...target} />
+      <NodeCoverage tree={tree} node={target.id} />
       <NodeStatistics tree={tree} node={target.id} />
       <NodeDocs spec={spec} />
       {spec?.source === 'action' && <ActionSource action={node.type} />}

@@ -10,7 +10,12 @@ const node = (uid: number, parent: number, name: string, type = name): TreeNode 
   ...{ uid, parent, name, type },
   ...{ kind: 'Action', path: name, node_id: '', tree_id: 'Main' },
 });
-const shown = { statuses: [[1, 'RUNNING']], flashes: [[2, 'FAILURE']] } as unknown as Moment;
+const shown = {
+  statuses: [[1, 'RUNNING']],
+  flashes: [[2, 'FAILURE']],
+  was: [],
+  isHalted: false,
+} as unknown as Moment;
 
 it('lists the nodes that ran with what they did', () => {
   vi.spyOn(Element.prototype, 'clientHeight', 'get').mockReturnValue(300);

@@ -22,6 +22,17 @@ it('selects the same block of the present where it exists', () => {
   expect(useProjectStore.getState()).toMatchObject({ activeTree: 'Main', selection: [] });
 });
 
+it('follows what leads to a block of the run', () => {
+  openProject({ texts: { 'trees/Main.json': oneBlock('Main', 'AlwaysSuccess') } });
+  onTestFinished(() => useMoment.setState(atPresent));
+  const diagram = useProjectStore.getState().diagrams['Main']!;
+  useMoment.setState({ shown: {} as Moment, trees: { Main: { diagram, isAttached: true } } });
+  useProjectStore.getState().reveal('Main', 'n9');
+  expect(usePastTree.getState().node).toBeNull();
+  useProjectStore.getState().reveal('Main', 'n1');
+  expect(usePastTree.getState()).toMatchObject({ tree: 'Main', node: 'n1' });
+});
+
 it('forgets in the present what was chosen of the past', () => {
   onTestFinished(() => useMoment.setState(atPresent));
   useMoment.setState({ shown: {} as Moment });

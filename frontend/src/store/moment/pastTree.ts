@@ -22,6 +22,14 @@ useMoment.subscribe((now, before) => {
   if (now.shown === null && before.shown !== null) usePastTree.setState(atFirst, true);
 });
 
+// What leads to a block, such as a step of an answer, leads to it in the tree as it ran, too.
+useProjectStore.subscribe(({ revealed }, before) => {
+  const { shown, trees } = useMoment.getState();
+  if (!shown || !revealed || revealed === before.revealed) return;
+  const { tree, node } = revealed;
+  if (trees[tree]?.diagram.nodes[node]) usePastTree.setState({ tree, node });
+});
+
 /** Returns the recorded tree that is shown; null if the run has none. */
 export function shownTree(
   wanted: string | null,

@@ -13,6 +13,8 @@ const moment = (entries: EntryAt[]): Moment => ({
   files: null,
   statuses: [],
   flashes: [],
+  was: [],
+  isHalted: false,
   entries,
   poses: null,
   scan: null,

@@ -57,6 +57,8 @@ const moment = (t: number, x: number): Moment => ({
   files: null,
   statuses: [],
   flashes: [],
+  was: [],
+  isHalted: false,
   entries: [],
   poses: poses(t, x),
   scan,

@@ -2,7 +2,15 @@ import { decode } from '@msgpack/msgpack';
 import type { LogLevel, NodeStatus, Poses } from '@/generated/messages';
 import type { PosesFrame } from './posesAt';
 import type { Read } from './segmentReader';
-import { keyframeStep, tickStep, treeStep, writesStep, type Step, type TickStep, type Write } from './steps';
+import {
+  keyframeStep,
+  tickStep,
+  treeStep,
+  writesStep,
+  type Step,
+  type TickStep,
+  type WritesStep,
+} from './steps';
 import {
   RecordingError,
   STATUSES,
@@ -11,6 +19,7 @@ import {
   type RecordedFault,
   type RecordedLine,
   type RecordedNode,
+  type StatusOf,
 } from './types';
 
 export const entryId = ({ scope, key }: Pick<Entry, 'scope' | 'key'>) => `${scope}\u0000${key}`;
@@ -23,6 +32,10 @@ interface Written {
   readonly writer: number;
 }
 
+interface LastWrite extends Written {
+  readonly isRemoved: boolean;
+}
+
 /** The state of tree and blackboard after some steps. */
 export interface State {
   generation: number;
@@ -33,6 +46,10 @@ export interface State {
   written: Map<string, Written>;
   tick: TickStep | null;
   number: number;
+  /** The statuses before the last tick, of the nodes that it changed. */
+  was: readonly StatusOf[];
+  /** Whether the tree was halted after the last tick: that has the number of the tick. */
+  isHalted: boolean;
 }
 
 /** What a segment holds, sorted by what it is asked for. */
@@ -52,6 +69,8 @@ export class SegmentIndex {
   isWhole = false;
   private paths = new Map<number, string>();
   private files: Readonly<Record<string, string>> = {};
+  /** The writes of each key, in order. */
+  private readonly writes = new Map<string, LastWrite[]>();
 
   constructor(
     readonly number: number,
@@ -77,7 +96,7 @@ export class SegmentIndex {
       case '/bt/tick':
         return void this.steps.push(tickStep(t, read.decode()));
       case '/bt/blackboard':
-        return void this.steps.push(writesStep(t, read.decode()));
+        return this.addWrites(writesStep(t, read.decode()));
       case '/bt/log':
         return this.addLine(read);
       case '/bt/fault':
@@ -116,6 +135,8 @@ export class SegmentIndex {
       written: new Map(),
       tick: null,
       number: 0,
+      was: [],
+      isHalted: false,
     };
     for (const step of this.steps.slice(Math.max(begin, 0), last + 1)) {
       apply(state, step);
@@ -124,15 +145,20 @@ export class SegmentIndex {
     return state;
   }
 
-  /** Returns the last write of a key in this segment. */
-  lastWrite(id: string): (Write & { readonly t: number }) | null {
-    for (let at = this.steps.length - 1; at >= 0; at -= 1) {
-      const step = this.steps[at];
-      if (step?.kind !== 'writes') continue;
-      const found = step.writes.findLast((write) => entryId(write) === id);
-      if (found) return { ...found, t: step.t };
+  /** Returns the last write of a key up to a time, also of a tree that is written again since. */
+  lastWrite(id: string, until: number): LastWrite | null {
+    return this.writes.get(id)?.findLast(({ t }) => t <= until) ?? null;
+  }
+
+  private addWrites(step: WritesStep): void {
+    this.steps.push(step);
+    for (const { writer, isRemoved, ...entry } of step.writes) {
+      const id = entryId(entry);
+      const all = this.writes.get(id);
+      const write = { t: step.t, writer, isRemoved };
+      if (all) all.push(write);
+      else this.writes.set(id, [write]);
     }
-    return null;
   }
 
   private addLine({ t, decode: told }: Read): void {
@@ -185,6 +211,8 @@ function apply(state: State, step: Step): void {
       state.statuses = new Map();
       state.entries = new Map();
       state.tick = null;
+      state.was = [];
+      state.isHalted = false;
       return;
     case 'keyframe':
       state.statuses = new Map();
@@ -196,6 +224,8 @@ function apply(state: State, step: Step): void {
       state.number = step.tick;
       return;
     case 'tick':
+      state.was = step.changed.map(([uid]) => [uid, state.statuses.get(uid) ?? 'IDLE']);
+      state.isHalted = step.number === state.number && state.tick !== null;
       for (const [uid, status] of step.changed) {
         if (status === 'IDLE') state.statuses.delete(uid);
         else state.statuses.set(uid, status);

@@ -120,6 +120,10 @@ export interface Moment {
   readonly statuses: readonly StatusOf[];
   /** Results within the last tick that did not stay. */
   readonly flashes: readonly StatusOf[];
+  /** The nodes whose status the last tick changed, with the status from before. */
+  readonly was: readonly StatusOf[];
+  /** Whether the tree was halted after the last tick. */
+  readonly isHalted: boolean;
   readonly entries: readonly EntryAt[];
   readonly poses: PosesAt | null;
   readonly scan: ScanAt | null;

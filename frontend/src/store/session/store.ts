@@ -1,6 +1,7 @@
 import { create } from 'zustand';
 import type { ServerMessage } from '@/generated/messages';
 import { useLiveStore } from '@/store/project/live';
+import { feedLastTick } from './trace/lastTick';
 import { feedTrace } from './trace/traceFeed';
 import { feedLive, forgetPending, showDueStatuses } from './liveFeed';
 import { appendLogs, initialSession, reduceAll } from './reduce';
@@ -35,6 +36,7 @@ export function flush(): void {
   for (const message of messages) {
     feedLive(message);
     feedTrace(message);
+    feedLastTick(message);
     feedTopics(message);
   }
   showDueStatuses();

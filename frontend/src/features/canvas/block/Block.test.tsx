@@ -1,8 +1,12 @@
-import { act, fireEvent, screen } from '@testing-library/react';
+import { act, fireEvent, screen, within } from '@testing-library/react';
 import { Position, type NodeProps } from '@xyflow/react';
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { NodeStatus } from '@/generated/messages';
 import { vocabulary } from '@/model/testing';
+import type { TestReport } from '@/api/types';
+import { useCoverage } from '@/store/behaviourTests/coverage';
+import { useTests } from '@/store/behaviourTests/report';
+import { useProjectStore } from '@/store/project';
 import { setEditor } from '@/store/project/editor';
 import { useLiveStore } from '@/store/project/live';
 import type { ShownProblem } from '@/store/project/problems';
@@ -211,5 +215,26 @@ describe('the ends of connections', () => {
     expect(source).not.toHaveAttribute('title');
     expect(source.className).not.toMatch(/plus/);
     expect(source.querySelector('svg')).toBeNull();
+  });
+});
+
+describe('tests', () => {
+  it('shows what the tests cover of it, and where they failed', () => {
+    const block = open();
+    expect(screen.queryByTestId('coverage-mark')).toBeNull();
+    act(() =>
+      useCoverage.setState({
+        blocks: new Map([['Main/a', { level: 'never', missing: ['ticked'], items: 1 }]]),
+      }),
+    );
+    expect(within(block).getByTestId('coverage-mark')).toHaveAttribute('data-level', 'never');
+    const failure = { tree: 'Main', node_id: 'a', line: 1, tick: 1, wanted: 'A', got: 'B' };
+    const report = { tests: [{ name: 'x', file: 'f', failures: [failure] }] } as unknown as TestReport;
+    act(() => useTests.setState({ project: useProjectStore.getState().projectId, report }));
+    expect(within(block).getByTestId('failure-mark')).toBeVisible();
+    act(() => {
+      useTests.setState(useTests.getInitialState(), true);
+      useCoverage.setState(useCoverage.getInitialState(), true);
+    });
   });
 });

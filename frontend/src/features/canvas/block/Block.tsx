@@ -2,7 +2,11 @@ import { Handle, Position, type NodeProps } from '@xyflow/react';
 import { IconChevronDown, IconChevronUp, IconPlus } from '@tabler/icons-react';
 import { memo, type CSSProperties } from 'react';
 import { useTranslation } from 'react-i18next';
+import { CoverageMark } from '@/features/behaviourTests/CoverageMark';
+import { FailureMark } from '@/features/behaviourTests/FailureMark';
 import { setCollapsed } from '@/model/edits';
+import { useCoverage } from '@/store/behaviourTests/coverage';
+import { useFailuresOf } from '@/store/behaviourTests/failures';
 import { change } from '@/store/project/edits/blocks';
 import { setEditor, toggleExpanded, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
@@ -27,6 +31,8 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
   const past = useShownLive((state) => pastOf(state, key));
   const flash = useShownLive((state) => state.flashes.get(key));
   const fault = useShownLive((state) => state.faults.get(key));
+  const level = useCoverage((state) => state.blocks.get(key)?.level);
+  const failures = useFailuresOf(key);
   const marks = usePortMarks(inside?.tree ?? tree, inside?.node ?? id, node.ports);
   const isTarget = useEditorStore((state) => state.slot?.kind === 'onto' && state.slot.parent === id);
   const family = spec?.family ?? null;
@@ -68,6 +74,8 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
         />
       )}
       {fault === undefined && problem && <ProblemMark problem={problem} onOpen={openProblems} />}
+      {level && <CoverageMark level={level} width={width} height={height} />}
+      {failures.length > 0 && <FailureMark failures={failures} />}
       {data.look && (
         <button
           type="button"

@@ -3,6 +3,8 @@ import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { childrenOf } from '@/model/diagram';
 import { useLiveStore } from '@/store/project/live';
 import { useProjectStore } from '@/store/project';
+import { useWhy } from '@/store/moment/why';
+import { useSessionStore } from '@/store/session/store';
 import { oneBlock } from '@/store/testing';
 import { now, openDiagram } from '../../../../harness/canvas';
 import { action, nodeOf, watchNavigation } from '../../../../harness/testing';
@@ -284,8 +286,28 @@ it('has a key, an icon and a label for each', () => {
     'canvas.morph': '$mod+KeyM',
     'canvas.disable': '$mod+KeyE',
     'canvas.fix': '$mod+Period',
+    'canvas.why': 'Alt+KeyW',
     'canvas.extract': undefined,
     'canvas.look': 'Space',
     'canvas.inline': undefined,
   });
+});
+
+it('why a block was ticked is asked of blocks of the tree that runs', () => {
+  select('a');
+  expect(command('canvas.why').inMenu(true)).toBeNull();
+  const tree = [
+    { uid: 1, parent: 0, type: 'Sleep', kind: '', name: '', path: '', node_id: 'a', tree_id: 'Main' },
+  ];
+  useSessionStore.setState({ tree });
+  onTestFinished(() => useSessionStore.setState({ tree: [] }));
+  expect(command('canvas.why').inMenu(true)).toBe('why');
+  const { asked } = useWhy.getState();
+  vi.useFakeTimers();
+  run('canvas.why');
+  vi.runAllTimers();
+  vi.useRealTimers();
+  expect(useWhy.getState()).toEqual({ isOpen: true, asked: asked + 1 });
+  select('a', 'g');
+  expect(command('canvas.why').enabled?.()).toBe(false);
 });

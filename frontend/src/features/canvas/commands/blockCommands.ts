@@ -15,6 +15,7 @@ import {
   IconForms,
   IconMessage2,
   IconPlus,
+  IconQuestionMark,
   IconRowInsertBottom,
   IconTrash,
   type Icon,
@@ -34,6 +35,10 @@ import {
 import { setEditor, useEditorStore } from '@/store/project/editor';
 import { extractSelection, inlineSelection } from '@/store/project/edits/subtrees';
 import { useProjectStore } from '@/store/project';
+import { isLookingBack, useMoment } from '@/store/moment/store';
+import { askWhy } from '@/store/moment/why';
+import { useSessionStore } from '@/store/session/store';
+import { showPanel } from '@/workspace/tabs';
 import { editSelected, firstSelected, openBlock, toggleFolded, toggleInside } from './selectedBlock';
 import { pasteHere } from '../gestures/clipboard';
 import { isOnCanvas, isTreeInFront } from '../inFront';
@@ -65,6 +70,13 @@ const isExtractable = () => {
 };
 const isLookedInside = () =>
   useEditorStore.getState().expanded[state().activeTree ?? '']?.has(firstSelected() ?? '') === true;
+
+/** Whether the selected block is a part of the tree that runs or ran. */
+const hasRun = () => {
+  const nodes = isLookingBack() ? useMoment.getState().tree : useSessionStore.getState().tree;
+  const [id] = state().selection;
+  return nodes.some((node) => node.node_id === id && node.tree_id === state().activeTree);
+};
 
 const hasSelection = () => state().selection.length > 0;
 const selectedOnCanvas = () => isOnCanvas() && hasSelection();
@@ -289,6 +301,20 @@ export const blockCommands: readonly BlockCommand[] = [
       setTimeout(() => {
         setEditor({ fixing: firstSelected() ?? null });
       });
+    },
+  },
+  {
+    id: 'canvas.why',
+    group: 'canvas',
+    labelKey: 'canvas:menu.why',
+    inMenu: forOne(() => (hasRun() ? 'why' : null)),
+    icon: IconQuestionMark,
+    shortcut: 'Alt+KeyW',
+    enabled: () => !areSeveral() && hasRun(),
+    run: () => {
+      showPanel('inspector');
+      // The menu returns the focus first.
+      setTimeout(askWhy);
     },
   },
   {

@@ -166,6 +166,7 @@ export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly 
           setEditor({ minimap: !minimap });
         }}
       />
+      <CommandButton command="tests.coverage" size={30} testId="toggle-coverage" />
       <CommandButton command="view.xml" size={30} testId="toggle-xml" />
     </div>
   );

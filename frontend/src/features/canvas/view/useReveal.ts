@@ -9,6 +9,8 @@ const MARGIN = 48;
 /** The height in px of the canvas's bottom part that the toolbar covers. */
 const MARGIN_BELOW = 84;
 
+const canvasOf = (treeId: string) => document.querySelector(`[data-tree="${CSS.escape(treeId)}"]`);
+
 /**
  * Scrolls a block into view on request. A block that is new or selected by keys is scrolled as far as needed:
  * neither outside the view nor below an element that lies on the canvas (`data-overlay`).
@@ -26,15 +28,20 @@ export function useReveal(treeId: string, layout: Layout): void {
   useEffect(() => {
     const box = revealed && boxes.current.positions[revealed.node];
     if (!box) return;
-    void flow.setCenter(box.x + box.width / 2, box.y + box.height / 2, {
-      zoom: Math.max(0.9, flow.getZoom()),
-      duration: 200,
-    });
-  }, [revealed, flow]);
+    const show = () =>
+      void flow.setCenter(box.x + box.width / 2, box.y + box.height / 2, {
+        zoom: Math.max(0.9, flow.getZoom()),
+        duration: 200,
+      });
+    if (canvasOf(treeId)?.clientWidth !== 0) return show();
+    // The tab of the tree comes to the front in this frame; its size is known after the next one.
+    let frame = requestAnimationFrame(() => (frame = requestAnimationFrame(show)));
+    return () => cancelAnimationFrame(frame);
+  }, [revealed, flow, treeId]);
 
   useEffect(() => {
     const box = boxes.current.positions[first ?? ('' as NodeId)];
-    const canvas = document.querySelector(`[data-tree="${CSS.escape(treeId)}"]`);
+    const canvas = canvasOf(treeId);
     if (!box || !canvas || canvas.getBoundingClientRect().width === 0) return;
     const start = flow.flowToScreenPosition({ x: box.x, y: box.y });
     const end = flow.flowToScreenPosition({ x: box.x + box.width, y: box.y + box.height });

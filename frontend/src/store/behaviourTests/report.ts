@@ -12,14 +12,25 @@ export interface TestsData {
   readonly isRunning: boolean;
   /** The reason for which the last attempt gave no report. */
   readonly refused: string | null;
+  /** The project and the count of its changes that the last request was about. */
+  readonly asked: string | null;
 }
 
-const initial: TestsData = { project: null, report: null, isRunning: false, refused: null };
+const initial: TestsData = { project: null, report: null, isRunning: false, refused: null, asked: null };
 
 export const useTests = create<TestsData>(() => initial);
 
+/** Returns the report of the open project; null if there is none yet. */
+export const reportOf = ({ project, report }: TestsData, projectId: string | null): TestReport | null =>
+  project === projectId ? report : null;
+
 /** The number of the last request: answers to earlier ones come too late. */
 let last = 0;
+
+const versionNow = (): string => {
+  const { projectId, changeCounter } = useProjectStore.getState();
+  return `${projectId} ${changeCounter}`;
+};
 
 /** Saves the project and runs its behaviour tests on the server. */
 export async function runTests(): Promise<void> {
@@ -28,7 +39,7 @@ export async function runTests(): Promise<void> {
   const number = ++last;
   const isCurrent = () => number === last && useProjectStore.getState().projectId === projectId;
   if (useTests.getState().project !== projectId) useTests.setState({ ...initial, project: projectId });
-  useTests.setState({ isRunning: true });
+  useTests.setState({ isRunning: true, asked: versionNow() });
   try {
     await saveNow();
     const report = await api.test(projectId);
@@ -38,6 +49,11 @@ export async function runTests(): Promise<void> {
   } finally {
     if (number === last) useTests.setState({ isRunning: false });
   }
+}
+
+/** Runs the tests unless they were run for the project as it is now. */
+export async function runChangedTests(): Promise<void> {
+  if (useTests.getState().asked !== versionNow()) await runTests();
 }
 
 const reasonOf = (error: unknown): string =>

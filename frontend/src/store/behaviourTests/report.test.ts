@@ -1,7 +1,7 @@
 import { beforeEach, expect, it } from 'vitest';
 import { useProjectStore } from '@/store/project';
 import { fakeServer, openProject } from '../../../harness/testing';
-import { runTests, useTests } from './store';
+import { runTests, useTests } from './report';
 
 const report = { tests: [], problems: [], coverage: { share: 1, trees: {} } };
 
@@ -14,7 +14,13 @@ it('keeps the report of the open project', async () => {
   const id = useProjectStore.getState().projectId;
   const { requests } = fakeServer({ [`POST /projects/${id}/test`]: report });
   await runTests();
-  expect(useTests.getState()).toEqual({ project: id, report, isRunning: false, refused: null });
+  expect(useTests.getState()).toEqual({
+    project: id,
+    report,
+    isRunning: false,
+    refused: null,
+    asked: `${id} 0`,
+  });
   expect(requests.at(-1)?.body).toEqual({ files: [] });
 });
 

@@ -1,0 +1,30 @@
+import { IconFlask2, IconPercentage60 } from '@tabler/icons-react';
+import { registerCommands, type UserCommand } from '@/commands/registry';
+import { showCoverage, useCoverage } from '@/store/behaviourTests/coverage';
+import { runTests } from '@/store/behaviourTests/report';
+import { isTestFile } from '@/store/behaviourTests/useTestsAfterSave';
+import { useProjectStore } from '@/store/project';
+
+const hasTests = () => Object.keys(useProjectStore.getState().files).some(isTestFile);
+
+const rows: readonly UserCommand[] = [
+  {
+    id: 'tests.run',
+    group: 'project',
+    labelKey: 'behaviourTests:command.run',
+    icon: IconFlask2,
+    enabled: hasTests,
+    run: () => void runTests(),
+  },
+  {
+    id: 'tests.coverage',
+    group: 'canvas',
+    labelKey: 'behaviourTests:command.coverage',
+    icon: IconPercentage60,
+    shortcut: 'Alt+KeyC',
+    enabled: () => useProjectStore.getState().projectId !== null,
+    run: () => showCoverage(!useCoverage.getState().isShown),
+  },
+];
+
+export const registerTestCommands = () => registerCommands(rows);

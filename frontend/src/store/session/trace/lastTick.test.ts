@@ -1,0 +1,36 @@
+import { beforeEach, describe, expect, it } from 'vitest';
+import type { NodeStatus, ServerMessage } from '@/generated/messages';
+import { feedLastTick, useLastTick } from './lastTick';
+
+const tell = (command: string, data: unknown) =>
+  feedLastTick({ id: 'e', command, data, seq: 1, t: 0 } as ServerMessage);
+const tick = (n: number, changed: [number, NodeStatus][], flashed: [number, NodeStatus][] = []) =>
+  tell('tick', { n, changed, flashed, duration_ms: 1, past: [] });
+
+beforeEach(() => tell('tree', { nodes: [] }));
+
+describe('the last tick', () => {
+  it('has the statuses after it, and those from before of what it changed', () => {
+    tell('snapshot', { tree: null, statuses: [[1, 'RUNNING']] });
+    tick(7, [
+      [2, 'RUNNING'],
+      [1, 'SUCCESS'],
+    ]);
+    tick(8, [[2, 'IDLE']], [[2, 'FAILURE']]);
+    expect(useLastTick.getState()).toEqual({
+      number: 8,
+      statuses: [[1, 'SUCCESS']],
+      was: [[2, 'RUNNING']],
+      flashes: [[2, 'FAILURE']],
+      isHalted: false,
+    });
+  });
+
+  it('knows a halt by its number, and forgets all with another tree', () => {
+    tick(3, [[1, 'RUNNING']]);
+    tick(3, [[1, 'IDLE']]);
+    expect(useLastTick.getState()).toMatchObject({ isHalted: true, statuses: [] });
+    tell('tree', { nodes: [] });
+    expect(useLastTick.getState()).toMatchObject({ number: 0, isHalted: false });
+  });
+});

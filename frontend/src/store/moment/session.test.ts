@@ -16,6 +16,8 @@ const moment = (entries: EntryAt[]): Moment => ({
   was: [],
   isHalted: false,
   entries,
+  scene: null,
+  sceneId: -1,
   poses: null,
   scan: null,
   pictures: [],

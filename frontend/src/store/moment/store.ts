@@ -1,5 +1,6 @@
 import { create } from 'zustand';
 import { useStore } from 'zustand';
+import type { Scene } from '@/generated/messages';
 import { usePastLive, useLiveStore, type LiveState } from '@/store/project/live';
 import type { Moment, Overview, RecordedNode } from '@/store/recording/types';
 import type { RecordedTree } from './recordedTrees';
@@ -15,6 +16,8 @@ interface MomentData {
   readonly tree: readonly RecordedNode[];
   /** The trees that ran, the main tree first. */
   readonly trees: Readonly<Record<string, RecordedTree>>;
+  /** The recorded world of the shown moment. */
+  readonly scene: Scene | null;
   /** The recording as far as it was read. */
   readonly overview: Overview | null;
   /** Why a part of the recording cannot be read; empty if nothing is wrong. */
@@ -32,6 +35,7 @@ export const atPresent: MomentData = {
   shown: null,
   tree: [],
   trees: {},
+  scene: null,
   overview: null,
   failure: '',
   isPlaying: false,

@@ -67,7 +67,7 @@ describe('the shown tick', () => {
         shown: {
           ...{ t: 1, tick: 5, tickT: 1, durationMs: 1, generation: 1, tree: null, files: null },
           ...{ statuses: [[2, 'RUNNING']], was: [[2, 'IDLE']], flashes: [[1, 'SKIPPED']] },
-          ...{ entries: [], poses: null, scan: null, pictures: [], isHalted: true },
+          ...{ entries: [], scene: null, sceneId: -1, poses: null, scan: null, pictures: [], isHalted: true },
         },
       }),
     );

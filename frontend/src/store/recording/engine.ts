@@ -4,7 +4,13 @@ import { SegmentReader } from './segmentReader';
 import type { Changes, Moment, Overview, TickAt } from './types';
 
 export type Ask =
-  | { readonly what: 'moment'; readonly t: number; readonly tick: number | null; readonly known: number }
+  | {
+      readonly what: 'moment';
+      readonly t: number;
+      readonly tick: number | null;
+      readonly known: number;
+      readonly scene?: number;
+    }
   | { readonly what: 'tick'; readonly t: number; readonly tick: number | null; readonly by: number }
   | {
       readonly what: 'change';
@@ -96,7 +102,7 @@ export class Engine {
     try {
       switch (ask.what) {
         case 'moment':
-          return this.index.momentAt(ask.t, ask.known, ask.tick);
+          return this.index.momentAt(ask.t, ask.known, ask.tick, ask.scene);
         case 'tick':
           return this.index.tickFrom(ask.t, ask.by, ask.tick);
         case 'change':

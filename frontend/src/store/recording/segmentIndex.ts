@@ -59,6 +59,7 @@ export class SegmentIndex {
   readonly faults: RecordedFault[] = [];
   readonly marks: Mark[] = [];
   readonly poses: PosesFrame[] = [];
+  readonly scenes: Read[] = [];
   readonly scans: Read[] = [];
   readonly pictures = new Map<string, Read[]>();
   /** The last time that was read. */
@@ -101,6 +102,8 @@ export class SegmentIndex {
         return this.addLine(read);
       case '/bt/fault':
         return this.addFault(read);
+      case '/world/scene':
+        return void this.scenes.push(read);
       case '/world/poses':
         return this.addPoses(read);
       case '/scan':

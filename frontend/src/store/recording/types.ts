@@ -1,4 +1,4 @@
-import type { LogLevel, NodeStatus, Segment, TreeNode } from '@/generated/messages';
+import type { LogLevel, NodeStatus, Scene, Segment, TreeNode } from '@/generated/messages';
 
 /** The statuses by their numbers in a recording. */
 export const STATUSES: readonly NodeStatus[] = ['IDLE', 'RUNNING', 'SUCCESS', 'FAILURE', 'SKIPPED'];
@@ -125,6 +125,10 @@ export interface Moment {
   /** Whether the tree was halted after the last tick. */
   readonly isHalted: boolean;
   readonly entries: readonly EntryAt[];
+  /** The world: sent only when the asker has another one. */
+  readonly scene: Scene | null;
+  /** Which world it is, in this recording; -1 without one. */
+  readonly sceneId: number;
   readonly poses: PosesAt | null;
   readonly scan: ScanAt | null;
   readonly pictures: readonly PictureAt[];

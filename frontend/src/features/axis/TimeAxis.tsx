@@ -7,6 +7,7 @@ import { useSource } from '@/store/moment/source';
 import { PLAY_SPEEDS, useMoment } from '@/store/moment/store';
 import { liveSource } from '@/store/recording/liveSource';
 import { useSessionStore } from '@/store/session/store';
+import { CommandButton } from '@/ui/CommandButton';
 import classes from './axis.module.css';
 import { copyShownLink } from './commands';
 import { RunSelect } from './RunSelect';
@@ -75,6 +76,7 @@ export function TimeAxis() {
           </ActionIcon>
         </Tooltip>
       ) : null}
+      <CommandButton command="tests.moment" size={26} testId="axis-test" />
       <Tooltip label={`${t('toLive')} (Esc)`} disabled={!isBack}>
         <Button
           size="compact-xs"

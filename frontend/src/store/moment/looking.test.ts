@@ -19,6 +19,7 @@ import {
   openKept,
   openRun,
   setEngineLink,
+  storyUntilNow,
 } from './looking';
 import { usePastSession } from './session';
 import { useSource } from './source';
@@ -120,6 +121,23 @@ it('opens an earlier run of the session, and returns from it to the last one', a
   useSessionStore.setState({ segments: [segment('b')] });
   expect(isLookingBack()).toBe(false);
   expect(extent()?.run).toBe('b');
+});
+
+it('tells what the tree did until now, or until the shown moment', async () => {
+  const all = (await storyUntilNow())!;
+  expect(useMoment.getState().t).toBeNull();
+  expect(all.ticks.length).toBeGreaterThan(10);
+  lookAt(0.5);
+  await shown(0.5);
+  const until = (await storyUntilNow())!;
+  expect(until.ticks).toEqual(all.ticks.filter(({ t }) => t <= 0.5));
+  expect(useMoment.getState().t).toBe(0.5);
+  lookNow();
+});
+
+it('tells nothing without a recording', async () => {
+  useSessionStore.setState({ segments: [] });
+  expect(await storyUntilNow()).toBeNull();
 });
 
 it('opens a kept run without a session, and closes it in the present', async () => {

@@ -127,7 +127,7 @@ def channels(number):
     writer.start(profile="ros2", library="rosbag2")
     schema = writer.register_schema(NAV, "ros2msg", b"")
     for each in range(number):
-        writer.add_message(writer.register_channel(f"/{each}", "cdr", schema), each, b"", each)
+        writer.add_message(writer.register_channel(f"/{each}", "cdr", schema), each, nav_message([]), each)
     writer.finish()
     return file.getvalue()
 

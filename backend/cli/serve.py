@@ -76,7 +76,7 @@ def serve_page(page: str, *, browser: bool, ready_file: Path | None) -> None:
         raise CliError(str(error)) from error
 
 
-def _serve(page: str, *, open_browser: bool, ready_file: Path | None) -> None:
+def _serve(page: str = "/", *, open_browser: bool, ready_file: Path | None) -> None:
     from backend.config.environment import environment
     from backend.config.parent import serve_by_several
     from backend.config.server import (

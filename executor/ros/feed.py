@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -11,6 +11,10 @@ if TYPE_CHECKING:
     from executor.world.sensing.sensors import Sensors
 
     Tap = Callable[[str, Any, float], None]
+
+UNHEARD_HZ: Final = 2.0
+SHOWN_HZ: Final = 10.0
+"""The rate of measurements that views show, also where no ROS node receives them."""
 
 
 class Due:
@@ -37,7 +41,8 @@ class Due:
 class Feed:
     """A measurement, and the publishers that send its message. `make` measures and returns the message.
 
-    `is_picture` is set if the measurement must be rendered; `of_camera` is also set for messages that
+    Without subscribers it is measured for a tap at most `unheard_hz` times in a second, if `Feeds.sample` was
+    called. `is_picture` is set if the measurement must be rendered; `of_camera` is also set for messages that
     accompany a picture.
     """
 
@@ -46,6 +51,7 @@ class Feed:
     rate_hz: float
     is_picture: bool = False
     of_camera: bool = False
+    unheard_hz: float = UNHEARD_HZ
 
     @property
     def has_receiver(self) -> bool:
@@ -75,10 +81,10 @@ class Feeds:
     """Feeds, grouped by rate: many have the same rate, and in most calls none is due."""
 
     def __init__(self, feeds: Sequence[Feed]) -> None:
-        groups: dict[tuple[float, bool], list[Feed]] = {}
+        groups: dict[tuple[float, bool, float], list[Feed]] = {}
         for feed in feeds:
-            groups.setdefault((feed.rate_hz, feed.of_camera), []).append(feed)
-        self._groups = [(Due(rate_hz), members) for (rate_hz, _), members in groups.items()]
+            groups.setdefault((feed.rate_hz, feed.of_camera, feed.unheard_hz), []).append(feed)
+        self._groups = [(Due(rate_hz), members) for (rate_hz, *_), members in groups.items()]
         self._samples: list[Due] | None = None
 
     @property
@@ -91,9 +97,9 @@ class Feeds:
             for publisher in feed.publishers
         }
 
-    def sample(self, rate_hz: float) -> None:
+    def sample(self) -> None:
         """Limits the rate at which a tap gets topics without subscribers."""
-        self._samples = [Due(min(is_due.rate_hz, rate_hz)) for is_due, _ in self._groups]
+        self._samples = [Due(min(due.rate_hz, feeds[0].unheard_hz)) for due, feeds in self._groups]
 
     def publish(self, sensors: Sensors, now_s: float, tap: Tap | None = None) -> None:
         """Publishes the feeds that are due, also to a tap."""

@@ -18,7 +18,7 @@ from rosgraph_msgs.msg import Clock
 
 from executor.ros import messages
 from executor.ros.environment import has_tf
-from executor.ros.feed import Due, Feed, Feeds
+from executor.ros.feed import SHOWN_HZ, Due, Feed, Feeds
 from executor.ros.outlet import Outlet, Piped
 from executor.ros.raw_take import take
 from executor.ros.robot_topics import LATCHED_QOS, ODOMETRY_HZ, RobotTopics
@@ -97,14 +97,14 @@ class WorldNode:
         if self._outlet is not None:
             self._outlet.flush()
 
-    def tap(self, tap: Tap, *, sample_hz: float | None = None) -> None:
+    def tap(self, tap: Tap, *, samples: bool = False) -> None:
         """Gives each message of the robots' topics to a function, with the topic and the time.
 
-        With `sample_hz`, topics without subscribers are measured for it at most at this rate.
+        With `samples`, topics without subscribers are measured for it at their lower rates.
         """
         self._tap = tap
-        if sample_hz is not None:
-            self._feeds.sample(sample_hz)
+        if samples:
+            self._feeds.sample()
         for robot in self._robots:
             robot.commands.tap = tap
         if self._static is not None:
@@ -197,4 +197,5 @@ class WorldNode:
                 [transform for robot in self._robots for transform in robot.moving_transforms(now_s)]
             ),
             ODOMETRY_HZ,
+            unheard_hz=SHOWN_HZ,
         )

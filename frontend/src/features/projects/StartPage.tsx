@@ -6,7 +6,7 @@ import { closePalette, usePalette } from '@/commands/palette';
 import { useShortcuts } from '@/commands/shortcuts';
 import { UserMenu } from '@/features/accounts/UserMenu';
 import { MyRuns } from '@/features/runs/MyRuns';
-import { isLog, openNewLog } from '@/features/runs/openLog';
+import { isLog, openNewLog } from '@/features/runs/openNewLog';
 import { ThemeToggle } from '@/ui/ThemeToggle';
 import { Logo } from '@/ui/Logo';
 import { lazyPart } from '@/ui/parts';

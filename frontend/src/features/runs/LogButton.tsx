@@ -2,7 +2,7 @@ import { Button, FileButton } from '@mantine/core';
 import { IconFolderOpen } from '@tabler/icons-react';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { LOG_ENDINGS } from './openLog';
+import { LOG_ENDINGS } from './openNewLog';
 
 /** A button that opens the log of a robot on the time axis. */
 export function LogButton({ onOpen }: { readonly onOpen: (file: File) => Promise<void> }) {

@@ -5,7 +5,7 @@ import { useTranslation } from 'react-i18next';
 import { LogButton } from './LogButton';
 import { MyRunCard } from './MyRunCard';
 import classes from './myRuns.module.css';
-import { openNewLog } from './openLog';
+import { openNewLog } from './openNewLog';
 import { useMyRuns } from './useMyRuns';
 
 const FIRST = 6;

@@ -1,5 +1,4 @@
 import type { MyRun } from '@/api/runs';
-import { queryOf } from '@/store/moment/address';
 import { projectPath } from '@/store/route';
 import type { SessionData } from '@/store/session/types';
 
@@ -15,7 +14,7 @@ export function minutes(seconds: number): string {
 
 /** Returns the path of the page that shows a run of the user at its begin. */
 export const pathOf = ({ project, id }: Pick<MyRun, 'project' | 'id'>): string =>
-  projectPath(project) + queryOf({ run: id, t: null });
+  `${projectPath(project)}?run=${id}`;
 
 /** The colours of the results of runs. */
 export const RESULT_COLORS = { success: 'green', failure: 'red', error: 'red', running: 'gray' } as const;

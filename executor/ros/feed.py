@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from executor.ros.topic_faults import TopicFaults
     from executor.world.sensing.sensors import Sensors
 
     Tap = Callable[[str, Any, float], None]
@@ -59,7 +60,13 @@ class Feed:
         return any(publisher.get_subscription_count() for publisher in self.publishers)
 
     def publish(
-        self, sensors: Sensors, now_s: float, tap: Tap | None = None, *, is_sampled: bool = True
+        self,
+        sensors: Sensors,
+        now_s: float,
+        tap: Tap | None = None,
+        *,
+        is_sampled: bool = True,
+        faults: TopicFaults | None = None,
     ) -> None:
         """Measures and publishes to the topics with subscribers.
 
@@ -70,11 +77,29 @@ class Feed:
         if not receivers and (tap is None or self.of_camera or not is_sampled):
             return
         message = self.make(sensors, now_s)
+        if faults is not None:
+            self._publish_faulty(message, now_s, tap, faults)
+            return
         for publisher in receivers:
             publisher.publish(message)
         if tap is not None:
             for publisher in receivers if self.of_camera else self.publishers:
                 tap(publisher.topic_name, message, now_s)
+
+    def _publish_faulty(self, message: Any, now_s: float, tap: Tap | None, faults: TopicFaults) -> None:
+        for publisher in self.publishers:
+            if self.of_camera and not publisher.get_subscription_count():
+                continue
+            for sent in faults.take(publisher.topic_name, message, now_s):
+                send(publisher, sent, now_s, tap)
+
+
+def send(publisher: Any, message: Any, now_s: float, tap: Tap | None) -> None:
+    """Publishes a message if its topic has subscribers, and gives it to a tap."""
+    if publisher.get_subscription_count():
+        publisher.publish(message)
+    if tap is not None:
+        tap(publisher.topic_name, message, now_s)
 
 
 class Feeds:
@@ -86,6 +111,8 @@ class Feeds:
             groups.setdefault((feed.rate_hz, feed.of_camera, feed.unheard_hz), []).append(feed)
         self._groups = [(Due(rate_hz), members) for (rate_hz, *_), members in groups.items()]
         self._samples: list[Due] | None = None
+        self.faults: TopicFaults | None = None
+        """Changes the messages on their way, if it is set."""
 
     @property
     def topics(self) -> set[str]:
@@ -103,11 +130,18 @@ class Feeds:
 
     def publish(self, sensors: Sensors, now_s: float, tap: Tap | None = None) -> None:
         """Publishes the feeds that are due, also to a tap."""
+        if self.faults is not None:
+            self._send_delayed(self.faults, now_s, tap)
         for place, (is_due, feeds) in enumerate(self._groups):
             if is_due(now_s):
                 is_sampled = self._samples is None or self._samples[place](now_s)
                 for feed in feeds:
-                    feed.publish(sensors, now_s, tap, is_sampled=is_sampled)
+                    feed.publish(sensors, now_s, tap, is_sampled=is_sampled, faults=self.faults)
+
+    def _send_delayed(self, faults: TopicFaults, now_s: float, tap: Tap | None) -> None:
+        publishers = {p.topic_name: p for _, feeds in self._groups for feed in feeds for p in feed.publishers}
+        for topic, message in faults.due(now_s, publishers):
+            send(publishers[topic], message, now_s, tap)
 
     def slow_cameras(self, share: float) -> None:
         """Reduces the rates of cameras to a share of their configured rates."""

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Collection
 
     from executor.ros.feed import Tap
+    from executor.ros.topic_faults import TopicFaults
     from executor.world.interface import Robot, World
     from executor.world.sensing.sensors import Sensors
 
@@ -109,6 +110,12 @@ class WorldNode:
             robot.commands.tap = tap
         if self._static is not None:
             tap("/tf_static", self._static, self._world.time_s)
+
+    def change_messages(self, faults: TopicFaults) -> None:
+        """Passes the messages of sensors and commands through faults from now on."""
+        self._feeds.faults = faults
+        for robot in self._robots:
+            robot.commands.faults = faults
 
     def publish_clock(self) -> None:
         """Publishes the simulated time, also while it is paused."""

@@ -8,6 +8,7 @@ import {
 } from '@tabler/icons-react';
 import { drawStretch, paletteOf } from '@/features/timeline/draw';
 import { goSeconds, goTicks, lookAt, lookNow, setPlaying, type Extent } from '@/store/moment/looking';
+import { isPresentRun, useSource } from '@/store/moment/source';
 import { useMoment } from '@/store/moment/store';
 import type { Mark, MarkKind } from '@/store/recording/types';
 import { useSessionStore } from '@/store/session/store';
@@ -31,13 +32,15 @@ export function Strip({ extent }: { readonly extent: Extent }) {
   const moment = useMoment((state) => state.t);
   const overview = useMoment((state) => (state.overview?.run === extent.run ? state.overview : null));
   const logs = useSessionStore((state) => state.logs);
+  // What the page has seen is of the present run.
+  const isPresent = useSource(isPresentRun);
   const width = useWidth(strip);
   const { from, to } = extent;
   const length = Math.max(to - from, 1e-3);
   const shareOf = (time: number) => Math.min(Math.max((time - from) / length, 0), 1);
   const marks = useMemo(
-    () => apart(marksOf(overview, logs, from), (MARK_PX * length) / Math.max(width, 1)),
-    [overview, logs, from, length, width],
+    () => apart(marksOf(overview, isPresent ? logs : [], from), (MARK_PX * length) / Math.max(width, 1)),
+    [overview, isPresent, logs, from, length, width],
   );
 
   useEffect(() => {
@@ -52,7 +55,11 @@ export function Strip({ extent }: { readonly extent: Extent }) {
       const palette = paletteOf(element);
       const root = trace.nodes.find(({ parent }) => parent === 0)?.uid ?? -1;
       const scale = element.clientWidth / length;
-      for (const { start, end, mask } of rootStretches(overview, trace.stretches(root, from, to), to)) {
+      for (const { start, end, mask } of rootStretches(
+        overview,
+        isPresent ? trace.stretches(root, from, to) : [],
+        to,
+      )) {
         const x = Math.max((start - from) * scale, 0);
         drawStretch(context, mask, x, Math.max((end - start) * scale, 1), 0, palette);
       }
@@ -62,7 +69,7 @@ export function Strip({ extent }: { readonly extent: Extent }) {
     const themed = new MutationObserver(draw);
     themed.observe(document.documentElement, { attributeFilter: ['data-mantine-color-scheme'] });
     return () => themed.disconnect();
-  }, [overview, from, to, length, width]);
+  }, [overview, isPresent, from, to, length, width]);
 
   const lookThere = ({ currentTarget, clientX }: PointerEvent) => {
     const box = currentTarget.getBoundingClientRect();

@@ -27,6 +27,7 @@ class Verb(NamedTuple):
 
 VERBS: Final[dict[str, Verb]] = {
     "serve": Verb("serve", "serve"),
+    "open": Verb("open_log", "open_log"),
     "run": Verb("run", "run"),
     "check": Verb("check", "check"),
     "test": Verb("behaviour_tests", "run_tests"),

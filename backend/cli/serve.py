@@ -31,18 +31,30 @@ def serve(  # noqa: PLR0913, PLR0917 - one parameter an option
     ] = None,
 ) -> None:
     """Serves the IDE until Ctrl+C."""
-    options = {
-        "HOST": host,
-        "PORT": port,
-        "DATA_DIR": data_dir,
-        "LAUNCHER": launcher,
-        "WORKERS": workers,
-    }
+    take_options(HOST=host, PORT=port, DATA_DIR=data_dir, LAUNCHER=launcher, WORKERS=workers)
+    serve_page("/", browser=browser, ready_file=ready_file)
+
+
+def take_options(**options: object) -> None:
+    """Writes options, and a token if there is none, into the environment; the settings are read from it."""
     for name, value in options.items():
         if value is not None:
             os.environ[f"BT_STUDIO_{name}"] = str(value)
     if not os.environ.get("BT_STUDIO_TOKEN"):  # compose files pass an unset variable as empty
         os.environ["BT_STUDIO_TOKEN"] = secrets.token_urlsafe(24)
+
+
+def serve_page(page: str, *, browser: bool, ready_file: Path | None) -> None:
+    """Serves the IDE until Ctrl+C.
+
+    Args:
+        page: the path of the page that the link names, without a token.
+        browser: whether the page is opened in the browser.
+        ready_file: gets the link, the port and the process.
+
+    Raises:
+        CliError: a setting is invalid, or the server cannot start.
+    """
     from backend.config.environment import InvalidEnvironmentError, environment
     from backend.config.server import ServeError
     from backend.config.worker_count import judge_workers
@@ -57,14 +69,14 @@ def serve(  # noqa: PLR0913, PLR0917 - one parameter an option
                 "or a server with accounts (BT_STUDIO_MODE=team, see docs/how-to/run-a-team-server.md)."
             )
         judge_workers(settings)
-        _serve(open_browser=browser, ready_file=ready_file)
+        _serve(page, open_browser=browser, ready_file=ready_file)
     except InvalidEnvironmentError as error:
         raise CliError(str(error), status=2) from error
     except ServeError as error:
         raise CliError(str(error)) from error
 
 
-def _serve(*, open_browser: bool, ready_file: Path | None) -> None:
+def _serve(page: str = "/", *, open_browser: bool, ready_file: Path | None) -> None:
     from backend.config.environment import environment
     from backend.config.parent import serve_by_several
     from backend.config.server import (
@@ -87,7 +99,8 @@ def _serve(*, open_browser: bool, ready_file: Path | None) -> None:
         port: int = listener.getsockname()[1]
         host = "127.0.0.1" if settings.published_on_loopback else settings.host
         name = f"[{host}]" if ":" in host else host
-        link = f"http://{name}:{port}/?token={settings.token.get_secret_value()}"
+        mark = "&" if "?" in page else "?"
+        link = f"http://{name}:{port}{page}{mark}token={settings.token.get_secret_value()}"
         url = settings.public_url + "/" if settings.is_team else link
 
         def on_ready() -> None:

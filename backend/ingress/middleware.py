@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
-from urllib.parse import urlencode
+from urllib.parse import quote, urlencode
 
 from django.http import HttpRequest, HttpResponse, HttpResponseRedirect
 from django.shortcuts import render
@@ -122,7 +122,8 @@ class Guard(Middleware):
             return problem_response(problem(400, "bad_address", detail=sentence))
         facts = facts_of(request)
         keys = guard.keys()
-        link = request.method == "GET" and request.path_info == "/" and "token" in request.GET
+        is_page = request.path_info == "/" or request.path_info.startswith("/projects/")
+        link = request.method == "GET" and is_page and "token" in request.GET
         if link and not environment().is_team and keys.is_token(request.GET["token"]):
             refusal = guard.check(guard.Facts("GET", facts.host, cookie=keys.cookie_value))
             return refuse(request, refusal) if refusal else exchange(request, facts.host)
@@ -148,7 +149,8 @@ def facts_of(request: HttpRequest) -> guard.Facts:
 def exchange(request: HttpRequest, host: str) -> HttpResponse:
     """Sets the cookie and redirects to the same page without the token."""
     rest = {key: value for key, value in request.GET.items() if key != "token"}
-    response = HttpResponseRedirect("/" + (f"?{urlencode(rest)}" if rest else ""))
+    page = "/" + quote(request.path_info.strip("/"))  # one slash, so that it names no other host
+    response = HttpResponseRedirect(page + (f"?{urlencode(rest)}" if rest else ""))
     response.set_cookie(
         guard.cookie_name(host), guard.keys().cookie_value, httponly=True, samesite="Strict", path="/"
     )

@@ -12,8 +12,12 @@ class RunsConfig(AppConfig):
 
     def ready(self) -> None:
         """Connects the end of sessions to the last run that is kept."""
+        from backend.projects.signals import data_asked, usage_asked  # noqa: PLC0415
         from backend.runs.last import fetch_last, sweep_soon  # noqa: PLC0415 - models must be loaded
+        from backend.runs.mine import data_of, usage_of  # noqa: PLC0415
         from backend.sessions.signals import session_ends, sessions_maintained  # noqa: PLC0415
 
+        usage_asked.connect(usage_of, dispatch_uid="usage_of_runs")
+        data_asked.connect(data_of, dispatch_uid="data_of_runs")
         session_ends.connect(fetch_last, dispatch_uid="fetch_last")
         sessions_maintained.connect(sweep_soon, dispatch_uid="sweep_soon")

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import json
+import re
 import tempfile
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, NamedTuple
 
+from django.db import transaction
+
 from backend.core.scratch import scratch
+from backend.projects.choices import Role
 from backend.projects.storage import queries as projects
 from backend.projects.storage.access import Need
+from backend.projects.storage.manifest import MANIFEST
+from backend.projects.storage.writes import create_project
 from backend.runs.errors import LogRefusedError
 from backend.runs.facts import facts_of
 from backend.runs.length import DamagedError
@@ -24,7 +31,7 @@ if TYPE_CHECKING:
     from backend.runs.facts import Facts
     from backend.runs.models import Run
 
-__all__ = ["Recording", "keep_log", "may_keep", "read_log"]
+__all__ = ["Recording", "keep_log", "may_keep", "open_log", "read_log", "title"]
 
 
 class Recording(NamedTuple):
@@ -45,6 +52,31 @@ def may_keep(project_id: UUID, *, acting_user: User) -> Project:
     project = projects.project(project_id, user=acting_user, need=Need.RUN)
     require_converter()
     return project
+
+
+def open_log(recording: Recording, files: dict[str, bytes], *, acting_user: User) -> Run:
+    """Stores what was made of a log as a run of a new project, and closes it.
+
+    Args:
+        recording: what was made of the log.
+        files: the project; without files it is an empty one, named as the log.
+        acting_user: who owns both.
+
+    Raises:
+        QuotaExceededError, RunQuotaError: there is no room for the project, or for the run.
+    """
+    with recording.file, transaction.atomic():
+        manifest = json.loads(files.get(MANIFEST, b"{}")) | {"name": title(recording.name)}
+        named = {**files, MANIFEST: json.dumps(manifest, ensure_ascii=False, indent=2).encode()}
+        project = create_project(named, acting_user=acting_user, message=f"Open {recording.name}")
+        project.role = Role.OWNER
+        return keep_log(project, recording, acting_user=acting_user)
+
+
+def title(name: str) -> str:
+    """Returns the name of a project for a log."""
+    clean = re.sub(r"[/\\]", "-", name).removesuffix(".btlog").removesuffix(".mcap").removesuffix(".db3")
+    return clean.strip(" .")[:MAX_NAME_LENGTH] or "Log"
 
 
 def read_log(log: IO[bytes], filename: str, owner: str) -> Recording:

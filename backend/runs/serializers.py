@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from rest_framework import serializers
 
 from backend.core.rest.fields import StrictSerializer
+from backend.projects.choices import Role
 from backend.runs.choices import Result
 from backend.runs.models import MAX_NAME_LENGTH, MAX_NOTE_LENGTH
 from backend.runs.queries import may_manage, may_share
@@ -37,6 +38,20 @@ class RunSerializer(serializers.Serializer[Any]):
     keeper = serializers.CharField(help_text="The user who kept it.")
     recorded_as = serializers.CharField(help_text="The name that its session gave it.")
     created_at = serializers.DateTimeField()
+
+
+class MyRunSerializer(RunSerializer):
+    """A run that you have kept, and its project."""
+
+    project = serializers.UUIDField()
+    project_name = serializers.CharField(help_text="Empty if you may no longer read the project.")
+    may_open = serializers.BooleanField(help_text="Whether you may still read its project.")
+
+
+class MyRunListSerializer(serializers.Serializer[Any]):
+    """The runs that you have kept."""
+
+    items = MyRunSerializer(many=True)
 
 
 class RunListSerializer(serializers.Serializer[Any]):
@@ -75,4 +90,14 @@ def presented(run: Run, user: User) -> dict[str, Any]:
         "may_share": may_share(run, user=user),
         "keeper": run.keeper.username,
         "created_at": run.created_at.isoformat(),
+    }
+
+
+def presented_mine(run: Run, user: User) -> dict[str, Any]:
+    """Returns a run as JSON for its keeper, with its project; one that they may not read has no name."""
+    may_open = run.project.role != Role.NONE
+    return presented(run, user) | {
+        "project": str(run.project_id),
+        "project_name": run.project.name if may_open else "",
+        "may_open": may_open,
     }

@@ -19,6 +19,7 @@ __all__ = ["thumbnail"]
 
 WIDTH: Final = 320
 HEIGHT: Final = 200
+LARGEST_M: Final = 50.0  # half of a body; a larger one is a ground, and not the world
 MOST_PIXELS: Final = 4096 * 4096
 QUALITY: Final = 75
 _COLORS: Final = ("#868e96", "#f59f00", "#2f9e44", "#e03131", "#868e96")
@@ -77,9 +78,11 @@ def _averaged(pixels: NDArray[np.uint8], step: int) -> NDArray[np.uint8]:
 
 def _world(boxes: Sequence[Sequence[float]], trail: Sequence[Sequence[float]]) -> str:
     corners = [(x, y) for x, y in trail]
-    for x, y, half_x, half_y, *_ in boxes:
-        reach = math.hypot(half_x, half_y) if half_x < 50 and half_y < 50 else 0.0
-        corners += [(x - reach, y - reach), (x + reach, y + reach)]
+    for x, y, half_x, half_y, angle, _ in boxes:
+        if max(half_x, half_y) < LARGEST_M:
+            along, across = abs(math.cos(angle)), abs(math.sin(angle))
+            wide, high = half_x * along + half_y * across, half_x * across + half_y * along
+            corners += [(x - wide, y - high), (x + wide, y + high)]
     left, right = min(x for x, _ in corners), max(x for x, _ in corners)
     low, high = min(y for _, y in corners), max(y for _, y in corners)
     scale = min((WIDTH - 2 * _MARGIN) / max(right - left, 0.5), (HEIGHT - 2 * _MARGIN) / max(high - low, 0.5))

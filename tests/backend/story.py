@@ -257,9 +257,12 @@ def _run(story, teacher, one):
     story.ask(teacher, "PATCH", f"{one}/runs/{run['id']}", {"note": "It turned too late.", "is_shared": True})
     story.ask(teacher, "GET", f"{one}/runs/{run['id']}/recording")
     story.ask(teacher, "GET", f"{one}/runs/{run['id']}/thumbnail")
+    story.ask(teacher, "GET", "runs")
     story.ask(teacher, "DELETE", f"{one}/runs/{run['id']}", status=204)
     log = (SAMPLES / "patrol.btlog").read_bytes()
     story.ask(teacher, "POST", f"{one}/runs/logs?filename=patrol.btlog", data=log, status=201)
+    opened = story.ask(teacher, "POST", "runs/logs?filename=patrol.btlog", data=log, status=201)
+    story.ask(teacher, "DELETE", f"runs/{opened['id']}", status=204)
     story.ask(teacher, "DELETE", f"sessions/{session['id']}", status=204)
 
 

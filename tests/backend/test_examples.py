@@ -13,7 +13,7 @@ from backend.config import examples
 from backend.config.schema_view import document
 from backend.language import ruff
 from backend.language import views as language
-from backend.runs import logs
+from backend.runs import logs, views_mine
 from backend.runs import writes as run_writes
 from backend.sessions import writes as session_writes
 from backend.sessions.choices import SessionState
@@ -35,7 +35,8 @@ def told(person, stranger, manager, monkeypatch):  # noqa: F811
     monkeypatch.setattr(run_writes, "live_session", lambda *_, **__: manager)
     monkeypatch.setattr(run_writes, "manager_token", lambda _: TOKEN)
     # A team's server reads logs and checks Python in containers.
-    monkeypatch.setattr(logs, "require_converter", lambda: None)
+    for module in (logs, views_mine):
+        monkeypatch.setattr(module, "require_converter", lambda: None)
     monkeypatch.setattr(language, "checker", lambda user: ruff.run_beside)
     teacher, student = person("tina", is_teacher=True), person("ben")
 

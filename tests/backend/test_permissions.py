@@ -100,6 +100,9 @@ POLICY = {
     ("delete", f"{P}/runs/{{run_id}}"): RUN_GONE,
     ("get", f"{P}/runs/{{run_id}}/recording"): RUN_READ,
     ("get", f"{P}/runs/{{run_id}}/thumbnail"): RUN_READ,
+    ("get", "/api/v1/runs"): PERSONAL,
+    ("delete", "/api/v1/runs/{run_id}"): NOT_OWNED,
+    ("post", "/api/v1/runs/logs"): (401, 403, 503, 503, 503, 503),  # as above
     ("get", "/api/v1/sessions/{session_id}"): NOT_OWNED,
     ("delete", "/api/v1/sessions/{session_id}"): NOT_OWNED,
     ("get", "/api/v1/me"): OPEN,

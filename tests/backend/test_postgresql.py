@@ -22,6 +22,7 @@ PART = (
     "tests/backend/projects/test_after_commit_writes.py",
     "tests/backend/accounts/test_sharing.py",
     "tests/backend/test_query_budgets.py",
+    "tests/backend/runs/test_parallel.py",
 )
 # All of storage, permissions, concurrency and accounts. The kill storm starts its own servers, on SQLite.
 WHOLE = (
@@ -29,6 +30,7 @@ WHOLE = (
     "tests/backend/accounts",
     "tests/backend/test_permissions.py",
     "tests/backend/test_query_budgets.py",
+    "tests/backend/runs/test_parallel.py",
     "--ignore=tests/backend/projects/test_durability.py",
 )
 

@@ -31,6 +31,8 @@ CALLS = {
     "list_groups": ("GET", "groups", None),
     "get_me": ("GET", "me", None),
     "get_my_usage": ("GET", "me/usage", None),
+    "list_runs": ("GET", "projects/{id}/runs", None),
+    "list_my_runs": ("GET", "runs", None),
 }
 
 

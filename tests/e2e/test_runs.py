@@ -32,7 +32,8 @@ def test_a_run_is_kept_outlives_its_session_and_is_deleted(studio: Studio) -> No
     dialog.get_by_role("textbox", name="Name").fill("The first drive")
     dialog.get_by_role("textbox", name="Note").fill("It keeps away from the wall.")
     dialog.get_by_test_id("keep-run").click()
-    expect(dialog.get_by_role("listitem")).to_contain_text("The first drive")
+    row = dialog.get_by_role("listitem").filter(has_text="The first drive")
+    expect(row).to_be_visible()
     for scheme in ("dark", "light"):
         page.evaluate("s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme)
         expect_no_findings(page, f"kept runs, {scheme}")
@@ -43,7 +44,6 @@ def test_a_run_is_kept_outlives_its_session_and_is_deleted(studio: Studio) -> No
     expect(studio.at("canvas")).to_be_visible()
 
     studio.command("Kept runs")
-    row = dialog.get_by_role("listitem")
     expect(row).to_contain_text("It keeps away from the wall.")
     with page.expect_download() as downloaded:
         row.get_by_role("link", name="Download the recording").click()
@@ -57,7 +57,48 @@ def test_a_run_is_kept_outlives_its_session_and_is_deleted(studio: Studio) -> No
     row.get_by_role("button", name="Commands on").click()
     page.get_by_role("menuitem", name="Delete").click()
     row.get_by_role("alert").get_by_role("button", name="Delete").click()
-    expect(dialog).to_contain_text("No run has been kept yet")
+    expect(row).to_have_count(0)
+    last = dialog.get_by_role("listitem").filter(has_text="Last run")
+    last.get_by_role("button", name="Keep").click()
+    expect(last).to_have_count(0)
+    expect(dialog.get_by_role("listitem")).to_have_count(1)
+    page.set_viewport_size({"width": 1400, "height": 900})
+    page.keyboard.press("Escape")
+    it_is_opened_from_the_start_page_beside_another_one(studio)
+
+
+def it_is_opened_from_the_start_page_beside_another_one(studio: Studio) -> None:
+    page, runs = studio.page, studio.at("my-runs")
+    studio.open()
+    row = runs.get_by_role("listitem")
+    expect(row).to_contain_text("Running")
+    expect(row.locator("img")).to_have_js_property("complete", True)
+    assert row.locator("img").evaluate("image => image.naturalWidth") > 50
+    for scheme in ("dark", "light"):
+        page.evaluate("s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme)
+        expect_no_findings(page, f"runs on the start page, {scheme}")
+        runs.scroll_into_view_if_needed()
+        studio.picture(f"start-runs-{scheme}")
+    page.set_viewport_size({"width": 390, "height": 800})
+    runs.scroll_into_view_if_needed()
+    studio.picture("start-runs-narrow")
+    page.set_viewport_size({"width": 1400, "height": 900})
+    row.get_by_role("button", name="Commands on").focus()
+    page.keyboard.press("Enter")
+    with page.expect_popup() as popup:
+        page.get_by_role("menuitem", name="Open in a window beside this one").press("Enter")
+    expect(popup.value.get_by_test_id("time-axis")).to_contain_text("Kept run: ")
+    popup.value.close()
+
+    data = page.evaluate_handle(
+        "bytes => { const all = new DataTransfer();"
+        "all.items.add(new File([new Uint8Array(bytes)], 'patrol.btlog')); return all; }",
+        list((LOGS / "patrol.btlog").read_bytes()),
+    )
+    page.dispatch_event("body", "drop", {"dataTransfer": data})
+    expect(studio.at("time-axis")).to_contain_text("Kept run: patrol.btlog")
+    expect(studio.at("canvas")).to_contain_text("way is free")
+    studio.picture("log-as-project")
 
 
 def test_the_log_of_another_robot_is_opened_on_the_axis(studio: Studio) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from drf_spectacular.types import OpenApiTypes
 from drf_spectacular.utils import extend_schema
@@ -19,6 +19,7 @@ from backend.config.environment import environment
 from backend.core.file_answers import saved_as
 from backend.core.problems import InvalidInputError, NotFoundError
 from backend.projects.documents import personal_data
+from backend.projects.signals import usage_asked
 from backend.projects.storage import usage
 
 if TYPE_CHECKING:
@@ -27,12 +28,15 @@ if TYPE_CHECKING:
 
 
 class UsageSerializer(serializers.Serializer[Any]):
-    """The space that the user's projects take, with its limits."""
+    """The space that the user's projects and stored runs take, with its limits."""
 
     projects = serializers.IntegerField()
     max_projects = serializers.IntegerField()
     bytes = serializers.IntegerField()
     max_bytes = serializers.IntegerField()
+    runs = serializers.IntegerField()
+    run_bytes = serializers.IntegerField()
+    max_run_bytes = serializers.IntegerField()
 
 
 class Mine(ResourceViewSet):
@@ -41,8 +45,12 @@ class Mine(ResourceViewSet):
     @extend_schema(operation_id="get_my_usage", responses=UsageSerializer, tags=["accounts"])
     @action(detail=False)
     def usage(self, request: Request) -> Response:
-        """Returns the number and the bytes of the user's projects, with the limits."""
-        return Response(usage.usage(user_of(request)))
+        """Returns the number and the bytes of the user's projects and stored runs, with the limits."""
+        user = user_of(request)
+        found = usage.usage(user)
+        for _, more in usage_asked.send(Mine, user=user):
+            found |= cast("dict[str, int]", more)
+        return Response(found)
 
     @extend_schema(
         operation_id="export_my_data",
@@ -51,7 +59,7 @@ class Mine(ResourceViewSet):
     )
     @action(detail=False, expensive=("GET",))
     def data(self, request: Request) -> HttpResponseBase:
-        """Returns the user's account, audit log and projects as one zip."""
+        """Returns the user's account, audit log, projects and stored runs as one zip."""
         user = user_of(request)
         note("account.export", actor=user)
         headers = {"Content-Type": "application/zip"} | saved_as(f"{user.username}.zip")

@@ -1,7 +1,8 @@
 """The download of all data of one user.
 
-It is a zip with `account.json`, and each of the user's projects as the zip of an export. The zip is made in a
-file, one project after the other, so that it is never completely in memory and occupies no thread.
+It is a zip with `account.json`, each of the user's projects as the zip of an export, and files of other apps.
+The zip is made in a file, one project after the other, so that it is never completely in memory and occupies
+no thread for long.
 """
 
 from __future__ import annotations
@@ -9,21 +10,22 @@ from __future__ import annotations
 import json
 import zipfile
 from collections import deque
+from concurrent.futures import Future
 from contextlib import suppress
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any, cast
 
 from backend.accounts.groups import groups_of
 from backend.accounts.models import AuditEntry
 from backend.core.file_answers import FileAnswer
 from backend.core.scratch import scratch
 from backend.projects.models import ChangeSet, Draft, Project
+from backend.projects.signals import data_asked
 from backend.projects.storage import queries
 from backend.workers import zips
 from backend.workers.deferred import Deferred
 from backend.workers.lanes import pool
 
 if TYPE_CHECKING:
-    from concurrent.futures import Future
     from uuid import UUID
 
     from django.http.response import HttpResponseBase
@@ -31,6 +33,7 @@ if TYPE_CHECKING:
     from rest_framework.views import APIView
 
     from backend.accounts.models import User
+    from backend.projects.signals import MoreData
 
 
 def write_archive(user: User, file: IO[bytes]) -> None:
@@ -38,6 +41,8 @@ def write_archive(user: User, file: IO[bytes]) -> None:
     packing = _Packing(user, file)
     while (project := packing.next()) is not None:
         packing.add(project, zips.pack(queries.contents(project)))
+    while packing.add_file():
+        pass
     packing.end()
 
 
@@ -79,10 +84,22 @@ class _Answering:
     def _following(self) -> HttpResponseBase:
         project = self._packing.next()
         if project is None:
-            self._packing.end()
-            return FileAnswer(self._file, headers=self._headers)
+            return self._with_files()
         work = pool().ask(f"user {self._user_id}", "pack", files=queries.contents(project))
         return Deferred(self._view, self._request, work, lambda done: self._packed(project, done))
+
+    def _with_files(self) -> HttpResponseBase:
+        """Adds a file, then lets other requests have the thread; answers after the last one."""
+        try:
+            if self._packing.add_file():
+                turn: Future[None] = Future()
+                turn.set_result(None)
+                return Deferred(self._view, self._request, turn, lambda _: self._with_files())
+            self._packing.end()
+        except BaseException:
+            self._packing.give_up()
+            raise
+        return FileAnswer(self._file, headers=self._headers)
 
     def _packed(self, project: Project, done: Future[Any]) -> HttpResponseBase:
         try:
@@ -98,7 +115,12 @@ class _Packing:
 
     def __init__(self, user: User, file: IO[bytes]) -> None:
         self._zip, self._file = zipfile.ZipFile(file, "w"), file
-        account = json.dumps(_account(user), ensure_ascii=False, indent=2) + "\n"
+        more = [cast("MoreData", found) for _, found in data_asked.send(_Packing, user=user)]
+        document = _account(user)
+        for each in more:
+            document |= each.document
+        self._files = deque(file for each in more for file in each.files)
+        account = json.dumps(document, ensure_ascii=False, indent=2) + "\n"
         self._zip.writestr("account.json", account, zipfile.ZIP_DEFLATED)
         rows = Project.objects.filter(owner=user).order_by("name_key", "id")
         self._left: deque[UUID] = deque(rows.values_list("id", flat=True))
@@ -115,6 +137,16 @@ class _Packing:
         """Adds a packed project without compressing it again."""
         place = "deleted" if project.deleted_at else "projects"
         self._zip.writestr(f"{place}/{project.name} ({project.id}).zip", packed)
+
+    def add_file(self) -> bool:
+        """Adds the next file of another app; returns False if there is none."""
+        if not self._files:
+            return False
+        path, chunks = self._files.popleft()
+        with self._zip.open(path, "w", force_zip64=True) as member:
+            for chunk in chunks():
+                member.write(chunk)
+        return True
 
     def end(self) -> None:
         """Writes the rest of the zip."""

@@ -7,6 +7,8 @@ export type RunChange = Partial<Pick<StoredRun, 'name' | 'note' | 'is_pinned' | 
   /** Keeps the last run. */
   readonly is_last?: false;
 };
+/** A kept run of the user, with its project. */
+export type MyRun = Readonly<components['schemas']['MyRun']>;
 export interface RunToKeep {
   /** The name that its session gave it. */
   readonly run: string;
@@ -14,6 +16,12 @@ export interface RunToKeep {
   readonly note: string;
 }
 
+/** A file as the body of a call; the call names the file. */
+const body = (file: File) => ({
+  body: file,
+  bodySerializer: (plain: unknown) => plain as File,
+  headers: { 'Content-Type': 'application/octet-stream' },
+});
 const at = (project_id: string, run_id: string) => ({ path: { project_id, run_id } });
 
 /** The calls for the kept runs of a project. */
@@ -27,16 +35,19 @@ export const runs = {
     dataOf(rest.GET('/api/v1/projects/{project_id}/runs/{run_id}', { params: at(projectId, id) })),
   keep: (project_id: string, body: RunToKeep): Promise<StoredRun> =>
     dataOf(rest.POST('/api/v1/projects/{project_id}/runs', { params: { path: { project_id } }, body })),
-  // The file is the body itself.
   addLog: (project_id: string, file: File): Promise<StoredRun> =>
     dataOf(
       rest.POST('/api/v1/projects/{project_id}/runs/logs', {
         params: { path: { project_id }, query: { filename: file.name } },
-        body: file,
-        bodySerializer: (body) => body,
-        headers: { 'Content-Type': 'application/octet-stream' },
+        ...body(file),
       }),
     ),
+  mine: async (signal?: AbortSignal): Promise<readonly MyRun[]> =>
+    (await dataOf(rest.GET('/api/v1/runs', { signal: signal ?? null }))).items,
+  removeMine: (run_id: string) =>
+    done(rest.DELETE('/api/v1/runs/{run_id}', { params: { path: { run_id } } })),
+  openLog: (file: File): Promise<MyRun> =>
+    dataOf(rest.POST('/api/v1/runs/logs', { params: { query: { filename: file.name } }, ...body(file) })),
   change: (projectId: string, id: string, body: RunChange): Promise<StoredRun> =>
     dataOf(rest.PATCH('/api/v1/projects/{project_id}/runs/{run_id}', { params: at(projectId, id), body })),
   remove: (projectId: string, id: string) =>

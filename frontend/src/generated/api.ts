@@ -354,7 +354,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Returns the user's account, audit log and projects as one zip. */
+        /** @description Returns the user's account, audit log, projects and stored runs as one zip. */
         get: operations["export_my_data"];
         put?: never;
         post?: never;
@@ -376,7 +376,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Returns the number and the bytes of the user's projects, with the limits. */
+        /** @description Returns the number and the bytes of the user's projects and stored runs, with the limits. */
         get: operations["get_my_usage"];
         put?: never;
         post?: never;
@@ -1129,6 +1129,62 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Lists the runs that you kept in all projects, and your last runs; the newest 100. */
+        get: operations["list_my_runs"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /** @description Deletes a run that you kept, also one of a project that you may no longer read. */
+        delete: operations["delete_my_run"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/logs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * @description Stores a log of a robot as a run of a new project, which has the tree of the log if it tells one.
+         *
+         *     The body is the file. Known are MCAP, one file of a bag of ROS 2, and the `.btlog` and SQLite logs of
+         *     BehaviorTree.CPP.
+         */
+        post: operations["open_log"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/sessions/{session_id}": {
         parameters: {
             query?: never;
@@ -1611,6 +1667,53 @@ export interface components {
         };
         /** @enum {string} */
         ModeEnum: "local" | "team";
+        /** @description A run that you have kept, and its project. */
+        MyRun: {
+            /** Format: uuid */
+            id: string;
+            name: string;
+            note: string;
+            result: components["schemas"]["ResultEnum"];
+            /**
+             * Format: double
+             * @description Simulated time of the first message in s.
+             */
+            start_s: number;
+            /**
+             * Format: double
+             * @description Simulated time in s, from the first message to the last.
+             */
+            length_s: number;
+            /** @description In bytes. */
+            size: number;
+            is_pinned: boolean;
+            /** @description Whether all who may read the project see it. */
+            is_shared: boolean;
+            /** @description Whether it was kept by itself; the next last run replaces it. */
+            is_last: boolean;
+            /** @description Whether there is a small picture of it. */
+            has_thumbnail: boolean;
+            /** @description Whether you may rename, pin and delete it. */
+            may_manage: boolean;
+            /** @description Whether you may share it with the project. */
+            may_share: boolean;
+            /** @description The user who kept it. */
+            keeper: string;
+            /** @description The name that its session gave it. */
+            recorded_as: string;
+            /** Format: date-time */
+            created_at: string;
+            /** Format: uuid */
+            project: string;
+            /** @description Empty if you may no longer read the project. */
+            project_name: string;
+            /** @description Whether you may still read its project. */
+            may_open: boolean;
+        };
+        /** @description The runs that you have kept. */
+        MyRunList: {
+            items: components["schemas"]["MyRun"][];
+        };
         /** @description A name for a group. */
         NamedRequest: {
             name: string;
@@ -2082,12 +2185,15 @@ export interface components {
             /** @description Escape bare & and < in attributes of XML. */
             repair?: boolean;
         };
-        /** @description The space that the user's projects take, with its limits. */
+        /** @description The space that the user's projects and stored runs take, with its limits. */
         Usage: {
             projects: number;
             max_projects: number;
             bytes: number;
             max_bytes: number;
+            runs: number;
+            run_bytes: number;
+            max_run_bytes: number;
         };
         /** @description A diagram that is to be converted to XML. */
         WriteTreeRequest: {
@@ -4715,6 +4821,98 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Findings"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_my_runs: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MyRunList"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    delete_my_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No response body */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    open_log: {
+        parameters: {
+            query?: {
+                /** @description Its name, for project and run. */
+                filename?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/octet-stream": Blob;
+            };
+        };
+        responses: {
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MyRun"];
                 };
             };
             /** @description A problem document. */

@@ -64,6 +64,18 @@ def test_the_world_is_drawn_with_the_way_of_the_robot():
     assert all(0 <= x <= 320 and 0 <= y <= 200 for x, y in points)
 
 
+def test_the_walls_of_a_room_fill_the_picture_and_a_large_ground_does_not_shrink_them():
+    walls = [
+        [0.0, 4.0, 6.4, 0.0, 0.0, 0.0],
+        [0.0, -4.0, 6.4, 0.0, 0.0, 0.0],
+        [6.4, 0.0, 4.0, 0.0, 1.5708, 0.0],
+    ]
+    ground = [0.0, 0.0, 100.0, 100.0, 0.0, 0.0]
+    made = thumbnail(b"", [*walls, ground], [[0.0, 0.0], [1.0, 0.0]], [])
+    rows = ET.fromstring(made["data"]).findall(f"*/{SVG}rect")  # noqa: S314 - ours
+    assert float(rows[0].attrib["width"]) > 270
+
+
 def test_a_robot_that_stays_where_it_is_is_drawn_too():
     made = thumbnail(b"", [], [[5.0, 5.0]], [])
     assert b"160.0,100.0" in made["data"]

@@ -10,6 +10,9 @@ const usage = (bytes: number) => ({
   max_projects: 10,
   bytes: bytes * MIB,
   max_bytes: 200 * MIB,
+  runs: 4,
+  run_bytes: 30 * MIB,
+  max_run_bytes: 500 * MIB,
 });
 
 function open(answers: Readonly<Record<string, unknown>>) {
@@ -19,6 +22,11 @@ function open(answers: Readonly<Record<string, unknown>>) {
   show(<DataDialog me={account()} isOpen onClose={onClose} />);
   return { requests, assign, onClose };
 }
+
+it('shows the room that kept runs take', async () => {
+  open({ 'GET /me/usage': usage(1) });
+  expect(await screen.findByText('30 MiB of 500 MiB in 4 kept runs')).toBeInTheDocument();
+});
 
 const room = () => screen.findByRole('progressbar', { name: 'Storage for projects' });
 const color = (bar: HTMLElement) => bar.getAttribute('style') ?? '';

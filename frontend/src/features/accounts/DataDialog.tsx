@@ -50,6 +50,13 @@ function MyData({ me }: { readonly me: Me }) {
             aria-label={t('data.room')}
             color={usage.bytes > 0.9 * usage.max_bytes ? 'red' : 'indigo'}
           />
+          <Text size="sm" mt={6}>
+            {t('data.runs', {
+              used: size(usage.run_bytes),
+              max: size(usage.max_run_bytes),
+              runs: usage.runs,
+            })}
+          </Text>
         </div>
       ) : null}
       <Button

@@ -20,6 +20,7 @@ beforeEach(async () => {
     'GET /me': account(),
     'GET /catalog/templates': [{ id: 'laser_bump_and_go', name: '', description: '' }],
     [LIST]: { items: [], total: 0, next_offset: null },
+    'GET /runs': { items: [] },
   };
   ({ requests } = fakeServer(answers));
 });
@@ -59,6 +60,16 @@ describe('StartPage', () => {
     await user.upload(field(), file);
     await expect.poll(address).toBe('/projects/p1');
     expect(requests.at(-1)?.body).toBe(file);
+  });
+
+  it('makes a project of a log of a robot that was dropped on it', async () => {
+    const id = '00000001-0000-0000-0000-000000000000';
+    answers['POST /runs/logs?filename=patrol.btlog'] = { id, project: 'p7' };
+    await open();
+    const dataTransfer = { types: ['Files'], files: [new File(['log'], 'patrol.btlog')] };
+    fireEvent.drop(window, { dataTransfer });
+    await expect.poll(address).toBe('/projects/p7');
+    expect(window.location.search).toBe(`?run=${id}`);
   });
 
   it('imports a file that was dropped on it', async () => {

@@ -1,10 +1,12 @@
 import { Group, Loader, Overlay, Text } from '@mantine/core';
 import { IconUpload } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
-import { Suspense, useEffect, useRef } from 'react';
+import { Suspense, useCallback, useEffect, useRef } from 'react';
 import { closePalette, usePalette } from '@/commands/palette';
 import { useShortcuts } from '@/commands/shortcuts';
 import { UserMenu } from '@/features/accounts/UserMenu';
+import { MyRuns } from '@/features/runs/MyRuns';
+import { isLog, openNewLog } from '@/features/runs/openNewLog';
 import { ThemeToggle } from '@/ui/ThemeToggle';
 import { Logo } from '@/ui/Logo';
 import { lazyPart } from '@/ui/parts';
@@ -25,7 +27,12 @@ export function StartPage() {
   const { t } = useTranslation('projects');
   const actions = useProjectCommands();
   const { importFile, isImporting, offer, repair, decline } = useImport();
-  const isDropping = useFileDrop(importFile);
+  const { t: ofRuns } = useTranslation('runs');
+  const drop = useCallback(
+    (file: File) => (isLog(file) ? void openNewLog(file, ofRuns) : importFile(file)),
+    [importFile, ofRuns],
+  );
+  const isDropping = useFileDrop(drop);
   const pending = actions.create.isPending ? actions.create.variables : null;
 
   const isPaletteOpen = usePalette((state) => state.page !== null);
@@ -75,6 +82,7 @@ export function StartPage() {
           importButton={importButton}
         />
         <ProjectList actions={actions} searchField={searchField} />
+        <MyRuns />
         {isImporting ? (
           <Group gap="sm" role="status">
             <Loader size="xs" />

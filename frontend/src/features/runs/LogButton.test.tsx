@@ -1,17 +1,24 @@
 import { screen } from '@testing-library/react';
-import { expect, it } from 'vitest';
-import { refusal } from '../../../harness/requests';
-import { fakeServer, show, user } from '../../../harness/testing';
+import { expect, it, vi } from 'vitest';
+import { show, user } from '../../../harness/testing';
 import { LogButton } from './LogButton';
 
-it('says why a log cannot be read', async () => {
-  fakeServer({
-    'POST /projects/p1/runs/logs?filename=f.btlog': refusal('f.btlog:0: it ends within its head'),
-  });
-  const { container } = show(<LogButton projectId="p1" />);
-  expect(screen.getByRole('button', { name: 'Open a log of a robot…' })).toBeEnabled();
-  const input = container.ownerDocument.querySelector('input[type=file]');
-  await user.upload(input as HTMLInputElement, new File(['x'], 'f.btlog'));
-  expect(await screen.findByText('The log cannot be opened')).toBeInTheDocument();
-  expect(screen.getByText(/it ends within its head/)).toBeInTheDocument();
+it('opens the chosen file, and shows that it is being read', async () => {
+  let finish: () => void = () => undefined;
+  const onOpen = vi.fn(
+    () =>
+      new Promise<void>((resolve) => {
+        finish = resolve;
+      }),
+  );
+  const { container } = show(<LogButton onOpen={onOpen} />);
+  const button = screen.getByRole('button', { name: 'Open a log of a robot…' });
+  const input = container.ownerDocument.querySelector('input[type=file]') as HTMLInputElement;
+  expect(input.accept).toContain('.btlog');
+  const file = new File(['x'], 'f.btlog');
+  await user.upload(input, file);
+  expect(onOpen).toHaveBeenCalledWith(file);
+  expect(button).toHaveAttribute('data-loading');
+  finish();
+  await expect.poll(() => button.hasAttribute('data-loading')).toBe(false);
 });

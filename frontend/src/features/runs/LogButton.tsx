@@ -1,19 +1,17 @@
 import { Button, FileButton } from '@mantine/core';
 import { IconFolderOpen } from '@tabler/icons-react';
-import { useQueryClient } from '@tanstack/react-query';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { LOG_ENDINGS, openLog } from './openLog';
+import { LOG_ENDINGS } from './openNewLog';
 
 /** A button that opens the log of a robot on the time axis. */
-export function LogButton({ projectId }: { readonly projectId: string }) {
+export function LogButton({ onOpen }: { readonly onOpen: (file: File) => Promise<void> }) {
   const { t } = useTranslation('runs');
-  const client = useQueryClient();
   const [isReading, setReading] = useState(false);
   const open = async (file: File | null) => {
     if (!file) return;
     setReading(true);
-    await openLog(projectId, file, client, t);
+    await onOpen(file);
     setReading(false);
   };
   return (

@@ -4,7 +4,8 @@ import { useCallback } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useProjectStore } from '@/store/project';
 import { useFileDrop } from '@/ui/hooks/useFileDrop';
-import { isLog, openLog } from './openLog';
+import { openLog } from './openLog';
+import { isLog } from './openNewLog';
 
 /** Opens a log of a robot that is dropped anywhere on the project's page. */
 export function LogDrop() {

@@ -6,10 +6,9 @@ import { runs, type RunChange, type StoredRun } from '@/api/runs';
 import { timeAgo } from '@/i18n/timeAgo';
 import { linkTo } from '@/store/moment/address';
 import { copyLink } from '@/ui/copyLink';
-import { minutes } from './present';
+import { minutes, RESULT_COLORS } from './present';
 import { Thumbnail } from './Thumbnail';
 
-const COLORS = { success: 'green', failure: 'red', error: 'red', running: 'gray' } as const;
 const MEGA = 1e6;
 const CLOSED_AFTER_MS = 200;
 
@@ -46,7 +45,7 @@ export function RunRow({ projectId, run, onOpen, onChange, onRemove }: Props) {
               {name}
             </Button>
           )}
-          <Badge size="sm" variant="light" color={COLORS[run.result]}>
+          <Badge size="sm" variant="light" color={RESULT_COLORS[run.result]}>
             {t(`result.${run.result}`)}
           </Badge>
           {run.is_shared ? (

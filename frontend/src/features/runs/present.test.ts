@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest';
 import type { Segment } from '@/generated/messages';
-import { minutes, recordedRun } from './present';
+import { minutes, pathOf, recordedRun, RESULT_COLORS } from './present';
 
 it('names the last run of the session', () => {
   const segments = ['a', 'b', 'b'].map((run) => ({ run }) as Segment);
@@ -15,4 +15,10 @@ it.each([
   [754.2, '12:34'],
 ])('%d s are %s', (seconds, text) => {
   expect(minutes(seconds)).toBe(text);
+});
+
+it('names the page of a run, and has a colour for each result', () => {
+  const id = '00000001-0000-0000-0000-000000000000';
+  expect(pathOf({ project: 'p 1', id })).toBe(`/projects/p%201?run=${id}`);
+  expect(RESULT_COLORS.failure).toBe('red');
 });

@@ -1,3 +1,5 @@
+import type { MyRun } from '@/api/runs';
+import { projectPath } from '@/store/route';
 import type { SessionData } from '@/store/session/types';
 
 /** Returns the name of the session's last run; undefined if nothing is recorded. */
@@ -9,3 +11,10 @@ export function minutes(seconds: number): string {
   const whole = Math.floor(seconds);
   return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')}`;
 }
+
+/** Returns the path of the page that shows a run of the user at its begin. */
+export const pathOf = ({ project, id }: Pick<MyRun, 'project' | 'id'>): string =>
+  `${projectPath(project)}?run=${id}`;
+
+/** The colours of the results of runs. */
+export const RESULT_COLORS = { success: 'green', failure: 'red', error: 'red', running: 'gray' } as const;

@@ -11,9 +11,10 @@ export const useRoute = create<{ route: Route }>(() => ({ route: routeOf(window.
 
 window.addEventListener('popstate', () => useRoute.setState({ route: routeOf(window.location.pathname) }));
 
-export function navigate(pathname: string): void {
-  window.history.pushState(null, '', pathname);
-  useRoute.setState({ route: routeOf(pathname) });
+/** Goes to a page by its path, which may have a query. */
+export function navigate(path: string): void {
+  window.history.pushState(null, '', path);
+  useRoute.setState({ route: routeOf(window.location.pathname) });
 }
 
 export const projectPath = (id: string) => `/projects/${encodeURIComponent(id)}`;

@@ -8,6 +8,8 @@ import { PLAY_SPEEDS, useMoment } from '@/store/moment/store';
 import { useSessionStore } from '@/store/session/store';
 import classes from './axis.module.css';
 import { copyShownLink } from './commands';
+import { AxisMenu } from './AxisMenu';
+import { Changes } from './Changes';
 import { Strip } from './Strip';
 
 /** The time axis of the recorded run, below everything. */
@@ -27,63 +29,67 @@ export function TimeAxis() {
   const isBack = moment !== null;
   const play = t(isPlaying ? 'pause' : 'play');
   return (
-    <section
-      className={classes['axis']}
-      aria-label={t('label')}
-      data-testid="time-axis"
-      data-past={isBack || undefined}
-      data-t={moment?.toFixed(3)}
-      data-shown={shown?.t.toFixed(3)}
-    >
-      <Tooltip label={play}>
-        <ActionIcon aria-label={play} data-testid="axis-play" onClick={() => setPlaying(!isPlaying)}>
-          {isPlaying ? <IconPlayerPause size={16} /> : <IconPlayerPlay size={16} />}
-        </ActionIcon>
-      </Tooltip>
-      <NativeSelect
-        size="xs"
-        className={classes['speed']}
-        aria-label={t('speed')}
-        value={String(speed)}
-        data={PLAY_SPEEDS.map((each) => ({ value: String(each), label: `×${each}` }))}
-        onChange={({ currentTarget }) => useMoment.setState({ speed: Number(currentTarget.value) })}
-      />
-      <Strip extent={extent} />
-      <span className={classes['note']} role="status">
-        {failure ? (
-          <span className={classes['failure']} title={failure}>
-            {failure}
-          </span>
-        ) : isBack && !shown ? (
-          t('reading')
-        ) : isBack ? (
-          <span className={classes['back']} title={t('backHelp')}>
-            {kept === null ? t('back') : t('kept', { name: kept.name })}
-          </span>
-        ) : null}
-      </span>
-      <span className={classes['time']} data-testid="axis-time">
-        {isBack ? `${moment.toFixed(2)} / ${extent.to.toFixed(1)} s` : `${extent.to.toFixed(1)} s`}
-      </span>
-      {isBack ? (
-        <Tooltip label={t('link.copy')}>
-          <ActionIcon aria-label={t('link.copy')} data-testid="axis-link" onClick={copyShownLink}>
-            <IconLink size={16} />
+    <>
+      <Changes end={extent.to} />
+      <section
+        className={classes['axis']}
+        aria-label={t('label')}
+        data-testid="time-axis"
+        data-past={isBack || undefined}
+        data-t={moment?.toFixed(3)}
+        data-shown={shown?.t.toFixed(3)}
+      >
+        <Tooltip label={play}>
+          <ActionIcon aria-label={play} data-testid="axis-play" onClick={() => setPlaying(!isPlaying)}>
+            {isPlaying ? <IconPlayerPause size={16} /> : <IconPlayerPlay size={16} />}
           </ActionIcon>
         </Tooltip>
-      ) : null}
-      <Tooltip label={`${t('toLive')} (Esc)`} disabled={!isBack}>
-        <Button
-          size="compact-xs"
-          className={classes['live']}
-          variant={isBack ? 'filled' : 'default'}
-          disabled={!isBack}
-          data-testid="axis-live"
-          onClick={lookNow}
-        >
-          {t('live')}
-        </Button>
-      </Tooltip>
-    </section>
+        <NativeSelect
+          size="xs"
+          className={classes['speed']}
+          aria-label={t('speed')}
+          value={String(speed)}
+          data={PLAY_SPEEDS.map((each) => ({ value: String(each), label: `×${each}` }))}
+          onChange={({ currentTarget }) => useMoment.setState({ speed: Number(currentTarget.value) })}
+        />
+        <Strip extent={extent} />
+        <AxisMenu />
+        <span className={classes['note']} role="status">
+          {failure ? (
+            <span className={classes['failure']} title={failure}>
+              {failure}
+            </span>
+          ) : isBack && !shown ? (
+            t('reading')
+          ) : isBack ? (
+            <span className={classes['back']} title={t('backHelp')}>
+              {kept === null ? t('back') : t('kept', { name: kept.name })}
+            </span>
+          ) : null}
+        </span>
+        <span className={classes['time']} data-testid="axis-time">
+          {isBack ? `${moment.toFixed(2)} / ${extent.to.toFixed(1)} s` : `${extent.to.toFixed(1)} s`}
+        </span>
+        {isBack ? (
+          <Tooltip label={t('link.copy')}>
+            <ActionIcon aria-label={t('link.copy')} data-testid="axis-link" onClick={copyShownLink}>
+              <IconLink size={16} />
+            </ActionIcon>
+          </Tooltip>
+        ) : null}
+        <Tooltip label={`${t('toLive')} (Esc)`} disabled={!isBack}>
+          <Button
+            size="compact-xs"
+            className={classes['live']}
+            variant={isBack ? 'filled' : 'default'}
+            disabled={!isBack}
+            data-testid="axis-live"
+            onClick={lookNow}
+          >
+            {t('live')}
+          </Button>
+        </Tooltip>
+      </section>
+    </>
   );
 }

@@ -3,10 +3,11 @@ import { useProjectStore } from '@/store/project';
 import { usePastLive } from '@/store/project/live';
 import { RecordedRun, type EngineLink } from '@/store/recording/recordedRun';
 import type { FromEngine } from '@/store/recording/engine';
-import type { Moment, Overview, RecordingSource } from '@/store/recording/types';
+import type { Changes, Moment, Overview, RecordingSource } from '@/store/recording/types';
 import { useSessionStore } from '@/store/session/store';
 import type { LogLine } from '@/store/session/types';
 import { consoleOf, linesUntil, rowsOf, usePastSession } from './session';
+import { markedRange, nextMoment, noRange, useRange } from './range';
 import { ofSession, useSource, type Kept } from './source';
 import { atPresent, useMoment } from './store';
 import { showPresentWorld, showWorld } from './world';
@@ -58,6 +59,7 @@ export function lookAt(t: number, tick: number | null = null): void {
   const now = extent();
   if (!now) return;
   const isFirst = useMoment.getState().t === null;
+  if (run !== '' && run !== now.run) useRange.setState(noRange);
   run = now.run;
   useMoment.setState({
     t: Math.min(Math.max(t, now.from), now.to),
@@ -90,6 +92,7 @@ function change(source: typeof ofSession): void {
   recorded?.end();
   recorded = null;
   useSource.setState(source);
+  useRange.setState(noRange);
   useMoment.setState({ overview: null, failure: '' });
 }
 
@@ -132,6 +135,16 @@ async function beginning(): Promise<{ t: number; tick: number | null } | null> {
   });
 }
 
+/** Returns what changed between two moments; null while one of them is not read. */
+export async function changesBetween(from: number, to: number): Promise<Changes | null> {
+  const run = theRun();
+  run.want(useMoment.getState().t ?? to);
+  const changes = await run.ask({ what: 'changes', from, to });
+  // The part with the second moment is read first.
+  if (changes === null && useMoment.getState().t === null) run.want(from);
+  return changes;
+}
+
 export function setPlaying(isPlaying: boolean): void {
   const { t } = useMoment.getState();
   const now = extent();
@@ -147,9 +160,11 @@ function play(last: number): void {
     const { isPlaying, t, speed } = useMoment.getState();
     const end = extent()?.to;
     if (!isPlaying || t === null || end === undefined) return;
-    const next = t + ((now - last) / 1000) * speed;
+    const range = useRange.getState();
+    const loop = range.isLooping ? markedRange(range) : null;
+    const next = nextMoment(t, ((now - last) / 1000) * speed, loop);
     lookAt(next);
-    if (next >= end) useMoment.setState({ isPlaying: false });
+    if (next >= end && !loop) useMoment.setState({ isPlaying: false });
     else play(now);
   });
 }

@@ -50,7 +50,10 @@ COPY translator translator
 COPY examples examples
 COPY executor/universes executor/universes
 COPY executor/robots executor/robots
-COPY executor/__init__.py executor/__init__.py
+COPY executor/*.py executor/
+COPY executor/recorder executor/recorder
+COPY executor/stream executor/stream
+COPY executor/supervision executor/supervision
 COPY backend backend
 COPY docker/bt-studio.sh /usr/local/bin/bt-studio
 RUN python3 -m compileall -q backend translator tree_gardener executor

@@ -46,6 +46,17 @@ class ResultCount:
         """The number of ticks with a result."""
         return self.success + self.failure + self.running + self.skipped
 
+    def add(self, status: Status) -> None:
+        """Counts a result."""
+        if status is SUCCESS:
+            self.success += 1
+        elif status is RUNNING:
+            self.running += 1
+        elif status is FAILURE:
+            self.failure += 1
+        else:
+            self.skipped += 1
+
 
 class Hooks:
     """The hooks of a tree.
@@ -67,7 +78,7 @@ class Hooks:
 
     def entry(self, node: Node, inner: Execute) -> Execute:
         """Returns the function that ticks a node together with what runs round it."""
-        if self.tree.node_times_s is not None or self._has_hook(node):
+        if self.tree.node_times_s is not None or self.has_hook(node):
             inner = functools.partial(self.run, node, inner)
         elif self.marks_leaves and isinstance(node, Leaf):
             inner = self._timed_leaf(node, inner) if self.times_leaves else self._marked_leaf(node, inner)
@@ -75,7 +86,8 @@ class Hooks:
             inner = _logged(self.log, node.uid, inner)
         return inner if self.counts is None else _counted(self.counts[node.uid - 1], inner)
 
-    def _has_hook(self, node: Node) -> bool:
+    def has_hook(self, node: Node) -> bool:
+        """Returns whether a hook runs round the ticks of a node."""
         return bool(self.hooks) and any(hook.uid in (None, node.uid) for hook in self.hooks)
 
     def _marked_leaf(self, node: Node, inner: Execute) -> Execute:
@@ -108,12 +120,12 @@ class Hooks:
     def add(self, hook: Hook) -> Callable[[], None]:
         """Installs a hook; returns the function that removes it."""
         self.hooks.append(hook)
-        self.tree.link()
+        self.tree.link_around(hook.uid)
 
         def remove() -> None:
             if hook in self.hooks:
                 self.hooks.remove(hook)
-                self.tree.link()
+                self.tree.link_around(hook.uid)
 
         return remove
 

@@ -25,7 +25,9 @@ if TYPE_CHECKING:
     from tree_gardener.tree import Tree
 
 Execute = Callable[[], Status]
-Mark = tuple[int, Status]
+Flash = tuple[int, Status]
+Mark = tuple["Node", Status, tuple[Flash, ...]]
+"""A report of results: they are flashes, as a whole, if the node's status is not this one after the tick."""
 Marks = tuple[Mark, Mark, Mark]
 NO_PORTS: Final[Mapping[str, str]] = {}
 
@@ -284,10 +286,19 @@ class Node:
 
 
 class Control(Node):
-    """A node with children."""
+    """A node with children.
 
-    __slots__ = ()
+    Attributes:
+        quick: the generated function for the usual course of a tick (`tree_gardener.generated`), or None.
+    """
+
+    __slots__ = ("quick",)
     KIND = Kind.CONTROL
+
+    def link(self) -> None:
+        """Looks up how the children are ticked; generated code is dropped."""
+        super().link()
+        self.quick: Callable[[], Any] | None = None
 
     def reset_children(self) -> None:
         """Halts the children that are RUNNING and makes all of them IDLE."""
@@ -352,8 +363,10 @@ class Decorator(Control):
 
     def link(self) -> None:
         """Looks up how the child is ticked."""
+        self.quick = None
+        self.ticks = (self.children[0].entry(),)
         self.child = self.children[0]
-        self.tick_child = self.child.entry()
+        self.tick_child = self.ticks[0]
 
     def reset(self) -> None:
         """Halts the child if it is RUNNING, and makes it IDLE."""

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from tree_gardener.blackboard import EMPTY, Blackboard, Entry
-from tree_gardener.node import Mark, Node
+from tree_gardener.node import Flash, Mark, Node
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
 
 if TYPE_CHECKING:
@@ -79,29 +79,36 @@ class Recorder:
 
     Attributes:
         touched: nodes that started, or whose reported status was reset.
-        results: what nodes returned in this tick, except RUNNING, in order.
+        results: reports of what nodes returned in this tick, except RUNNING, in order.
+        is_disturbed: whether changes were reported within a tick, since a node halted or ticked the tree.
         writes: is called with each write to the blackboard as it happens, and the uid of its writer.
     """
 
-    __slots__ = ("entries", "observers", "results", "touched", "tree", "writes")
+    __slots__ = ("entries", "is_disturbed", "is_ticking", "observers", "results", "touched", "tree", "writes")
 
     def __init__(self, tree: "Tree") -> None:
         self.tree = tree
         self.observers: list[Observer] = []
         self.touched: list[Node] = []
         self.results: list[Mark] = []
+        self.is_ticking = self.is_disturbed = False
         self.entries: dict[int, tuple[Entry, int]] = {}
         self.writes: Callable[[Entry, int], None] | None = None
 
     def attach(self) -> None:
         """Starts recording. All nodes that are not IDLE, and all entries, count as changed."""
-        self.results = []
+        self.results.clear()
         for node in self.tree.nodes:
             uid = node.uid
-            node.marks = ((uid, SUCCESS), (uid, FAILURE), (uid, SKIPPED))
+            node.marks = (
+                (node, SUCCESS, ((uid, SUCCESS),)),
+                (node, FAILURE, ((uid, FAILURE),)),
+                (node, SKIPPED, ((uid, SKIPPED),)),
+            )
             node.reported = IDLE
             node.journal = self
-        self.touched = [node for node in self.tree.nodes if node.status is not IDLE]
+        # All nodes, since one that the current tick ticks without reports may change its status afterwards.
+        self.touched[:] = self.tree.nodes
         for board in self.tree.boards:
             board.journal = self.written
             for entry in board.entries.values():
@@ -141,13 +148,16 @@ class Recorder:
     def tick(self, function: Callable[[], T]) -> T:
         """Ticks the tree and notifies the observers, also when the tick raises."""
         start_s = time.perf_counter()
+        outer, self.is_ticking = self.is_ticking, True
         try:
             status = function()
         except BaseException:
+            self.is_ticking = outer
             # The exception kept the nodes above the failed one from reporting their results.
             self.touched += self.tree.nodes
             self.tell(time.perf_counter() - start_s)
             raise
+        self.is_ticking = outer
         self.tell(time.perf_counter() - start_s)
         return status
 
@@ -160,13 +170,24 @@ class Recorder:
     def collect(self, duration_s: float) -> TickChanges:
         """Returns the changes, computed from the recorded events."""
         nodes = self.tree.nodes
-        touched, results = self.touched, self.results
-        self.touched, self.results = [], []
+        touched, results = self.touched.copy(), self.results.copy()
+        self.touched.clear()  # generated code holds the lists
+        self.results.clear()
         touched.append(nodes[0])
-        # Uids count from 1 in the order of the nodes.
-        flashed = [mark for mark in results if nodes[mark[0] - 1].status is not mark[1]]
-        if len(flashed) != len(results):
-            touched += [nodes[mark[0] - 1] for mark in results]
+        is_disturbed, self.is_disturbed = self.is_disturbed, self.is_ticking
+        if is_disturbed:
+            touched += nodes
+        flashed: list[Flash] = []
+        for node, held, flashes in results:
+            if node.status is not held and not is_disturbed:
+                flashed += flashes
+                continue
+            for flash in flashes:  # the node still has its result, or is RUNNING and each node below counts
+                below = nodes[flash[0] - 1]  # uids count from 1 in the order of the nodes
+                if below.status is flash[1]:
+                    touched.append(below)
+                else:
+                    flashed.append(flash)
         changed: list[tuple[int, Status]] = []
         for node in touched:
             status = node.status

@@ -15,6 +15,7 @@ from tree_gardener.deep import DEEP, call_deep
 from tree_gardener.enums import Enums, constants, types
 from tree_gardener.errors import LoadError, TickError, describe
 from tree_gardener.forest import Forest
+from tree_gardener.generated.generation import Generation
 from tree_gardener.hooks import After, Before, Hook, Hooks, ResultCount
 from tree_gardener.leaves.behaviour import BehaviourLeaf
 from tree_gardener.loader import Builder
@@ -65,11 +66,13 @@ class Tree:
         self.on_warning: Callable[[Node, str], None] | None = None
         self._warned: set[tuple[int, str]] = set()
         self.tick_number = 0
+        self._ended_tick = 0
         self._current: list[int] | memoryview[int] = [0]
         self.slowest: tuple[float, int] = (0.0, 0)
         self.node_times_s: dict[int, float] | None = None
         self._hooks = Hooks(self)
         self._recorder = Recorder(self)
+        self._generation = Generation(self, self._hooks, self._recorder)
         self._is_plain = True
         self._tick_root: Execute
         self._signal = threading.Event()
@@ -219,6 +222,8 @@ class Tree:
             self._recorder.tell(0.0)
 
     def _halt(self) -> None:
+        if self._ended_tick != self.tick_number:
+            self._generation.doubt()  # a node halts the tree within its own tick
         root = self.nodes[0]
         root.stop()
         for node in self.nodes:
@@ -266,12 +271,16 @@ class Tree:
         Raises:
             TickError: a node could not do its work.
         """
-        if self._is_plain:
-            self.tick_number += 1
+        number = self.tick_number
+        if self._is_plain and self._ended_tick == number:
+            self.tick_number = number + 1
             if self._timer_heap:
                 self.timers.fire()
             tick = self._tick_root
-            status = tick()
+            try:
+                status = tick()
+            finally:
+                self._ended_tick = self.tick_number
             if status is SUCCESS or status is FAILURE:
                 self.nodes[0].status = IDLE
             return status
@@ -279,7 +288,10 @@ class Tree:
 
     def _tick_exactly_once(self) -> Status:
         self._begin()
-        return self._reset_root(self._tick_root())
+        try:
+            return self._reset_root(self._tick_root())
+        finally:
+            self._ended_tick = self.tick_number
 
     def tick_once(self) -> Status:
         """Ticks the root, and again while it is RUNNING and a node has woken the tree up.
@@ -291,10 +303,13 @@ class Tree:
 
     def _tick_once(self) -> Status:
         self._begin()
-        status = self._tick_root()
-        while status is RUNNING and self._woken():
+        try:
             status = self._tick_root()
-        return self._reset_root(status)
+            while status is RUNNING and self._woken():
+                status = self._tick_root()
+            return self._reset_root(status)
+        finally:
+            self._ended_tick = self.tick_number
 
     def tick_while_running(self, sleep_msec: float = 10) -> Status:
         """Ticks with `tick_once` and sleeps in between, until the root is not RUNNING.
@@ -338,10 +353,16 @@ class Tree:
         self._guarded_without_telling(self.timers.fire)
 
     def _begin(self) -> None:
+        if self._ended_tick != self.tick_number:
+            self._generation.doubt()  # a node ticks the tree within its own tick
         self.tick_number += 1
         self.slowest = (0.0, 0)
         if self.timers.heap:
             self.timers.fire()
+        if self._generation.queue:
+            self._generation.work()
+            if not self._generation.queue:
+                self._choose_way()
 
     def _woken(self) -> bool:
         """Returns whether the wake-up flag is set, and clears it."""
@@ -460,4 +481,41 @@ class Tree:
         for node in self.nodes:
             node.link()
         self._tick_root = self.nodes[0].entry()
-        self._is_plain = not self._recorder.observers and self.depth <= DEEP and not self._hooks.times_leaves
+        self._generation.restart()
+        self._choose_way()
+
+    def link_around(self, uid: int | None) -> None:
+        """Looks up again how one node is ticked, or all (None), after a hook came or went."""
+        if uid is None or not 0 < uid <= len(self.nodes):
+            self.link()
+            return
+        node = self.nodes[uid - 1]
+        if node.parent is None:
+            self._tick_root = node.entry()
+        else:
+            node.parent.link()
+        self._generation.drop(node)
+        self._choose_way()
+
+    def generated_source(self) -> str:
+        """Returns the Python code that is generated for ticks, for inspection; "" if there is none.
+
+        What is still to be generated is generated now. Call it between two ticks.
+        """
+        self._generation.finish()
+        self._choose_way()
+        return self._generation.source()
+
+    def generate_code(self, *, on: bool) -> None:
+        """Switches generated code on or off, from the next tick on; see `tree_gardener.generated`."""
+        self._generation.enabled = on
+        self.link()
+
+    def _choose_way(self) -> None:
+        """Chooses the shorter way to tick if nothing is to be done round the tick."""
+        self._is_plain = not (
+            self._recorder.observers
+            or self.depth > DEEP
+            or self._hooks.times_leaves
+            or self._generation.queue
+        )

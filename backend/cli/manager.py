@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path  # noqa: TC003 - read at run time
 from typing import Annotated
 
 import typer
@@ -34,6 +35,9 @@ def manager(  # noqa: PLR0913, PLR0917 - one an option
     no_recording: Annotated[  # noqa: FBT002 - typer's way
         bool, typer.Option("--no-recording", help="Keep no recording of the runs.")
     ] = False,
+    recordings: Annotated[
+        Path | None, typer.Option(help="Folder for the recordings of the runs; it stays at the end.")
+    ] = None,
     allow_origin: Annotated[
         list[str] | None,
         typer.Option(help="Page that may drive it, such as https://example.org; repeatable."),
@@ -52,6 +56,7 @@ def manager(  # noqa: PLR0913, PLR0917 - one an option
         ("--ready-fd", ready_fd),
         ("--domain-id", domain_id),
         ("--grace", grace),
+        ("--recordings", recordings),
     ):
         if value is not None:
             arguments += [name, str(value)]

@@ -101,6 +101,10 @@ class Environment(TeamSettings):
     max_user_run_bytes: int = Field(
         default=4096 * MEBIBYTE, gt=0, description="Sum of all stored runs of one user."
     )
+    keep_last_runs: bool = Field(
+        default=True,
+        description="Whether the last run of each user in a project is kept when its session ends.",
+    )
     max_user_projects: int = Field(default=2000, gt=0, description="Number of projects of one user.")
     max_request_bytes: int = Field(
         default=64 * MEBIBYTE,

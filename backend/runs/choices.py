@@ -6,7 +6,7 @@ from django.db.models import TextChoices
 
 
 class Result(TextChoices):
-    """The end of a run as the page reported it; it proves nothing."""
+    """The end of a run: with a fault, with the last result of its root, or before there was one."""
 
     RUNNING = "running", "Running"
     SUCCESS = "success", "Success"

@@ -10,6 +10,7 @@ from backend.core.scratch import scratch
 from backend.projects.storage import queries as projects
 from backend.projects.storage.access import Need
 from backend.runs.errors import LogRefusedError
+from backend.runs.facts import facts_of
 from backend.runs.length import DamagedError
 from backend.runs.models import MAX_NAME_LENGTH
 from backend.runs.outside import convert, require_converter
@@ -20,16 +21,18 @@ if TYPE_CHECKING:
 
     from backend.accounts.models import User
     from backend.projects.models import Project
+    from backend.runs.facts import Facts
     from backend.runs.models import Run
 
 __all__ = ["Recording", "keep_log", "may_keep", "read_log"]
 
 
 class Recording(NamedTuple):
-    """A recording that was made of a log, and the name of the log."""
+    """A recording that was made of a log, the name of the log, and what it says."""
 
     name: str
     file: IO[bytes]
+    facts: Facts
 
 
 def may_keep(project_id: UUID, *, acting_user: User) -> Project:
@@ -44,7 +47,7 @@ def may_keep(project_id: UUID, *, acting_user: User) -> Project:
     return project
 
 
-def read_log(log: IO[bytes], filename: str) -> Recording:
+def read_log(log: IO[bytes], filename: str, owner: str) -> Recording:
     """Returns what was made of a log; nothing of it stays on the disk once the file is closed.
 
     Raises:
@@ -54,20 +57,20 @@ def read_log(log: IO[bytes], filename: str) -> Recording:
     folder = scratch().folder
     folder.mkdir(parents=True, exist_ok=True, mode=0o700)
     with tempfile.TemporaryDirectory(dir=folder) as made:
-        return Recording(name, convert(log, name, Path(made)).open("rb"))
+        file = convert(log, name, Path(made)).open("rb")
+    try:
+        return Recording(name, file, facts_of(file, owner))
+    except DamagedError as error:
+        file.close()
+        text = f"{name}: no recording was made of it: {error}."
+        raise LogRefusedError(text, hint="Does the log have any changes?", reason="damaged") from error
 
 
 def keep_log(project: Project, recording: Recording, *, acting_user: User) -> Run:
     """Stores what was made of a log as a run of the user, and closes it.
 
     Raises:
-        LogRefusedError: it is no recording.
         RunQuotaError: the user's runs take all the space that they may.
     """
-    name, file = recording
-    with file:
-        try:
-            return stored(file, project, acting_user, {"name": name})
-        except DamagedError as error:
-            text = f"{name}: no recording was made of it: {error}."
-            raise LogRefusedError(text, hint="Does the log have any changes?", reason="damaged") from error
+    with recording.file as file:
+        return stored(file, recording.facts, project, acting_user, {"name": recording.name})

@@ -11,6 +11,7 @@ from typing import Final
 
 from django.conf import settings
 from django.db import models
+from django.db.models import Q
 
 from backend.projects.models import Project
 from backend.runs.choices import Result
@@ -23,8 +24,8 @@ MAX_NOTE_LENGTH: Final = 2000
 class Run(models.Model):
     """A recording that a user has kept.
 
-    `recorded_as` is the name that its session gave it. `start_s` and `length_s` are read from the recording;
-    `result` is what the page reported.
+    `recorded_as` is the name that its session gave it. `start_s`, `length_s`, `result` and the thumbnail are
+    read from the recording. `is_last` marks the last run of its user and project, which is kept by itself.
     """
 
     id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
@@ -40,7 +41,17 @@ class Run(models.Model):
     sha256 = models.CharField(max_length=64)
     is_pinned = models.BooleanField(default=False)
     is_shared = models.BooleanField(default=False)
+    is_last = models.BooleanField(default=False)
+    thumbnail = models.BinaryField(default=bytes)
+    thumbnail_type = models.CharField(max_length=20, blank=True)
     created_at = models.DateTimeField(db_index=True)
+
+    class Meta:
+        constraints = [
+            models.UniqueConstraint(
+                fields=["project", "keeper"], condition=Q(is_last=True), name="run_last_unique"
+            )
+        ]
 
     def __str__(self) -> str:
         return self.name

@@ -14,8 +14,9 @@ from backend.sessions.keeper.unix_http import UnixHTTPConnection
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["pull"]
+__all__ = ["DEADLINE_S", "LAST", "pull"]
 
+LAST: Final = "last"
 ANSWER_S: Final = 130.0  # the manager joins the segments for at most two minutes
 DEADLINE_S: Final = 300.0
 MOST_TRIES: Final = 3
@@ -29,22 +30,25 @@ class _ChangedError(Exception):
     """Another client made the manager join the recording again, so that it has become longer."""
 
 
-def pull(address: str, token: str, recorded_as: str, out: IO[bytes], most: int) -> int:
+def pull(  # noqa: PLR0913, PLR0917 - where from, what, where to, and how much
+    address: str, token: str, recorded_as: str, out: IO[bytes], most: int, deadline_s: float = DEADLINE_S
+) -> int:
     """Writes a recording to a file; returns its size in bytes.
 
     Args:
         address: the manager's address, `host:port`, or `unix:` with the path of a socket.
         token: the manager's token.
-        recorded_as: the name that the session gave the run.
+        recorded_as: the name that the session gave the run, or `LAST` for the last one.
         out: the file.
         most: the largest size in bytes.
+        deadline_s: how long it may take, in s.
 
     Raises:
         NotRecordedError: there is no such run.
         RunQuotaError: it is larger than `most`.
         NoAnswerError: the manager does not answer, or what it answers is no recording.
     """
-    end_s = time.monotonic() + DEADLINE_S
+    end_s = time.monotonic() + deadline_s
     try:
         for _ in range(MOST_TRIES):
             out.seek(0)
@@ -61,9 +65,10 @@ def _pull(  # noqa: PLR0913, PLR0917 - as `pull`, and the deadline
 ) -> int:
     size, total, tag = 0, 1, None
     while size < total:
-        if time.monotonic() > end_s:
+        left_s = end_s - time.monotonic()
+        if left_s <= 0:
             raise NoAnswerError("The executor took too long to give the recording.", hint=_AGAIN)
-        connection = _connection(address)
+        connection = _connection(address, min(ANSWER_S, left_s))
         try:
             headers = {"Authorization": f"Bearer {token}", "Range": f"bytes={size}-"}
             connection.request("GET", f"/recordings/{recorded_as}/0", headers=headers)
@@ -85,11 +90,11 @@ def _pull(  # noqa: PLR0913, PLR0917 - as `pull`, and the deadline
     return size
 
 
-def _connection(address: str) -> http.client.HTTPConnection:
+def _connection(address: str, timeout_s: float) -> http.client.HTTPConnection:
     kind, _, path = address.partition(":")
     if kind == "unix":
-        return UnixHTTPConnection(path, ANSWER_S)
-    return http.client.HTTPConnection(address, timeout=ANSWER_S)
+        return UnixHTTPConnection(path, timeout_s)
+    return http.client.HTTPConnection(address, timeout=timeout_s)
 
 
 def _described(answer: http.client.HTTPResponse, at: int, recorded_as: str) -> tuple[int, int]:

@@ -32,21 +32,25 @@ __all__ = ["may_manage", "may_share", "parts", "room", "run", "runs"]
 def runs(project_id: UUID, *, user: User) -> list[Run]:
     """Returns the runs of a project that a user may see: pinned ones first, then the newest."""
     project = projects.project(project_id, user=user, need=Need.READ)
-    found = list(_visible(project, user).select_related("keeper").order_by("-is_pinned", "-created_at", "id"))
+    rows = _visible(project, user).select_related("keeper").defer("thumbnail")
+    found = list(rows.order_by("-is_pinned", "-created_at", "id"))
     for row in found:
         row.project = project  # it has the user's role
     return found
 
 
-def run(project_id: UUID, run_id: UUID, *, user: User, need: Need = Need.READ) -> Run:
-    """Returns a run that a user may see.
+def run(
+    project_id: UUID, run_id: UUID, *, user: User, need: Need = Need.READ, has_thumbnail: bool = False
+) -> Run:
+    """Returns a run that a user may see; with `has_thumbnail` its picture is read with it.
 
     Raises:
         NotFoundError: the project or the run does not exist, or the user may not know of it.
         RoleTooLowError: the user's role in the project does not suffice.
     """
     project = projects.project(project_id, user=user, need=need)
-    found = _visible(project, user).select_related("keeper").filter(id=run_id).first()
+    rows = _visible(project, user).select_related("keeper")
+    found = (rows if has_thumbnail else rows.defer("thumbnail")).filter(id=run_id).first()
     if found is None:
         raise NotFoundError("There is no such run.")
     found.project = project

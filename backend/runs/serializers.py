@@ -28,6 +28,10 @@ class RunSerializer(serializers.Serializer[Any]):
     size = serializers.IntegerField(help_text="In bytes.")
     is_pinned = serializers.BooleanField()
     is_shared = serializers.BooleanField(help_text="Whether all who may read the project see it.")
+    is_last = serializers.BooleanField(
+        help_text="Whether it was kept by itself; the next last run replaces it."
+    )
+    has_thumbnail = serializers.BooleanField(help_text="Whether there is a small picture of it.")
     may_manage = serializers.BooleanField(help_text="Whether you may rename, pin and delete it.")
     may_share = serializers.BooleanField(help_text="Whether you may share it with the project.")
     keeper = serializers.CharField(help_text="The user who kept it.")
@@ -47,7 +51,6 @@ class KeepRunSerializer(StrictSerializer):
     run = serializers.RegexField(r"^[0-9a-f]{1,32}$", help_text="Its name in the event `segment`.")
     name = serializers.CharField(max_length=MAX_NAME_LENGTH)
     note = serializers.CharField(max_length=MAX_NOTE_LENGTH, allow_blank=True, default="")
-    result = serializers.ChoiceField(choices=Result.choices, default=Result.RUNNING)
 
 
 class ChangeRunSerializer(StrictSerializer):
@@ -57,12 +60,16 @@ class ChangeRunSerializer(StrictSerializer):
     note = serializers.CharField(max_length=MAX_NOTE_LENGTH, allow_blank=True, required=False)
     is_pinned = serializers.BooleanField(required=False)
     is_shared = serializers.BooleanField(required=False)
+    is_last = serializers.ChoiceField(
+        choices=[False], required=False, help_text="`false` keeps the last run, as any change of it does."
+    )
 
 
 def presented(run: Run, user: User) -> dict[str, Any]:
     """Returns a run as JSON for a user."""
-    plain = ("name", "note", "result", "start_s", "length_s", "size", "is_pinned", "is_shared", "recorded_as")
-    return {name: getattr(run, name) for name in plain} | {
+    plain = ("name", "note", "result", "start_s", "length_s", "size", "is_pinned", "is_shared", "is_last")
+    return {name: getattr(run, name) for name in (*plain, "recorded_as")} | {
+        "has_thumbnail": bool(run.thumbnail_type),
         "id": str(run.id),
         "may_manage": may_manage(run, user=user),
         "may_share": may_share(run, user=user),

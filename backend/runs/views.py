@@ -14,12 +14,13 @@ from rest_framework.response import Response
 from backend.accounts.api.requests import parsed, user_of
 from backend.accounts.api.viewsets import ResourceViewSet
 from backend.core.file_answers import FileAnswer, saved_as
+from backend.core.problems import NotFoundError
 from backend.core.scratch import scratch
 from backend.ingress.bodies import body_of
 from backend.runs import logs, queries, writes
 from backend.runs import serializers as s
 from backend.runs.ranges import asked_range
-from backend.workers.aside import conversions
+from backend.workers.aside import conversions, pulls
 from backend.workers.deferred import Deferred
 
 if TYPE_CHECKING:
@@ -52,11 +53,21 @@ class Runs(ResourceViewSet):
     @extend_schema(
         operation_id="keep_run", request=s.KeepRunSerializer, responses={201: s.RunSerializer}, tags=["runs"]
     )
-    def create(self, request: Request, project_id: UUID) -> Response:
-        """Stores the recording of a run of your session. The last 20 stay, and all that are pinned."""
+    def create(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Stores the recording of a run of your session. The last 20 stay, and all that are pinned.
+
+        Length, result and picture are read from the recording.
+        """
         asked, user = parsed(s.KeepRunSerializer, request.data), user_of(request)
+        source = writes.source(project_id, acting_user=user)
         values: dict[str, Any] = {"recorded_as": asked.pop("run"), **asked}
-        return Response(s.presented(writes.keep(project_id, values, acting_user=user), user), status=201)
+        fetching = partial(writes.fetch, source, values["recorded_as"], user.pk)
+
+        def kept(done: Future[writes.Fetched]) -> Response:
+            run = writes.keep(done.result(), source.project, values, acting_user=user)
+            return Response(s.presented(run, user), status=201)
+
+        return Deferred(self, request, pulls.ask(f"user {user.pk}", fetching), kept)
 
     @extend_schema(
         operation_id="keep_log",
@@ -73,7 +84,7 @@ class Runs(ResourceViewSet):
         """
         user, name = user_of(request), request.query_params.get("filename", "")
         project, body = logs.may_keep(project_id, acting_user=user), body_of(request)
-        work = conversions.ask(f"user {user.pk}", partial(logs.read_log, body, name))
+        work = conversions.ask(f"user {user.pk}", partial(logs.read_log, body, name, f"user {user.pk}"))
 
         def kept(done: Future[logs.Recording]) -> Response:
             run = logs.keep_log(project, done.result(), acting_user=user)
@@ -100,6 +111,24 @@ class Runs(ResourceViewSet):
         """Deletes a run."""
         writes.delete(project_id, run_id, acting_user=user_of(request))
         return Response(status=204)
+
+    @extend_schema(
+        operation_id="get_run_thumbnail",
+        responses={(200, "image/*"): OpenApiTypes.BINARY},
+        tags=["runs"],
+    )
+    @action(detail=True)
+    def thumbnail(self, request: Request, project_id: UUID, run_id: UUID) -> HttpResponseBase:
+        """Returns a small picture of a run: of a camera, of the world and the robot's way, or of the tree."""
+        run = queries.run(project_id, run_id, user=user_of(request), has_thumbnail=True)
+        if not run.thumbnail_type:
+            raise NotFoundError("This run has no picture.")
+        headers = {
+            "X-Content-Type-Options": "nosniff",
+            "Content-Security-Policy": "default-src 'none'; sandbox",
+            "Cache-Control": "private, max-age=86400, immutable",
+        }
+        return HttpResponse(bytes(run.thumbnail), content_type=run.thumbnail_type, headers=headers)
 
     @extend_schema(
         operation_id="download_run",

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import os
-from typing import IO, TYPE_CHECKING, Any, Final
+from typing import IO, TYPE_CHECKING, Any, Final, NamedTuple
 
 from django.db import transaction
+from django.db.models import Sum
 from django.utils import timezone
 
 from backend.core.locks import transaction_lock
@@ -15,9 +16,10 @@ from backend.projects.storage import queries as projects
 from backend.projects.storage.access import Need, RoleTooLowError
 from backend.runs import queries
 from backend.runs.errors import NoAnswerError, NotRecordedError, RunQuotaError
-from backend.runs.length import DamagedError, length_of
+from backend.runs.facts import facts_of
+from backend.runs.length import DamagedError
 from backend.runs.models import PART_BYTES, Run, RunPart
-from backend.runs.pull import pull
+from backend.runs.pull import DEADLINE_S, pull
 from backend.sessions.choices import SessionState
 from backend.sessions.queries import live_session
 from backend.sessions.writes import manager_token
@@ -27,53 +29,120 @@ if TYPE_CHECKING:
 
     from backend.accounts.models import User
     from backend.projects.models import Project
+    from backend.runs.facts import Facts
 
-__all__ = ["MOST_UNPINNED", "change", "delete", "keep", "stored"]
+__all__ = [
+    "MOST_UNPINNED",
+    "Fetched",
+    "Source",
+    "change",
+    "delete",
+    "fetch",
+    "keep",
+    "source",
+    "store_last",
+    "stored",
+]
 
 MOST_UNPINNED: Final = 20
+SAME_S: Final = 1.0
+"""A kept run that is at most so much shorter, in s, than the last one is the same run."""
 
 
-def keep(project_id: UUID, asked: dict[str, Any], *, acting_user: User) -> Run:
-    """Stores the recording of a run of the user's own session.
+class Source(NamedTuple):
+    """A session from which the recording of a run is fetched."""
 
-    Of the runs that a user keeps in a project, the last 20 stay, and all that are pinned.
+    project: Project
+    address: str
+    token: str
+    most_bytes: int
+
+
+class Fetched(NamedTuple):
+    """A recording that was fetched from its session, and what it says. The caller closes the file."""
+
+    file: IO[bytes]
+    facts: Facts
+
+
+def source(project_id: UUID, *, acting_user: User) -> Source:
+    """Returns the user's own session of a project, from which a run can be kept.
 
     Raises:
-        NotRecordedError: the user has no session of this project, or it has no such run.
-        RunQuotaError: the user's runs take all the space that they may.
-        NoAnswerError: the executor does not give the recording.
+        NotRecordedError: the user has no session of this project.
     """
     project = projects.project(project_id, user=acting_user, need=Need.RUN)
     session = live_session(project_id, user=acting_user)
     if session is None or session.state != SessionState.READY:
         raise NotRecordedError("No session of yours runs this project.", hint="Press Run, then keep the run.")
-    with scratch().file(key=f"run of {acting_user.pk}") as file:
-        most = queries.room(acting_user)
-        pull(session.address, manager_token(session), asked["recorded_as"], file, most)
-        try:
-            return stored(file, project, acting_user, asked)
-        except DamagedError as error:
+    return Source(project, session.address, manager_token(session), queries.room(acting_user))
+
+
+def fetch(asked: Source, recorded_as: str, user_id: int, deadline_s: float = DEADLINE_S) -> Fetched:
+    """Fetches the recording of a run; reads nothing of the database. It takes seconds.
+
+    Raises:
+        NotRecordedError: the session has no such run.
+        RunQuotaError: it is larger than there is room.
+        NoAnswerError: the executor does not give the recording.
+    """
+    file = scratch().file(key=f"run of {user_id}")
+    try:
+        pull(asked.address, asked.token, recorded_as, file, asked.most_bytes, deadline_s)
+        return Fetched(file, facts_of(file, f"user {user_id}"))
+    except BaseException as error:
+        file.close()
+        if isinstance(error, DamagedError):
             raise NoAnswerError(
                 f"What the executor gave is no recording: {error}.", hint="Run again, and keep that run."
             ) from error
+        raise
 
 
-def stored(file: IO[bytes], project: Project, keeper: User, values: dict[str, Any]) -> Run:
+def keep(fetched: Fetched, project: Project, values: dict[str, Any], *, acting_user: User) -> Run:
+    """Stores a fetched recording, and closes it.
+
+    Of the runs that a user keeps in a project, the last 20 stay, and all that are pinned.
+
+    Raises:
+        RunQuotaError: the user's runs take all the space that they may.
+    """
+    with fetched.file as file:
+        return stored(file, fetched.facts, project, acting_user, values)
+
+
+def stored(file: IO[bytes], facts: Facts, project: Project, keeper: User, values: dict[str, Any]) -> Run:
     """Stores a recording as a run; without the name that a session gave it, its hash names it.
 
     Raises:
-        DamagedError: the file is no recording.
         RunQuotaError: the keeper's runs take all the space that they may.
     """
-    size = file.seek(0, os.SEEK_END)
-    start_s, length_s = length_of(lambda at, length: _read(file, at, length), size)
-    sha256 = _digest(file)
-    found = {"size": size, "start_s": start_s, "length_s": length_s, "sha256": sha256}
-    return _store(file, project, keeper, {"recorded_as": sha256[:32]} | values | found)
+    return _store(file, project, keeper, _found(file, facts) | values)
+
+
+@transaction.atomic
+def store_last(file: IO[bytes], facts: Facts, project: Project, keeper: User) -> Run | None:
+    """Stores a recording as the last run of a user in a project, in place of the one before.
+
+    Returns None, and leaves the one before, where the user has kept this run, or there is no room.
+    """
+    _lock(keeper)
+    found = _found(file, facts)
+    same = Run.objects.filter(project=project, keeper=keeper, is_last=False, recorded_as=found["recorded_as"])
+    if same.filter(length_s__gte=facts.length_s - SAME_S).exists():
+        return None
+    before = Run.objects.filter(project=project, keeper=keeper, is_last=True)
+    freed = before.aggregate(size=Sum("size"))["size"] or 0
+    if found["size"] > queries.room(keeper) + freed:
+        return None
+    before.delete()
+    return _store(file, project, keeper, {"name": "", "is_last": True} | found)
 
 
 def change(project_id: UUID, run_id: UUID, asked: dict[str, Any], *, acting_user: User) -> Run:
     """Changes name, note and pin of a run, and whether it is shared. Only its keeper may share it.
+
+    A last run that is changed is a kept one from then on.
 
     Raises:
         RoleTooLowError: the run is another user's, or the user may not share in this project.
@@ -83,6 +152,9 @@ def change(project_id: UUID, run_id: UUID, asked: dict[str, Any], *, acting_user
     if shares and run.keeper_id != acting_user.pk:
         raise _of_another(run, "They can share it.")
     _require_own(run, acting_user)
+    asked = {"is_last": False} | asked
+    if not run.name:
+        asked = {"name": f"{run.created_at:%Y-%m-%d %H:%M}"} | asked
     for name, value in asked.items():
         setattr(run, name, value)
     run.save(update_fields=list(asked))
@@ -113,7 +185,7 @@ def _of_another(run: Run, hint: str) -> RoleTooLowError:
 
 @transaction.atomic
 def _store(file: IO[bytes], project: Project, keeper: User, values: dict[str, Any]) -> Run:
-    transaction_lock(f"runs of {keeper.pk}")  # of two that are kept at once, both count
+    _lock(keeper)
     if values["size"] > queries.room(keeper):
         raise RunQuotaError(
             "Other runs that you kept meanwhile took the space.", hint="Delete runs that you no longer need."
@@ -124,10 +196,30 @@ def _store(file: IO[bytes], project: Project, keeper: User, values: dict[str, An
     while data := file.read(PART_BYTES):
         RunPart.objects.create(run=run, number=number, data=data)
         number += 1
-    older = Run.objects.filter(project=project, keeper=keeper, is_pinned=False).order_by("-created_at", "id")
-    for row in older[MOST_UNPINNED:]:
+    older = Run.objects.filter(project=project, keeper=keeper, is_pinned=False, is_last=False)
+    for row in older.order_by("-created_at", "id").defer("thumbnail")[MOST_UNPINNED:]:
         row.delete()
     return run
+
+
+def _lock(keeper: User) -> None:
+    """Makes stores of one user wait for each other, so that of two that are kept at once both count."""
+    transaction_lock(f"runs of {keeper.pk}")
+
+
+def _found(file: IO[bytes], facts: Facts) -> dict[str, Any]:
+    """Returns the columns that the server finds out by itself."""
+    sha256 = _digest(file)
+    return {
+        "size": file.seek(0, os.SEEK_END),
+        "sha256": sha256,
+        "start_s": facts.start_s,
+        "length_s": facts.length_s,
+        "result": facts.result,
+        "thumbnail": facts.thumbnail,
+        "thumbnail_type": facts.thumbnail_type,
+        "recorded_as": facts.run or sha256[:32],
+    }
 
 
 def _digest(file: IO[bytes]) -> str:
@@ -136,8 +228,3 @@ def _digest(file: IO[bytes]) -> str:
     while data := file.read(PART_BYTES):
         digest.update(data)
     return digest.hexdigest()
-
-
-def _read(file: IO[bytes], at: int, length: int) -> bytes:
-    file.seek(at)
-    return file.read(length)

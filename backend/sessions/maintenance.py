@@ -29,6 +29,7 @@ from backend.sessions import drain, writes
 from backend.sessions.choices import SessionState
 from backend.sessions.lease import CARE, holder, is_alone
 from backend.sessions.models import Session
+from backend.sessions.signals import sessions_maintained
 from backend.sessions.watch import watchmen
 
 if TYPE_CHECKING:
@@ -183,6 +184,7 @@ def maintain(*, is_for_orphans: bool = False) -> None:
         writes.refresh(session)
     end_idle()
     writes.start_queued()
+    sessions_maintained.send_robust(Session)
 
 
 def ready_sessions() -> list[Session]:

@@ -29,6 +29,7 @@ from backend.sessions.launchers.base import Launcher, Spec
 from backend.sessions.launchers.docker import DockerLauncher
 from backend.sessions.launchers.process import ProcessLauncher
 from backend.sessions.models import LIVE_STATES, RUNNING_STATES, Session
+from backend.sessions.signals import session_ends
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -55,7 +56,7 @@ def launcher() -> Launcher:
     settings = environment()
     if settings.launcher == "docker":
         return DockerLauncher(settings.keeper_folder)
-    return ProcessLauncher(settings.data_dir / "logs")
+    return ProcessLauncher(settings.data_dir / "logs", recordings=settings.data_dir / "recordings")
 
 
 @lru_cache(maxsize=1)
@@ -179,6 +180,8 @@ def end_session(session: Session, why: str = "") -> Session:
         return session
     _look_again(session)
     if session.launcher_state:
+        if session.state == SessionState.READY:
+            session_ends.send_robust(Session, session=session)
         launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
     if session.state in LIVE_STATES:
         _finish(session, SessionState.ENDED, why)

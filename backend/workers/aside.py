@@ -88,4 +88,6 @@ class Aside:
 
 unpacking: Final = Aside("unpacking", threads=2, per_owner=1, waiting=8)
 conversions: Final = Aside("conversions", threads=2, per_owner=1, waiting=8)
+pulls: Final = Aside("pulls", threads=4, per_owner=1, waiting=64)
+sweeps: Final = Aside("sweeps", threads=1, per_owner=1, waiting=1)
 checkers: Final = Aside("checkers", threads=4, per_owner=2, waiting=32)

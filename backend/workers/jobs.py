@@ -9,7 +9,7 @@ import base64
 import re
 from typing import TYPE_CHECKING, Any, Final
 
-from backend.workers import differences, zips
+from backend.workers import differences, thumbnails, zips
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -205,6 +205,16 @@ def diff(older: Mapping[str, str | None], newer: Mapping[str, str | None]) -> An
     return {"files": differences.diff(older, newer)}
 
 
+def thumbnail(
+    picture: bytes,
+    boxes: Sequence[Sequence[float]],
+    trail: Sequence[Sequence[float]],
+    rows: Sequence[Sequence[int]],
+) -> Answer:
+    """Returns a small picture of a run."""
+    return thumbnails.thumbnail(picture, boxes, trail, rows)
+
+
 def _tree(diagram: str) -> Tree:
     from translator import TranslatorError  # noqa: PLC0415
     from translator.diagram import restore  # noqa: PLC0415
@@ -252,6 +262,6 @@ JOBS: Final[dict[str, Callable[..., Answer]]] = {
             xsd,
             opened,
         ),
-        *(inspect, write_tree, read_tree, pack, diff),
+        *(inspect, write_tree, read_tree, pack, diff, thumbnail),
     )
 }

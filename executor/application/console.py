@@ -33,21 +33,25 @@ class Console(io.TextIOBase):
         original: the replaced stream; the lines are written to it if the channel is closed, as in a process
             that an action forked.
         now_s: returns the simulated time in s; 0 while it is not known.
+        clock: returns the time in s by which floods are cut.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - a stream, and what replaces it
         self,
         level: LogLevel,
         send: Callable[[Log], None],
         locator: Locator,
         original: Any,
         now_s: Callable[[], float],
+        *,
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._level = level
         self._send = send
         self._locator = locator
         self._original = original
         self._now_s = now_s
+        self._clock = clock
         self._pending = threading.local()
         self._limit = RateLimit()
         self._lock = threading.Lock()
@@ -95,7 +99,7 @@ class Console(io.TextIOBase):
 
     def _say(self, line: str) -> None:
         with self._lock:
-            if not self._limit.admits(time.monotonic()):
+            if not self._limit.admits(self._clock()):
                 return
             held_back = self._limit.take_held_back()
         if held_back:

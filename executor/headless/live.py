@@ -90,7 +90,9 @@ async def _run(
     keeping = contextlib.nullcontext() if options.recording is None else kept_run(options.recording)
     with keeping as folder:
         token = secrets.token_urlsafe()
-        settings = ManagerSettings(port=0, token=token, records=folder is not None, recordings=folder)
+        settings = ManagerSettings(
+            port=0, token=token, records=folder is not None, recordings=folder, keeps_whole=True
+        )
         manager = Manager(settings)
         try:
             port = await manager.start()

@@ -13,10 +13,12 @@ import time
 import traceback
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.headless.files import write_files
 from executor.headless.lines import mismatch_line
+from executor.headless.output import RecordedOutput, recorded
 from executor.headless.report import NodeCount, Report, quantiles
 from executor.ros.environment import use_lockstep_environment
 from executor.supervision.scratch import Scratch
@@ -26,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from executor.child_messages import TopicMismatch
+    from executor.child_messages import Log, TopicMismatch
     from executor.headless.recorder import RunRecorder
     from executor.headless.recording import Recording
     from executor.ros.node import WorldNode
@@ -133,6 +135,8 @@ class LockstepRun:
         self.moved: Callable[[], None] = lambda: None
         self._stack: list[Callable[[], object]] = []
         self._recorder: RunRecorder | None = None  # set when the tree is loaded
+        self._output: tuple[Any, Any] = (None, None)
+        self._printed: list[Log] = []  # before there is a recorder
         self.has_ended = False
         self.counts: list[ResultCount] = []
 
@@ -272,11 +276,13 @@ class LockstepRun:
         prepare()
         self._stack.append(enter(folder.path))
         self._randomness = seed_randomness(self._options.seed)
-        tree = Tree.from_xml(text, clock=_WorldClock(self.world))
-        tree.on_warning = lambda node, message: self._say(f"{node.path}: {message}")
         self._locator = Locator()
-        self._locator.learn(tree)
-        tree.setup(node=self._application)
+        self._record_output()
+        with recorded(*self._output):
+            tree = Tree.from_xml(text, clock=_WorldClock(self.world))
+            tree.on_warning = lambda node, message: self._say(f"{node.path}: {message}")
+            self._locator.learn(tree)
+            tree.setup(node=self._application)
         self._stack.append(tree.shutdown)
         self.counts = tree.count_results()
         return tree
@@ -297,7 +303,25 @@ class LockstepRun:
             return None
         from executor.headless.recorder import RunRecorder  # noqa: PLC0415 - few runs are recorded
 
-        return RunRecorder(recording, self.world, self.sensors, self.node, self.tree)
+        recorder = RunRecorder(recording, self.world, self.sensors, self.node, self.tree)
+        for line in self._printed:
+            recorder.printed(line)
+        recorder.look()
+        return recorder
+
+    def _record_output(self) -> None:
+        """Prepares the streams that also write what users' code prints into the recording."""
+        if self._options.recording is None:
+            return
+
+        def print_(line: Log) -> None:
+            if self._recorder is None:
+                self._printed.append(line)
+            else:
+                self._recorder.printed(line)
+
+        make = partial(RecordedOutput, send=print_, locator=self._locator, now_s=lambda: self.world.time_s)
+        self._output = make("info", original=sys.stdout), make("error", original=sys.stderr)
 
     # --- running ---
 
@@ -329,7 +353,8 @@ class LockstepRun:
     def _call_back(self) -> bool:
         """Runs the callbacks of the actions; returns whether all succeeded."""
         try:
-            self._executor.drain()
+            with recorded(*self._output):
+                self._executor.drain()
         except (Exception, SystemExit) as error:
             self._note_broken(error)
             return False
@@ -337,7 +362,8 @@ class LockstepRun:
 
     def _tick(self, runner: Any) -> Status | None:
         began_s = time.perf_counter()
-        status: Status | None = runner.tick_due(self.world.time_s)
+        with recorded(*self._output):
+            status: Status | None = runner.tick_due(self.world.time_s)
         self._durations.append(time.perf_counter() - began_s)
         return status
 

@@ -15,7 +15,7 @@ from executor.world.simulation.streams import Streams
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from executor.child_messages import Frame
+    from executor.child_messages import Frame, Log
     from executor.headless.recording import Recording
     from executor.ros.node import WorldNode
     from executor.world.interface import World
@@ -73,6 +73,10 @@ class RunRecorder:
         """Writes a line of the run."""
         self._tree.says(level, text)
 
+    def printed(self, line: Log) -> None:
+        """Writes a line that an action printed."""
+        self._tree.says(line.level, line.text, line.node_path, source="action")
+
     def finished(self, status: Status | None) -> None:
         """Writes the end of the tree."""
         self._tree.says("info", f"The tree ended with {status.name if status else 'FAILURE'}.")
@@ -86,8 +90,10 @@ class RunRecorder:
         return nanoseconds(self._world.time_s)
 
     def _write_frame(self, frame: Frame) -> None:
-        topic, name = f"/world/{frame.stream}", {"scene": "Scene", "poses": "Poses"}[frame.stream]
-        self._record(topic, name, {"stamp": self._now_ns(), "data": frame.data})
+        if frame.stream == "scene":
+            self._guarded(lambda: self._writer.scene(self._now_ns(), frame.data))
+        else:
+            self._record("/world/poses", "Poses", {"stamp": self._now_ns(), "data": frame.data})
 
     def _record(self, topic: str, name: str, fields: Mapping[str, Any]) -> None:
         self._guarded(lambda: self._writer.record(topic, name, fields))

@@ -79,7 +79,8 @@ class ManagerSettings:
         is_closed_off: whether the session's ROS graph is isolated, as in a container.
         is_ram: whether the manager speaks the RAM dialect, with one local client and without a token.
         records: whether runs are recorded.
-        recordings: a folder that keeps them whole; None is a folder of the session, with budgets.
+        recordings: a folder for them that stays; None is a folder of the session.
+        keeps_whole: whether they are kept whole, without budgets.
         origins: pages that may connect; without a token, local pages may connect too.
     """
 
@@ -92,6 +93,7 @@ class ManagerSettings:
     is_ram: bool = False
     records: bool = True
     recordings: Path | None = None
+    keeps_whole: bool = False
     origins: tuple[str, ...] = ()
     programs: dict[Kind, Program] | None = None
     listener: socket.socket | None = None
@@ -176,7 +178,7 @@ class Manager:
         self._folders = self._make_folders()
         port = await self._listen()
         if "recorder" in self._programs and self._settings.records:
-            self._record(self._settings.recordings or self._folders.recordings())
+            self._record(self._recordings(self._folders))
         self._set_timer()
         return port
 
@@ -196,11 +198,18 @@ class Manager:
             await server.start_at(settings.listener)
         return port
 
+    def _recordings(self, folders: Folders) -> Path:
+        folder = self._settings.recordings
+        if folder is None:
+            return folders.recordings()
+        folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+        return folder
+
     def _record(self, folder: Path) -> None:
         from executor.manager.recordings import Recordings  # noqa: PLC0415 - as in `_listen`
         from executor.manager.server import SessionServer  # noqa: PLC0415 - as above
 
-        self.take(RecordingWanted(str(folder), is_whole=self._settings.recordings is not None))
+        self.take(RecordingWanted(str(folder), is_whole=self._settings.keeps_whole))
         if isinstance(self._server, SessionServer):
             self._server.recordings = Recordings(folder)
 
@@ -369,6 +378,7 @@ def main(arguments: list[str] | None = None) -> int:
         is_closed_off=listener is not None,
         is_ram=options.ram,
         records=not options.no_recording,
+        recordings=options.recordings,
         origins=tuple(options.allow_origin),
         listener=listener,
     )
@@ -395,6 +405,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--ram", action="store_true", help="speak the RAM dialect, on loopback alone")
     parser.add_argument("--no-recording", action="store_true", help="keep no recording of the runs")
+    parser.add_argument("--recordings", type=Path, help="folder for the recordings, which stays at the end")
     parser.add_argument(
         "--allow-origin",
         action="append",

@@ -1,5 +1,7 @@
 """Gives the recording of a run over HTTP, as one file in parts: `GET /recordings/<run>/<branch>`.
 
+`last` instead of the name of a run is the one that was recorded last.
+
 A request for the begin joins the segments again, in a process of its own; requests for later parts read the
 same file, which its `ETag` names. One answer holds at most 8 MiB, so that no run is held in memory.
 """
@@ -26,7 +28,7 @@ __all__ = ["Recordings", "is_recording"]
 
 MOST_ANSWER_BYTES: Final = 8 << 20
 JOIN_S: Final = 120.0
-_PATH: Final = re.compile(r"/recordings/([0-9a-f]{1,32})/0")
+_PATH: Final = re.compile(r"/recordings/([0-9a-f]{1,32}|last)/0")
 _RANGE: Final = re.compile(r"bytes=(\d{1,15})-(\d{0,15})")
 
 

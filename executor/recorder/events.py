@@ -56,8 +56,10 @@ class EventRecorder:
 
     def frame(self, stream: str, t_s: float, data: bytes) -> None:
         """Writes a frame `scene` or `poses` in the encoded form of the stream socket."""
-        name = {"scene": "Scene", "poses": "Poses"}[stream]
-        self._record(f"/world/{stream}", name, {"stamp": nanoseconds(t_s), "data": data})
+        if stream == "scene":
+            self._writer.scene(nanoseconds(t_s), data)
+        else:
+            self._record("/world/poses", "Poses", {"stamp": nanoseconds(t_s), "data": data})
 
     def scan(self, frame: Mapping[str, Any]) -> None:
         """Writes a scan of the stream as `sensor_msgs/LaserScan`."""

@@ -1,5 +1,7 @@
 """Joins the segments of a run into one file: `python -m executor.recorder.joining FOLDER RUN OUT`.
 
+`last` as RUN is the one that was recorded last.
+
 It is a process of its own, so that a long run does not make the manager wait.
 """
 
@@ -12,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from executor.recorder.reader import RecordingError
 from executor.recorder.recover import join
-from executor.recorder.shelf import files_of
+from executor.recorder.shelf import files_of, parts_of
 from executor.supervision.confine import die_with_parent
 
 if TYPE_CHECKING:
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
 __all__ = ["NOT_RECORDED", "join_newest", "join_run", "main"]
 
 NOT_RECORDED = 3
+LAST = "last"
 
 
 def join_run(folder: Path, run: str, out: Path) -> int:
@@ -31,12 +34,13 @@ def join_run(folder: Path, run: str, out: Path) -> int:
         OSError: the file cannot be written.
     """
     # The file of a segment that has just begun is empty until the recorder first flushes it.
-    files = [path for path in files_of(folder, run) if path.stat().st_size]
+    files = [path for path in files_of(folder, run) if path.is_file() and not path.is_symlink()]
+    files = [path for path in files if path.stat().st_size]
     if not files:
         return 0
     with contextlib.ExitStack() as stack:
         sources = [(stack.enter_context(path.open("rb")), path.name) for path in files]
-        return join(sources, stack.enter_context(out.open("wb")))
+        return join(sources, stack.enter_context(out.open("wb")), parts=parts_of(folder, run))
 
 
 def join_newest(folder: Path, out: Path) -> int:
@@ -57,7 +61,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     folder, run, out = arguments if arguments is not None else sys.argv[1:]
     die_with_parent()
     try:
-        return 0 if join_run(Path(folder), run, Path(out)) else NOT_RECORDED
+        found = (
+            join_newest(Path(folder), Path(out)) if run == LAST else join_run(Path(folder), run, Path(out))
+        )
+        return 0 if found else NOT_RECORDED
     except (OSError, RecordingError) as error:
         sys.stderr.write(f"{error}\n")
         return 1

@@ -25,8 +25,9 @@ from executor import __version__, child_messages, recorder_messages
 from executor.messages import Error, RecordingPart, Segment
 from executor.recorder.definitions import DefinitionError
 from executor.recorder.link import ADDRESS_VARIABLE, Dump, Heard, Mark, Record
+from executor.recorder.ordering import Ordering
 from executor.recorder.project_files import project_files, project_name
-from executor.recorder.run_writer import RunWriter
+from executor.recorder.run_writer import LATEST_NS, RunWriter
 from executor.recorder.shelf import Budgets, Shelf
 from executor.recorder.sources import BrokenSource, Source, listen, take_source
 from executor.recorder.telling import told
@@ -41,7 +42,9 @@ if TYPE_CHECKING:
 
 __all__ = ["RecorderProcess", "main"]
 
-LOOK_S: Final = 1.0
+LOOK_S: Final = 0.6
+"""The time between two flushes; with what waits for its order it is less than a second."""
+ORDER_S: Final = 0.1
 TOLD_S: Final = 1.0
 MOST_SOURCES: Final = 16
 BRANCH: Final = 0
@@ -67,6 +70,7 @@ class RecorderProcess:
         self._writer: RunWriter | None = None
         self._refused: set[str] = set()
         self._told: deque[tuple[float, recorder_messages.Told]] = deque()
+        self._order = Ordering[Record | Heard | Dump]()
         self._look_s = time.monotonic()
 
     def run(self) -> None:
@@ -81,6 +85,8 @@ class RecorderProcess:
 
     def _turn(self) -> None:
         wait_s = max(0.0, self._look_s + LOOK_S - time.monotonic())
+        if len(self._order):
+            wait_s = min(wait_s, ORDER_S)
         for key, _ in self._selector.select(wait_s):
             if key.fileobj is self._channel:
                 self._take_commands()
@@ -88,7 +94,7 @@ class RecorderProcess:
                 self._accept()
             else:
                 self._take(self._sources[key.fd])
-        self._write_told()
+        self._write_ready()
         if time.monotonic() - self._look_s >= LOOK_S:
             self._look_s = time.monotonic()
             self._channel.send(child_messages.Beat(0))
@@ -129,16 +135,17 @@ class RecorderProcess:
         if self._writer is not None and self._writer.run == message.run:
             self._told.append((time.monotonic() + TOLD_S, message))
 
-    def _write_told(self, *, all_: bool = False) -> None:
+    def _write_told(self, now_ns: int, *, all_: bool = False) -> None:
+        """Writes the lines of up to a time whose nodes are known, and those that waited for long enough."""
         while self._told and (writer := self._writer) is not None:
             until_s, message = self._told[0]
             t_ns = max(0, round(message.t * 1e9))
             path = message.data.get("node_path")
-            is_early = t_ns > writer.now_ns or (path and not writer.moment.uid(path))
+            is_early = t_ns > now_ns or (path and not writer.moment.uid(path))
             if is_early and not all_ and time.monotonic() < until_s:
                 return
             self._told.popleft()
-            self._write_line(writer, min(t_ns, writer.now_ns), message)
+            self._write_line(writer, min(t_ns, now_ns), message)
 
     def _write_line(self, writer: RunWriter, t_ns: int, message: recorder_messages.Told) -> None:
         uid = writer.moment.uid(message.data.get("node_path") or "")
@@ -192,8 +199,9 @@ class RecorderProcess:
     def _take(self, source: Source) -> None:
         try:
             for message in source.messages():
-                if (writer := self._writer_of(source.run)) is not None:
-                    self._guarded(lambda m=message, w=writer: self._write(w, m))
+                if self._writer_of(source.run) is not None and not isinstance(message, Mark):
+                    number = source.connection.fileno()
+                    self._order.put(_time_ns(message), message, number, time.monotonic())
         except BrokenSource:
             self._lose(source)
         except _NO_FIELDS as error:
@@ -201,6 +209,7 @@ class RecorderProcess:
             self._lose(source)
 
     def _lose(self, source: Source) -> None:
+        self._order.drop(source.connection.fileno())
         self._selector.unregister(source.connection)
         del self._sources[source.connection.fileno()]
         source.connection.close()
@@ -221,12 +230,24 @@ class RecorderProcess:
         self._writer = RunWriter(shelf, run, about, files)
 
     def _end_run(self) -> None:
-        self._write_told(all_=True)
+        self._write_ready(all_=True)
         if self._writer is not None:
             self._writer.end()
 
+    def _write_ready(self, *, all_: bool = False) -> None:
+        """Writes the messages whose turn it is, and the lines between them."""
+        for t_ns, message in self._order.ready(time.monotonic(), all_=all_):
+            self._write_told(t_ns)
+            if (writer := self._writer) is not None:
+                try:
+                    self._guarded(lambda m=message, w=writer: self._write(w, m))
+                except _NO_FIELDS as error:
+                    self._say(f"A message for the recording is not of its type ({type(error).__name__}).")
+        if self._writer is not None:
+            self._write_told(self._writer.now_ns, all_=all_)
+
     @staticmethod
-    def _write(writer: RunWriter, message: Mark | Record | Heard | Dump) -> None:
+    def _write(writer: RunWriter, message: Record | Heard | Dump) -> None:
         match message:
             case Record():
                 writer.record(message.topic, message.name, message.fields)
@@ -235,8 +256,6 @@ class RecorderProcess:
             case Dump():
                 fields = writer.moment.keyframe(message.t_ns, message.step, message.data)
                 writer.record("/bt/keyframe", "Keyframe", fields)
-            case Mark():
-                pass
 
     # --- what can fail ----------------------------------------------------------------------------
 
@@ -260,6 +279,18 @@ class RecorderProcess:
 
     def _say(self, text: str) -> None:
         self._channel.send(child_messages.Log("warning", text))
+
+
+def _time_ns(message: Record | Heard | Dump) -> int:
+    """Returns the time of a message.
+
+    Raises:
+        KeyError, ValueError: it has none, or one that is no time of a run.
+    """
+    t_ns = message.fields["stamp"] if isinstance(message, Record) else message.t_ns
+    if type(t_ns) is not int or not 0 <= t_ns <= LATEST_NS:
+        raise ValueError(f"{t_ns!r} is not a time of a run")
+    return t_ns
 
 
 def main(arguments: list[str] | None = None) -> None:

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import TYPE_CHECKING, BinaryIO
 
 from mcap.records import Attachment, Channel, Message, Metadata, Schema
 from mcap.writer import CompressionType, Writer
 
 from executor.recorder.reader import Limits, RecordReader
-from executor.recorder.writer import CHUNK_BYTES, LIBRARY
+from executor.recorder.writer import CHUNK_BYTES, LIBRARY, PART_TYPE
+from executor.stream.scene_parts import PREFIX
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
 __all__ = ["Recovered", "join", "recover", "thin"]
+
+EMPTY: Mapping[str, bytes] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -40,13 +44,22 @@ def recover(file: BinaryIO, name: str, out: BinaryIO, limits: Limits | None = No
     return Recovered(messages, end_ns, reader.is_cut, lost)
 
 
-def join(files: Sequence[tuple[BinaryIO, str]], out: BinaryIO, limits: Limits | None = None) -> int:
+def join(
+    files: Sequence[tuple[BinaryIO, str]],
+    out: BinaryIO,
+    limits: Limits | None = None,
+    *,
+    parts: Mapping[str, bytes] | None = None,
+) -> int:
     """Writes segments into one file, in their order; returns the number of messages.
+
+    The file begins with `parts`, the meshes and textures of its scenes by their hash.
 
     Raises:
         RecordingError: one of them is no recording.
     """
-    return _copy([RecordReader(file, name, limits or Limits()) for file, name in files], out)[0]
+    readers = [RecordReader(file, name, limits or Limits()) for file, name in files]
+    return _copy(readers, out, parts=parts or {})[0]
 
 
 def thin(file: BinaryIO, name: str, out: BinaryIO, keeps: Callable[[str, str, int], bool]) -> None:
@@ -65,10 +78,15 @@ def thin(file: BinaryIO, name: str, out: BinaryIO, keeps: Callable[[str, str, in
 
 
 def _copy(
-    readers: Sequence[RecordReader], out: BinaryIO, keeps: Callable[[str, str, int], bool] | None = None
+    readers: Sequence[RecordReader],
+    out: BinaryIO,
+    keeps: Callable[[str, str, int], bool] | None = None,
+    parts: Mapping[str, bytes] = EMPTY,
 ) -> tuple[int, int]:
     writer = Writer(out, chunk_size=CHUNK_BYTES, compression=CompressionType.ZSTD)
     writer.start(profile="ros2", library=LIBRARY)
+    for digest, data in parts.items():
+        writer.add_attachment(0, 0, f"{PREFIX}{digest}", PART_TYPE, data)
     schemas: dict[tuple[str, bytes], int] = {}
     channels: dict[tuple[str, int], int] = {}
     seen: set[tuple[str, bytes]] = set()

@@ -11,13 +11,14 @@ from executor.recorder.definitions import OURS
 from executor.recorder.moment import Moment
 from executor.recorder.shelf import PICTURE, Segment, file_of
 from executor.recorder.writer import RecordingWriter
+from executor.stream.scene_parts import without_parts
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from executor.recorder.shelf import Shelf
 
-__all__ = ["SEGMENT_NS", "RunWriter"]
+__all__ = ["LATEST_NS", "SEGMENT_NS", "RunWriter"]
 
 SEGMENT_NS: Final = 20_000_000_000
 LATEST_NS: Final = 10**7 * 1_000_000_000
@@ -81,6 +82,10 @@ class RunWriter:
             KeyError, TypeError, ValueError, struct.error: the fields are not those of the type.
             OSError: the disk is full.
         """
+        if name == "Scene":
+            slim, parts = without_parts(fields["data"])
+            if self._shelf.keep_parts(self.run, parts):
+                fields = {**fields, "data": slim}
         kind = f"{OURS}/msg/{name}"
         data = encode(kind, fields)
         self.write(topic, kind, fields["stamp"], data)

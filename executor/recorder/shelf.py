@@ -17,15 +17,17 @@ from executor.recorder.reader import MAGIC, RecordingError, RecordReader
 from executor.recorder.recover import recover, thin
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
     from pathlib import Path
 
-__all__ = ["PICTURE", "Budgets", "Segment", "Shelf", "file_of", "files_of"]
+__all__ = ["PICTURE", "Budgets", "Segment", "Shelf", "file_of", "files_of", "parts_of"]
 
 PICTURE: Final = "sensor_msgs/msg/CompressedImage"
 THIN_AFTER_NS: Final = 60_000_000_000
 THINNED_PERIOD_NS: Final = 500_000_000
 MOST_READ_BYTES: Final = 1 << 20
+PART: Final = ".part"
+MOST_PARTS_BYTES: Final = 16 << 20
 
 
 @dataclass(frozen=True)
@@ -69,6 +71,15 @@ def files_of(folder: Path, run: str) -> list[Path]:
     return list(newest.values())
 
 
+def parts_of(folder: Path, run: str) -> dict[str, bytes]:
+    """Returns the meshes and textures of a run's scenes, by their hash.
+
+    Raises:
+        OSError: one of them cannot be read.
+    """
+    return {path.stem: path.read_bytes() for path in sorted((folder / run).glob(f"*{PART}"))}
+
+
 def _place(path: Path) -> tuple[int, int]:
     number, version, _ = path.name.split(".")
     return int(number), int(version)
@@ -88,12 +99,15 @@ class Shelf:
     announce: Callable[[Segment], None]
     budgets: Budgets | None = field(default_factory=Budgets)
     segments: list[Segment] = field(default_factory=list)
+    _parts: dict[str, int] = field(default_factory=dict)
+    """The bytes of meshes and textures of each run."""
 
     def recover(self) -> None:
         """Takes over what a recorder left that was killed; a file without its end gets one."""
         for run in sorted(self.folder.iterdir(), key=lambda path: path.stat().st_mtime):
             for path in files_of(self.folder, run.name):
                 with contextlib.suppress(OSError, RecordingError):
+                    self._parts[run.name] = sum(part.stat().st_size for part in run.glob(f"*{PART}"))
                     self.add(self._recovered(run.name, path))
 
     def add(self, segment: Segment) -> None:
@@ -102,6 +116,25 @@ class Shelf:
         self.announce(segment)
         if self.budgets is not None:
             self._keep_within(segment, self.budgets)
+
+    def keep_parts(self, run: str, parts: Mapping[str, bytes]) -> bool:
+        """Keeps meshes and textures of a run beside its segments, each once; returns whether they are kept.
+
+        Raises:
+            OSError: the disk is full.
+        """
+        folder = self.folder / run
+        new = {name: data for name, data in parts.items() if not (folder / f"{name}{PART}").exists()}
+        size = self._parts.get(run, 0) + sum(map(len, new.values()))
+        if size > MOST_PARTS_BYTES:
+            return False
+        folder.mkdir(exist_ok=True)
+        for name, data in new.items():
+            fresh = folder / f"{name}.new"
+            fresh.write_bytes(data)
+            fresh.replace(folder / f"{name}{PART}")
+        self._parts[run] = size
+        return True
 
     def next_number(self, run: str) -> int:
         """Returns the number of a run's next segment."""
@@ -133,14 +166,18 @@ class Shelf:
         return sum(segment.picture_bytes for segment in self.segments)
 
     def _others(self) -> int:
-        return sum(segment.bytes - segment.picture_bytes for segment in self.segments)
+        own = sum(segment.bytes - segment.picture_bytes for segment in self.segments)
+        return own + sum(self._parts.values())
 
     def _drop(self, segment: Segment) -> None:
         self.segments.remove(segment)
         file_of(self.folder, segment).unlink(missing_ok=True)
-        if not any(one.run == segment.run for one in self.segments):
-            with contextlib.suppress(OSError):  # the open segment of this run may be in it
+        if not files_of(self.folder, segment.run):  # the open segment of this run may be in it
+            with contextlib.suppress(OSError):
+                for part in (self.folder / segment.run).glob(f"*{PART}"):
+                    part.unlink()
                 (self.folder / segment.run).rmdir()
+            self._parts.pop(segment.run, None)
         self.announce(replace(segment, bytes=0))
 
     def _rewrite(self, segment: Segment, period_ns: int) -> None:

@@ -56,9 +56,10 @@ class TreeRecorder:
         self._rows: list[_Row] = []
         self._forms: list[tuple[str, str, str, str | None]] = []
         self._held: dict[int, tuple[Entry, str]] = {}
-        self._write_tree()
         tree.journal_writes(self._written)
         tree.observe(self._ticked)
+        self._rows, self._forms = [], []  # what was there before has no writer; the keyframe has it
+        self.restate(generation)
 
     def restate(self, generation: int) -> None:
         """Writes the tree and its state again, as the begin of another recording."""

@@ -15,6 +15,7 @@ __all__ = ["NO_WRITE", "canonical", "fingerprint", "value_json"]
 MOST_BYTES: Final = 4096
 MOST_ITEMS: Final = 20_000
 MOST_DEPTH: Final = 50
+_PREVIEW_KEYS: Final = frozenset(("preview", "bytes", "hash"))
 NO_WRITE: Final = 2**32 - 1
 """The writer of a value that was changed in place, without a write."""
 
@@ -35,7 +36,7 @@ def value_json(value: Any, describe: Callable[[Any], str]) -> str:
     if text is None:
         return _dump({"preview": describe(value)})
     coded = text.encode("utf-8", "replace")
-    if len(coded) <= MOST_BYTES:
+    if len(coded) <= MOST_BYTES and not _looks_like_preview(value):
         return text
     digest = hashlib.blake2b(coded, digest_size=8).hexdigest()
     return _dump({"preview": describe(value), "bytes": len(coded), "hash": digest})
@@ -68,6 +69,11 @@ def fingerprint(
 
 def _dump(value: Any) -> str:
     return json.dumps(value, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
+
+
+def _looks_like_preview(value: Any) -> bool:
+    """Returns whether readers would take a user's dict for a preview."""
+    return type(value) is dict and type(value.get("preview")) is str and value.keys() <= _PREVIEW_KEYS
 
 
 def _is_json(value: Any, left: list[int], depth: int = MOST_DEPTH) -> bool:

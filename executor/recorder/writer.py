@@ -13,17 +13,20 @@ from mcap.writer import CompressionType, Writer
 
 from executor.recorder.cdr import encode
 from executor.recorder.definitions import OURS, full_text
+from executor.stream.scene_parts import PREFIX, without_parts
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import Any
 
-__all__ = ["CHUNK_BYTES", "FORMAT_VERSION", "LIBRARY", "RecordingWriter", "nanoseconds"]
+__all__ = ["CHUNK_BYTES", "FORMAT_VERSION", "LIBRARY", "PART_TYPE", "RecordingWriter", "nanoseconds"]
 
 CHUNK_BYTES: Final = 256 * 1024
 LIBRARY: Final = "bt-studio"
 """The name of the writer in the head of each file."""
-FORMAT_VERSION: Final = 1
+PART_TYPE: Final = "application/vnd.msgpack"
+"""The type of attachments with meshes and textures."""
+FORMAT_VERSION: Final = 2
 """The version of our types. A reader of this version reads all lower ones."""
 _SEQUENCES: Final = 1 << 32
 
@@ -46,6 +49,7 @@ class RecordingWriter:
         self._writer = Writer(file, chunk_size=CHUNK_BYTES, compression=CompressionType.ZSTD)
         self._writer.start(profile="ros2", library=LIBRARY)
         self._writer.add_metadata("bt-studio", {"format_version": str(FORMAT_VERSION), **about})
+        self._parts: set[str] = set()
         self._schemas: dict[str, int] = {}
         self._channels: dict[tuple[str, str], int] = {}
         self._last_ns = 0
@@ -80,6 +84,15 @@ class RecordingWriter:
         """Writes a message of one of our types; its `stamp` is a time in ns."""
         kind = f"{OURS}/msg/{name}"
         self.write(topic, kind, fields["stamp"], encode(kind, fields))
+
+    def scene(self, t_ns: int, frame: bytes) -> None:
+        """Writes a frame `scene` of the stream; its meshes and textures are attached, each once."""
+        slim, parts = without_parts(frame)
+        for digest, data in parts.items():
+            if digest not in self._parts:
+                self._parts.add(digest)
+                self.attach(f"{PREFIX}{digest}", PART_TYPE, data)
+        self.record("/world/scene", "Scene", {"stamp": t_ns, "data": slim})
 
     def attach(self, name: str, media_type: str, data: bytes) -> None:
         """Adds a file to the recording."""

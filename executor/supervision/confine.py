@@ -1,19 +1,28 @@
-"""Binds the life of a child process to that of the manager; a child calls this first."""
+"""Binds the life of a child process to that of its parent, and limits one that reads hostile files."""
 
 from __future__ import annotations
 
 import ctypes
 import os
+import resource
 import signal
 from typing import Final
 
-__all__ = ["INTERRUPT_SIGNAL", "PARENT_VARIABLE", "TRACE_SIGNAL", "adopt_orphans", "die_with_parent"]
+__all__ = [
+    "INTERRUPT_SIGNAL",
+    "PARENT_VARIABLE",
+    "TRACE_SIGNAL",
+    "adopt_orphans",
+    "confine_reader",
+    "die_with_parent",
+]
 
 INTERRUPT_SIGNAL: Final = signal.SIGUSR1
 TRACE_SIGNAL: Final = signal.SIGUSR2
 PARENT_VARIABLE: Final = "BT_STUDIO_PARENT_PID"
 _PR_SET_PDEATHSIG: Final = 1
 _PR_SET_CHILD_SUBREAPER: Final = 36
+_NEW_USER, _NEW_NET = 0x10000000, 0x40000000
 
 
 def _prctl(option: int, value: int) -> None:
@@ -38,3 +47,19 @@ def die_with_parent() -> None:
 def adopt_orphans() -> None:
     """Makes this process the parent of descendants that lose their own parent, so that it can end them."""
     _prctl(_PR_SET_CHILD_SUBREAPER, 1)
+
+
+def confine_reader(memory_bytes: int, seconds: int, written_bytes: int) -> None:
+    """Limits this process, which reads files of others: memory, processor time, what it writes, no children.
+
+    It gives up the network where the platform lets it; most containers refuse, and have limits of their own.
+    """
+    for which, most in (
+        (resource.RLIMIT_DATA, memory_bytes),
+        (resource.RLIMIT_FSIZE, written_bytes),
+        (resource.RLIMIT_CPU, seconds),
+        (resource.RLIMIT_CORE, 0),
+        (resource.RLIMIT_NPROC, 0),
+    ):
+        resource.setrlimit(which, (most, most))
+    ctypes.CDLL(None).unshare(_NEW_USER | _NEW_NET)

@@ -256,6 +256,7 @@ def _run(story, teacher, one):
     story.ask(teacher, "GET", f"{one}/runs/{run['id']}")
     story.ask(teacher, "PATCH", f"{one}/runs/{run['id']}", {"note": "It turned too late.", "is_shared": True})
     story.ask(teacher, "GET", f"{one}/runs/{run['id']}/recording")
+    story.ask(teacher, "GET", f"{one}/runs/{run['id']}/thumbnail")
     story.ask(teacher, "DELETE", f"{one}/runs/{run['id']}", status=204)
     log = (SAMPLES / "patrol.btlog").read_bytes()
     story.ask(teacher, "POST", f"{one}/runs/logs?filename=patrol.btlog", data=log, status=201)

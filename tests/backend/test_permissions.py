@@ -99,6 +99,7 @@ POLICY = {
     ("patch", f"{P}/runs/{{run_id}}"): RUN_CHANGE,
     ("delete", f"{P}/runs/{{run_id}}"): RUN_GONE,
     ("get", f"{P}/runs/{{run_id}}/recording"): RUN_READ,
+    ("get", f"{P}/runs/{{run_id}}/thumbnail"): RUN_READ,
     ("get", "/api/v1/sessions/{session_id}"): NOT_OWNED,
     ("delete", "/api/v1/sessions/{session_id}"): NOT_OWNED,
     ("get", "/api/v1/me"): OPEN,
@@ -196,6 +197,8 @@ def world(person, monkeypatch):  # noqa: F811
         start_s=0.0,
         length_s=1.0,
         size=0,
+        thumbnail=b"<svg/>",
+        thumbnail_type="image/svg+xml",
         created_at=project.created_at,
     )
     invitation = invitations.invite(acting_user=teacher, group=group, days=1, max_uses=1)

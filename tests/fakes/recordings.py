@@ -15,8 +15,10 @@ TOKEN = "t0ken"
 
 
 @contextlib.contextmanager
-def recordings(data: bytes, *, part: int = 100_000, fault: str = "", token: str = TOKEN) -> Iterator[str]:
-    """Gives `data` as the run `a1`, in parts; yields the address.
+def recordings(
+    data: bytes, *, part: int = 100_000, fault: str = "", token: str = TOKEN, run: str = "a1"
+) -> Iterator[str]:
+    """Gives `data` as a run, in parts; yields the address.
 
     Faults: `changes` (another ETag for each part), `grows` (another ETag once), `cut` (a part ends early),
     `skips` (another part than was asked for), `huge` (claims 1 TB), `hangs_up`, `conflict`.
@@ -26,7 +28,7 @@ def recordings(data: bytes, *, part: int = 100_000, fault: str = "", token: str 
         parts = 0
 
         def do_GET(self) -> None:
-            if self.headers["Authorization"] != f"Bearer {token}" or self.path != "/recordings/a1/0":
+            if self.headers["Authorization"] != f"Bearer {token}" or self.path != f"/recordings/{run}/0":
                 self.send_error(404)
                 return
             if fault == "hangs_up":

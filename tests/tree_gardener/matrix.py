@@ -24,7 +24,7 @@ PY_TREES = ("py_trees==2.3.*", "py_trees")
 TESTS = (
     *("test_actions", "test_blackboard", "test_document", "test_forest", "test_hooks", "test_loading"),
     *("test_observe", "test_ports", "test_registry", "test_runner", "test_tree", "test_values", "test_views"),
-    *("conformance", "controls", "decorators", "leaves", "script"),
+    *("conformance", "controls", "decorators", "generated", "leaves", "script"),
 )
 
 

@@ -10,21 +10,26 @@ from tests.budget import count
 from tests.tree_gardener.fuzz.compare import difference, reference_traces, report, shrink
 from tests.tree_gardener.fuzz.generate import generate
 from tree_gardener.decorators.result import ForceSuccess, Inverter
+from tree_gardener.generated import generation
 
 BATCH = 100
 FIRST_SEED = int(os.environ.get("BT_STUDIO_FUZZ_SEED", "1"))
 
 
 @pytest.mark.timeout(600)
-def test_random_trees_run_as_in_behaviortree_cpp(capsys: pytest.CaptureFixture[str]) -> None:
+def test_random_trees_run_as_in_behaviortree_cpp(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     total, compared, refused = count("engine_fuzz_trees"), 0, 0
     with capsys.disabled():
         pass
     for start in range(FIRST_SEED, FIRST_SEED + total, BATCH):
         cases = [generate(seed) for seed in range(start, min(start + BATCH, FIRST_SEED + total))]
         for case, reference in zip(cases, reference_traces(cases), strict=True):
-            if difference(case, reference):
-                pytest.fail(report(case))
+            for is_generated in (True, False):
+                monkeypatch.setattr(generation, "ENABLED", is_generated)
+                if difference(case, reference):
+                    pytest.fail(report(case))
             compared += reference is not None
             refused += reference == [{"load": "refused"}]
     # A generator that makes only refused trees or crashes would prove nothing.
@@ -35,7 +40,7 @@ def test_random_trees_run_as_in_behaviortree_cpp(capsys: pytest.CaptureFixture[s
 def test_a_broken_rule_is_found_and_shrunk(monkeypatch: pytest.MonkeyPatch) -> None:
     cases = [case for case in map(generate, range(1, 81)) if case.mode == "exactly_once"]
     references = reference_traces(cases)
-    monkeypatch.setattr(Inverter, "execute", ForceSuccess.execute)
+    monkeypatch.setattr(Inverter, "go_on", ForceSuccess.go_on)
     broken = [case for case, reference in zip(cases, references, strict=True) if difference(case, reference)]
     assert broken
     assert shrink(min(broken, key=lambda case: case.size)).size <= 4

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from translator.check.results import Results, interpret
+from translator.check.uses import Keys, uses_of
 from translator.diagnostic import Diagnostic, Place, Severity, Step, diagnostic
 from translator.diagram import diagram_path
 from translator.enums import constants
@@ -53,6 +54,21 @@ class Context:
     def results(self) -> Results:
         """Returns the results that each node can return."""
         return interpret(self.project, self.order)
+
+    @cached_property
+    def keys(self) -> dict[str, Keys]:
+        """Returns the keys of the blackboard that each tree uses."""
+        return uses_of(self)
+
+    @cached_property
+    def calls(self) -> dict[str, list[tuple[Tree, Node]]]:
+        """Returns the calls of each tree from those that can be reached, with the caller."""
+        found: dict[str, list[tuple[Tree, Node]]] = {}
+        for tree_id in sorted(self.reachable):
+            tree = self.project.trees[tree_id]
+            for node in tree.subtree_calls():
+                found.setdefault(node.tree, []).append((tree, node))
+        return found
 
     def report(
         self,

@@ -9,12 +9,16 @@ from translator.check.action import check_actions
 from translator.check.conflict import check_conflicts
 from translator.check.context import Context, located
 from translator.check.dataflow import check_dataflow
+from translator.check.effect import check_effects
+from translator.check.endless import check_endless_loops
 from translator.check.late_script import check_late_scripts
+from translator.check.order import check_order
 from translator.check.port import check_ports
 from translator.check.reach import check_reachability
 from translator.check.script import check_scripts
 from translator.check.structure import check_structure
 from translator.check.subtree import check_subtrees
+from translator.check.together import check_together
 from translator.limits import OVERSIZE
 
 if TYPE_CHECKING:
@@ -52,5 +56,9 @@ def _check(project: Project) -> tuple[Diagnostic, ...]:
     check_late_scripts(context)
     check_subtrees(context)
     check_dataflow(context)
+    check_order(context)
     check_reachability(context)
+    check_effects(context)
+    check_endless_loops(context)
+    check_together(context)
     return tuple(located(context.found, project))

@@ -30,6 +30,9 @@ class Ordered(Control):
             tick = ticks[index]
             status = tick()
             return RUNNING if status is RUNNING else self.go_on(index, status)
+        quick = self.quick
+        if quick is not None:
+            return quick()  # type: ignore[no-any-return]
         if self.status is IDLE:
             self.skips = 0
         self.status = RUNNING
@@ -43,6 +46,16 @@ class Ordered(Control):
                 return self.go_on(index, status)
             index += 1  # noqa: SIM113 - quicker than enumerate()
         return self.finish_all(goes_on)
+
+    def begin(self) -> None:
+        """Starts an activation whose children generated code ticks."""
+        if self.status is IDLE:
+            self.skips = 0
+        self.start()
+
+    def end(self) -> Status:
+        """Ends an activation in which all children returned `GOES_ON` to generated code."""
+        return self.finish_all(self.GOES_ON)
 
     def go_on(self, index: int, status: Status) -> Status:
         """Continues after the child at `index` returned `status`."""

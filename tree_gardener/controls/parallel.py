@@ -87,7 +87,7 @@ class ParallelAll(_Parallel):
     tick, it is SKIPPED. A negative `max_failures` counts from the end, 0 always fails.
     """
 
-    __slots__ = ()
+    __slots__ = ("skips", "ticked")
 
     def execute(self) -> Status:
         fatal = self.threshold(self.get("max_failures"))
@@ -97,18 +97,22 @@ class ParallelAll(_Parallel):
         if self.status is not RUNNING:
             self.start()
         skips = 0
-        done = self.done
-        for index, tick in enumerate(self.ticks):
-            if index in done:
-                continue
-            status = tick()
-            if status is SUCCESS:
-                done.add(index)
-            elif status is FAILURE:
-                done.add(index)
-                self.failures += 1
-            elif status is SKIPPED:
-                skips += 1
+        done, quick = self.done, self.quick
+        if quick is not None and not done:
+            quick()
+            skips = self.skips
+        else:
+            for index, tick in enumerate(self.ticks):
+                if index in done:
+                    continue
+                status = tick()
+                if status is SUCCESS:
+                    done.add(index)
+                elif status is FAILURE:
+                    done.add(index)
+                    self.failures += 1
+                elif status is SKIPPED:
+                    skips += 1
         if skips == count:
             return self.skipped()
         if skips + len(done) < count:
@@ -116,3 +120,21 @@ class ParallelAll(_Parallel):
         failed = self.failures >= fatal
         self.forget()
         return self.finish(FAILURE if failed else SUCCESS)
+
+    def begin(self) -> None:
+        """Starts a tick in which generated code ticks the children."""
+        self.skips = 0
+        self.ticked = self.done  # a halt of the tree within the tick replaces `done`
+
+    def end(self) -> None:
+        """Ends what generated code does."""
+
+    def tally(self, index: int, status: Status) -> None:
+        """Takes over the result of a child from generated code."""
+        if status is SUCCESS:
+            self.ticked.add(index)
+        elif status is FAILURE:
+            self.ticked.add(index)
+            self.failures += 1
+        elif status is SKIPPED:
+            self.skips += 1

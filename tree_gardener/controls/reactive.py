@@ -16,14 +16,36 @@ class _Reactive(Control):
     ENDS: ClassVar[Status]
 
     def execute(self) -> Status:
+        quick = self.quick
+        if quick is not None:
+            return quick()  # type: ignore[no-any-return]
         if self.status is not RUNNING:
             self.status = RUNNING
             if self.journal is not None:
                 self.journal.touched.append(self)
-        goes_on, ends = self.GOES_ON, self.ENDS
-        all_skipped = True
-        for index, tick in enumerate(self.ticks):
+        goes_on = self.GOES_ON
+        index = 0
+        for tick in self.ticks:
             status = tick()
+            if status is not goes_on:
+                return self.go_on(index, status)
+            index += 1  # noqa: SIM113 - quicker than enumerate()
+        return self.finish(goes_on)
+
+    def begin(self) -> None:
+        """Starts a tick in which generated code ticks the children."""
+        if self.status is not RUNNING:
+            self.start()
+
+    def end(self) -> Status:
+        """Ends a tick in which all children returned `GOES_ON` to generated code."""
+        return self.finish(self.GOES_ON)
+
+    def go_on(self, index: int, status: Status) -> Status:
+        """Continues after the child at `index` returned `status`, and those before it `GOES_ON`."""
+        ticks, goes_on, ends = self.ticks, self.GOES_ON, self.ENDS
+        all_skipped = index == 0
+        while True:
             if status is goes_on:
                 all_skipped = False
             elif status is RUNNING:
@@ -32,7 +54,11 @@ class _Reactive(Control):
                 return self.finish(ends)
             else:
                 self.reset_child(index)
-        return self.finish_skipped() if all_skipped else self.finish(goes_on)
+            index += 1
+            if index == len(ticks):
+                return self.finish_skipped() if all_skipped else self.finish(goes_on)
+            tick = ticks[index]
+            status = tick()
 
     def running_at(self, index: int) -> Status:
         """Halts all children except the RUNNING one; the earlier ones too, so that they start again."""

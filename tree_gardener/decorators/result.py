@@ -11,9 +11,14 @@ class Inverter(Decorator):
 
     def execute(self) -> Status:
         if self.status is not RUNNING:
+            quick = self.quick
+            if quick is not None:
+                return quick()  # type: ignore[no-any-return]
             self.start()
         tick = self.tick_child
-        status = tick()
+        return self.go_on(0, tick())
+
+    def go_on(self, _index: int, status: Status) -> Status:
         if status is RUNNING:
             return RUNNING
         if status is SUCCESS:
@@ -30,9 +35,14 @@ class ForceSuccess(Decorator):
 
     def execute(self) -> Status:
         if self.status is not RUNNING:
+            quick = self.quick
+            if quick is not None:
+                return quick()  # type: ignore[no-any-return]
             self.start()
         tick = self.tick_child
-        status = tick()
+        return self.go_on(0, tick())
+
+    def go_on(self, _index: int, status: Status) -> Status:
         if status is RUNNING:
             return RUNNING
         return self.finish(SUCCESS) if status is SUCCESS or status is FAILURE else self.skipped()
@@ -45,9 +55,14 @@ class ForceFailure(Decorator):
 
     def execute(self) -> Status:
         if self.status is not RUNNING:
+            quick = self.quick
+            if quick is not None:
+                return quick()  # type: ignore[no-any-return]
             self.start()
         tick = self.tick_child
-        status = tick()
+        return self.go_on(0, tick())
+
+    def go_on(self, _index: int, status: Status) -> Status:
         if status is RUNNING:
             return RUNNING
         return self.finish(FAILURE) if status is SUCCESS or status is FAILURE else self.skipped()

@@ -22,10 +22,16 @@ class SubTree(Decorator):
         return name if name is not None else f"{attributes['ID']}::{self.uid}"
 
     def execute(self) -> Status:
-        if self.status is IDLE:
-            self.start()
+        if self.status is not RUNNING:
+            quick = self.quick
+            if quick is not None:
+                return quick()  # type: ignore[no-any-return]
+            if self.status is IDLE:
+                self.start()
         tick = self.tick_child
-        status = tick()
+        return self.go_on(0, tick())
+
+    def go_on(self, _index: int, status: Status) -> Status:
         if status is RUNNING:
             if self.status is not RUNNING:
                 self.start()

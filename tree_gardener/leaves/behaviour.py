@@ -129,6 +129,13 @@ class StatefulLeaf(BehaviourLeaf):
                     self.instance_behaviour.status = PY_RUNNING
                     self.start()
                 return RUNNING
+        except (Exception, SystemExit) as error:
+            return self.failed(error)
+        return self.conclude(returned, before)
+
+    def conclude(self, returned: Any, before: Status) -> Status:
+        """Ends a tick with the value that `update` returned; `before` is the status before the tick."""
+        try:
             result = self.translate(returned)
             if result is RUNNING:
                 if before is not RUNNING:
@@ -152,6 +159,13 @@ class ImmediateLeaf(BehaviourLeaf):
             if self.initialise is not None and before is not RUNNING:
                 self.initialise()
             returned = self.update()
+        except (Exception, SystemExit) as error:
+            return self.failed(error)
+        return self.conclude(returned, before)
+
+    def conclude(self, returned: Any, before: Status) -> Status:
+        """Ends a tick with the value that `update` returned; `before` is the status before the tick."""
+        try:
             result = SUCCESS if returned is PY_SUCCESS else self.translate(returned)
             if result is SUCCESS or result is FAILURE:
                 return self.end(result)

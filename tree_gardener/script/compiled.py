@@ -104,19 +104,26 @@ def _generate(script: Script, enums: Mapping[str, int], *, is_condition: bool) -
         function = module.body[0]
         assert isinstance(function, ast.FunctionDef)
         function.args.args.append(ast.arg("KEPT", lineno=1, col_offset=0))
-        compiled = _compile(module)
-    except (TooLargeError, OverflowError, RecursionError, SystemError, MemoryError, ValueError):
+    except (TooLargeError, OverflowError):
+        return None
+    compiled = compile_module(module, _FILE)
+    if compiled is None:
         return None
     code = next(part for part in compiled.co_consts if isinstance(part, types.CodeType))
     return Code(code, generator.parameters)
 
 
-def _compile(module: ast.Module) -> types.CodeType:
-    """Compiles one module at a time: CPython 3.11 counts the depth of syntax for all threads together."""
+def compile_module(module: ast.Module, file: str) -> types.CodeType | None:
+    """Compiles generated syntax; returns None if it is beyond the limits of Python's compiler.
+
+    One module is compiled at a time: CPython 3.11 counts the depth of syntax for all threads together.
+    """
     with _lock:
-        for _ in range(ATTEMPTS - 1):
+        for _ in range(ATTEMPTS):
             try:
-                return compile(module, _FILE, "exec")
+                return compile(module, file, "exec")
             except (SystemError, RecursionError):
                 continue  # another thread of the process may have parsed Python
-        return compile(module, _FILE, "exec")
+            except (MemoryError, OverflowError, ValueError):
+                return None
+    return None

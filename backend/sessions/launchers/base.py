@@ -13,6 +13,7 @@ JSON object that the caller stores and passes to the other methods, also after a
     explain(state)   why an executor ended, if more is known than its status; else "".
     open_tools(id, token)  where a user's tools listen (`executor.tools`), as the path of a unix socket;
                      starts them if needed. Raises LaunchError if the launcher has no containers.
+    recordings       the folder in which recordings are left, one folder a session; None if they end with it.
     survives_server  whether executors outlive the web server. If they do, two more methods are required:
     running()        the ids of all sessions whose executors run, known to the database or not.
     state_of(id)     the state of a session of which only the id is known.
@@ -24,9 +25,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, Final
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from backend.sessions.errors import LaunchError
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 State = Mapping[str, Any]
 UNKNOWN_EXIT: Final = -1
@@ -58,6 +62,7 @@ class Launcher:
 
     name: ClassVar[str] = ""
     survives_server: ClassVar[bool] = False
+    recordings: Path | None = None
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)

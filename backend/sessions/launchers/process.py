@@ -29,17 +29,29 @@ if TYPE_CHECKING:
 
 TOKEN_VARIABLE: Final = "BT_STUDIO_MANAGER_TOKEN"  # noqa: S105 - the name, not the token
 STDERR_LINES: Final = 20
+RUNS: Final = "runs"
+"""The folder in that of a session which has its recordings; the manager's own files are beside it."""
 
 
 class ProcessLauncher(Launcher):
-    """Starts `bt-studio manager` on a free port of the loopback interface."""
+    """Starts `bt-studio manager` on a free port of the loopback interface.
+
+    Args:
+        log_folder: gets the output of each executor.
+        command: the program.
+        recordings: has a folder for each session, in which its recordings are left when it ends.
+    """
 
     name = "process"
 
     def __init__(
-        self, log_folder: Path, command: tuple[str, ...] = (sys.executable, "-m", "backend.cli.main")
+        self,
+        log_folder: Path,
+        command: tuple[str, ...] = (sys.executable, "-m", "backend.cli.main"),
+        recordings: Path | None = None,
     ) -> None:
         self._log_folder = log_folder
+        self.recordings = recordings
         self._command = command
         self._thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix="launcher")
         self._children: dict[int, subprocess.Popen[bytes]] = {}
@@ -106,7 +118,9 @@ class ProcessLauncher(Launcher):
     def _spawn(self, spec: Spec, ready_fd: int, log: Path) -> subprocess.Popen[bytes]:
         log.parent.mkdir(parents=True, exist_ok=True)
         arguments = ("manager", "--host", "127.0.0.1", "--port", "0")
-        options = ("--token-env", TOKEN_VARIABLE, "--ready-fd", str(ready_fd))
+        options: tuple[str, ...] = ("--token-env", TOKEN_VARIABLE, "--ready-fd", str(ready_fd))
+        if self.recordings is not None:
+            options += ("--recordings", str(self.recordings / spec.session_id / RUNS))
         with log.open("wb") as output:
             child = subprocess.Popen(
                 (*self._command, *arguments, *options),

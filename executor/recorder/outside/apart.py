@@ -6,10 +6,8 @@ writes the target, and tells the result as one line of JSON.
 
 from __future__ import annotations
 
-import ctypes
 import json
 import os
-import resource
 import subprocess
 import sys
 from pathlib import Path
@@ -18,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 from executor.recorder.outside.convert import Converted, convert_outside
 from executor.recorder.outside.errors import OutsideError
 from executor.recorder.reader import RecordingError
+from executor.supervision.confine import confine_reader
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -28,7 +27,6 @@ MEMORY_BYTES: Final = 256 << 20
 MOST_WRITTEN_BYTES: Final = 2 << 30
 SECONDS: Final = 60
 _GRACE_S: Final = 5.0
-_NEW_USER, _NEW_NET = 0x10000000, 0x40000000
 _PASSED: Final = ("PATH", "LANG", "LC_ALL", "PYTHONPATH", "AMENT_PREFIX_PATH")
 _LARGE: Final = "Cut the part of the log that matters."
 
@@ -81,7 +79,7 @@ def outcome(name: str, code: int, output: bytes) -> Converted:
 def main(arguments: Sequence[str]) -> int:
     """Is the child: gives up what it does not need, and converts."""
     source, target, name = Path(arguments[0]), Path(arguments[1]), arguments[2]
-    _confine()
+    confine_reader(MEMORY_BYTES, SECONDS, MOST_WRITTEN_BYTES)
     try:
         with target.open("wb") as out:
             told: dict[str, Any] = vars(convert_outside(source, out, name=name))
@@ -95,20 +93,6 @@ def main(arguments: Sequence[str]) -> int:
         told = {"code": "damaged", "place": 0, "message": error.strerror or str(error), "hint": _LARGE}
     sys.stdout.write(json.dumps(told))
     return 0 if "code" not in told else 1
-
-
-def _confine() -> None:
-    for which, most in (
-        (resource.RLIMIT_DATA, MEMORY_BYTES),
-        (resource.RLIMIT_FSIZE, MOST_WRITTEN_BYTES),
-        (resource.RLIMIT_CPU, SECONDS),
-        (resource.RLIMIT_CORE, 0),
-        (resource.RLIMIT_NPROC, 0),
-    ):
-        resource.setrlimit(which, (most, most))
-    ctypes.CDLL(None).unshare(
-        _NEW_USER | _NEW_NET
-    )  # refused in most containers, which have limits of their own
 
 
 def _too_long(name: str) -> OutsideError:

@@ -10,7 +10,7 @@ it('makes the calls for the runs of a project', async () => {
     'DELETE /projects/p1/runs/r1': new Response(null, { status: 204 }),
   });
   expect(await runs.list('p1')).toEqual([{ id: 'r1' }]);
-  expect(await runs.keep('p1', { run: 'a1', name: 'n', note: '', result: 'running' })).toEqual({ id: 'r2' });
+  expect(await runs.keep('p1', { run: 'a1', name: 'n', note: '' })).toEqual({ id: 'r2' });
   await runs.change('p1', 'r1', { is_pinned: true });
   await runs.remove('p1', 'r1');
   expect(requests.map(({ method, path }) => `${method} ${path}`)).toEqual([

@@ -3,13 +3,15 @@ import { dataOf, done, rest, urlOf } from './http';
 
 /** A run that was kept with its project. */
 export type StoredRun = Readonly<components['schemas']['Run']>;
-export type RunChange = Partial<Pick<StoredRun, 'name' | 'note' | 'is_pinned' | 'is_shared'>>;
+export type RunChange = Partial<Pick<StoredRun, 'name' | 'note' | 'is_pinned' | 'is_shared'>> & {
+  /** Keeps the last run. */
+  readonly is_last?: false;
+};
 export interface RunToKeep {
   /** The name that its session gave it. */
   readonly run: string;
   readonly name: string;
   readonly note: string;
-  readonly result: StoredRun['result'];
 }
 
 const at = (project_id: string, run_id: string) => ({ path: { project_id, run_id } });
@@ -39,5 +41,6 @@ export const runs = {
     dataOf(rest.PATCH('/api/v1/projects/{project_id}/runs/{run_id}', { params: at(projectId, id), body })),
   remove: (projectId: string, id: string) =>
     done(rest.DELETE('/api/v1/projects/{project_id}/runs/{run_id}', { params: at(projectId, id) })),
+  thumbnailUrl: (projectId: string, id: string) => urlOf(`/projects/${projectId}/runs/${id}/thumbnail`),
   recordingUrl: (projectId: string, id: string) => urlOf(`/projects/${projectId}/runs/${id}/recording`),
 };

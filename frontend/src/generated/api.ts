@@ -769,7 +769,11 @@ export interface paths {
         /** @description Lists the runs that you kept, those that are shared, and, for the owner, all; pinned ones first. */
         get: operations["list_runs"];
         put?: never;
-        /** @description Stores the recording of a run of your session. The last 20 stay, and all that are pinned. */
+        /**
+         * @description Stores the recording of a run of your session. The last 20 stay, and all that are pinned.
+         *
+         *     Length, result and picture are read from the recording.
+         */
         post: operations["keep_run"];
         delete?: never;
         options?: never;
@@ -805,6 +809,23 @@ export interface paths {
         };
         /** @description Returns the recording as an MCAP file, or the range of its bytes that `Range` names. */
         get: operations["download_run"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/runs/{run_id}/thumbnail": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Returns a small picture of a run: of a camera, of the world and the robot's way, or of the tree. */
+        get: operations["get_run_thumbnail"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1548,6 +1569,8 @@ export interface components {
             /** @default 30 */
             max_uses?: number;
         };
+        /** @enum {boolean} */
+        IsLastEnum: false;
         /** @description A run of your session that is to be stored. */
         KeepRunRequest: {
             /** @description Its name in the event `segment`. */
@@ -1555,8 +1578,6 @@ export interface components {
             name: string;
             /** @default  */
             note?: string;
-            /** @default running */
-            result?: components["schemas"]["ResultEnum"];
         };
         /** @enum {string} */
         KindEnum: "action" | "msg" | "srv";
@@ -1680,6 +1701,8 @@ export interface components {
             note?: string;
             is_pinned?: boolean;
             is_shared?: boolean;
+            /** @description `false` keeps the last run, as any change of it does. */
+            is_last?: components["schemas"]["IsLastEnum"];
         };
         /** @description Fields of `project.json` to change; `settings` replaces all settings. */
         PatchedEditProjectRequest: {
@@ -1881,6 +1904,10 @@ export interface components {
             is_pinned: boolean;
             /** @description Whether all who may read the project see it. */
             is_shared: boolean;
+            /** @description Whether it was kept by itself; the next last run replaces it. */
+            is_last: boolean;
+            /** @description Whether there is a small picture of it. */
+            has_thumbnail: boolean;
             /** @description Whether you may rename, pin and delete it. */
             may_manage: boolean;
             /** @description Whether you may share it with the project. */
@@ -3998,6 +4025,38 @@ export interface operations {
                 };
                 content: {
                     "application/octet-stream": Blob;
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_run_thumbnail: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/*": Blob;
                 };
             };
             /** @description A problem document. */

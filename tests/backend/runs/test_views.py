@@ -30,12 +30,17 @@ def seen(by, project):
 
 
 def test_a_kept_run_is_listed_with_what_the_server_found_out(people):
-    answer = keep(people.editor, people.project, note="The crate fell.", result="failure")
+    answer = keep(people.editor, people.project, note="The crate fell.")
     assert answer.status_code == 201
     run = answer.json()
-    assert run["length_s"] > 0
-    assert (run["size"], run["keeper"], run["result"]) == (len(SAMPLE), "editor", "failure")
-    assert (run["is_pinned"], run["is_shared"], run["may_manage"]) == (False, False, True)
+    assert (run["length_s"], run["result"], run["has_thumbnail"]) == (1.0, "running", True)
+    assert (run["size"], run["keeper"], run["recorded_as"]) == (len(SAMPLE), "editor", "a1")
+    assert (run["is_pinned"], run["is_shared"], run["may_manage"], run["is_last"]) == (
+        False,
+        False,
+        True,
+        False,
+    )
     assert seen(people.editor, people.project) == ["Kept"]
     stored = Run.objects.get(id=run["id"])
     assert stored.sha256 == hashlib.sha256(SAMPLE).hexdigest()
@@ -79,7 +84,7 @@ def test_a_deleted_run_and_a_deleted_project_leave_nothing(people):
         ({"run": "../x"}, "run"),
         ({"name": ""}, "name"),
         ({"name": "x" * 101}, "name"),
-        ({"result": "won"}, "result"),
+        ({"result": "success"}, "result"),
     ],
 )
 def test_values_that_cannot_be_are_named(people, asked, field):
@@ -107,6 +112,19 @@ def test_the_recording_is_downloaded_as_a_whole_and_in_ranges(people):
     beyond = people.owner.client.get(address, headers={"Range": f"bytes={len(SAMPLE)}-"})
     assert (beyond.status_code, beyond.json()["code"]) == (416, "bad_range")
     assert beyond["Content-Range"] == f"bytes */{len(SAMPLE)}"
+
+
+def test_a_run_has_a_small_picture_that_can_do_no_harm(people):
+    run = keep(people.owner, people.project).json()
+    address = f"/api/v1/projects/{people.project.id}/runs/{run['id']}/thumbnail"
+    answer = people.owner.client.get(address)
+    assert (answer.status_code, answer["Content-Type"]) == (200, "image/jpeg")
+    assert answer.content.startswith(b"\xff\xd8\xff")
+    assert answer["X-Content-Type-Options"] == "nosniff"
+    assert "sandbox" in answer["Content-Security-Policy"]
+    assert people.viewer.client.get(address).status_code == 404
+    Run.objects.update(thumbnail_type="")
+    assert people.owner.client.get(address).status_code == 404
 
 
 def test_keeping_a_run_is_an_expensive_call():

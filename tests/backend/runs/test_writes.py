@@ -60,7 +60,7 @@ def test_what_is_no_recording_is_not_stored(people, monkeypatch):
 def test_without_a_session_that_runs_nothing_is_kept(people, session, monkeypatch):
     monkeypatch.setattr(writes, "live_session", lambda *_, **__: session)
     with pytest.raises(NotRecordedError, match="No session of yours"):
-        writes.keep(people.project.id, {"recorded_as": "a1", "name": "x"}, acting_user=people.owner.user)
+        writes.source(people.project.id, acting_user=people.owner.user)
 
 
 def test_two_that_are_kept_at_once_do_not_exceed_the_quota(people, monkeypatch):

@@ -30,7 +30,7 @@ def test_each_run_begins_with_the_tree_and_its_state():
         messages = list(source.messages())
         source.connection.close()
     marks = [(m.run if isinstance(m, Mark) else m.name) for m in messages if isinstance(m, Mark | Record)]
-    assert marks[:4] == ["a1", "Tree", "Blackboard", "Tick"]
+    assert marks[:5] == ["a1", "Tree", "Keyframe", "Blackboard", "Tick"]
     assert marks[marks.index("b2") :][:3] == ["b2", "Tree", "Keyframe"]
     generations = [m.fields["generation"] for m in messages if isinstance(m, Record) and m.name == "Tree"]
     assert generations == [1, 2]

@@ -67,3 +67,13 @@ async def test_a_damaged_recording_is_a_conflict(tmp_path):
     (tmp_path / "recordings" / "a1" / "00000.0.mcap").write_bytes(b"nothing")
     answer = await Recordings(tmp_path / "recordings").respond(*asked("/recordings/a1/0"))
     assert answer.status_code == HTTPStatus.CONFLICT
+
+
+async def test_the_last_run_is_given_by_that_name(tmp_path):
+    folder = tmp_path / "recordings"
+    folder.mkdir()
+    held = Recordings(folder)
+    assert (await held.respond(*asked("/recordings/last/0"))).status_code == HTTPStatus.NOT_FOUND
+    filled(folder, 45)
+    last, named = [(await held.respond(*asked(f"/recordings/{run}/0"))).body for run in ("last", "a1")]
+    assert last == named

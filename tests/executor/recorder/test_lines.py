@@ -11,7 +11,7 @@ import msgspec
 import pytest
 from mcap.reader import make_reader
 
-from executor.messages import Poses, Scene
+from executor.messages import Poses
 from executor.recorder.cdr import decode
 from executor.recorder.lines import FORMAT, convert_lines
 from executor.recorder.reader import RecordingError
@@ -45,8 +45,10 @@ def test_each_line_becomes_a_message(tmp_path, name):
         channel.topic: (schema.name, message.data) for schema, channel, message in reader.iter_messages()
     }
     assert set(found) == {"/bt/tree", "/world/scene", "/world/poses", "/scan"}
-    scene = msgspec.msgpack.decode(decode(*found["/world/scene"])["data"], type=Scene)
-    assert scene.meshes["m"].positions == b"\0\0"
+    scene = msgspec.msgpack.decode(decode(*found["/world/scene"])["data"])
+    (part,) = reader.iter_attachments()
+    assert part.name == f"scene/{scene['meshes']['m']['hash']}"
+    assert msgspec.msgpack.decode(part.data)["positions"] == b"\0\0"
     assert msgspec.msgpack.decode(decode(*found["/world/poses"])["data"], type=Poses).ids == b"\1\0"
     about = next(iter(reader.iter_metadata())).metadata
     assert (about["project"], about["seed"]) == ("P", "3")

@@ -5,13 +5,16 @@ from __future__ import annotations
 import resource
 from typing import Any
 
+import msgspec
 import pytest
 from mcap.reader import make_reader
 from mcap.records import Attachment, Message
 
+from executor.recorder.cdr import decode
+from executor.recorder.joining import join_run
 from executor.recorder.reader import RecordReader
 from executor.recorder.run_writer import MOST_CHANNELS, SEGMENT_NS, RunWriter
-from executor.recorder.shelf import PICTURE, Segment, Shelf, file_of
+from executor.recorder.shelf import PICTURE, Segment, Shelf, file_of, parts_of
 
 SECOND = 1_000_000_000
 
@@ -125,3 +128,23 @@ def test_a_disk_that_is_full_from_the_begin_leaves_nothing(tmp_path):
         writer.record(*log(1))
     writer.abandon()
     assert shelf.segments == []
+
+
+def test_a_scene_is_written_without_its_meshes_which_the_joined_file_has_once(tmp_path):
+    mesh = {"positions": b"0", "normals": b"1", "indices": b"2"}
+    frame = msgspec.msgpack.encode({"type": "scene", "meshes": {"m": mesh}})
+    shelf = Shelf(tmp_path, lambda _: None)
+    writer = RunWriter(shelf, "a1", {}, {})
+    writer.record("/world/scene", "Scene", {"stamp": 0, "data": frame})
+    for second in (25, 50):
+        writer.record(*log(second))
+    writer.end()
+    ((digest, part),) = parts_of(tmp_path, "a1").items()
+    assert msgspec.msgpack.decode(part) == mesh
+    assert join_run(tmp_path, "a1", tmp_path / "all.mcap") == 5
+    with (tmp_path / "all.mcap").open("rb") as file:
+        reader = make_reader(file)
+        (attached,) = reader.iter_attachments()
+        scenes = [decode(s.name, m.data) for s, _, m in reader.iter_messages(topics=["/world/scene"]) if s]
+    assert (attached.name, attached.data) == (f"scene/{digest}", part)
+    assert [msgspec.msgpack.decode(s["data"])["meshes"] for s in scenes] == [{"m": {"hash": digest}}] * 3

@@ -9,7 +9,16 @@ import pytest
 from mcap.reader import make_reader
 
 from executor.recorder.run_writer import RunWriter
-from executor.recorder.shelf import PICTURE, Budgets, Segment, Shelf, file_of, files_of
+from executor.recorder.shelf import (
+    MOST_PARTS_BYTES,
+    PICTURE,
+    Budgets,
+    Segment,
+    Shelf,
+    file_of,
+    files_of,
+    parts_of,
+)
 
 SECOND = 1_000_000_000
 BUDGETS = Budgets()
@@ -118,3 +127,27 @@ def test_reads_are_bounded(tmp_path):
 def test_names_of_runs_are_not_paths(tmp_path):
     assert files_of(tmp_path, "../etc") == []
     assert files_of(tmp_path, "") == []
+
+
+def test_meshes_are_kept_once_and_go_with_the_last_segment_of_their_run(tmp_path):
+    shelf, _ = filled(tmp_path, 25, budgets=Budgets(others=1))
+    assert shelf.keep_parts("b2", {"aa": b"mesh", "bb": b"other"})
+    assert shelf.keep_parts("b2", {"aa": b"mesh"})
+    assert parts_of(tmp_path, "b2") == {"aa": b"mesh", "bb": b"other"}
+    assert not shelf.keep_parts("b2", {"cc": bytes(MOST_PARTS_BYTES)})
+    assert shelf.keep_parts("a1", {"dd": b"mesh"})
+    other = RunWriter(shelf, "b2", {}, {})
+    for t_s in (0, 21, 42):
+        other.write("/a", "std_msgs/msg/String", t_s * SECOND, b"\0\1\0\0\2\0\0\0a\0")
+    other.end()
+    assert not (tmp_path / "a1").exists()
+    assert parts_of(tmp_path, "b2") == {"aa": b"mesh", "bb": b"other"}
+
+
+def test_meshes_that_another_recorder_left_are_counted(tmp_path):
+    shelf, _ = filled(tmp_path, 25)
+    assert shelf.keep_parts("a1", {"aa": bytes(MOST_PARTS_BYTES - 10)})
+    second = Shelf(tmp_path, lambda _: None)
+    second.recover()
+    assert second.keep_parts("a1", {"aa": bytes(MOST_PARTS_BYTES - 10), "bb": b"small"})
+    assert not second.keep_parts("a1", {"cc": bytes(20)})

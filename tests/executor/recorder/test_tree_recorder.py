@@ -99,7 +99,7 @@ def test_a_keyframe_holds_all_statuses_and_entries():
     tree, recorder, said = recorded(XML.replace("<AlwaysFailure/>", '<Sleep msec="1000"/>'))
     tree.tick_once()
     recorder.keyframe(240, b"world")
-    (frame,) = of(said, "/bt/keyframe")
+    _, frame = of(said, "/bt/keyframe")
     assert (frame["step"], frame["tick"], frame["world"]) == (240, 1, b"world")
     assert frame["status"] == bytes([1, 2, 2, 1])
     values = {key: value for _, key, _, value in json.loads(frame["blackboard_json"])}

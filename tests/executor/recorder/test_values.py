@@ -53,3 +53,13 @@ def test_each_part_of_a_tick_changes_its_fingerprint():
     assert len(set(prints)) == len(parts)
     assert all(0 <= one < 2**64 for one in prints)
     assert prints[0] == fingerprint(*parts[0])
+
+
+def test_a_value_that_reads_like_a_preview_is_one():
+    assert json.loads(value_json({"preview": "mine"}, lambda _: "{'preview': 'mine'}")) == {
+        "preview": "{'preview': 'mine'}",
+        "bytes": 18,
+        "hash": json.loads(value_json({"preview": "mine"}, str))["hash"],
+    }
+    assert json.loads(value_json({"preview": 1}, str)) == {"preview": 1}
+    assert json.loads(value_json({"preview": "a", "more": 1}, str)) == {"preview": "a", "more": 1}

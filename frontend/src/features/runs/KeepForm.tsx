@@ -4,7 +4,7 @@ import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { RunToKeep } from '@/api/runs';
 import { useSessionStore } from '@/store/session/store';
-import { recordedRun, resultOf } from './present';
+import { recordedRun } from './present';
 
 /** A form that keeps the run of the session, with a name and a note. */
 export function KeepForm({ onKeep }: { readonly onKeep: (run: RunToKeep) => Promise<boolean> }) {
@@ -16,8 +16,7 @@ export function KeepForm({ onKeep }: { readonly onKeep: (run: RunToKeep) => Prom
   if (run === undefined) return null;
   const keep = async () => {
     setKeeping(true);
-    const result = resultOf(useSessionStore.getState());
-    if (await onKeep({ run, name: name.trim(), note: note.trim(), result })) setNote('');
+    if (await onKeep({ run, name: name.trim(), note: note.trim() })) setNote('');
     setKeeping(false);
   };
   return (

@@ -14,6 +14,8 @@ const run: StoredRun = {
   size: 100,
   is_pinned: true,
   is_shared: true,
+  is_last: false,
+  has_thumbnail: true,
   may_manage: true,
   may_share: true,
   keeper: 'tina',
@@ -63,4 +65,11 @@ it('is opened by its name', async () => {
   const { onOpen } = open();
   await user.click(screen.getByRole('button', { name: 'First' }));
   expect(onOpen).toHaveBeenCalledOnce();
+});
+
+it('is named and kept with one press, if it is the last run', async () => {
+  const { onChange } = open({ name: '', is_last: true });
+  expect(screen.getByRole('button', { name: 'Last run' })).toBeInTheDocument();
+  await user.click(screen.getByRole('button', { name: 'Keep' }));
+  expect(onChange).toHaveBeenCalledWith({ is_last: false });
 });

@@ -7,6 +7,7 @@ import { timeAgo } from '@/i18n/timeAgo';
 import { linkTo } from '@/store/moment/address';
 import { copyLink } from '@/ui/copyLink';
 import { minutes } from './present';
+import { Thumbnail } from './Thumbnail';
 
 const COLORS = { success: 'green', failure: 'red', error: 'red', running: 'gray' } as const;
 const MEGA = 1e6;
@@ -24,14 +25,16 @@ interface Props {
 export function RunRow({ projectId, run, onOpen, onChange, onRemove }: Props) {
   const { t, i18n } = useTranslation('runs');
   const [mode, setMode] = useState<'shown' | 'renamed' | 'removed' | 'shared'>('shown');
+  const name = run.name || t('last');
   const back = () => setMode('shown');
   return (
     <li data-testid={`run-${run.id}`}>
       <Group gap="xs" wrap="nowrap" justify="space-between">
+        <Thumbnail projectId={projectId} run={run} />
         <Group gap="xs" style={{ minWidth: 0, flex: 1 }}>
           {run.is_pinned ? <IconPinFilled size={14} role="img" aria-label={t('pinned')} /> : null}
           {mode === 'renamed' ? (
-            <NameField name={run.name} onDone={(name) => (back(), name && void onChange({ name }))} />
+            <NameField name={name} onDone={(text) => (back(), text && void onChange({ name: text }))} />
           ) : (
             <Button
               variant="subtle"
@@ -40,7 +43,7 @@ export function RunRow({ projectId, run, onOpen, onChange, onRemove }: Props) {
               title={t('open')}
               onClick={onOpen}
             >
-              {run.name}
+              {name}
             </Button>
           )}
           <Badge size="sm" variant="light" color={COLORS[run.result]}>
@@ -62,12 +65,22 @@ export function RunRow({ projectId, run, onOpen, onChange, onRemove }: Props) {
             })}
           </Text>
         </Group>
+        {run.is_last && run.may_manage ? (
+          <Button
+            size="compact-sm"
+            variant="default"
+            title={t('keepLast')}
+            onClick={() => void onChange({ is_last: false })}
+          >
+            {t('keep')}
+          </Button>
+        ) : null}
         <ActionIcon
           component="a"
           href={runs.recordingUrl(projectId, run.id)}
           download
           size="md"
-          aria-label={t('download', { name: run.name })}
+          aria-label={t('download', { name })}
         >
           <IconDownload size={16} />
         </ActionIcon>
@@ -87,7 +100,7 @@ export function RunRow({ projectId, run, onOpen, onChange, onRemove }: Props) {
         {run.may_manage ? (
           <Menu position="bottom-end" width={240}>
             <Menu.Target>
-              <ActionIcon size="md" aria-label={t('more', { name: run.name })}>
+              <ActionIcon size="md" aria-label={t('more', { name })}>
                 <IconDots size={16} />
               </ActionIcon>
             </Menu.Target>

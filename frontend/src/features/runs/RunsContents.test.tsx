@@ -19,6 +19,8 @@ const run = (more: Partial<StoredRun> = {}): StoredRun => ({
   size: 2_500_000,
   is_pinned: false,
   is_shared: false,
+  is_last: false,
+  has_thumbnail: true,
   may_manage: true,
   may_share: true,
   keeper: 'tina',
@@ -79,7 +81,7 @@ describe('the list', () => {
 describe('the present run', () => {
   const segment = { run: 'a1' } as Segment;
 
-  it('is kept with name, note and result', async () => {
+  it('is kept with name and note', async () => {
     const asked = open({ [LIST]: { items: [] }, 'POST /projects/p1/runs': run() });
     act(() => useSessionStore.setState({ segments: [segment] }));
     const name = await screen.findByRole('textbox', { name: 'Name' });
@@ -91,7 +93,7 @@ describe('the present run', () => {
     expect(asked()).toContainEqual([
       'POST',
       '/projects/p1/runs',
-      { run: 'a1', name: 'Second try', note: 'faster', result: 'running' },
+      { run: 'a1', name: 'Second try', note: 'faster' },
     ]);
   });
 

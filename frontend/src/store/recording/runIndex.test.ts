@@ -105,3 +105,19 @@ it('tells several ticks of one time apart', () => {
   expect(index.tickFrom(1, -1, 2)).toEqual({ t: 1, tick: 1 });
   expect(index.tickFrom(1, 1, 1)).toEqual({ t: 1, tick: 2 });
 });
+
+it('knows since when a value is there, also where the tree was written again', () => {
+  const index = new RunIndex('r');
+  const segment = index.segment(0, 0);
+  const add = (topic: string, t: number, fields: Record<string, unknown>) =>
+    segment.add({ topic, type: '', t, data: new Uint8Array(), decode: () => fields });
+  const tree = { generation: 1, uid: [1], parent: [0] };
+  add('/bt/tree', 0, tree);
+  const entry = { scope: [''], key: ['k'], type: ['int'], value_json: ['3'] };
+  add('/bt/blackboard', 1, { ...entry, removed: [0], writer_uid: [1] });
+  add('/bt/tick', 1, { number: 1 });
+  // Files that are joined from segments repeat tree and keyframe.
+  add('/bt/tree', 20, tree);
+  add('/bt/keyframe', 20, { tick: 1, status: [1], blackboard_json: '[["","k","int",3]]' });
+  expect(index.momentAt(20)!.entries).toMatchObject([{ key: 'k', value: 3, since: 1, writer: 1 }]);
+});

@@ -73,7 +73,7 @@ export class RunIndex {
       isHalted: state.isHalted,
       entries: [...state.entries].map(([id, entry]): EntryAt => ({
         ...entry,
-        ...this.since(segment, state, id),
+        ...this.since(segment, state, id, t),
       })),
       poses: posesAt(segment.poses, t),
       scan: scanOf(lastOf(segment.scans, t)),
@@ -150,16 +150,21 @@ export class RunIndex {
   }
 
   /** Returns since when an entry has its value, and who wrote it, also from earlier segments. */
-  private since(segment: SegmentIndex, state: State, id: string): Pick<EntryAt, 'since' | 'writer'> {
+  private since(
+    segment: SegmentIndex,
+    state: State,
+    id: string,
+    t: number,
+  ): Pick<EntryAt, 'since' | 'writer'> {
     const own = state.written.get(id);
     if (own) return { since: own.t, writer: own.writer };
-    for (let number = segment.number - 1; ; number -= 1) {
-      const earlier = this.segments.get(number);
-      if (!earlier) return { since: null, writer: null };
-      const found = earlier.lastWrite(id);
+    for (let earlier: SegmentIndex | undefined = segment; earlier;) {
+      const found = earlier.lastWrite(id, t);
       if (found)
         return found.isRemoved ? { since: null, writer: null } : { since: found.t, writer: found.writer };
+      earlier = this.segments.get(earlier.number - 1);
     }
+    return { since: null, writer: null };
   }
 }
 

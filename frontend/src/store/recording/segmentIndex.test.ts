@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest';
 import type { Fields } from './cdr';
-import { isCollision, SegmentIndex } from './segmentIndex';
+import { entryId, isCollision, SegmentIndex } from './segmentIndex';
 import type { Read } from './segmentReader';
 
 const read = (topic: string, t: number, fields: Fields, type = ''): Read => ({
@@ -52,4 +52,23 @@ it('refuses times that run backwards', () => {
   const index = new SegmentIndex(0, 0);
   index.add(read('/scan', 2, {}));
   expect(() => index.add(read('/scan', 1, {}))).toThrow('time runs backwards');
+});
+
+it('knows the last write of a key up to a time', () => {
+  const index = new SegmentIndex(0, 0);
+  const write = (key: string, removed = false) => ({
+    scope: [''],
+    key: [key],
+    type: ['int'],
+    value_json: ['1'],
+    removed: [removed ? 1 : 0],
+    writer_uid: [4],
+  });
+  index.add(read('/bt/blackboard', 1, write('k')));
+  index.add(read('/bt/blackboard', 2, write('other')));
+  index.add(read('/bt/blackboard', 3, write('k', true)));
+  const id = entryId({ scope: '', key: 'k' });
+  expect(index.lastWrite(id, 0.9)).toBeNull();
+  expect(index.lastWrite(id, 2.5)).toEqual({ t: 1, writer: 4, isRemoved: false });
+  expect(index.lastWrite(id, 3)).toEqual({ t: 3, writer: 4, isRemoved: true });
 });

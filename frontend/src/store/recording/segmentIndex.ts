@@ -2,7 +2,15 @@ import { decode } from '@msgpack/msgpack';
 import type { LogLevel, NodeStatus, Poses, TreeNode } from '@/generated/messages';
 import type { PosesFrame } from './posesAt';
 import type { Read } from './segmentReader';
-import { keyframeStep, tickStep, treeStep, writesStep, type Step, type TickStep, type Write } from './steps';
+import {
+  keyframeStep,
+  tickStep,
+  treeStep,
+  writesStep,
+  type Step,
+  type TickStep,
+  type WritesStep,
+} from './steps';
 import {
   RecordingError,
   STATUSES,
@@ -18,6 +26,10 @@ export const entryId = ({ scope, key }: Pick<Entry, 'scope' | 'key'>) => `${scop
 interface Written {
   readonly t: number;
   readonly writer: number;
+}
+
+interface LastWrite extends Written {
+  readonly isRemoved: boolean;
 }
 
 /** The state of tree and blackboard after some steps. */
@@ -51,6 +63,8 @@ export class SegmentIndex {
   /** Whether all was read, and nothing follows. */
   isWhole = false;
   private paths = new Map<number, string>();
+  /** The writes of each key, in order. */
+  private readonly writes = new Map<string, LastWrite[]>();
 
   constructor(
     readonly number: number,
@@ -76,7 +90,7 @@ export class SegmentIndex {
       case '/bt/tick':
         return void this.steps.push(tickStep(t, read.decode()));
       case '/bt/blackboard':
-        return void this.steps.push(writesStep(t, read.decode()));
+        return this.addWrites(writesStep(t, read.decode()));
       case '/bt/log':
         return this.addLine(read);
       case '/bt/fault':
@@ -118,15 +132,20 @@ export class SegmentIndex {
     return state;
   }
 
-  /** Returns the last write of a key in this segment. */
-  lastWrite(id: string): (Write & { readonly t: number }) | null {
-    for (let at = this.steps.length - 1; at >= 0; at -= 1) {
-      const step = this.steps[at];
-      if (step?.kind !== 'writes') continue;
-      const found = step.writes.findLast((write) => entryId(write) === id);
-      if (found) return { ...found, t: step.t };
+  /** Returns the last write of a key up to a time, also of a tree that is written again since. */
+  lastWrite(id: string, until: number): LastWrite | null {
+    return this.writes.get(id)?.findLast(({ t }) => t <= until) ?? null;
+  }
+
+  private addWrites(step: WritesStep): void {
+    this.steps.push(step);
+    for (const { writer, isRemoved, ...entry } of step.writes) {
+      const id = entryId(entry);
+      const all = this.writes.get(id);
+      const write = { t: step.t, writer, isRemoved };
+      if (all) all.push(write);
+      else this.writes.set(id, [write]);
     }
-    return null;
   }
 
   private addLine({ t, decode: told }: Read): void {

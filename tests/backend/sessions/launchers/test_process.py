@@ -14,7 +14,7 @@ import pytest
 
 from backend.sessions.errors import LaunchError
 from backend.sessions.launchers.base import UNKNOWN_EXIT
-from backend.sessions.launchers.process import ProcessLauncher
+from backend.sessions.launchers.process import RUNS, ProcessLauncher
 from tests.backend.sessions.conftest import children, spec
 
 
@@ -30,6 +30,14 @@ def test_a_manager_starts_runs_and_ends(launcher_of):
     assert launcher.poll(started.state) is not None
     assert not psutil.pid_exists(started.state["pid"])
     launcher.stop(started.state, timeout_s=5)
+
+
+def test_each_session_has_a_folder_for_its_recordings(launcher_of, tmp_path):
+    launcher = launcher_of("echo")
+    assert launcher.recordings is None
+    launcher.recordings = tmp_path
+    arguments = psutil.Process(launcher.start(spec()).state["pid"]).cmdline()
+    assert arguments[arguments.index("--recordings") + 1] == str(tmp_path / spec().session_id / RUNS)
 
 
 def test_the_state_is_json_and_holds_no_secret(launcher_of):

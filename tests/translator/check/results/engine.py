@@ -93,25 +93,24 @@ def project_of(case: Case, types: set[str]) -> Project:
     return from_xml(case.xml(), actions={f"{type_}.py": source(type_).encode() for type_ in types})
 
 
+def case_project(seed: int) -> tuple[Project, list[tuple[int, Status]], Tree]:
+    """Runs the case of a seed; returns its project, uid and result of each tick, and the tree."""
+    case = generate(seed)
+    trees = tuple((name, declared(spec)) for name, spec in case.trees)
+    case = Case(case.seed, trees, case.ticks, case.mode, case.halts, case.writes)
+    types = {type_ for _, spec in case.trees for type_ in leaf_types(spec)}
+    log, tree = run(case, {type_: leaf_class(type_) for type_ in types})
+    return project_of(case, types), log, tree
+
+
 def compare(seed: int) -> list[str]:
     """Runs the case of a seed; returns each result that was not predicted."""
-    case = generate(seed)
-    case = Case(
-        case.seed,
-        tuple((name, declared(spec)) for name, spec in case.trees),
-        case.ticks,
-        case.mode,
-        case.halts,
-        case.writes,
-    )
-    types = {type_ for _, spec in case.trees for type_ in leaf_types(spec)}
-    project = project_of(case, types)
+    project, log, tree = case_project(seed)
     results = interpret(project, callees_first(project.trees))
-    observed, tree = run(case, {type_: leaf_class(type_) for type_ in types})
     predicted = expected(project, tree, results.may)
     return [
         f"{tree.nodes[uid - 1].type} {uid}: {status.name} is not among {names_of(predicted[uid])}"
-        for uid, status in sorted(set(observed), key=str)
+        for uid, status in sorted(set(log), key=str)
         if status.name not in names_of(predicted[uid])
     ]
 

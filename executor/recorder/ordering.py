@@ -1,0 +1,56 @@
+"""Brings messages of several sources into the order of their times. Pure; real time is an argument.
+
+Sources send in batches, so one is ahead of the other by up to the time of a batch. A message waits until each
+source that is awake has told something later, or was silent for a while.
+"""
+
+from __future__ import annotations
+
+import heapq
+from typing import TYPE_CHECKING, Final, Generic, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["SILENT_S", "Ordering"]
+
+SILENT_S: Final = 0.4
+"""A source that was silent for as long is not waited for; sources send five times in a second."""
+MOST_WAITING: Final = 20_000
+Item = TypeVar("Item")
+
+
+class Ordering(Generic[Item]):
+    """Messages that wait for those before them."""
+
+    def __init__(self) -> None:
+        self._waiting: list[tuple[int, int, Item]] = []
+        self._last: dict[int, tuple[int, float]] = {}
+        self._number = 0
+
+    def __len__(self) -> int:
+        return len(self._waiting)
+
+    def put(self, t_ns: int, item: Item, source: int | None, now_s: float) -> None:
+        """Adds a message of a source; None is a source for which nobody waits."""
+        self._number += 1
+        heapq.heappush(self._waiting, (t_ns, self._number, item))
+        if source is not None:
+            self._last[source] = t_ns, now_s
+
+    def drop(self, source: int) -> None:
+        """Waits for a source no more."""
+        self._last.pop(source, None)
+
+    def ready(self, now_s: float, *, all_: bool = False) -> Iterator[tuple[int, Item]]:
+        """Takes out the messages whose turn it is, with their times in ns.
+
+        If too many wait, the first ones do not. With `all_` nothing is waited for.
+        """
+        awake = [t_ns for t_ns, heard_s in self._last.values() if now_s - heard_s < SILENT_S]
+        until_ns = min(awake, default=None)
+        while self._waiting and (
+            all_ or until_ns is None or self._waiting[0][0] <= until_ns or len(self._waiting) > MOST_WAITING
+        ):
+            t_ns, _, item = heapq.heappop(self._waiting)
+            yield t_ns, item

@@ -1,0 +1,59 @@
+"""The order of messages of several sources."""
+
+from __future__ import annotations
+
+import random
+
+from executor.recorder import ordering
+from executor.recorder.ordering import SILENT_S, Ordering
+
+
+def test_a_message_waits_until_the_other_source_told_something_later():
+    order = Ordering[str]()
+    order.put(10, "a", 1, 0.0)
+    order.put(5, "b", 2, 0.0)
+    order.put(20, "c", 1, 0.0)
+    assert list(order.ready(0.0)) == [(5, "b")]
+    order.put(15, "d", 2, 0.1)
+    assert list(order.ready(0.1)) == [(10, "a"), (15, "d")]
+    assert len(order) == 1
+
+
+def test_a_source_that_is_silent_or_gone_is_not_waited_for():
+    order = Ordering[str]()
+    order.put(5, "b", 2, 0.0)
+    order.put(20, "a", 1, 0.2)
+    assert list(order.ready(0.2)) == [(5, "b")]
+    assert list(order.ready(SILENT_S)) == [(20, "a")]
+    order.put(21, "c", 2, 1.0)
+    order.put(30, "d", 1, 1.0)
+    assert list(order.ready(1.0)) == [(21, "c")]
+    order.drop(2)
+    assert list(order.ready(1.0)) == [(30, "d")]
+
+
+def test_at_the_end_all_are_taken_and_many_do_not_wait(monkeypatch):
+    monkeypatch.setattr(ordering, "MOST_WAITING", 10)
+    order = Ordering[int]()
+    order.put(0, -1, 2, 0.0)
+    for number in range(30):
+        order.put(number + 1, number, 1, 0.0)
+    assert [item for _, item in order.ready(0.0)][:3] == [-1, 0, 1]
+    assert len(order) == 10
+    assert [item for _, item in order.ready(0.0, all_=True)] == list(range(20, 30))
+
+
+def test_messages_of_one_time_keep_their_order_and_batches_of_two_sources_are_merged():
+    chance = random.Random(1)  # noqa: S311 - reproducible
+    order = Ordering[tuple[int, int]]()
+    found, told, now_s = [], [0, 0], 0.0
+    for _ in range(200):
+        source = chance.randrange(2)
+        for _ in range(chance.randrange(20)):
+            order.put(told[source] // 3, (source, told[source]), source, now_s)
+            told[source] += 1
+        found += [item for _, item in order.ready(now_s)]
+        now_s += SILENT_S / 50
+    found += [item for _, item in order.ready(now_s, all_=True)]
+    for source in (0, 1):
+        assert [number for each, number in found if each == source] == list(range(told[source]))

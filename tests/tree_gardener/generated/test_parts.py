@@ -1,0 +1,159 @@
+"""The nodes that are written into one function."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.tree_gardener.trees import load, recording, subtree
+from tree_gardener.decorators.result import Inverter
+from tree_gardener.generated.parts import (
+    BUNDLE,
+    CALL,
+    COMPOSITES,
+    MAX_DEPTH,
+    MAX_NODES,
+    RULES,
+    Part,
+    Planner,
+    Region,
+    Variant,
+    rule_of,
+)
+from tree_gardener.node import Control, Node
+from tree_gardener.status import RUNNING, Status
+
+if TYPE_CHECKING:
+    from tree_gardener import Tree
+
+BARE = Variant(is_observed=False, marks=False, times=False, counts=False)
+
+
+def regions(tree: Tree, uid: int = 1, variant: Variant = BARE, *hooked: int) -> list[Region]:
+    planner = Planner(variant, None, lambda node: node.uid in hooked)
+    return planner.regions(tree.nodes[uid - 1])
+
+
+def kinds(part: Part) -> list[str]:
+    return [part.kind, *(kind for child in part.children for kind in kinds(child))]
+
+
+def size(part: Part) -> int:
+    return 1 + sum(size(child) for child in part.children)
+
+
+def test_composites_decorators_and_subtrees_with_their_leaves_are_one_region() -> None:
+    tree = load(
+        '<Sequence><Fallback><Succeeding/><ScriptCondition code="true"/></Fallback><Inverter><AlwaysFailure/>'
+        '</Inverter><SubTree ID="T"/></Sequence>',
+        subtree("T", '<ReactiveSequence><Script code="a := 1"/></ReactiveSequence>'),
+    )
+    (region,) = regions(tree)
+    assert CALL not in kinds(region.root)
+    assert size(region.root) == len(tree.nodes)
+    assert region.values[0] is tree.nodes[0]
+
+
+def test_what_has_no_rule_is_called() -> None:
+    repeat = '<Repeat num_cycles="2"><Succeeding/></Repeat>'
+    tree = load(f'<Sequence>{repeat}<Sleep msec="1"/><Succeeding/></Sequence>')
+    planner = Planner(BARE, None, lambda node: False)
+    (region,) = planner.regions(tree.nodes[0])
+    assert [part.kind for part in region.root.children] == [CALL, CALL, "stateful"]
+    assert [node.type for node in planner.called] == ["Repeat", "Sleep"]
+
+
+def test_a_composite_that_calls_all_its_children_has_no_region() -> None:
+    tree = load('<Sequence><Sleep msec="1"/><Sleep msec="1"/></Sequence>')
+    assert regions(tree) == []
+    assert regions(tree, 2) == []
+
+
+def test_a_node_with_a_hook_is_called() -> None:
+    tree = load("<Sequence><Succeeding/><Succeeding/></Sequence>")
+    (region,) = regions(tree, 1, BARE, 3)
+    assert [part.kind for part in region.root.children] == ["stateful", CALL]
+
+
+@pytest.mark.parametrize("method", ["execute", "go_on"])
+def test_a_class_whose_method_was_replaced_is_left_alone(
+    method: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tree = load("<Sequence><Inverter><Succeeding/></Inverter><Succeeding/></Sequence>")
+    assert CALL not in kinds(regions(tree)[0].root)
+    monkeypatch.setattr(Inverter, method, lambda self, *_: Status.SUCCESS)
+    assert rule_of(tree.nodes[1]) is None
+    assert [part.kind for part in regions(tree)[0].root.children] == [CALL, "stateful"]
+
+
+@pytest.mark.parametrize("children", [MAX_NODES, MAX_NODES + 1, 5 * MAX_NODES + 3])
+def test_size_is_bounded(children: int) -> None:
+    found = regions(load(f"<Sequence>{'<Succeeding/>' * children}</Sequence>"))
+    assert sum(len(region.root.children) for region in found) == children
+    assert max(size(region.root) for region in found) <= MAX_NODES + 1
+    assert [region.base for region in found] == list(range(0, children, MAX_NODES))
+    # Equal slices have equal shapes, so that they share their code.
+    assert len({region.root for region in found}) <= 2
+
+
+def test_size_counts_nodes_at_all_levels() -> None:
+    inner = f"<Sequence>{'<Succeeding/>' * 9}</Sequence>"
+    tree = load(f"<Sequence>{inner * 10}</Sequence>")
+    (region,) = regions(tree)
+    assert size(region.root) <= MAX_NODES + 1
+    assert CALL in kinds(region.root)
+    assert "stateful" in kinds(region.root)
+
+
+def test_depth_is_bounded() -> None:
+    tree = load("<Sequence>" * 40 + "<Succeeding/>" + "</Sequence>" * 40)
+    found = regions(tree, 41 - MAX_DEPTH)
+    assert kinds(found[0].root) == ["ordered"] * MAX_DEPTH + ["stateful"]
+    assert kinds(regions(tree)[0].root) == ["ordered"] * MAX_DEPTH + [CALL]
+
+
+def test_a_shape_has_nothing_of_the_document() -> None:
+    def shape(name: str, text: str) -> object:
+        tree = load(
+            f'<Sequence name="{name}"><A name="{name}"/><ScriptCondition code="{text} == 1"/></Sequence>',
+            nodes={"A": recording()},
+        )
+        return regions(tree)[0].root
+
+    assert shape("a", "x") == shape("__import__('os')", "secret")
+
+
+def test_marks_of_leaves_are_bundled_between_calls() -> None:
+    tree = load(
+        '<Sequence><Succeeding/><Succeeding/><Sleep msec="0"/><Succeeding/><Succeeding _post="a := 1"/>'
+        "</Sequence>"
+    )
+    tree.observe(lambda changes: None)
+    (region,) = regions(tree, 1, BARE._replace(is_observed=True))
+    assert [part.kind for part in region.root.children] == [
+        *("stateful", "stateful", BUNDLE, CALL, "stateful", BUNDLE, "stateful"),
+    ]
+    bundle = region.values[region.root.children[2].first]
+    assert bundle == (tree.nodes[0], RUNNING, ((2, Status.SUCCESS), (3, Status.SUCCESS)))
+
+
+def test_letters_stand_for_the_values_at_their_places() -> None:
+    tree = load('<Sequence><A _skipIf="false" _onSuccess="x := 1"/></Sequence>', nodes={"A": recording()})
+    (region,) = regions(tree)
+    leaf, node = region.root.children[0], tree.nodes[1]
+    assert isinstance(node, Node)
+    guard = node.guard
+    assert guard is not None
+    assert guard.on_success is not None
+    assert leaf.is_guarded
+    assert not region.root.is_guarded
+    assert region.values[leaf.place("n")] is node
+    assert region.values[leaf.place("u")] == node.behaviour.update
+    assert region.values[leaf.place("0")] is guard.deciding[0][0].call
+    assert region.values[leaf.place("s")] is guard.on_success.call
+
+
+def test_every_rule_names_its_kind() -> None:
+    own = {rule.kind for cls, rule in RULES.items() if issubclass(cls, Control)}
+    assert own == COMPOSITES

@@ -1,0 +1,216 @@
+"""Continues a tick where generated code leaves the usual way.
+
+The code passes the line of a value, which tells the node and what was done with it, and what was returned.
+The node's own methods then finish its tick, and those of the nodes above it up to the root of the region
+continue with the result, as in a tree without generated code.
+"""
+
+import time
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Final
+
+from tree_gardener.errors import PortError, ScriptError, TickError
+from tree_gardener.generated.parts import (
+    COMPOSITES,
+    DECIDING,
+    INITIALISE,
+    NODE,
+    ON_FAILURE,
+    ON_SUCCESS,
+    PARALLEL,
+    POST,
+    RUN,
+    TERMINATE,
+    TEST,
+    UPDATE,
+    WHILE,
+    Part,
+    Region,
+    Variant,
+)
+from tree_gardener.generated.writer import Meaning
+from tree_gardener.node import Node
+from tree_gardener.observe import Recorder
+from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
+
+if TYPE_CHECKING:
+    from tree_gardener.hooks import ResultCount
+    from tree_gardener.tree import Tree
+
+UNTICKED: Final = object()
+"""Stands for a result where a node was not ticked by the code: it was not IDLE, or a condition decided."""
+_OF_BEHAVIOURS: Final = frozenset((UPDATE, INITIALISE, TERMINATE))
+
+
+class Recovery:
+    """Continues the ticks of one region."""
+
+    __slots__ = ("base", "counts", "lines", "node", "recorder", "root", "tree", "values", "variant")
+
+    def __init__(  # noqa: PLR0913 - all parts of one region
+        self,
+        tree: "Tree",
+        region: Region,
+        variant: Variant,
+        counts: "list[ResultCount] | None",
+        recorder: Recorder,
+        lines: Mapping[int, Meaning],
+    ) -> None:
+        self.tree = tree
+        self.node: Any = region.node
+        self.root = region.root
+        self.base = region.base
+        self.values = region.values
+        self.variant = variant
+        self.counts = counts
+        self.recorder = recorder
+        self.lines = lines
+
+    # -- from the code ----------------------------------------------------------------------------------
+
+    def rest(self, line: int, returned: Any, start_s: float = 0.0) -> Status | None:
+        """Continues after the value on a line returned something unusual."""
+        part, letter, _ = self.lines[line]
+        node: Any = self.values[part.first]
+        self.report(line, node)
+        if letter == NODE:
+            if returned is UNTICKED:
+                self.unmark()
+                returned = node.parent.ticks[self.position(node, part)]()
+            return self.climb(node, part, returned)
+        if letter == UPDATE:
+            status = self.conditioned(node, node.conclude(returned, self.before))
+        else:
+            status = self.decided(node, letter)
+        self.ended(node, status, 0.0 if part.kind in COMPOSITES else start_s)
+        return self.climb(node, part, status)
+
+    def recover(self, error: BaseException, start_s: float = 0.0) -> Status | None:
+        """Continues after an exception in the code, or in what it called.
+
+        Raises:
+            TickError: the exception ends the tick.
+        """
+        trace = error.__traceback__
+        assert trace is not None
+        line = trace.tb_lineno
+        part, letter, _ = self.lines.get(line, (self.root, NODE, ()))
+        node: Any = self.values[part.first]
+        self.report(line, node)
+        if letter in _OF_BEHAVIOURS and part.kind not in (TEST, RUN):
+            status = self.conditioned(node, node.failed(error))
+            self.ended(node, status, start_s)
+            result = self.climb(node, part, status)
+            if self.root.kind == PARALLEL:
+                self.tick_from(self.position(node, part) + 1)
+            return result
+        if letter == NODE or not isinstance(error, (ScriptError, PortError)):
+            raise error.with_traceback(trace.tb_next)
+        if letter == UPDATE:
+            raise node.script.fault(error) from None
+        if letter in (ON_SUCCESS, ON_FAILURE, POST):
+            node.status = node.status_within(IDLE)
+        raise TickError(node, f"in the script '{_condition(node, letter)}': {error}") from None
+
+    def flush(self, line: int) -> None:
+        """Reports the results of children before a line that were to be reported together."""
+        meaning = self.lines.get(line)
+        if meaning is not None and meaning.pending:
+            self.recorder.results += [self.values[place] for place in meaning.pending]
+
+    def report(self, line: int, node: Node) -> None:
+        """Reports to observers what the function has not reported when it is left at a line."""
+        if not self.variant.is_observed:
+            return
+        self.flush(line)
+        above: Any = node
+        while above is not self.node:
+            above = above.parent
+            self.recorder.touched.append(above)
+
+    # -- the node ---------------------------------------------------------------------------------------
+
+    @property
+    def before(self) -> Status:
+        """The status of every inlined leaf before its tick."""
+        return RUNNING if self.root.kind == PARALLEL else IDLE
+
+    def decided(self, node: Node, letter: str) -> Status:
+        """Returns the result that a pre-condition decided."""
+        guard = node.guard
+        assert guard is not None
+        forced = SKIPPED if letter == WHILE else guard.deciding[DECIDING.index(letter)][1]
+        if forced is SKIPPED:
+            return node.skipped()
+        guard.after(node, forced)
+        return node.complete(forced)
+
+    def conditioned(self, node: Node, status: Status) -> Status:
+        """Runs the post-conditions of a node after its result."""
+        guard = node.guard
+        if guard is not None and (status is SUCCESS or status is FAILURE):
+            try:
+                guard.after(node, status)
+            except TickError:
+                node.status = node.status_within(IDLE)
+                raise
+        return status
+
+    def ended(self, node: Node, status: Status, start_s: float = 0.0) -> None:
+        """Does what runs round a node after its tick: removes its mark, measures and counts."""
+        self.unmark()
+        if start_s:
+            duration_s = time.perf_counter() - start_s
+            if duration_s > self.tree.slowest[0]:
+                self.tree.slowest = (duration_s, node.uid)
+        if self.counts is not None:
+            self.counts[node.uid - 1].add(status)
+
+    def unmark(self) -> None:
+        """Removes the mark of the action in progress."""
+        if self.variant.marks:
+            self.tree.current[0] = 0
+
+    # -- the nodes above --------------------------------------------------------------------------------
+
+    def position(self, node: Node, part: Part) -> int:
+        """Returns the position of a node among its parent's children."""
+        return part.position + self.base if node.parent is self.node else part.position
+
+    def climb(self, node: Node, part: Part, status: Status) -> Status | None:
+        """Continues in the nodes above with the result of a node; returns the root's result.
+
+        A slice of a ParallelAll continues by itself, for which None is returned.
+        """
+        position = self.position(node, part)
+        above: Any = node.parent
+        while above is not self.node:
+            status = self.conditioned(above, above.go_on(position, status))
+            self.ended(above, status)
+            above, below = above.parent, above
+            position = above.children.index(below)
+        if self.root.kind == PARALLEL:
+            above.tally(position, status)
+            return None
+        result: Status = above.go_on(position, status)
+        return result
+
+    def tick_from(self, position: int) -> None:
+        """Ticks the children of a slice of a ParallelAll from a position on."""
+        for index in range(position, self.base + len(self.root.children)):
+            self.node.tally(index, self.node.ticks[index]())
+
+
+def _condition(node: Node, letter: str) -> str:
+    guard = node.guard
+    assert guard is not None
+    if letter in DECIDING:
+        return guard.deciding[DECIDING.index(letter)][0].text
+    condition = {
+        WHILE: guard.while_true,
+        ON_SUCCESS: guard.on_success,
+        ON_FAILURE: guard.on_failure,
+        POST: guard.post,
+    }[letter]
+    assert condition is not None
+    return condition.text

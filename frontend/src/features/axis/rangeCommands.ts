@@ -71,7 +71,7 @@ export const rangeCommands: readonly UserCommand[] = [
     group: 'run',
     labelKey: 'axis:command.whatChanged',
     icon: IconArrowsDiff,
-    shortcut: 'Alt+KeyC',
+    shortcut: 'Alt+KeyD',
     enabled: () => hasRecording() && useRange.getState().a !== null,
     run: () => useRange.setState(({ isComparing }) => ({ isComparing: !isComparing })),
   },

@@ -116,7 +116,7 @@ export class RunIndex {
       const [old, now] = [a.entries.get(id), b.entries.get(id)];
       const { scope = '', key = '' } = old ?? now ?? {};
       if (JSON.stringify(old?.value) === JSON.stringify(now?.value)) return [];
-      const { since } = this.since(after, b, id);
+      const { since } = this.since(after, b, id, to);
       return [{ scope, key, from: old?.value, to: now?.value, since }];
     });
     return { statuses, entries, poses: moved(posesAt(before.poses, from), posesAt(after.poses, to)) };

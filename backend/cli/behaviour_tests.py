@@ -142,22 +142,22 @@ def junit_xml(results: Sequence[Result], problems: Sequence[Diagnostic]) -> byte
         case = ET.SubElement(
             suite,
             "testcase",
-            name=_xml_text(result.name),
-            classname=_xml_text(result.file),
-            file=_xml_text(result.file),
+            name=xml_text(result.name),
+            classname=xml_text(result.file),
+            file=xml_text(result.file),
             line=str(result.line),
             time=f"{result.duration_s:.6f}",
         )
         for failure in result.failures:
-            told = ET.SubElement(case, "failure", message=_xml_text(str(failure)))
-            told.text = _xml_text("\n".join(f"{node} {status}" for node, status in failure.path))
+            told = ET.SubElement(case, "failure", message=xml_text(str(failure)))
+            told.text = xml_text("\n".join(f"{node} {status}" for node, status in failure.path))
     for problem in problems:
-        case = ET.SubElement(suite, "testcase", name=problem.code, classname=_xml_text(problem.file))
-        ET.SubElement(case, "error", message=_xml_text(str(problem)))
+        case = ET.SubElement(suite, "testcase", name=problem.code, classname=xml_text(problem.file))
+        ET.SubElement(case, "error", message=xml_text(str(problem)))
     written: bytes = ET.tostring(root, encoding="utf-8", xml_declaration=True)
     return written
 
 
-def _xml_text(text: str) -> str:
+def xml_text(text: str) -> str:
     """Replaces characters that XML cannot hold."""
     return _NO_XML.sub("\ufffd", text)

@@ -46,6 +46,20 @@ def run_one(  # noqa: PLR0913 - one an option
         raise CliError()
 
 
+def evaluations_of(project: str) -> list[str]:
+    """Returns the names of a project's evaluations.
+
+    Raises:
+        CliError: the project cannot be read.
+    """
+    from backend.cli import _translation as cli
+
+    with explained():
+        from executor.evaluation.plan import evaluation_names
+
+        return evaluation_names(cli.open_project(project))
+
+
 def open_plan(project: str, name: str, *, as_json: bool = False) -> Plan:
     """Reads and checks an evaluation of a project.
 

@@ -30,6 +30,7 @@ VERBS: Final[dict[str, Verb]] = {
     "run": Verb("run", "run"),
     "check": Verb("check", "check"),
     "test": Verb("behaviour_tests", "run_tests"),
+    "evaluate": Verb("evaluate", "evaluate"),
     "diff": Verb("diff", "diff"),
     "merge": Verb("merge", "merge"),
     "git": Verb("git", "git"),

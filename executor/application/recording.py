@@ -58,10 +58,12 @@ class ApplicationRecorder:
         if resets:
             self._later = _Later(run, self._now(), self._clock() + RESET_S)
         else:
+            self._write_ticks()  # they belong to the run before
             self._link.begin(run)
 
     def pump(self) -> None:
         """Sends what waits. Called many times in a second."""
+        self._write_ticks()
         later = self._later
         if later is not None and (self._now() < later.reset_at_s or self._clock() >= later.until_s):
             self._later = None
@@ -70,8 +72,13 @@ class ApplicationRecorder:
 
     def close(self) -> None:
         """Sends the last messages."""
+        self._write_ticks()
         self._link.flush(GOODBYE_S)
         self._link.close()
+
+    def _write_ticks(self) -> None:
+        if self._recorder is not None:
+            self._recorder.flush()
 
     def _restate(self) -> None:
         self._generation += 1

@@ -31,7 +31,7 @@ class Clearance:
         self._bullet = bullet
         self._robot = robot
         self._bodies = frozenset(bodies) - {robot.uid}
-        self._radius = _radius_of(robot)
+        self._radius = radius_of(robot)
         self.smallest_m: float | None = None
         """None if nothing was near."""
 
@@ -143,7 +143,7 @@ def _tight_box(bullet: Bullet, uid: int) -> Box:
     return low, high
 
 
-def _radius_of(robot: BulletRobot) -> float:
+def radius_of(robot: BulletRobot) -> float:
     """Returns the distance of the robot's farthest point from its base."""
     x, y, z = robot.base_pose[:3]
     low, high = robot.bounds

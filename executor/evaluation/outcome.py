@@ -37,7 +37,7 @@ class Outcome:
         faults: the faults that happened, with their times.
         path: [t, x, y] of the robot, at most about 200 of them.
         bumps: [t, x, y, id] of its collisions.
-        seen: for each node of the tree, the letters of its results: S, F, R, and K for skipped.
+        seen: the results of each node of the tree by its path, in letters: S, F, R, and K for skipped.
     """
 
     seed: int
@@ -50,7 +50,7 @@ class Outcome:
     faults: list[dict[str, Any]] = field(default_factory=list)
     path: list[list[float]] = field(default_factory=list)
     bumps: list[list[Any]] = field(default_factory=list)
-    seen: list[str] = field(default_factory=list)
+    seen: dict[str, str] = field(default_factory=dict)
 
     @property
     def is_counted(self) -> bool:

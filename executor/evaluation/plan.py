@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from executor.evaluation.document import ENDING, FOLDER, Evaluation
 from executor.evaluation.drawing import bounds_of
+from executor.evaluation.faults import fault_problems
 from executor.evaluation.variation import Target, port_text, resolve, targets
 from executor.headless.files import write_files
 from executor.robots.config import RobotConfig, load_robot
@@ -55,7 +56,11 @@ class Plan:
 
         Raises:
             DocumentError: an entry names nothing in the other version.
+            TranslatorError: the other version has errors.
         """
+        errors = errors_in(check(project))
+        if errors:
+            raise TranslatorError(errors)
         other = replace(self, project=project)
         known = targets(self.universe, self.configs[0] if self.configs else None, project)
         found, problems = resolve(self.evaluation, known, self.universe, lambda _: (1, 1))
@@ -101,7 +106,7 @@ def make_plan(project: Project, name: str) -> Plan:
     found, problems = resolve(evaluation, known, universe, located.place)
     plan = Plan(project, name, evaluation, universe, configs, found)
     problems += _sensor_problems(plan, located) + _port_problems(plan, located)
-    problems += list(_judge_problems(plan, located.place))
+    problems += [*_judge_problems(plan, located.place), *fault_problems(plan, located.place)]
     if problems:
         raise DocumentError(sorted(problems, key=lambda problem: (problem.line, problem.column)), file)
     return plan
@@ -210,8 +215,6 @@ def _judge_problems(plan: Plan, place: Callable[..., tuple[int, int]]) -> Iterat
         if item.python is not None and python_file(item.python) not in plan.project.files:
             text = f"there is no file {python_file(item.python)}"
             yield Problem(text, *place((*path, "python")), "BTV003", f"write it beside {plan.file}")
-    if evaluation.faults:
-        yield Problem("faults cannot be run yet", *place(("faults",)), "BTV005")
 
 
 def python_file(name: str) -> str:

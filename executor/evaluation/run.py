@@ -7,6 +7,7 @@ import types
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.evaluation.clearance import Clearance, Placement, bodies_to
+from executor.evaluation.faults import Faults
 from executor.evaluation.judge import JudgeError, Referee, Verdict, make_items
 from executor.evaluation.outcome import ERROR, INVALID, SUCCESS, Outcome
 from executor.evaluation.plan import python_file
@@ -90,11 +91,12 @@ class _EvaluationRun(LockstepRun):
         self._seed = seed
         self._drawn: Drawn | None = None
         self._truth = Truth({name: area.corners for name, area in plan.universe.areas.items()})
+        self._faults: Faults | None = None
         self._decision: Decision | None = None
         self._verdicts: list[Verdict] = []
         self._measures: dict[str, float] = {}
         self._path: list[list[float]] = []
-        self._seen: list[str] = []
+        self._seen: dict[str, str] = {}
         self._energy_due = "energy_j" in evaluation.judge.measure
 
     def run(self, progress: Callable[[float], None] | None) -> Outcome:
@@ -160,6 +162,8 @@ class _EvaluationRun(LockstepRun):
         self._path_period_s = max(PATH_PERIOD_S, self._plan.evaluation.duration_s / PATH_POINTS)
         world.on_collision = self._bumped
         self.moved = self._moved
+        self._faults = faults = Faults(self._plan, self._seed, self)
+        faults.act(0.0)
         self._look()
 
     def _measure(self, what: str) -> Callable[[], float | None]:
@@ -189,6 +193,8 @@ class _EvaluationRun(LockstepRun):
     def _moved(self) -> None:
         self.heard()
         world = self.world
+        if self._faults is not None:
+            self._faults.act(world.time_s)
         if self._energy_due:
             self._truth.energy_j += self._robot.wheel_power_w() * world.step_s * 4
         if round(world.time_s / world.step_s) % JUDGE_EVERY == 0:
@@ -245,9 +251,11 @@ class _EvaluationRun(LockstepRun):
     # --- the end ---
 
     def _count_seen(self) -> None:
-        self._seen = [
-            "".join(letter for letter, name in _LETTERS if getattr(count, name)) for count in self.counts
-        ]
+        if self.counts:
+            self._seen = {
+                node.path: "".join(letter for letter, name in _LETTERS if getattr(count, name))
+                for node, count in zip(self.tree.nodes, self.counts, strict=True)
+            }
 
     def _error(self) -> str:
         for error in self.report.errors:
@@ -267,6 +275,7 @@ class _EvaluationRun(LockstepRun):
             end_s=round(end_s, 6),
             items=[verdict.to_json() for verdict in self._verdicts],
             measures=self._measures,
+            faults=[] if self._faults is None else self._faults.happened,
             drawn=drawn,
             path=self._path,
             bumps=[[*(round(value, 3) for value in (b.time_s, b.x, b.y)), b.body] for b in bumps],

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.application.preview import preview
@@ -44,12 +43,12 @@ class RunRecorder:
         self._recording = recording
         self._writer = recording.writer
         self._world = world
-        self._is_stopped = False
         self._keyframe_s = self._flush_s = 0.0
         self._thinner = Thinner()
         self._streams = Streams(world, sensors, self._write_frame, clock=self._now_s)
         self._streams.subscribe(None, "poses", max_hz=POSES_HZ)
         self._tree = TreeRecorder(tree, self._record, self._now_ns, _describe)
+        tree.observe(lambda _: self._tree.flush())  # simulated time stands in a tick
         node.tap(TopicTap(self._topic))
 
     def look(self) -> None:
@@ -107,13 +106,12 @@ class RunRecorder:
 
     def _guarded(self, write: Callable[[], None]) -> None:
         """Writes; if that fails, the recording stops there, and the run continues."""
-        if self._is_stopped:
+        if self._recording.is_stopped:
             return
         try:
             write()
         except OSError as error:
-            self._is_stopped = True
-            sys.stderr.write(f"{self._recording.path}: the recording stops here: {error.strerror}\n")
+            self._recording.stop(error)
 
 
 def _describe(value: Any) -> str:

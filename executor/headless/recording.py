@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import platform
+import sys
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Final, Self
 
@@ -33,11 +35,13 @@ def check_name(path: Path) -> None:
 class Recording:
     """A recording that is open for writing; use it as a context manager, or close it.
 
-    A full disk stops the recording, not the run.
+    A full disk stops the recording, not the run; the file stays as it is then.
 
     Raises:
         OSError: the file cannot be written.
     """
+
+    is_stopped = False
 
     def __init__(self, path: Path, about: dict[str, str], files: dict[str, bytes]) -> None:
         self.path = path
@@ -53,10 +57,21 @@ class Recording:
     def __exit__(self, *_: object) -> None:
         self.close()
 
+    def stop(self, error: OSError) -> None:
+        """Stops the recording after an error of the disk, and says so."""
+        self.is_stopped = True
+        hint = f"Its begin can be read; `bt-studio convert {self.path} -o OTHER.mcap` completes it."
+        sys.stderr.write(f"{self.path}: the recording stops here: {error.strerror}. {hint}\n")
+
     def close(self) -> None:
         """Completes and closes the file."""
-        with self._file:
-            self.writer.finish()
+        try:
+            if not self.is_stopped:
+                self.writer.finish()
+        except OSError as error:
+            self.stop(error)
+        with contextlib.suppress(OSError):  # the reason was written already
+            self._file.close()
 
 
 def open_recording(

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 __all__ = ["RecorderProcess", "main"]
 
-LOOK_S: Final = 0.6
+LOOK_S: Final = 0.5
 """The time between two flushes; with what waits for its order it is less than a second."""
 ORDER_S: Final = 0.1
 TOLD_S: Final = 1.0

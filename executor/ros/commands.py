@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
     from executor.robots.config import CommandType
+    from executor.ros.topic_faults import TopicFaults
 
 TYPES: Final[dict[CommandType, tuple[type, ...]]] = {
     "twist": (Twist,),
@@ -60,6 +61,7 @@ class Commands:
         self.types = TYPES[kind]
         self.notes: list[str] = []
         self.tap: Callable[[str, Any, float], None] | None = None
+        self.faults: TopicFaults | None = None
         self._node = node
         self._timeout_s = timeout_s
         self._second = second
@@ -75,6 +77,8 @@ class Commands:
         for subscription in self._subscriptions.values():
             while (taken := take_with_info(subscription)) is not None:
                 arrived.append((int(taken[1].get("received_timestamp", 0)), taken[0]))
+        if self.faults is not None:
+            arrived = self._faulty(arrived, self.faults, now_s)
         if not arrived:
             return None, True
         newest = max(arrived, key=lambda each: each[0])[1] if len(self._subscriptions) > 1 else arrived[-1][1]
@@ -93,6 +97,14 @@ class Commands:
             self._subscriptions = {message_type: self._subscribe(self._node, message_type)}
 
     # --- inside ---
+
+    def _faulty(
+        self, arrived: list[tuple[int, Any]], faults: TopicFaults, now_s: float
+    ) -> list[tuple[int, Any]]:
+        """Returns the commands that faults let through, and those that they have delayed until now."""
+        passed = [(at, sent) for at, message in arrived for sent in faults.take(self.topic, message, now_s)]
+        late = [(0, message) for _, message in faults.due(now_s, {self.topic})]
+        return [*late, *passed]
 
     def _subscribe(self, node: Node, message_type: type) -> Any:
         return node.create_subscription(message_type, self.topic, ignore, _DEPTH)

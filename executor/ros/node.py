@@ -18,7 +18,7 @@ from rosgraph_msgs.msg import Clock
 
 from executor.ros import messages
 from executor.ros.environment import has_tf
-from executor.ros.feed import Due, Feed, Feeds
+from executor.ros.feed import SHOWN_HZ, Due, Feed, Feeds
 from executor.ros.outlet import Outlet, Piped
 from executor.ros.raw_take import take
 from executor.ros.robot_topics import LATCHED_QOS, ODOMETRY_HZ, RobotTopics
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Collection
 
     from executor.ros.feed import Tap
+    from executor.ros.topic_faults import TopicFaults
     from executor.world.interface import Robot, World
     from executor.world.sensing.sensors import Sensors
 
@@ -97,18 +98,24 @@ class WorldNode:
         if self._outlet is not None:
             self._outlet.flush()
 
-    def tap(self, tap: Tap, *, sample_hz: float | None = None) -> None:
+    def tap(self, tap: Tap, *, samples: bool = False) -> None:
         """Gives each message of the robots' topics to a function, with the topic and the time.
 
-        With `sample_hz`, topics without subscribers are measured for it at most at this rate.
+        With `samples`, topics without subscribers are measured for it at their lower rates.
         """
         self._tap = tap
-        if sample_hz is not None:
-            self._feeds.sample(sample_hz)
+        if samples:
+            self._feeds.sample()
         for robot in self._robots:
             robot.commands.tap = tap
         if self._static is not None:
             tap("/tf_static", self._static, self._world.time_s)
+
+    def change_messages(self, faults: TopicFaults) -> None:
+        """Passes the messages of sensors and commands through faults from now on."""
+        self._feeds.faults = faults
+        for robot in self._robots:
+            robot.commands.faults = faults
 
     def publish_clock(self) -> None:
         """Publishes the simulated time, also while it is paused."""
@@ -197,4 +204,5 @@ class WorldNode:
                 [transform for robot in self._robots for transform in robot.moving_transforms(now_s)]
             ),
             ODOMETRY_HZ,
+            unheard_hz=SHOWN_HZ,
         )

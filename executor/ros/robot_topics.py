@@ -11,7 +11,7 @@ from std_msgs.msg import Bool, Float64, String
 
 from executor.ros import base_frames, messages
 from executor.ros.commands import Commands
-from executor.ros.feed import Feed
+from executor.ros.feed import SHOWN_HZ, UNHEARD_HZ, Feed
 from executor.ros.outlet import Outlet, Piped
 from executor.ros.raw_take import ignore, take
 from executor.world.geometry.kinematics import joint_pose
@@ -149,7 +149,7 @@ class RobotTopics:
     def _name(self, sensor: str, topic: str) -> str:
         return self._renamed.get(sensor, topic)
 
-    def _feed(
+    def _feed(  # noqa: PLR0913 - a feed, and when it is measured
         self,
         publishers: list[Any],
         rate_hz: float,
@@ -157,10 +157,10 @@ class RobotTopics:
         *,
         is_picture: bool = False,
         of_camera: bool = False,
+        unheard_hz: float = UNHEARD_HZ,
     ) -> None:
-        self.feeds.append(
-            Feed(publishers, make, rate_hz, is_picture=is_picture, of_camera=is_picture or of_camera)
-        )
+        of_camera = is_picture or of_camera
+        self.feeds.append(Feed(publishers, make, rate_hz, is_picture, of_camera, unheard_hz))
 
     def _add_motion(self) -> None:
         frames, base = self._frames, self._base
@@ -188,6 +188,7 @@ class RobotTopics:
             [self._publisher(LaserScan, name)],
             lidar.rate_hz,
             lambda sensors, _: messages.laser_scan(lidar, sensors.scan(self._robot(), lidar), self._frames),
+            unheard_hz=SHOWN_HZ,
         )
 
     def _add_camera(self, camera: config.Camera) -> None:

@@ -13,6 +13,7 @@ BENCHMARKS = (
     "behaviours",
     "difference",
     "world",
+    "evaluation",
     "stream",
     "session",
     "recording",

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 import pytest
 from playwright.sync_api import expect
 
+from tests.e2e.server import wait_until
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -86,3 +88,68 @@ def a_mark_leads_to_the_line_and_back(studio: Studio) -> None:
     studio.page.get_by_role("button", name="Show the block").click()
     expect(studio.at("canvas")).to_be_visible()
     expect(mark).to_be_visible()
+
+
+@pytest.mark.simulation
+def test_a_recorded_moment_becomes_a_test(
+    open_studio: Callable[[Browser], Studio], browser_without_webgl: Browser
+) -> None:
+    studio = open_studio(browser_without_webgl)
+    studio.new_from("follow_line")
+    studio.run()
+    wait_until(lambda: studio.stat("t") > 4, "the robot follows the line for a while")
+    studio.at("pause").click()
+    studio.expect_state("paused")
+    studio.page.get_by_role("tab", name="Tests", exact=True).click()
+    a_test_is_written_and_taken_back(studio)
+    a_moment_of_the_past_is_written(studio)
+    studio.end_session()
+    it_fails_with_a_mark_when_the_tree_changes(studio)
+
+
+def make_a_test(studio: Studio, name: str, *, entry: str = "") -> None:
+    studio.at("axis-test").click()
+    dialog = studio.page.get_by_role("dialog", name="Make a test of this moment")
+    field = dialog.get_by_role("textbox", name="Name")
+    expect(field).to_have_value(re.compile("as at tick [0-9]+"))
+    field.fill(name)
+    if entry:
+        dialog.get_by_role("checkbox", name=re.compile(f"^{entry} is ")).check()
+    studio.picture(f"moment-{name}".replace(" ", "-"))
+    dialog.get_by_role("button", name="Write the test").click()
+    expect(dialog).to_have_count(0)
+
+
+def a_test_is_written_and_taken_back(studio: Studio) -> None:
+    make_a_test(studio, "the end of it")
+    panel = studio.at("tests")
+    expect(panel.get_by_test_id("tests-summary")).to_have_text("1 passed, 0 failed")
+    studio.page.get_by_role("button", name="Undo", exact=True).last.click()
+    expect(panel).to_contain_text("No tests yet")
+
+
+def a_moment_of_the_past_is_written(studio: Studio) -> None:
+    strip = studio.at("axis-strip")
+    strip.focus()
+    for _ in range(5):
+        studio.page.keyboard.press("ArrowLeft")
+    expect(studio.at("moment-stats")).to_be_visible()
+    make_a_test(studio, "on the line", entry="offset")
+    expect(studio.at("tests").get_by_test_id("tests-summary")).to_have_text("1 passed, 0 failed")
+    text = studio.at("code-editor").inner_text()
+    assert re.search(r"SeesLine:\n\s+- \{at: 1, status: \w+", text)
+    studio.picture("moment-written")
+
+
+def it_fails_with_a_mark_when_the_tree_changes(studio: Studio) -> None:
+    studio.page.get_by_role("tab", name="MainTree", exact=True).click()
+    studio.at("node-n4").click()
+    studio.page.keyboard.press("Control+ArrowLeft")  # it steers before it looks
+    summary = studio.at("tests").get_by_test_id("tests-summary")
+    expect(summary).to_have_text("0 passed, 1 failed")
+    expect(studio.at("failure-mark").first).to_be_visible()
+    studio.picture("moment-failed")
+    studio.at("node-n4").click()
+    studio.page.keyboard.press("Control+z")
+    expect(summary).to_have_text("1 passed, 0 failed")
+    expect(studio.at("failure-mark")).to_have_count(0)

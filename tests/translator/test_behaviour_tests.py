@@ -157,3 +157,19 @@ def test_a_package_without_tests_asks_for_no_pytest():
     package = to_ros2_package(load(files))
     assert b"pytest" not in package.files[f"{package.name}/package.xml"]
     assert not any("/test/" in path and path.startswith(package.name) for path in package.files)
+
+
+WAY_IS_FREE = {  # what its first test reaches, by hand
+    "n1": {"ticked", "RUNNING"},
+    "n2": {"ticked", "SUCCESS", "branch 2 not taken"},
+    "n3": {"ticked", "SUCCESS"},
+    "n4": {"ticked", "FAILURE"},
+    "n6": {"ticked", "RUNNING"},
+}
+
+
+def test_a_test_of_bump_and_go_reaches_what_was_listed_by_hand():
+    job = Job.from_json(to_job(project())[0])
+    suite = job.suite()
+    seen = suite.run(job.cases(suite)[0][0]).seen["MainTree"]
+    assert {node: set(items) for node, items in seen.items()} == WAY_IS_FREE

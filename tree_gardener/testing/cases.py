@@ -12,11 +12,16 @@ REAL: Final = "real"
 
 @dataclasses.dataclass(frozen=True)
 class Step:
-    """A result of a double for `times` ticks, with the values that it writes at each of them."""
+    """A result of a double for `times` ticks, with the values that it writes at each of them.
+
+    With `at`, it is the result from this tick of the test on, however often the leaf was ticked before.
+    Several steps of one tick follow each other within it, and the last of them stays.
+    """
 
     status: Status
     outputs: Mapping[str, Any] = dataclasses.field(default_factory=dict)
     times: int = 1
+    at: int | None = None
 
 
 @dataclasses.dataclass(frozen=True)

@@ -4,6 +4,7 @@ The engine's node stays the one that ticks the leaf in a program; only the behav
 conditions, ports, starts and halts are those of the real leaf.
 """
 
+import bisect
 import dataclasses
 import fnmatch
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -113,6 +114,8 @@ class DoubleBehaviour:
         self.tree_gardener_node = node
         self.halts = 0
         self._steps = [step for step in double.steps if step.times > 0]
+        self._ticks = [step.at for step in self._steps if step.at is not None]
+        self._tick = 0
         self._index = 0
         self._left = self._steps[0].times
         self._start_s = 0.0
@@ -143,10 +146,25 @@ class DoubleBehaviour:
         if self.double.for_s is not None:
             is_over = self.node.tree.clock.now() - self._start_s >= self.double.for_s - 1e-9
             return self._steps[1 if is_over else 0]
+        if self._ticks:
+            return self._step_of_tick()
         if self._left == 0 and self._index + 1 < len(self._steps):
             self._index += 1
             self._left = self._steps[self._index].times
         self._left = max(0, self._left - 1)
+        return self._steps[self._index]
+
+    def _step_of_tick(self) -> Step:
+        """Returns the result of this tick of the tree; of several at it, those that were not played yet."""
+        tick, last = self.node.tree.tick_number, self._tick
+        self._tick = tick
+        end = max(1, bisect.bisect_right(self._ticks, tick))
+        if tick == last:
+            self._index = min(self._index + 1, end - 1)
+        elif self._ticks[end - 1] == tick:
+            self._index = bisect.bisect_left(self._ticks, tick)
+        else:
+            self._index = end - 1
         return self._steps[self._index]
 
 

@@ -169,6 +169,7 @@ class _Reader:
                     path, "TG902", "an empty list says no result", "write for example [SUCCESS]"
                 )
             steps = [self.step(each, (*path, index)) for index, each in enumerate(given)]
+            self.in_order(steps, path)
             return Double(pattern, tuple(steps), line=line)
         if isinstance(given, Mapping) and ("for_s" in given or "then" in given):
             held = self.mapping(given, path, _STEP_KEYS)
@@ -185,12 +186,27 @@ class _Reader:
     def step(self, given: Any, path: Path) -> Step:
         if not isinstance(given, Mapping):
             return Step(self.status(given, path, _RETURNED, or_real=len(path) > 0))
-        held = self.mapping(given, path, ("status", "outputs", "times"))
+        held = self.mapping(given, path, ("status", "outputs", "times", "at"))
+        if "at" in held and "times" in held:
+            hint = "at says until when by the next item"
+            raise self.refuse((*path, "times"), "TG902", "an item has either at or times", hint)
         return Step(
             self.status(held.get("status"), (*path, "status"), _RETURNED),
             self.any_mapping(held.get("outputs", {}), (*path, "outputs")),
             self.whole(held.get("times", 1), (*path, "times"), 1, MAX_TICKS),
+            self.whole(held["at"], (*path, "at"), 1, MAX_TICKS) if "at" in held else None,
         )
+
+    def in_order(self, steps: list[Step], path: Path) -> None:
+        """Refuses a list in which only some items have `at`, or the ticks go back."""
+        if all(step.at is None for step in steps):
+            return
+        last = 0
+        for index, step in enumerate(steps):
+            if step.at is None or step.at < last:
+                hint = "write at in each item, the earliest tick first"
+                raise self.refuse((*path, index), "TG902", "the ticks of a list are not in order", hint)
+            last = step.at
 
     # -- expectations -------------------------------------------------------------------------------
 

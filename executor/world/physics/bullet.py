@@ -281,6 +281,11 @@ class BulletWorld:
             self._placed[body] = list(pose)
         self._poses = None
 
+    def scale_lights(self, factor: float) -> None:
+        """Multiplies the intensity of all lights; pictures change once the scene is loaded again."""
+        lights = self._universe.lights
+        self._scene.lights = [Light(list(light.direction), light.intensity * factor) for light in lights]
+
     def take_collisions(self) -> list[tuple[str, Collision]]:
         """Returns the collisions since the last call."""
         taken, self._collisions = self._collisions, []

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from executor.world.sensing.rays import RayCaster
 
 DEFAULT_FRICTION: Final = 0.8
+BLOCKED_NM: Final = 1000.0
+PUSH_HZ: Final = 240.0  # an impulse acts for one step
 ANY_LINK: Final = -2  # PyBullet's default
 MOST_QUESTIONS: Final = 2
 TOUCH_M: Final = 0.0  # PyBullet reports near misses too, with a positive distance
@@ -75,6 +77,7 @@ class BulletRobot:
         self._bumping = self._bumping_links()
         self._inertial = self._inertial_inverse()
         self._applied: tuple[float, float] | None = None
+        self._blocked_wheels: list[int] = []
         self._at = self.pose[:2]
         self._set_up_contact(1 << (FIRST_ROBOT_GROUP + index))
         mask = ALL_GROUPS & ~(1 << (FIRST_ROBOT_GROUP + index))
@@ -218,6 +221,31 @@ class BulletRobot:
         is_noisy = config.drive.slip_noise > 0 or any(lidar.noise_m > 0 for lidar in config.lidars)
         return is_noisy or self._proprioception.has_drawn
 
+    def slip(self, wheel: str, factor: float) -> None:
+        """Multiplies the friction of a wheel, which is given by its joint."""
+        index = self._joints[wheel]
+        link = next(name for name, number in self._links.items() if number == index)
+        friction = self.config.friction.get(link, DEFAULT_FRICTION) * factor
+        self._bullet.changeDynamics(self.uid, index, lateralFriction=friction)
+
+    def block(self, wheel: str, *, on: bool) -> None:
+        """Blocks a wheel, which is given by its joint, or frees it."""
+        (self._blocked_wheels.append if on else self._blocked_wheels.remove)(self._joints[wheel])
+        self._applied = None
+
+    def scale_noise(self, sensor: str, factor: float) -> None:
+        """Multiplies the noise of a LIDAR or an IMU."""
+        if sensor in self._lidars:
+            self._lidars[sensor].noise_factor = factor
+        else:
+            self._proprioception.scale_noise(sensor, factor)
+
+    def push(self, impulse_n_s: Vector) -> None:
+        """Applies an impulse at the centre of mass during the next step, in the world frame, in N·s."""
+        center, _ = self._bullet.getBasePositionAndOrientation(self.uid)
+        force = [value * PUSH_HZ for value in impulse_n_s]
+        self._bullet.applyExternalForce(self.uid, -1, force, center, self._bullet.WORLD_FRAME)
+
     def moved_by_hand(self) -> None:
         """Notes that a user moved the robot; such a move does not count as travelled distance."""
         self._at = self.pose[:2]
@@ -314,6 +342,10 @@ class BulletRobot:
             targetVelocities=targets,
             forces=[drive.wheel_torque] * len(targets),
         )
+        for wheel in self._blocked_wheels:
+            self._bullet.setJointMotorControl2(
+                self.uid, wheel, self._bullet.VELOCITY_CONTROL, targetVelocity=0.0, force=BLOCKED_NM
+            )
         self._applied = rates
 
     def _index_links(self) -> tuple[dict[str, int], dict[str, int]]:

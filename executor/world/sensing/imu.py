@@ -37,6 +37,7 @@ class ImuModel:
         self._config = config
         self._seed = seed
         self.has_drawn = False
+        self.noise_factor = 1.0
         self.velocity: Vector | None = None
         self._felt: Vector = (0.0, 0.0, GRAVITY)
 
@@ -68,8 +69,8 @@ class ImuModel:
         return ImuReading(
             time_s,
             pose[3:],
-            _noisy(turning, noise[:3], config.rate_noise),
-            _noisy(felt, noise[3:], config.acceleration_noise),
+            _noisy(turning, noise[:3], config.rate_noise * self.noise_factor),
+            _noisy(felt, noise[3:], config.acceleration_noise * self.noise_factor),
         )
 
 

@@ -27,6 +27,9 @@ class LidarCaster:
         own: the robot's body.
         mask: the collision filter of Bullet, without the group of the robot.
         seed: the seed of the noise.
+
+    Attributes:
+        noise_factor: multiplies the noise; faults of evaluations change it.
     """
 
     def __init__(self, rays: RayCaster, config: Lidar, own: int, mask: int, seed: tuple[int, ...]) -> None:
@@ -34,6 +37,7 @@ class LidarCaster:
         self._config = config
         self._own, self._mask = own, mask
         self._seed = seed
+        self.noise_factor = 1.0
         angles = config.angle_min + np.arange(config.rays) * config.angle_increment
         # Rays are slightly longer than the range, so that rounding does not hide hits at the limit.
         self._reach = config.range_max * 1.001
@@ -49,8 +53,9 @@ class LidarCaster:
         self, distances: NDArray[np.float64], is_hit: NDArray[np.bool_], time_s: float
     ) -> NDArray[np.float32]:
         config = self._config
-        if config.noise_m > 0:
+        deviation = config.noise_m * self.noise_factor
+        if deviation > 0:
             noise = generator_at(time_s, self._seed)
-            distances = distances + noise.normal(0.0, config.noise_m, len(distances))
+            distances = distances + noise.normal(0.0, deviation, len(distances))
         distances = np.where(is_hit & (distances <= config.range_max), distances, np.inf)
         return np.where(distances < config.range_min, -np.inf, distances).astype(np.float32)

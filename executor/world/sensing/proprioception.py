@@ -72,6 +72,10 @@ class Proprioception:
         """Returns the zones of the bumper that are pressed."""
         return self._bumper.pressed(now_s)
 
+    def scale_noise(self, imu: str, factor: float) -> None:
+        """Multiplies the noise of an IMU."""
+        self._imus[imu].noise_factor = factor
+
     def imu(self, imu: Imu, now_s: float) -> ImuReading:
         """Returns a measurement of the IMU at the current time."""
         return self._imus[imu.name].reading(now_s, self._pose_of(imu.link), self._rate)

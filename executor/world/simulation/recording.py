@@ -24,7 +24,6 @@ __all__ = ["WorldRecorder"]
 
 POSES_HZ: Final = 30.0
 KEYFRAME_S: Final = 5.0
-UNHEARD_HZ: Final = 10.0
 _decode_camera = msgspec.msgpack.Decoder(Camera).decode
 
 
@@ -101,7 +100,7 @@ class WorldRecorder:
     def begin(self, run: str) -> None:
         """Begins the recording of a run."""
         self._thinner = Thinner()
-        self._node.tap(self._tap, sample_hz=UNHEARD_HZ)
+        self._node.tap(self._tap, samples=True)
         if self._graph_tap is not None:
             self._graph_tap.restart()
         self._link.begin(run)

@@ -121,9 +121,14 @@ export const api = {
         ...abortedBy(signal),
       }),
     ),
-  /** Runs the behaviour tests of the project as it is stored. */
-  test: (id: string): Promise<TestReport> =>
-    dataOf(rest.POST('/api/v1/projects/{project_id}/test', { params: inProject(id), body: { files: [] } })),
+  /** Runs the behaviour tests of the project as it would be with these files. */
+  test: (
+    id: string,
+    files: readonly { readonly path: string; readonly content: string }[] = [],
+  ): Promise<TestReport> =>
+    dataOf(
+      rest.POST('/api/v1/projects/{project_id}/test', { params: inProject(id), body: { files: [...files] } }),
+    ),
   xml: (id: string) =>
     dataOf(rest.GET('/api/v1/projects/{project_id}/xml', { params: inProject(id), parseAs: 'text' })),
   inspectAction: (source: string, filename: string): Promise<ActionModel> =>

@@ -25,6 +25,7 @@ import { registerRunCommands } from '@/features/run/commands';
 import { registerRateCommands } from '@/features/run/rates';
 import { useRunReactions } from '@/features/run/useRunReactions';
 import { registerKeyCommands } from '@/features/keys/commands';
+import { MomentDialog } from '@/features/behaviourTests/MomentDialog';
 import { RenameKeyDialog } from '@/features/keys/RenameKeyDialog';
 import { registerSearchCommands } from '@/features/search/commands';
 import { registerTopicCommands } from '@/features/topics/commands';
@@ -192,6 +193,7 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
       <PublishDialog />
       <ConnectDialog />
       <RenameKeyDialog />
+      <MomentDialog />
       <ArrivalsDialog />
       <RestoredNotice />
       <ImportReport projectId={projectId} />

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import resource
 from pathlib import Path
 
 import pytest
 from mcap.reader import make_reader
+from mcap.records import Attachment
 
 from executor.headless.errors import HeadlessError
 from executor.headless.recording import Recording, check_name, open_recording
+from executor.recorder.reader import RecordReader
 from translator import open_files
 
 FILES = {
@@ -44,3 +47,23 @@ def test_it_is_complete_when_it_is_closed(tmp_path):
     with Recording(path, {}, {}):
         pass
     assert path.read_bytes().endswith(b"\x89MCAP0\r\n")
+
+
+def test_a_full_disk_stops_the_recording_and_its_begin_opens(tmp_path, capsys):
+    path = tmp_path / "run.mcap"
+    recording = Recording(path, {}, {"a": b"x"})
+    recording.writer.flush()
+    begin = path.stat().st_size
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (begin + 10, before[1]))
+    try:
+        recording.writer.attach("b", "text/plain", bytes(1000))
+        recording.close()
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert recording.is_stopped
+    line = capsys.readouterr().err
+    assert line.startswith(f"{path}: the recording stops here: File too large. Its begin can be read;")
+    with path.open("rb") as file:
+        found = [record.name for record in RecordReader(file, "run") if isinstance(record, Attachment)]
+    assert found == ["a"]

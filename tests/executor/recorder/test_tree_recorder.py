@@ -20,6 +20,7 @@ def recorded(xml=XML):
     recorder = TreeRecorder(
         tree, lambda topic, name, fields: said.append((topic, name, fields)), lambda: 5, lambda _: "?"
     )
+    tree.observe(lambda _: recorder.flush())
     return tree, recorder, said
 
 
@@ -116,3 +117,17 @@ def test_faults_and_lines_name_their_node():
     assert [line["uid"] for line in of(said, "/bt/log")] == [node.uid, 0]
     (fault,) = of(said, "/bt/fault")
     assert (fault["uid"], "broken" in fault["message"]) == (node.uid, True)
+
+
+def test_ticks_are_written_after_they_ended_with_their_own_times():
+    said: list = []
+    now = [1]
+    tree = Tree.from_xml(XML)
+    recorder = TreeRecorder(tree, lambda *message: said.append(message), lambda: now[0], str)
+    for now[0] in (2, 3):
+        tree.tick_once()
+    now[0] = 9
+    assert of(said, "/bt/tick") == []
+    recorder.says("info", "afterwards")
+    assert [fields["stamp"] for _, _, fields in said[2:]] == [2, 2, 3, 3, 9]
+    assert [topic for topic, _, _ in said[2:]] == ["/bt/blackboard", "/bt/tick"] * 2 + ["/bt/log"]

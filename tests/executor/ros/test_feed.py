@@ -1,6 +1,6 @@
 from typing import Any
 
-from executor.ros.feed import Feed, Feeds
+from executor.ros.feed import SHOWN_HZ, UNHEARD_HZ, Feed, Feeds
 
 
 class Publisher:
@@ -75,15 +75,20 @@ def test_cameras_are_slowed_and_nothing_else() -> None:
 
 
 def test_a_tap_gets_what_is_sent_and_samples_of_all_else() -> None:
-    heard, unheard = Publisher(1, "/heard"), Publisher(0, "/unheard")
-    feeds = Feeds([Feed([one], lambda _, t: t, 30.0) for one in (heard, unheard)])
+    heard, unheard, shown = Publisher(1, "/heard"), Publisher(0, "/unheard"), Publisher(0, "/shown")
+    feeds = Feeds(
+        [
+            *(Feed([one], lambda _, t: t, 30.0) for one in (heard, unheard)),
+            Feed([shown], lambda _, t: t, 30.0, unheard_hz=SHOWN_HZ),
+        ]
+    )
     taken: list[Any] = []
-    feeds.sample(10.0)
+    feeds.sample()
     for i in range(60):
         feeds.publish(None, i / 60, lambda topic, _, now_s: taken.append((topic, now_s)))
-    counts = {topic: sum(found == topic for found, _ in taken) for topic in ("/heard", "/unheard")}
-    assert counts == {"/heard": 30, "/unheard": 10}
+    counts = {topic: sum(found == topic for found, _ in taken) for topic in ("/heard", "/unheard", "/shown")}
+    assert counts == {"/heard": 30, "/unheard": UNHEARD_HZ, "/shown": SHOWN_HZ}
     feeds.restart()
     taken.clear()
     feeds.publish(None, 0.0, lambda topic, _, now_s: taken.append((topic, now_s)))
-    assert len(taken) == 2
+    assert len(taken) == 3

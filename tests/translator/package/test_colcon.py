@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -141,6 +142,37 @@ def turning_speed(name):
     """Returns the speed of the example's Turn: both examples turn if there are no sensors."""
     (turn,) = [node for node in load(example_files(name)).main.walk() if node.type == "Turn"]
     return float(turn.ports["ang_speed"])
+
+
+def test_colcon_test_reports_the_behaviour_tests_that_fail(workspace):
+    name = "laser_bump_and_go"
+
+    def tested():
+        paths = [f"src/{package}" for package in (name, "tree_gardener")]
+        for command in (["test", "--base-paths", *paths], ["test-result", "--verbose"]):
+            done = subprocess.run(
+                ["colcon", "--log-base", "log", *command],
+                cwd=workspace,
+                env=environment(workspace),
+                capture_output=True,
+                text=True,
+                timeout=300,
+                check=False,
+            )
+        return done
+
+    passed = tested()
+    assert passed.returncode == 0, passed.stdout + passed.stderr
+    assert re.search(r"Summary: 4 tests, 0 errors, 0 failures", passed.stdout)
+    [tree] = (workspace / "src" / name).rglob(f"trees/{name}.xml")
+    text = tree.read_text()
+    tree.write_text(text.replace("ReactiveSequence", "Sequence"))
+    try:
+        failed = tested()
+    finally:
+        tree.write_text(text)
+    assert failed.returncode == 1
+    assert "turns while something is near, and does not drive meanwhile" in failed.stdout
 
 
 def test_an_older_engine_is_refused_by_name(workspace):

@@ -5,7 +5,7 @@ import pytest
 from tests.tree_gardener.testing.trees_under_test import MODELS, document
 from tree_gardener.clock import ManualClock
 from tree_gardener.errors import TickError
-from tree_gardener.status import RUNNING, SUCCESS
+from tree_gardener.status import FAILURE, RUNNING, SUCCESS
 from tree_gardener.testing.cases import Double, Step
 from tree_gardener.testing.doubles import (
     DoubleBehaviour,
@@ -78,3 +78,41 @@ def test_an_open_leaf_takes_any_port():
         "x": "1",
         "y": "{z}",
     }
+
+
+def played(body, steps, ticks):
+    built = tree(body)
+    leaf = next(node for node in built.nodes if node.type == "Drive")
+    seen = []
+
+    class Watched(DoubleBehaviour):
+        def update(self):
+            status = super().update()
+            seen.append((built.tick_number, status))
+            return status
+
+    leaf.bind(Watched(leaf, Double("x", steps)))
+    for _ in range(ticks):
+        built.tick_exactly_once()
+    return [(tick, status.name) for tick, status in seen]
+
+
+def test_results_by_tick_hold_from_their_tick_on_however_often_the_leaf_was_ticked():
+    steps = (Step(RUNNING, at=2), Step(SUCCESS, at=4), Step(FAILURE, at=5))
+    every = played("<Drive/>", steps, 6)
+    assert [status for _, status in every] == [
+        *("RUNNING", "RUNNING", "RUNNING"),
+        *("SUCCESS", "FAILURE", "FAILURE"),
+    ]
+    waiting = played('<Delay delay_msec="1"><Drive/></Delay>', steps, 1)
+    assert waiting == []
+
+
+def test_several_results_of_one_tick_follow_each_other_and_the_last_one_stays():
+    built = tree("<Drive/>")
+    leaf = built.nodes[0]
+    steps = (Step(FAILURE, at=1), Step(FAILURE, at=3), Step(SUCCESS, at=3))
+    behaviour = DoubleBehaviour(leaf, Double("x", steps))
+    for tick, results in ((1, "FF"), (2, "FF"), (3, "FSS"), (4, "SS")):
+        built.tick_number = tick
+        assert "".join(behaviour.update().name[0] for _ in results) == results

@@ -64,6 +64,13 @@ def test_the_time_of_a_test_can_be_given_in_seconds():
     [
         ({"tick": 3}, "TG901 the key 'tick' is not known here"),
         ({"expect": []}, "TG906 the test 't' expects nothing"),
+        ({"doubles": {"Near": [{"at": 2, "status": "SUCCESS"}, "FAILURE"]}}, "TG902 the ticks of a list"),
+        (
+            {"doubles": {"Near": [{"at": 2, "status": "SUCCESS"}, {"at": 1, "status": "SUCCESS"}]}},
+            "TG902 the ticks of a list",
+        ),
+        ({"doubles": {"Near": [{"at": 2, "times": 2, "status": "SUCCESS"}]}}, "TG902 an item has either"),
+        ({"doubles": {"Near": [{"at": 0, "status": "SUCCESS"}]}}, "TG902 a whole number from 1"),
         ({"ticks": 0}, "TG902 a whole number from 1 to 100000"),
         ({"ticks": 100_001}, "TG902 a whole number from 1 to 100000"),
         ({"ticks": True}, "TG902 a whole number"),

@@ -6,6 +6,7 @@ import { extent as extentNow, lookNow, setPlaying } from '@/store/moment/looking
 import { useSource } from '@/store/moment/source';
 import { PLAY_SPEEDS, useMoment } from '@/store/moment/store';
 import { useSessionStore } from '@/store/session/store';
+import { CommandButton } from '@/ui/CommandButton';
 import classes from './axis.module.css';
 import { copyShownLink } from './commands';
 import { AxisMenu } from './AxisMenu';
@@ -77,6 +78,7 @@ export function TimeAxis() {
             </ActionIcon>
           </Tooltip>
         ) : null}
+        <CommandButton command="tests.moment" size={26} testId="axis-test" />
         <Tooltip label={`${t('toLive')} (Esc)`} disabled={!isBack}>
           <Button
             size="compact-xs"

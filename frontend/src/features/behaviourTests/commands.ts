@@ -1,6 +1,8 @@
-import { IconFlask2, IconPercentage60 } from '@tabler/icons-react';
+import { IconCameraPlus, IconFlask2, IconPercentage60 } from '@tabler/icons-react';
 import { registerCommands, type UserCommand } from '@/commands/registry';
 import { showCoverage, useCoverage } from '@/store/behaviourTests/coverage';
+import { openMomentTest } from '@/store/dialogs/momentTest';
+import { extent } from '@/store/moment/looking';
 import { runTests } from '@/store/behaviourTests/report';
 import { isTestFile } from '@/store/behaviourTests/useTestsAfterSave';
 import { useProjectStore } from '@/store/project';
@@ -15,6 +17,14 @@ const rows: readonly UserCommand[] = [
     icon: IconFlask2,
     enabled: hasTests,
     run: () => void runTests(),
+  },
+  {
+    id: 'tests.moment',
+    group: 'run',
+    labelKey: 'behaviourTests:command.moment',
+    icon: IconCameraPlus,
+    enabled: () => extent() !== null && useProjectStore.getState().role !== 'viewer',
+    run: openMomentTest,
   },
   {
     id: 'tests.coverage',

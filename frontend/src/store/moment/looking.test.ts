@@ -17,6 +17,7 @@ import {
   lookNow,
   openKept,
   setEngineLink,
+  storyUntilNow,
 } from './looking';
 import { usePastSession } from './session';
 import { useSource } from './source';
@@ -100,6 +101,23 @@ it('shows nothing without a recording', () => {
   lookAt(1);
   lookNow();
   expect(isLookingBack()).toBe(false);
+});
+
+it('tells what the tree did until now, or until the shown moment', async () => {
+  const all = (await storyUntilNow())!;
+  expect(useMoment.getState().t).toBeNull();
+  expect(all.ticks.length).toBeGreaterThan(10);
+  lookAt(0.5);
+  await shown(0.5);
+  const until = (await storyUntilNow())!;
+  expect(until.ticks).toEqual(all.ticks.filter(({ t }) => t <= 0.5));
+  expect(useMoment.getState().t).toBe(0.5);
+  lookNow();
+});
+
+it('tells nothing without a recording', async () => {
+  useSessionStore.setState({ segments: [] });
+  expect(await storyUntilNow()).toBeNull();
 });
 
 it('opens a kept run without a session, and closes it in the present', async () => {

@@ -3,6 +3,7 @@ import { useProjectStore } from '@/store/project';
 import { usePastLive } from '@/store/project/live';
 import { RecordedRun, type EngineLink } from '@/store/recording/recordedRun';
 import type { FromEngine } from '@/store/recording/engine';
+import type { Story } from '@/store/recording/story';
 import type { Changes, Moment, Overview, RecordingSource } from '@/store/recording/types';
 import { useSessionStore } from '@/store/session/store';
 import type { LogLine } from '@/store/session/types';
@@ -135,6 +136,7 @@ async function beginning(): Promise<{ t: number; tick: number | null } | null> {
   });
 }
 
+<<<<<<< HEAD
 /** Returns what changed between two moments; null while one of them is not read. */
 export async function changesBetween(from: number, to: number): Promise<Changes | null> {
   const run = theRun();
@@ -143,6 +145,33 @@ export async function changesBetween(from: number, to: number): Promise<Changes 
   // The part with the second moment is read first.
   if (changes === null && useMoment.getState().t === null) run.want(from);
   return changes;
+}
+
+/**
+ * Returns what the tree did until the shown moment, or until now; null if no tree ran.
+ *
+ * @throws Error: the recording cannot be read.
+ */
+export async function storyUntilNow(): Promise<Story | null> {
+  const { t: shown, tick } = useMoment.getState();
+  const t = shown ?? extent()?.to;
+  if (t === undefined) return null;
+  const now = theRun();
+  now.want(t);
+  await new Promise<void>((resolve, reject) => {
+    const stop = useMoment.subscribe(() => look());
+    const look = () => {
+      const { failure } = useMoment.getState();
+      if (!now.hasUntil(t) && failure === '' && recorded === now) return;
+      stop();
+      if (failure === '') resolve();
+      else reject(new Error(failure));
+    };
+    look();
+  });
+  const story = await now.ask({ what: 'story', t, tick });
+  if (useMoment.getState().t === null) now.want(null);
+  return story;
 }
 
 export function setPlaying(isPlaying: boolean): void {

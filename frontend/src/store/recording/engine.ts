@@ -1,6 +1,7 @@
 import type { Segment } from '@/generated/messages';
 import { RunIndex } from './runIndex';
 import { SegmentReader } from './segmentReader';
+import type { Story } from './story';
 import type { Changes, Moment, Overview, TickAt } from './types';
 
 export type Ask =
@@ -13,12 +14,14 @@ export type Ask =
       readonly tick: number | null;
       readonly direction: 1 | -1;
     }
+  | { readonly what: 'story'; readonly t: number; readonly tick: number | null }
   | { readonly what: 'changes'; readonly from: number; readonly to: number };
 
 export interface Answers {
   moment: Moment | null;
   tick: TickAt | null;
   change: TickAt | null;
+  story: Story | null;
   changes: Changes | null;
 }
 
@@ -94,6 +97,8 @@ export class Engine {
           return this.index.tickFrom(ask.t, ask.by, ask.tick);
         case 'change':
           return this.index.changeFrom(ask.uid, ask.t, ask.direction, ask.tick);
+        case 'story':
+          return this.index.storyUntil(ask.t, ask.tick);
         case 'changes':
           return this.index.changes(ask.from, ask.to);
       }

@@ -54,6 +54,16 @@ export class RecordedRun {
     this.follow();
   }
 
+  /** Returns whether everything until a moment was read, or cannot be. */
+  hasUntil(t: number): boolean {
+    const segments = this.source.segments().filter(({ from_t }) => from_t <= t);
+    const read = this.overview?.read ?? [];
+    return segments.every(({ number, to_t }) => {
+      if (this.broken.has(number) || this.held.get(number)?.isWhole) return true;
+      return to_t >= t && read.some(([from, to]) => from <= t && t <= to);
+    });
+  }
+
   ask<K extends keyof Answers>(ask: Ask & { what: K }): Promise<Answers[K]> {
     const id = this.nextId++;
     return new Promise((resolve) => {

@@ -3,6 +3,7 @@ import { moved, posesAt } from './posesAt';
 import type { Read } from './segmentReader';
 import { SegmentIndex, type State } from './segmentIndex';
 import type { TickStep } from './steps';
+import { storyUntil, type Story } from './story';
 import type { Changes, EntryAt, Moment, Overview, PictureAt, ScanAt, TickAt } from './types';
 
 /** The bytes of pictures that are kept; beyond them, those of the oldest segments go. */
@@ -120,6 +121,11 @@ export class RunIndex {
       return [{ scope, key, from: old?.value, to: now?.value, since }];
     });
     return { statuses, entries, poses: moved(posesAt(before.poses, from), posesAt(after.poses, to)) };
+  }
+
+  /** Returns what the tree of a moment did until then, as far as it was read without a gap. */
+  storyUntil(t: number, tick: number | null = null): Story | null {
+    return storyUntil(this.inOrder(), t, tick);
   }
 
   /** Drops pictures of the oldest segments until the others fit. */

@@ -25,8 +25,8 @@ class Topics:
         self.taps: list[Any] = []
         self.topics = {"/scan"}
 
-    def tap(self, tap: Any, *, sample_hz: float) -> None:
-        self.taps.append((tap, sample_hz))
+    def tap(self, tap: Any, *, samples: bool) -> None:
+        self.taps.append((tap, samples))
 
 
 class Others:

@@ -32,7 +32,7 @@ let tree: readonly TreeNode[] | null = null;
 let timer: ReturnType<typeof setTimeout> | undefined;
 
 /** Returns the SubTrees around a node, the innermost first. */
-function enclosing(node: TreeNode, byUid: ReadonlyMap<number, TreeNode>): Enclosing[] {
+export function enclosing(node: TreeNode, byUid: ReadonlyMap<number, TreeNode>): Enclosing[] {
   const found: Enclosing[] = [];
   for (let each = byUid.get(node.parent); each; each = byUid.get(each.parent)) {
     if (each.type === 'SubTree') found.push({ path: each.path, tree: each.tree_id, node: each.node_id });

@@ -136,7 +136,6 @@ async function beginning(): Promise<{ t: number; tick: number | null } | null> {
   });
 }
 
-<<<<<<< HEAD
 /** Returns what changed between two moments; null while one of them is not read. */
 export async function changesBetween(from: number, to: number): Promise<Changes | null> {
   const run = theRun();

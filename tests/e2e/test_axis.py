@@ -123,6 +123,7 @@ def why_is_answered_as_the_run_was(studio: Studio, observer: Observer) -> None:
         assert node not in returned or "not ticked" not in question.inner_text()
     studio.picture("why")
     studio.at("why-step").first.click()
+    panel(studio, "Blackboard")
     studio.at("axis-strip").focus()
 
 

@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING, Any
 from translator.catalog import PortModel
 from translator.diagnostic import Diagnostic, Place, diagnostic
 from translator.json_file import parse_json
-from translator.migrate import CURRENT_VERSION, migrate
+from translator.migrate import CURRENT_VERSION, PLAIN_VERSION, migrate
 from translator.text import clean, is_clean, is_valid_id, safe_name
 from translator.tree import AUTOREMAP, CONDITIONS, EMPTY, SUBTREE, Node, Tree
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
 FORMAT = "bt-studio/diagram"
 DIRECTIONS = ("input", "output", "inout")
@@ -113,6 +113,7 @@ class _Reader:
             color=self.text(node_id, row, "color"),
             disabled=self.flag(node_id, row, "disabled"),
             collapsed=self.flag(node_id, row, "collapsed"),
+            silenced=self.texts(node_id, row, "silenced"),
             has_empty_name=row.get("name") == "",
         )
 
@@ -304,11 +305,23 @@ class _Reader:
         return tuple(ports)
 
 
+def version_of(nodes: Iterable[Node]) -> int:
+    """Returns the version that a diagram of these nodes needs."""
+    return CURRENT_VERSION if any(node.silenced for node in nodes) else PLAIN_VERSION
+
+
+def needed_version(rows: Iterable[Mapping[str, Any]], version: int) -> int:
+    """Returns the version that a document of these nodes needs; a newer one than ours stays."""
+    if version > CURRENT_VERSION:
+        return version
+    return CURRENT_VERSION if any(row.get("silenced") for row in rows) else PLAIN_VERSION
+
+
 def to_diagram(tree: Tree) -> dict[str, Any]:
     """Returns the tree as a diagram document; defaults are not written."""
     document: dict[str, Any] = {
         "format": FORMAT,
-        "version": CURRENT_VERSION,
+        "version": version_of(tree.nodes.values()),
         "id": tree.id,
         "root": tree.root,
     }
@@ -362,6 +375,8 @@ def _node_row(node: Node) -> dict[str, Any]:
     for field in ("comment", "color", "disabled", "collapsed"):
         if getattr(node, field):
             row[field] = getattr(node, field)
+    if node.silenced:
+        row["silenced"] = dict(node.silenced)
     return row
 
 

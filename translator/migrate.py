@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-CURRENT_VERSION = 1
+CURRENT_VERSION = 2
+PLAIN_VERSION = 1
+"""The version of diagrams that use nothing of the current one, so that earlier programs read them."""
 
 
 def _name_the_format(document: dict[str, Any]) -> dict[str, Any]:
@@ -15,7 +17,12 @@ def _name_the_format(document: dict[str, Any]) -> dict[str, Any]:
     return {"format": "bt-studio/diagram", **document, "version": 1}
 
 
-MIGRATIONS: tuple[Callable[[dict[str, Any]], dict[str, Any]], ...] = (_name_the_format,)
+def _allow_silence(document: dict[str, Any]) -> dict[str, Any]:
+    """Migrates version 1 to 2: nodes may have `silenced`, which none of them has yet."""
+    return {**document, "version": 2}
+
+
+MIGRATIONS: tuple[Callable[[dict[str, Any]], dict[str, Any]], ...] = (_name_the_format, _allow_silence)
 
 
 def migrate(document: dict[str, Any], version: int) -> dict[str, Any]:

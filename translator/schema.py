@@ -53,13 +53,17 @@ class NodeDocument(_Document):
     color: str = ""
     disabled: bool = Field(default=False, description="Whether the node is skipped.")
     collapsed: bool = Field(default=False, description="Whether the branch is drawn folded.")
+    silenced: dict[str, str] = Field(
+        default={},
+        description="Codes of findings that are not reported here, each with the reason; version 2.",
+    )
 
 
 class DiagramDocument(_Document):
     """One behaviour tree, `trees/<id>.json`."""
 
     format: Literal["bt-studio/diagram"]
-    version: Literal[1]
+    version: Literal[1, 2] = Field(description="2 if a node has `silenced`, else 1.")
     id: str = Field(min_length=1, description="The ID of the BehaviorTree.")
     root: str | None = Field(description="The id of the root node; null in an empty tree.")
     ports: list[PortDocument] = Field(default=[], description="The tree's ports as a SubTree.")

@@ -36,6 +36,8 @@ class Span:
 class Node:
     """One node. `tree` is the target of a SubTree; `attributes` are those that only other programs use.
 
+    `silenced` are the codes of findings that are not reported at the node, each with the reason.
+
     An empty name gives another path than no name (None).
     """
 
@@ -52,6 +54,7 @@ class Node:
     color: str = ""
     disabled: bool = False
     collapsed: bool = False
+    silenced: Mapping[str, str] = field(default_factory=dict)
     has_empty_name: bool = False
     span: Span | None = field(default=None, compare=False)
 

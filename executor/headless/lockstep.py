@@ -188,6 +188,8 @@ class LockstepRun:
         else:
             self._advance(round(ticks / self._tick_hz / self.world.step_s))
             self.report.root_status = runner.status.name
+        if self._recorder is not None:
+            self._recorder.end()
         return self._finish(began_s, runner.statistics.overruns)
 
     def close(self) -> None:

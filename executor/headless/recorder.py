@@ -64,6 +64,10 @@ class RunRecorder:
             self._flush_s = now_s + FLUSH_S
             self._guarded(self._writer.flush)
 
+    def end(self) -> None:
+        """Writes where everything is at the end, also between two frames."""
+        self._streams.send_due(self._now_s() + 1.0 / POSES_HZ)
+
     def raised(self, error: TickError) -> None:
         """Writes an exception of an action."""
         self._tree.raised(error)

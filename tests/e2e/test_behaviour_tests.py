@@ -138,6 +138,7 @@ def a_moment_of_the_past_is_written(studio: Studio) -> None:
     expect(studio.at("tests").get_by_test_id("tests-summary")).to_have_text("1 passed, 0 failed")
     text = studio.at("code-editor").inner_text()
     assert re.search(r"SeesLine:\n\s+- \{at: 1, status: \w+", text)
+    expect(studio.page.get_by_text("The program changed since it was started")).to_have_count(0)
     studio.picture("moment-written")
 
 

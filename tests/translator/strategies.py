@@ -67,6 +67,7 @@ def nodes(draw, node_id, type_, children=(), *, plain=False):
         position=draw(st.none() | st.tuples(numbers, numbers)),
         disabled=draw(st.booleans()),
         collapsed=draw(st.booleans()),
+        silenced=draw(st.dictionaries(st.sampled_from(["BT0119", "BT0402", "?"]), text, max_size=2)),
         attributes=draw(st.dictionaries(st.sampled_from(["_mine", "_uid"]), text, max_size=1)),
     )
 

@@ -12,8 +12,8 @@ from hypothesis import given, settings
 
 from tests.budget import count
 from tests.translator.strategies import trees
-from translator.diagram import diagram_path, diagram_text, restore, to_diagram
-from translator.migrate import CURRENT_VERSION, MIGRATIONS
+from translator.diagram import diagram_path, diagram_text, needed_version, restore, to_diagram, version_of
+from translator.migrate import CURRENT_VERSION, MIGRATIONS, PLAIN_VERSION
 from translator.schema import json_schema
 from translator.tree import Tree
 
@@ -129,7 +129,7 @@ def test_every_past_version_has_a_migration_and_a_fixture():
         raw = (FIXTURES / f"diagram_v{version}.json").read_bytes()
         tree, told = found(raw)
         assert told == []
-        assert to_diagram(tree)["version"] == CURRENT_VERSION
+        assert to_diagram(tree)["version"] == max(PLAIN_VERSION, version)
         assert [node.type for node in tree.walk()] == ["Sequence", "Forward"]
 
 
@@ -169,3 +169,20 @@ def test_paths_of_odd_ids_are_safe_and_different():
 
 def test_empty_tree_is_written():
     assert found(diagram_text(Tree("T", None, {})).encode())[1] == []
+
+
+def test_a_silence_is_kept_and_needs_version_2():
+    silenced = {"BT0119": "it is to be replaced"}
+    tree, told = found(document({"n1": {**LEAF, "silenced": silenced}}, version=2))
+    assert told == []
+    assert tree.nodes["n1"].silenced == silenced
+    written = to_diagram(tree)
+    assert (written["version"], written["nodes"]["n1"]["silenced"]) == (2, silenced)
+    assert needed_version(written["nodes"].values(), 1) == 2
+    assert needed_version([{}], 2) == 1
+    assert needed_version([{}], 9) == 9
+    assert version_of(tree.nodes.values()) == 2
+
+
+def test_a_silence_that_is_no_text_is_reported():
+    assert found(document({"n1": {**LEAF, "silenced": {"BT0119": []}}}, version=2))[1] == ["BT0013"]

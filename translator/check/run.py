@@ -16,6 +16,7 @@ from translator.check.order import check_order
 from translator.check.port import check_ports
 from translator.check.reach import check_reachability
 from translator.check.script import check_scripts
+from translator.check.silence import without_silenced
 from translator.check.structure import check_structure
 from translator.check.subtree import check_subtrees
 from translator.check.together import check_together
@@ -61,4 +62,4 @@ def _check(project: Project) -> tuple[Diagnostic, ...]:
     check_effects(context)
     check_endless_loops(context)
     check_together(context)
-    return tuple(located(context.found, project))
+    return tuple(located(without_silenced(context), project))

@@ -20,7 +20,7 @@ ROOT = ""
 """The parent of the root. Drafts have no parent: None."""
 
 TEXTS = ("type", "tree", "comment", "color", "disabled")
-MAPS = ("ports", "conditions", "attributes")
+MAPS = ("ports", "conditions", "attributes", "silenced")
 LAYOUT = ("position", "collapsed")
 KNOWN = frozenset({*TEXTS, *MAPS, *LAYOUT, "name", "children"})
 

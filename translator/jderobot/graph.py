@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from translator.diagnostic import Diagnostic, Place, diagnostic
 from translator.diagram import FORMAT, restore_document
 from translator.json_file import parse_json
-from translator.migrate import CURRENT_VERSION
+from translator.migrate import PLAIN_VERSION
 from translator.text import clean
 from translator.tree import SUBTREE
 
@@ -172,7 +172,7 @@ class _Reader:
         nodes = {block.id: self.row(block) for block in self.nodes()}
         return {
             "format": FORMAT,
-            "version": CURRENT_VERSION,
+            "version": PLAIN_VERSION,
             "id": self.options.tree_id,
             "root": tops[0] if tops else None,
             "nodes": nodes,

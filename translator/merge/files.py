@@ -15,7 +15,7 @@ from translator.difference.shape import KNOWN
 from translator.json_file import parse_json
 from translator.merge.align import align
 from translator.merge.trees import Conflict, merge_documents
-from translator.migrate import CURRENT_VERSION
+from translator.migrate import PLAIN_VERSION
 from translator.project import Project
 from translator.settings import Settings
 from translator.tree import CONFLICTS, Tree
@@ -199,6 +199,6 @@ def _trees(document: Document | None) -> Mapping[str, Tree]:
 
 def _empty(like: Mapping[str, Any]) -> dict[str, Any]:
     return {
-        "format": FORMAT, "version": CURRENT_VERSION, "id": like["id"],
+        "format": FORMAT, "version": PLAIN_VERSION, "id": like["id"],
         "root": None, "nodes": {}, "drafts": [], "layout": "vertical",
     }  # fmt: skip

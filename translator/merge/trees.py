@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from translator.catalog import builtins
+from translator.diagram import needed_version
 from translator.difference.shape import ROOT, Document, Parent, Row, Shape, fields
 from translator.merge.order import merge_order
 from translator.merge.rows import choose, merge_values
@@ -59,6 +60,8 @@ class _Merge:
         document["nodes"] = rows
         document["drafts"] = children.get(None, [])
         document["nodes"] = {node: rows[node] for node in Shape(document).order}
+        if "version" in document:
+            document["version"] = needed_version(rows.values(), self.ours.document["version"])
         self.check_counts(document)
         earlier = [each for side in (self.ours, self.theirs) for each in side.document.get("conflicts", ())]
         conflicts = [each for at, each in enumerate([*earlier, *self.conflicts]) if each not in earlier[:at]]

@@ -6,6 +6,7 @@ positions, colours and comments are stored in such attributes.
 
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING, Any
 
 from translator.text import is_xml_name
@@ -20,7 +21,10 @@ COLOR = "_bts_color"
 COLLAPSED = "_bts_collapsed"
 DISABLED = "_bts_disabled"
 COMMENT = "_description"
-METADATA = (COMMENT, ID, POSITION, COLOR, COLLAPSED, DISABLED)
+SILENCED = "_bts_silenced"
+UNREADABLE = "?"
+"""Stands for the code of a silence that is not JSON, so that its text is kept and reported."""
+METADATA = (COMMENT, ID, POSITION, COLOR, COLLAPSED, DISABLED, SILENCED)
 # A disabled node must be skipped in any case; its own conditions are kept under other names.
 HIDDEN = {name: f"_bts_{name[1:]}" for name in ("_failureIf", "_successIf", "_skipIf")}
 _SHOWN = {hidden: name for name, hidden in HIDDEN.items()}
@@ -56,6 +60,8 @@ def to_attributes(node: Node) -> dict[str, str]:
         result[COLOR] = node.color
     if node.collapsed:
         result[COLLAPSED] = "1"
+    if node.silenced:
+        result[SILENCED] = json.dumps(dict(node.silenced), ensure_ascii=False)
     return result
 
 
@@ -91,8 +97,20 @@ def _set_metadata(fields: dict[str, Any], name: str, text: str) -> None:
         fields["color"] = text
     elif name == COLLAPSED:
         fields["collapsed"] = text == "1"
+    elif name == SILENCED:
+        fields["silenced"] = _silenced(text)
     elif name == POSITION:
         fields["position"] = _position(text)
+
+
+def _silenced(text: str) -> dict[str, str]:
+    try:
+        rows = json.loads(text)
+    except (ValueError, RecursionError):
+        rows = None
+    if not isinstance(rows, dict) or not all(isinstance(reason, str) for reason in rows.values()):
+        return {UNREADABLE: text}
+    return rows
 
 
 def _position(text: str) -> tuple[float, float] | None:

@@ -17,6 +17,8 @@ export interface DiagramNode {
   readonly color?: string;
   readonly disabled?: boolean;
   readonly collapsed?: boolean;
+  /** The codes of findings that are not reported at the node, each with the reason. */
+  readonly silenced?: Readonly<Record<string, string>>;
   readonly position?: Point;
   /** Unknown attributes of an imported XML element, kept for the export. */
   readonly attributes?: Readonly<Record<string, string>>;
@@ -24,7 +26,8 @@ export interface DiagramNode {
 
 export interface Diagram {
   readonly format: 'bt-studio/diagram';
-  readonly version: 1;
+  /** 2 if a node has `silenced`. */
+  readonly version: 1 | 2;
   readonly id: string;
   readonly root: NodeId | null;
   readonly nodes: Readonly<Record<NodeId, DiagramNode>>;

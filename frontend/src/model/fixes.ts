@@ -1,3 +1,4 @@
+import { resultFixes } from './check/resultFixes';
 import { freshId, type Diagram, type DiagramNode, type NodeId } from './diagram';
 import { removeSubtrees, setCondition, setDisabled, setName, setPort, wrap, type Recipe } from './edits';
 import { assign, nodeOf } from './edits/core';
@@ -213,5 +214,7 @@ export function fixesFor(problem: Fixable, diagram: Diagram, vocabulary: Vocabul
   if (id === null || !(id in diagram.nodes)) return [];
   if ('kind' in problem) return kindFixes(problem, diagram, id, vocabulary);
   if (problem.code === 'BT0105') return [fix('enable', setDisabled([id], false))];
-  return [];
+  return resultFixes(problem.code, diagram, id, problem.port).map((each) =>
+    fix(each.key, each.does, each.values),
+  );
 }

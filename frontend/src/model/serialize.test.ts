@@ -59,3 +59,18 @@ describe('serializeDiagram', () => {
     },
   );
 });
+
+describe('silenced findings', () => {
+  const silent = { type: 'Sleep', silenced: { BT0119: 'later' } };
+
+  it('make a file of version 2, which is read again', () => {
+    const text = serializeDiagram(parseDiagram({ ...base, nodes: { a: silent }, root: 'a' }));
+    expect(JSON.parse(text)).toMatchObject({ version: 2, nodes: { a: silent } });
+    expect(serializeDiagram(parseDiagram(text))).toBe(text);
+  });
+
+  it('leave other files as they are', () => {
+    const read = parseDiagram({ ...base, version: 2, nodes: { a: { type: 'Sleep' } }, root: 'a' });
+    expect(JSON.parse(serializeDiagram(read))).toMatchObject({ version: 1 });
+  });
+});

@@ -45,13 +45,14 @@ function parseNode(id: NodeId, value: unknown): DiagramNode {
   if (!isObject(value) || typeof value['type'] !== 'string') {
     throw new DiagramError(`${where} needs a "type".`);
   }
-  const { children, ports, conditions, attributes, position, ...rest } = value;
+  const { children, ports, conditions, attributes, silenced, position, ...rest } = value;
   const at = point(position);
   return {
     ...(rest as unknown as DiagramNode),
     ...(ports === undefined ? {} : { ports: texts(ports, `${where}.ports`) }),
     ...(conditions === undefined ? {} : { conditions: texts(conditions, `${where}.conditions`) }),
     ...(attributes === undefined ? {} : { attributes: texts(attributes, `${where}.attributes`) }),
+    ...(silenced === undefined ? {} : { silenced: texts(silenced, `${where}.silenced`) }),
     ...(children === undefined ? {} : { children: ids(children, `${where}.children`) }),
     ...(at ? { position: at } : {}),
   };
@@ -109,8 +110,8 @@ export function parseDiagram(source: unknown): Diagram {
   if (value['format'] !== 'bt-studio/diagram') {
     throw new DiagramError('"format" must be "bt-studio/diagram".');
   }
-  if (value['version'] !== 1) {
-    throw new DiagramError(`Version ${String(value['version'])} is newer than this program reads (1).`);
+  if (value['version'] !== 1 && value['version'] !== 2) {
+    throw new DiagramError(`Version ${String(value['version'])} is newer than this program reads (2).`);
   }
   if (!isObject(value['nodes'])) throw new DiagramError('"nodes" must be an object.');
   const nodes = Object.fromEntries(
@@ -141,6 +142,7 @@ const NODE_KEYS = [
   'collapsed',
   'position',
   'attributes',
+  'silenced',
 ] as const satisfies readonly (keyof DiagramNode)[];
 
 function orderedNode(node: DiagramNode): Json {
@@ -176,7 +178,9 @@ function nodeText(node: DiagramNode): string {
 
 /** Writes a diagram: nodes in execution order, one on each line, so that diffs of revisions are readable. */
 export function serializeDiagram(diagram: Diagram): string {
-  const { format, version, id, root, nodes, drafts, layout, ...rest } = diagram;
+  const { format, version: _read, id, root, nodes, drafts, layout, ...rest } = diagram;
+  // Earlier programs read files that silence nothing.
+  const version = Object.values(nodes).some(({ silenced }) => silenced) ? 2 : 1;
   const lines = preorder(diagram).map((node) => {
     const content = nodes[node];
     return `    ${JSON.stringify(node)}: ${content ? nodeText(content) : '{}'}`;

@@ -51,3 +51,12 @@ describe('the clipboard', () => {
     expect(xmlToFragment(text)).toBeNull();
   });
 });
+
+it('copies silenced findings with their reasons', () => {
+  const nodes = { a: { type: 'Sleep', silenced: { BT0119: '"so" & <so>' } } };
+  const text = fragmentToXml({ tops: ['a'], nodes });
+  const again = xmlToFragment(text);
+  expect(Object.values(again?.nodes ?? {})).toEqual([nodes.a]);
+  const broken = xmlToFragment('<Sleep _bts_silenced="later"/>');
+  expect(Object.values(broken?.nodes ?? {})).toEqual([{ type: 'Sleep', silenced: { '?': 'later' } }]);
+});

@@ -26,6 +26,7 @@ function attributesOf(node: DiagramNode): [string, string][] {
     ...(node.color === undefined ? [] : [['_bts_color', node.color] as [string, string]]),
     ...(node.disabled ? [['_bts_disabled', '1'] as [string, string]] : []),
     ...(node.collapsed ? [['_bts_collapsed', '1'] as [string, string]] : []),
+    ...(node.silenced ? [['_bts_silenced', JSON.stringify(node.silenced)] as [string, string]] : []),
   ];
 }
 
@@ -49,6 +50,23 @@ const CONDITION = /^_(skipIf|failureIf|successIf|while|onSuccess|onFailure|onHal
 const EXPLICIT = new Set(['Action', 'Condition', 'Control', 'Decorator']);
 const WRAPPERS = new Set(['root', 'clipboard', 'BehaviorTree']);
 
+/** Reads silenced findings; a text that is not JSON is kept under `?`, as by the translator. */
+function readSilenced(text: string): Record<string, string> {
+  try {
+    const rows: unknown = JSON.parse(text);
+    if (
+      typeof rows === 'object' &&
+      rows !== null &&
+      Object.values(rows).every((each) => typeof each === 'string')
+    ) {
+      return { ...(rows as Record<string, string>) };
+    }
+  } catch {
+    // It is kept as it is.
+  }
+  return { '?': text };
+}
+
 function readElement(xml: Element, nodes: Record<NodeId, DiagramNode>): NodeId {
   const id = freshId(nodes);
   const explicit = EXPLICIT.has(xml.tagName) && xml.hasAttribute('ID');
@@ -67,6 +85,7 @@ function readElement(xml: Element, nodes: Record<NodeId, DiagramNode>): NodeId {
     else if (name === '_bts_color') rest.color = value;
     else if (name === '_bts_disabled') rest.disabled = true;
     else if (name === '_bts_collapsed') rest.collapsed = true;
+    else if (name === '_bts_silenced') rest.silenced = readSilenced(value);
     else if (name === '_bts_id' || name === '_bts_pos' || name === '_bts_skipIf') continue;
     else if (name.startsWith('_')) attributes[name] = value;
     else ports[name] = value;

@@ -33,5 +33,5 @@ def test_a_seeded_fault_in_bump_and_go_is_caught_by_the_gate(tmp_path):
     found = studio("evaluate", faulty, *GATE)
     assert found.returncode == 1
     assert "gate rate(success)>=0.95: FAILS" in found.stdout
-    assert "never collision" in found.stdout
+    assert "never closer than 0.05 m to models" in found.stdout
     assert "--evaluation room --seed " in found.stdout  # the command that plays it again

@@ -14,6 +14,7 @@ import { NodeDocs } from './NodeDocs';
 import { NodeHeader } from './NodeHeader';
 import { NodeProblems } from './NodeProblems';
 import { PortList } from './PortList';
+import { SilencedList } from './findings/SilencedList';
 import { targetOf } from './target';
 import { TreeDescription } from './tree/TreeDescription';
 import { TreeField } from './TreeField';
@@ -70,6 +71,7 @@ const Fields = memo(function Fields({ diagram, count, id }: Shown) {
       <NodeHeader {...target} />
       <NodeProblems diagram={target.diagram} id={target.id} />
       <WhySection tree={tree} node={target.id} />
+      <SilencedList {...target} />
       {node.type === 'SubTree' && <TreeField {...target} />}
       <PortList {...target} />
       <ConditionList {...target} />

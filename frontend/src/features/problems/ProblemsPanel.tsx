@@ -7,7 +7,9 @@ import { useProjectStore } from '@/store/project';
 import type { ListedProblem } from '@/store/problems/list';
 import { openProblem } from '@/store/problems/open';
 import { useProblems } from '@/store/problems/useProblems';
+import { FindingMenu } from '@/ui/FindingMenu';
 import { QuickFixes } from '@/ui/QuickFixes';
+import { ReasonPath } from '@/ui/ReasonPath';
 import { useProblemText } from '@/ui/useProblemText';
 import classes from './problems.module.css';
 
@@ -53,6 +55,8 @@ function Row({ item }: { readonly item: ListedProblem }) {
     .filter(Boolean)
     .join(' · ');
   const fixes = diagram && !item.isFault ? fixesFor(item.problem, diagram, vocabulary) : [];
+  const path = item.problem.source === 'server' ? (item.problem.path ?? []) : [];
+  const canSilence = node !== undefined && item.severity !== 'error' && !item.isFault;
   return (
     <>
       <button
@@ -71,9 +75,15 @@ function Row({ item }: { readonly item: ListedProblem }) {
           {item.isFault ? t('fault') : item.topic === null ? item.code : t('topic')}
         </span>
       </button>
-      {fixes.length > 0 ? (
+      {path.length > 0 || fixes.length > 0 || canSilence ? (
         <div className={classes['fixes']}>
-          <QuickFixes tree={item.tree ?? ''} fixes={fixes} />
+          <ReasonPath path={path} />
+          <div className={classes['actions']}>
+            <QuickFixes tree={item.tree ?? ''} fixes={fixes} />
+            {canSilence ? (
+              <FindingMenu tree={item.tree ?? ''} node={item.node ?? ''} code={item.code} message={message} />
+            ) : null}
+          </div>
         </div>
       ) : null}
     </>

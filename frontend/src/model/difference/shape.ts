@@ -52,7 +52,7 @@ export function indexIn(shape: Shape, id: NodeId): number {
 }
 
 const TEXTS = ['type', 'tree', 'comment', 'color', 'disabled'] as const;
-const MAPS = ['ports', 'conditions', 'attributes'] as const;
+const MAPS = ['ports', 'conditions', 'attributes', 'silenced'] as const;
 const LAYOUT = ['position', 'collapsed'] as const;
 const KNOWN: ReadonlySet<string> = new Set([...TEXTS, ...MAPS, ...LAYOUT, 'name', 'children']);
 

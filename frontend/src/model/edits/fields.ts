@@ -79,6 +79,16 @@ export function setComment(id: NodeId, comment: string): Recipe {
   };
 }
 
+/** Silences a finding at a node, with the reason; null reports it again. */
+export function setSilenced(id: NodeId, code: string, reason: string | null): Recipe {
+  return (draft) => {
+    const node = nodeOf(draft, id);
+    const { [code]: _gone, ...rest } = node.silenced ?? {};
+    const silenced = reason === null ? rest : { ...rest, [code]: reason };
+    assign(node, 'silenced', Object.keys(silenced).length > 0 ? silenced : undefined);
+  };
+}
+
 export function setColor(id: NodeId, color: string | null): Recipe {
   return (draft) => {
     assign(nodeOf(draft, id), 'color', color ?? undefined);

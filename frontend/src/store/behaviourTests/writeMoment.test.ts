@@ -1,5 +1,6 @@
 import { expect, it } from 'vitest';
 import { useProjectStore } from '@/store/project';
+import { useRunStore } from '@/store/run/store';
 import { fakeServer, openProject } from '../../../harness/testing';
 import { tryTest, writeTest } from './writeMoment';
 
@@ -43,4 +44,17 @@ it('is one step that can be undone', () => {
   useProjectStore.getState().addFile(FILE, 'before');
   writeTest(FILE, 'after')();
   expect(useProjectStore.getState().currentText(FILE)).toBe('before');
+});
+
+it('leaves a running program up to date, and an outdated one outdated', () => {
+  open({});
+  const isOutdated = () => useRunStore.getState().ranAt !== useProjectStore.getState().changeCounter;
+  useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter });
+  const undo = writeTest(FILE, 'text');
+  expect(isOutdated()).toBe(false);
+  undo();
+  expect(isOutdated()).toBe(false);
+  useRunStore.setState({ ranAt: -1 });
+  writeTest(FILE, 'text');
+  expect(isOutdated()).toBe(true);
 });

@@ -1,6 +1,7 @@
 import { api } from '@/api/client';
 import type { TestOutcome } from '@/api/types';
 import { useProjectStore } from '@/store/project';
+import { useRunStore } from '@/store/run/store';
 import { saveNow } from '@/store/saving/autosave';
 
 /** What became of a test that was tried before it is written. */
@@ -28,6 +29,14 @@ export async function tryTest(path: string, text: string, name: string): Promise
 export function writeTest(path: string, text: string): () => void {
   const { activeTree, mainTree, apply } = useProjectStore.getState();
   const tree = activeTree ?? mainTree;
-  apply(tree, 'momentTest', [], { files: { [path]: text } });
-  return () => useProjectStore.getState().undo(tree);
+  besideTheProgram(() => apply(tree, 'momentTest', [], { files: { [path]: text } }));
+  return () => besideTheProgram(() => useProjectStore.getState().undo(tree));
+}
+
+/** Makes a change that is no part of the program, so that a running one stays up to date. */
+function besideTheProgram(change: () => void): void {
+  const counter = () => useProjectStore.getState().changeCounter;
+  const isUpToDate = useRunStore.getState().ranAt === counter();
+  change();
+  if (isUpToDate) useRunStore.setState({ ranAt: counter() });
 }

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { emptyDiagram, type Diagram } from '@/model/diagram';
-import { problemsOf, whileEditing } from './problems';
+import { isSilenced, problemsOf, whileEditing } from './problems';
 import { useProjectStore } from '.';
 
 describe('a finding of the server', () => {
@@ -32,6 +32,26 @@ describe('a finding of the server', () => {
       file,
       line,
     });
+  });
+
+  it('is silenced at its block with a reason, unless it is an error', () => {
+    const odd = { ...item, code: 'BT0119', severity: 'warning' as const, path: [] };
+    const silenced = (reason: string): Diagram => ({
+      ...diagram,
+      nodes: { n1: { type: 'Sleep', silenced: { BT0119: reason, BT0201: reason } } },
+    });
+    const shown = (given: Diagram, ...rest: (typeof odd)[]) =>
+      problemsOf(given, vocabulary, rest).filter(({ source }) => source === 'server');
+    expect(shown(silenced('later'), odd)).toEqual([]);
+    expect(shown(silenced(' '), odd)).toHaveLength(1);
+    expect(isSilenced(silenced('later'), { code: 'BT0119', severity: 'error', node: 'n1' })).toBe(false);
+    expect(isSilenced(silenced('later'), { code: 'BT0119', severity: 'note', node: null })).toBe(false);
+  });
+
+  it('keeps the path of its reason', () => {
+    const step = { tree: 'Main', node: 'n1', label: 'Nobody', results: ['SUCCESS'], role: '', what: '' };
+    const odd = { ...item, code: 'BT0119', path: [step] };
+    expect(problemsOf(diagram, vocabulary, [odd])[1]).toMatchObject({ path: [step] });
   });
 
   it('is removed with its block', () => {

@@ -14,6 +14,11 @@ export interface TopicProblem {
   readonly values: Readonly<Record<string, string>>;
 }
 
+/** A node on the path of a finding's reason. */
+export type ReasonStep = Readonly<Required<Omit<NonNullable<Diagnostic['path']>[number], 'results'>>> & {
+  readonly results: readonly string[];
+};
+
 /** A finding of the editor's own checks, shown at once, of the server's, shown after a save, or of the run. */
 export type ShownProblem =
   | TopicProblem
@@ -29,7 +34,21 @@ export type ShownProblem =
       readonly values?: Readonly<Record<string, string>> | undefined;
       readonly file?: string | null;
       readonly line?: number | null;
+      readonly path?: readonly ReasonStep[];
     };
+
+/** Returns whether a finding is silenced at its block, with a reason; errors cannot be. */
+export function isSilenced(
+  diagram: Diagram,
+  {
+    code,
+    severity,
+    node,
+  }: { readonly code: string; readonly severity: Severity; readonly node: NodeId | null },
+): boolean {
+  const reason = node === null ? undefined : diagram.nodes[node]?.silenced?.[code];
+  return severity !== 'error' && reason !== undefined && reason.trim() !== '';
+}
 
 const placeOf = (code: string, node: NodeId | null, port: string | undefined): string =>
   `${code} ${node ?? ''} ${port ?? ''}`;
@@ -88,8 +107,13 @@ export function problemsOf(
       values: each.values,
       file: each.file || null,
       line: each.line ?? null,
-    }));
-  return [...own, ...server];
+      ...(each.path && each.path.length > 0 ? { path: each.path } : {}),
+    }))
+    .filter((each) => !isSilenced(diagram, each));
+  const shown = own.filter(
+    ({ kind, severity, node }) => !CODES[kind].some((code) => isSilenced(diagram, { code, severity, node })),
+  );
+  return [...shown, ...server];
 }
 
 /** Returns the errors among the findings of a check. */

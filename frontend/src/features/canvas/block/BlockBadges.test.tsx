@@ -20,3 +20,8 @@ it('shows the scripts, one on each line', () => {
   expect(document.querySelector('[title]')).toHaveAttribute('title', '_skipIf: x > 1\n_post: y := 2');
   expect(document.querySelectorAll('svg')).toHaveLength(1);
 });
+
+it('shows what is silenced, with the reason', () => {
+  show(<BlockBadges node={{ type: 'Sleep', silenced: { BT0119: 'it will fail later' } }} />);
+  expect(screen.getByTestId('silenced')).toHaveAttribute('title', 'BT0119: it will fail later');
+});

@@ -5,32 +5,49 @@ from __future__ import annotations
 import json
 import os
 import stat
+from itertools import islice
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 __all__ = ["project_files", "project_name"]
 
 MOST_FILES: Final = 500
 MOST_BYTES: Final = 256 << 10
 LONGEST_NAME: Final = 200
+MOST_LOOKED_AT: Final = 20_000
+# The engine is known by its version.
+LEFT_OUT: Final = {"__pycache__", "tree_gardener"}
 
 
 def project_files(folder: str) -> dict[str, bytes]:
     """Returns the regular files below a folder by their names in a recording, at most 256 KB in all.
 
-    Users' code can write there, so links are not followed, and sizes are counted while reading.
+    The diagrams come first, since the tree as it ran is shown by them; the engine is left out. Users' code
+    can write there, so links are not followed, and sizes are counted while reading.
     """
     files: dict[str, bytes] = {}
     left = MOST_BYTES
-    for place, folders, names in os.walk(folder):
-        folders[:] = sorted(name for name in folders if name != "__pycache__")
-        for name in sorted(names):
-            data = _read(Path(place) / name, left)
-            if data is None or len(files) >= MOST_FILES:
-                continue
-            left -= len(data)
-            files[f"project/{(Path(place) / name).relative_to(folder).as_posix()}"] = data
+    for name in sorted(islice(_names(folder), MOST_LOOKED_AT), key=_rank):
+        data = _read(Path(folder) / name, left)
+        if data is None or len(files) >= MOST_FILES:
+            continue
+        left -= len(data)
+        files[f"project/{name}"] = data
     return files
+
+
+def _names(folder: str) -> Iterator[str]:
+    for place, folders, names in os.walk(folder):
+        folders[:] = sorted(name for name in folders if name not in LEFT_OUT)
+        for name in sorted(names):
+            yield (Path(place) / name).relative_to(folder).as_posix()
+
+
+def _rank(name: str) -> tuple[bool, str]:
+    return not name.startswith("trees/"), name
 
 
 def project_name(files: dict[str, bytes]) -> str:

@@ -90,6 +90,7 @@ def _copy(
     schemas: dict[tuple[str, bytes], int] = {}
     channels: dict[tuple[str, int], int] = {}
     seen: set[tuple[str, bytes]] = set()
+    attached: dict[str, bytes] = {}
     messages, end_ns = 0, 0
     for reader in readers:
         own_schemas: dict[int, int] = {}
@@ -117,8 +118,9 @@ def _copy(
                     writer.add_message(
                         own_channels[record.channel_id], end_ns, record.data, end_ns, record.sequence
                     )
-                case Attachment() if (record.name, record.data) not in seen:
-                    seen.add((record.name, record.data))
+                case Attachment() if attached.get(record.name) != record.data:
+                    # A file belongs to the trees that follow it.
+                    attached[record.name] = record.data
                     writer.add_attachment(
                         record.create_time, record.log_time, record.name, record.media_type, record.data
                     )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 from playwright.sync_api import expect
 
+from tests.e2e.accessibility import expect_no_findings
 from tests.e2e.server import wait_until
 from tests.e2e.test_run_panels import panel
 
@@ -37,6 +38,7 @@ def test_the_past_of_a_run_is_looked_at(
     studio.expect_state("paused")
     present = shown_values(studio)
     a_drag_shows_the_past(studio)
+    the_tree_as_it_ran_is_looked_at(studio)
     nothing_acts_on_the_robot(studio)
     each_tick_shows_what_was_seen_then(studio, observer)
     why_is_answered_as_the_run_was(studio, observer)
@@ -82,9 +84,31 @@ def a_drag_shows_the_past(studio: Studio) -> None:
     mouse.up()
     expect(studio.at("moment-stats")).to_be_visible()
     expect(studio.at("blackboard").get_by_test_id("written").first).to_contain_text(re.compile(r"since .* s"))
-    length = float(strip.get_attribute("aria-valuemax") or "nan")
-    wait_until(lambda: 0.4 < shown_t(studio) / length < 0.6, "the middle of the run is shown")
+    end = float(strip.get_attribute("aria-valuemax") or "nan")
+    wait_until(lambda: 0.4 < shown_t(studio) / end < 0.6, "the middle of the run is shown")
     studio.picture("axis")
+
+
+def the_tree_as_it_ran_is_looked_at(studio: Studio) -> None:
+    """In a tab of its own, which cannot be edited, and which a phone and both themes show."""
+    page, canvas = studio.page, studio.at("recorded-canvas")
+    expect(page.get_by_role("tab", name="As it ran")).to_have_attribute("aria-selected", "true")
+    expect(studio.at("past-tab")).to_contain_text("As it ran, at")
+    canvas.focus()
+    page.keyboard.press("Home")
+    page.keyboard.press("ArrowDown")
+    expect(studio.at("past-details")).to_be_visible()
+    page.keyboard.press("Delete")
+    expect(axis(studio)).to_have_attribute("data-past", "true")
+    for scheme in ("dark", "light"):
+        page.evaluate("s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme)
+        expect_no_findings(page, f"the tree as it ran, {scheme}")
+        studio.picture(f"as-it-ran-{scheme}")
+    page.set_viewport_size({"width": 390, "height": 800})
+    expect(canvas).to_be_visible()
+    studio.picture("as-it-ran-narrow")
+    page.set_viewport_size({"width": 1440, "height": 900})
+    expect(canvas).to_be_visible()
 
 
 def nothing_acts_on_the_robot(studio: Studio) -> None:
@@ -102,7 +126,7 @@ def each_tick_shows_what_was_seen_then(studio: Studio, observer: Observer) -> No
         studio.page.keyboard.press("ArrowLeft")
         expect(studio.at("moment-stats")).to_have_attribute("data-tick", str(before - 1))
         heard = statuses_at(observer, before - 1)
-        for block in studio.at("canvas").get_by_test_id(NODES).all():
+        for block in studio.at("recorded-canvas").get_by_test_id(NODES).all():
             node = (block.get_attribute("data-testid") or "").removeprefix("node-")
             expect(block).to_have_attribute("data-status", heard.get(node, "IDLE"))
 
@@ -114,7 +138,7 @@ def why_is_answered_as_the_run_was(studio: Studio, observer: Observer) -> None:
     snapshot = next(event["data"] for event in observer.events if event["command"] == "snapshot")
     blocks = {node["uid"]: node["node_id"] for node in snapshot["tree"]["nodes"]}
     returned = {blocks[uid] for uid, status in told["changed"] + told["flashed"] if status != "IDLE"}
-    for block in studio.at("canvas").get_by_test_id(NODES).all():
+    for block in studio.at("recorded-canvas").get_by_test_id(NODES).all():
         block.click(position={"x": 4, "y": 4})
         studio.page.keyboard.press("Alt+w")
         question = studio.at("why-question")

@@ -73,10 +73,17 @@ def test_the_log_of_another_robot_is_opened_on_the_axis(studio: Studio) -> None:
     strip = page.get_by_role("slider", name="Moment of the run")
     strip.focus()
     page.keyboard.press("End")
-    recorded = studio.at("recorded-tree")
-    expect(recorded.get_by_role("listitem").filter(has_text="patrol")).to_have_attribute(
-        "data-status", "SUCCESS"
-    )
+    recorded = studio.at("recorded-canvas")
+    patrol = recorded.get_by_test_id(re.compile("^node-")).filter(has_text="patrol").first
+    expect(patrol).to_be_visible()
+    tab = studio.at("past-tab")
+    tab.get_by_text("List", exact=True).click()
+    row = tab.get_by_role("listitem").filter(has_text="patrol")
+    expect(row).to_have_attribute("data-status", "SUCCESS")
+    studio.picture("log-of-a-robot-list")
+    tab.get_by_text("Canvas", exact=True).click()
+    expect(patrol).to_have_attribute("data-past", "SUCCESS")
+    strip.focus()
     for scheme in ("dark", "light"):
         page.evaluate("s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme)
         studio.picture(f"log-of-a-robot-{scheme}")
@@ -105,7 +112,7 @@ def it_is_looked_at_without_a_session(studio: Studio) -> None:
     strip = page.get_by_role("slider", name="Moment of the run")
     strip.focus()
     page.keyboard.press("Shift+ArrowRight")
-    expect(studio.at("node-n1")).to_have_attribute("data-status", "RUNNING")
+    expect(studio.at("recorded-canvas").get_by_test_id("node-n1")).to_have_attribute("data-status", "RUNNING")
     expect(studio.at("run")).to_be_disabled()
     studio.picture("kept-run-open")
     expect(page).to_have_url(re.compile(r"\?run=[0-9a-f-]{36}&t=\d"))
@@ -113,8 +120,42 @@ def it_is_looked_at_without_a_session(studio: Studio) -> None:
     page.reload()
     expect(axis).to_contain_text("Kept run: The first drive")
     expect(axis).to_have_attribute("data-shown", then or "")
-    expect(studio.at("node-n1")).to_have_attribute("data-status", "RUNNING")
-    strip.focus()
-    page.keyboard.press("Escape")
+    expect(studio.at("recorded-canvas").get_by_test_id("node-n1")).to_have_attribute("data-status", "RUNNING")
+    the_world_of_the_run_is_drawn(studio)
+    what_changed_since_is_marked(studio)
     expect(axis).to_have_count(0)
     expect(studio.at("run")).to_be_enabled()
+
+
+def the_world_of_the_run_is_drawn(studio: Studio) -> None:
+    """Nothing was started since the page was loaded."""
+    studio.page.get_by_role("tab", name="3D").click()
+    view = studio.at("viewer-3d")
+    expect(view).not_to_have_attribute("data-objects", "0")
+    expect(view.locator("canvas").first).to_be_visible()
+    expect(view.get_by_text("Loading 3D")).to_have_count(0)
+    studio.picture("kept-run-3d")
+
+
+def what_changed_since_is_marked(studio: Studio) -> None:
+    """The project is edited after the run; the edit returns to the present, and undo is as ever."""
+    page = studio.page
+    strip = page.get_by_role("slider", name="Moment of the run")
+    strip.focus()
+    page.keyboard.press("Escape")
+    studio.at("canvas").get_by_test_id("node-n1").click()
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("Delete")
+    studio.command("Kept runs")
+    page.get_by_role("button", name="The first drive", exact=True).click()
+    page.get_by_role("button", name="Compare with now").click()
+    expect(studio.at("past-since")).to_contain_text("blocks changed since the run")
+    expect(studio.at("recorded-canvas").locator("[class*=mark_removed]").first).to_be_visible()
+    for scheme in ("dark", "light"):
+        page.evaluate("s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme)
+        expect_no_findings(page, f"changed since the run, {scheme}")
+        studio.picture(f"changed-since-{scheme}")
+    strip.focus()
+    page.keyboard.press("Escape")
+    page.keyboard.press("Control+z")
+    expect(studio.at("canvas").get_by_test_id("node-n2")).to_be_visible()

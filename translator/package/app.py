@@ -15,11 +15,13 @@ if TYPE_CHECKING:
     from translator.project import Project
 
 TREE_FILE = "self_contained_tree.xml"
-FOLDERS = ("launch/", "assets/")
+FOLDERS = ("launch/", "assets/", "trees/")
 
 
 def to_app_zip(project: Project) -> bytes:
     """Returns the app: `self_contained_tree.xml`, `execute_docker.py`, actions, engine, launch files, assets.
+
+    The diagrams are in it for recordings, which show the tree as it ran.
 
     Raises:
         TranslatorError: If the project has errors; its `diagnostics` name them.

@@ -13,6 +13,7 @@ import {
   IconFileText,
   IconGitFork,
   IconHistory,
+  IconHistoryToggle,
   IconLock,
 } from '@tabler/icons-react';
 import { useCallback, useEffect, useMemo, useRef, type RefObject } from 'react';
@@ -52,6 +53,7 @@ function renderTabButton(node: TabNode, values: ITabRenderValues): void {
   const tab = documentOf(node);
   if (tab?.kind === 'tree') values.leading = <IconGitFork size={15} aria-hidden="true" />;
   if (tab?.kind === 'compare') values.leading = <IconHistory size={15} aria-hidden="true" />;
+  if (tab?.kind === 'past') values.leading = <IconHistoryToggle size={15} aria-hidden="true" />;
   if (tab?.kind === 'source') values.leading = <IconLock size={15} aria-hidden="true" />;
   if (tab?.kind === 'file') {
     values.leading = tab.path.endsWith('.py') ? (

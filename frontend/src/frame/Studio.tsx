@@ -11,7 +11,6 @@ import { registerCanvasCommands } from '@/features/canvas/commands/canvasCommand
 import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
 import { ExportDialog } from '@/features/export/ExportDialog';
-import { RecordedTree } from '@/features/runs/RecordedTree';
 import { RunsDialog } from '@/features/runs/RunsDialog';
 import { ArrivalsDialog } from '@/features/library/ArrivalsDialog';
 import { ImportReport } from '@/features/importReport/ImportReport';
@@ -38,6 +37,7 @@ import { NewUniverse } from '@/features/universeEditor/NewUniverse';
 import { hasWebGl } from '@/features/viewer/webgl';
 import { followAddress } from '@/store/moment/address';
 import { followPresent } from '@/store/moment/looking';
+import { followPast } from './followPast';
 import { useIsBack } from '@/store/moment/store';
 import { useProjectStore } from '@/store/project';
 import { setNavigator } from '@/store/project/navigation';
@@ -121,6 +121,7 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
       registerRunCommands(),
       registerAxisCommands(),
       followPresent(),
+      followPast(),
       followAddress(joined, showMissingRun),
       registerRateCommands(),
       registerKeyCommands(),
@@ -176,7 +177,6 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
         <PresentationBar />
         {model && modelWidth ? <Dock model={model} width={modelWidth} key={modelWidth} /> : null}
       </main>
-      <RecordedTree />
       <TimeAxis />
       <StatusBar />
       <Guide />

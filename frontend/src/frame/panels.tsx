@@ -33,6 +33,7 @@ const RevisionsPanel = lazyPart(
   async () => (await import('@/features/revisions/RevisionsPanel')).RevisionsPanel,
 );
 const CompareTab = lazyPart(async () => (await import('@/features/revisions/CompareTab')).CompareTab);
+const PastTab = lazyPart(async () => (await import('@/features/recorded/PastTab')).PastTab);
 const UniverseTab = lazyPart(async () => (await import('@/features/universeEditor/UniverseTab')).UniverseTab);
 const RobotTab = lazyPart(async () => (await import('@/features/robotEditor/RobotTab')).RobotTab);
 const SourceTab = lazyPart(async () => (await import('@/features/code/SourceTab')).SourceTab);
@@ -90,6 +91,8 @@ function Document({ node }: { readonly node: TabNode }) {
     <Suspense fallback={<Waiting reason="loadingEditor" />}>
       {tab.kind === 'compare' ? (
         <CompareTab />
+      ) : tab.kind === 'past' ? (
+        <PastTab />
       ) : tab.kind === 'source' ? (
         <SourceTab path={tab.path} />
       ) : (

@@ -5,4 +5,6 @@ export type DocumentTab =
   /** Read-only Python outside of the project: from Python's own library, a package, or a stub. */
   | { kind: 'source'; path: string }
   /** The comparison of two revisions; there is only one such tab. */
-  | { kind: 'compare' };
+  | { kind: 'compare' }
+  /** The tree as it ran at the moment at which the user looks back; there is only one such tab. */
+  | { kind: 'past' };

@@ -9,7 +9,7 @@ const RETRY_MS = 20;
 let pending = new AbortController();
 
 function focusableOf(tab: DocumentTab): HTMLElement | null {
-  if (tab.kind === 'compare') return null;
+  if (tab.kind === 'compare' || tab.kind === 'past') return null;
   if (tab.kind === 'tree') {
     return document.querySelector(`[data-testid="canvas"][data-tree="${CSS.escape(tab.id)}"]`);
   }

@@ -40,14 +40,18 @@ const MAIN_LAYOUT = Model.MAIN_LAYOUT_ID;
 
 let requests = 0;
 
+/** Returns whether there is only one tab of this kind. */
+const isAlone = (tab: DocumentTab): tab is Extract<DocumentTab, { kind: 'compare' | 'past' }> =>
+  tab.kind === 'compare' || tab.kind === 'past';
+
 function tabId(tab: DocumentTab): string {
-  if (tab.kind === 'compare') return 'compare';
+  if (isAlone(tab)) return tab.kind;
   return tab.kind === 'tree' ? `tree:${tab.id}` : `${tab.kind}:${tab.path}`;
 }
 
 function nameOf(tab: DocumentTab): string {
   // The frame translates this name, like those of its panels.
-  if (tab.kind === 'compare') return 'panel.compare';
+  if (isAlone(tab)) return `panel.${tab.kind}`;
   if (tab.kind === 'tree') return tab.id;
   if (!isNamed(tab)) return tab.path.split('/').at(-1) ?? tab.path;
   return nameIn(useProjectStore.getState().currentText(tab.path) ?? '') ?? documentName(tab.path);
@@ -64,15 +68,15 @@ const isNamed = (tab: DocumentTab): boolean =>
 export function folderOf(tab: DocumentTab, open: readonly DocumentTab[]): string | null {
   if (tab.kind !== 'file' && tab.kind !== 'source') return null;
   const name = nameOf(tab);
-  const isAlone = open.every((other) => tabId(other) === tabId(tab) || nameOf(other) !== name);
-  if (!isAlone && isNamed(tab)) return documentName(tab.path);
-  return isAlone ? null : tab.path.split('/').slice(0, -1).join('/') || '/';
+  const isUnique = open.every((other) => tabId(other) === tabId(tab) || nameOf(other) !== name);
+  if (!isUnique && isNamed(tab)) return documentName(tab.path);
+  return isUnique ? null : tab.path.split('/').slice(0, -1).join('/') || '/';
 }
 
 /** Returns the icon and name of a document's tab. */
 function faceOf(tab: DocumentTab): Pick<IJsonTabNode, 'name' | 'config' | 'helpText'> {
   const name = nameOf(tab);
-  const helpText = tab.kind === 'compare' ? '' : tab.kind === 'tree' ? name : tab.path;
+  const helpText = isAlone(tab) ? '' : tab.kind === 'tree' ? name : tab.path;
   return { name, config: { document: true, tab }, helpText };
 }
 
@@ -113,6 +117,26 @@ export function closeTab(tab: DocumentTab): void {
   const { model } = useTabs.getState();
   const open = nodeOf(model, tab);
   if (open) model?.doAction(Actions.deleteTab(open.getId()));
+}
+
+const PAST: DocumentTab = { kind: 'past' };
+
+/** Opens the tab of the tree as it ran: in front of a tree, behind any other document. The focus stays. */
+export function openPast(): void {
+  const { model, front } = useTabs.getState();
+  if (!model || nodeOf(model, PAST)) return;
+  const json: IJsonTabNode = { type: 'tab', component: 'past', className: 'bts-past', ...faceOf(PAST) };
+  const isSelected = front === null || front.kind === 'tree';
+  model.doAction(Actions.addTab(json, EDITORS, DockLocation.CENTER, -1, isSelected));
+}
+
+/** Closes the tab of the tree as it ran; the document that it covered comes to the front. */
+export function closePast(): void {
+  const { model, front } = useTabs.getState();
+  const wasVisible = nodeOf(model, PAST)?.isVisible() ?? false;
+  closeTab(PAST);
+  const node = front && wasVisible ? nodeOf(model, front) : null;
+  if (node) model?.doAction(Actions.selectTab(node.getId()));
 }
 
 /** Renames a document's tab in place. */
@@ -210,8 +234,7 @@ export function isInFront(node: TabNode): boolean {
 /** Makes the tree in front the active one for canvas, inspector and undo. */
 export function followFront(model: Model): void {
   const front = frontDocument(model);
-  if (front && front.kind !== 'compare' && !isSame(front, useTabs.getState().front))
-    useTabs.setState({ front });
+  if (front && !isAlone(front) && !isSame(front, useTabs.getState().front)) useTabs.setState({ front });
   const { activeTree, setActiveTree } = useProjectStore.getState();
   if (front?.kind === 'tree' && front.id !== activeTree) setActiveTree(front.id);
 }

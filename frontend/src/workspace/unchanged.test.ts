@@ -43,7 +43,7 @@ const PANELS = [
   'viewer3d',
   'xml',
 ];
-const DOCUMENTS = ['compare', 'file', 'source', 'tree'];
+const DOCUMENTS = ['compare', 'file', 'past', 'source', 'tree'];
 
 const sources = import.meta.glob<string>(['../**/*.{ts,tsx}', '!../**/*.test.{ts,tsx}'], {
   query: '?raw',

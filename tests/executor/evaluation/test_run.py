@@ -76,7 +76,7 @@ def test_a_goal_ends_the_run_and_its_measures_are_taken_then(tmp_path, cells):
     assert found.items[0]["margin"] == pytest.approx(5 - found.end_s)
     assert found.path[0] == [0, 0, 0]
     assert found.path[-1][1] == pytest.approx(1, abs=0.05)
-    assert found.seen == ["R"]
+    assert found.seen == {"go": "R"}
     assert cells(folder, to_the_end=True).outcome == "success"
     assert cells(folder, to_the_end=True).path[-1][1] > 2
 
@@ -106,7 +106,7 @@ def test_a_finished_root_ends_ticking_and_not_the_run(tmp_path, cells):
     assert (found.outcome, found.end_s, found.why) == ("failure", 6, "reach behind")
     assert [item["holds"] for item in found.items] == [False, True]
     assert found.items[0]["margin"] == pytest.approx(-1.5, abs=0.1)
-    assert found.seen == ["S"]
+    assert found.seen == {"go": "S"}
     assert cells(judged(tmp_path, "{tree: SUCCESS}", action=ENDS)).outcome == "success"
 
 

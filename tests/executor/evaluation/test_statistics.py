@@ -35,7 +35,10 @@ def test_mcnemar(row):
     assert statistics.mcnemar_worse(row["first"], row["second"]) == close(row["worse"])
 
 
-@pytest.mark.parametrize("row", REFERENCE["newcombe_without_correlation"], ids=lambda row: str(row["runs"]))
+# With 99 and 93 of 100, every table of pairs is correlated, so that there is nothing to compare with.
+@pytest.mark.parametrize(
+    "row", REFERENCE["newcombe_without_correlation"][:2], ids=lambda row: str(row["runs"])
+)
 def test_newcombe_without_correlation_is_that_of_independent_rates(row):
     s1, s2, n = row["first"], row["second"], row["runs"]
     both = math.ceil(s1 * s2 / n)  # hardly any correlation: the correction for continuity leaves none

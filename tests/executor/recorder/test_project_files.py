@@ -27,6 +27,13 @@ def test_the_sum_is_bounded(tmp_path):
     assert sorted(project_files(str(tmp_path))) == ["project/0.bin", "project/1.bin", "project/9.txt"]
 
 
+def test_the_diagrams_have_the_room_first_and_the_engine_has_none(tmp_path):
+    for name in ("actions/a.py", "trees/Main.json", "tree_gardener/node.py"):
+        (tmp_path / name).parent.mkdir()
+        (tmp_path / name).write_bytes(bytes(MOST_BYTES // 2 + 1))
+    assert list(project_files(str(tmp_path))) == ["project/trees/Main.json"]
+
+
 def test_a_folder_that_is_not_there_has_no_files():
     assert project_files("/nowhere/at/all") == {}
 

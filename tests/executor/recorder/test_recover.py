@@ -83,3 +83,20 @@ def test_segments_are_joined_with_their_channels_once():
 def test_what_is_no_recording_is_refused():
     with pytest.raises(RecordingError, match=r"x\.mcap:0"):
         recover(io.BytesIO(b"{}"), "x.mcap", io.BytesIO())
+
+
+def test_a_joined_file_has_each_version_of_an_attached_file_once_in_order():
+    parts = []
+    for number, text in enumerate((b"a", b"a", b"b", b"a")):
+        file = io.BytesIO()
+        writer = RecordingWriter(file, {})
+        writer.attach("project/trees/Main.json", "application/json", text)
+        writer.record("/bt/log", "Log", LOG | {"stamp": nanoseconds(number)})
+        writer.finish()
+        parts.append((io.BytesIO(file.getvalue()), f"{number}.mcap"))
+    out = io.BytesIO()
+    join(parts, out)
+    attached = sorted(
+        make_reader(io.BytesIO(out.getvalue())).iter_attachments(), key=lambda one: one.log_time
+    )
+    assert [one.data for one in attached] == [b"a", b"b", b"a"]

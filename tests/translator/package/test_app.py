@@ -22,6 +22,7 @@ def test_app_holds_all_that_runs(example):
     assert json.loads(files["project.json"]) == example.settings.to_json()
     assert {f"actions/{name}.py" for name in example.actions} <= set(files)
     assert "tree_gardener/__init__.py" in files
+    assert {name for name in example.files if name.startswith("trees/")} <= set(files)
     assert "tree_gardener/catalog.json" in files
     compile(files["execute_docker.py"], "execute_docker.py", "exec")
 

@@ -52,7 +52,7 @@ it('lists statuses, keys and bodies between A and the shown moment, or B', async
 
 it('a line leads to its block, or to the moment of the write', async () => {
   openDiagram({ root: 'n1', nodes: { n1: { type: 'Sequence' } } });
-  useMoment.setState({ tree: [treeNode(1, 0, 'n1')] });
+  useMoment.setState({ tree: [{ ...treeNode(1, 0, 'n1'), ports: {} }] });
   show(<Changes end={9} between={between} />);
   const [status, key] = await screen.findAllByTestId('axis-change');
   await user.click(status!);

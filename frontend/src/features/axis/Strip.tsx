@@ -9,6 +9,7 @@ import {
 import { drawStretch, paletteOf } from '@/features/timeline/draw';
 import { goSeconds, goTicks, lookAt, lookNow, setPlaying, type Extent } from '@/store/moment/looking';
 import { following, markedRange, panned, useRange, within } from '@/store/moment/range';
+import { isPresentRun, useSource } from '@/store/moment/source';
 import { useMoment } from '@/store/moment/store';
 import type { Mark, MarkKind } from '@/store/recording/types';
 import { useSessionStore } from '@/store/session/store';
@@ -35,6 +36,8 @@ export function Strip({ extent }: { readonly extent: Extent }) {
   const moment = useMoment((state) => state.t);
   const overview = useMoment((state) => (state.overview?.run === extent.run ? state.overview : null));
   const logs = useSessionStore((state) => state.logs);
+  // What the page has seen is of the present run.
+  const isPresent = useSource(isPresentRun);
   const width = useWidth(strip);
   const a = useRange((state) => state.a);
   const b = useRange((state) => state.b);
@@ -45,10 +48,10 @@ export function Strip({ extent }: { readonly extent: Extent }) {
   const marks = useMemo(
     () =>
       apart(
-        marksOf(overview, logs, from).filter(({ t: at }) => at >= from && at <= to),
+        marksOf(overview, isPresent ? logs : [], from).filter(({ t: at }) => at >= from && at <= to),
         (MARK_PX * length) / Math.max(width, 1),
       ),
-    [overview, logs, from, to, length, width],
+    [overview, isPresent, logs, from, to, length, width],
   );
   useZoomByWheel(strip, extent);
   useEffect(() => {
@@ -68,7 +71,11 @@ export function Strip({ extent }: { readonly extent: Extent }) {
       const palette = paletteOf(element);
       const root = trace.nodes.find(({ parent }) => parent === 0)?.uid ?? -1;
       const scale = element.clientWidth / length;
-      for (const { start, end, mask } of rootStretches(overview, trace.stretches(root, from, to), to)) {
+      for (const { start, end, mask } of rootStretches(
+        overview,
+        isPresent ? trace.stretches(root, from, to) : [],
+        to,
+      )) {
         const x = Math.max((start - from) * scale, 0);
         drawStretch(context, mask, x, Math.max((end - start) * scale, 1), 0, palette);
       }
@@ -78,7 +85,7 @@ export function Strip({ extent }: { readonly extent: Extent }) {
     const themed = new MutationObserver(draw);
     themed.observe(document.documentElement, { attributeFilter: ['data-mantine-color-scheme'] });
     return () => themed.disconnect();
-  }, [overview, from, to, length, width]);
+  }, [overview, isPresent, from, to, length, width]);
 
   const lookThere = ({ currentTarget, clientX }: PointerEvent) => {
     const box = currentTarget.getBoundingClientRect();

@@ -5,12 +5,14 @@ import { useTranslation } from 'react-i18next';
 import { extent as extentNow, lookNow, setPlaying } from '@/store/moment/looking';
 import { useSource } from '@/store/moment/source';
 import { PLAY_SPEEDS, useMoment } from '@/store/moment/store';
+import { liveSource } from '@/store/recording/liveSource';
 import { useSessionStore } from '@/store/session/store';
 import { CommandButton } from '@/ui/CommandButton';
 import classes from './axis.module.css';
 import { copyShownLink } from './commands';
 import { AxisMenu } from './AxisMenu';
 import { Changes } from './Changes';
+import { RunSelect } from './RunSelect';
 import { Strip } from './Strip';
 
 /** The time axis of the recorded run, below everything. */
@@ -53,6 +55,7 @@ export function TimeAxis() {
           data={PLAY_SPEEDS.map((each) => ({ value: String(each), label: `×${each}` }))}
           onChange={({ currentTarget }) => useMoment.setState({ speed: Number(currentTarget.value) })}
         />
+        <RunSelect run={extent.run} />
         <Strip extent={extent} />
         <AxisMenu />
         <span className={classes['note']} role="status">
@@ -64,7 +67,7 @@ export function TimeAxis() {
             t('reading')
           ) : isBack ? (
             <span className={classes['back']} title={t('backHelp')}>
-              {kept === null ? t('back') : t('kept', { name: kept.name })}
+              {kept ? t('kept', { name: kept.name }) : t(source === liveSource ? 'back' : 'earlier')}
             </span>
           ) : null}
         </span>

@@ -11,6 +11,7 @@ import { registerCommands, type UserCommand } from '@/commands/registry';
 import { t } from '@/i18n';
 import { linkTo, shownAddress } from '@/store/moment/address';
 import { extent, goTicks, goToChange, lookNow, setPlaying } from '@/store/moment/looking';
+import { usePastTree } from '@/store/moment/pastTree';
 import { isLookingBack, useMoment } from '@/store/moment/store';
 import { useSource } from '@/store/moment/source';
 import { useProjectStore } from '@/store/project';
@@ -24,8 +25,11 @@ const hasRecording = () => extent() !== null;
 export function selectedUid(): number | null {
   const { activeTree, selection } = useProjectStore.getState();
   const nodes = isLookingBack() ? useMoment.getState().tree : useSessionStore.getState().tree;
-  const [id] = selection;
-  return nodes.find((node) => node.tree_id === activeTree && node.node_id === id)?.uid ?? null;
+  // The tree as it ran may have blocks that the present one has not.
+  const past = usePastTree.getState();
+  const id = selection[0] ?? (isLookingBack() ? past.node : null);
+  const tree = selection.length > 0 ? activeTree : past.tree;
+  return nodes.find((node) => node.tree_id === tree && node.node_id === id)?.uid ?? null;
 }
 
 function toChange(direction: 1 | -1): void {

@@ -37,17 +37,11 @@ import { usePaletteDrop } from './gestures/usePaletteDrop';
 import { useRefit } from './view/useRefit';
 import { useReveal } from './view/useReveal';
 import { useTree } from './useTree';
-import { LEAST_ZOOM, useViewport } from './view/useViewport';
+import { FAR, LEAST_ZOOM, NAMES, useViewport } from './view/useViewport';
 import classes from './Canvas.module.css';
 
 const nodeTypes = { block: Block };
 const edgeTypes = { tree: TreeEdge };
-/**
- * The zooms below which blocks show only their names, and below which they show only symbol, colour and
- * status.
- */
-const NAMES = 0.65;
-const FAR = 0.42;
 const DELETE_KEYS: string[] = [];
 const MULTI_KEYS = ['Meta', 'Control', 'Shift'];
 /**

@@ -39,6 +39,8 @@ export interface FlowInput {
   readonly vocabulary: Vocabulary;
   readonly problems: ReadonlyMap<NodeId, ShownProblem>;
   readonly selection: ReadonlySet<NodeId>;
+  /** Whether nothing can be added to the tree. */
+  readonly isReadOnly?: boolean;
 }
 
 /**
@@ -82,8 +84,12 @@ function kept<T>(before: readonly T[], now: T[]): T[] {
 
 const isSame = (a: Inside, b: Inside): boolean => a.tree === b.tree && a.node === b.node;
 
-function lookOf(id: NodeId, node: DiagramNode, { shown, vocabulary }: FlowInput): BlockData['look'] {
-  if (node.type !== 'SubTree' || !node.tree || !vocabulary.trees.has(node.tree)) return null;
+function lookOf(
+  id: NodeId,
+  node: DiagramNode,
+  { shown, vocabulary, isReadOnly }: FlowInput,
+): BlockData['look'] {
+  if (isReadOnly || node.type !== 'SubTree' || !node.tree || !vocabulary.trees.has(node.tree)) return null;
   return shown.groups.has(id) ? 'open' : 'closed';
 }
 
@@ -128,7 +134,7 @@ export class FlowProjection {
       problem: problems.get(id) ?? null,
       isDraft,
       isHorizontal: diagram.layout === 'horizontal',
-      canGrow: acceptsChild(diagram, id, vocabulary),
+      canGrow: !input.isReadOnly && acceptsChild(diagram, id, vocabulary),
       folded: node.collapsed ? subtreeOf(input.shown.diagram, id).length - 1 : 0,
       look: lookOf(id, node, input),
       inside: known?.data.inside && inside && isSame(known.data.inside, inside) ? known.data.inside : inside,

@@ -3,15 +3,11 @@ import { IconZoomIn, IconZoomOut } from '@tabler/icons-react';
 import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { TreeImage } from '@/features/export/TreeImage';
-import { displayName, preorder, type Diagram } from '@/model/diagram';
-import {
-  treeDifference,
-  type ChangeKind,
-  type NodeDifference,
-  type TreeDifference,
-} from '@/model/difference/changes';
+import type { Diagram } from '@/model/diagram';
+import { treeDifference, type TreeDifference } from '@/model/difference/changes';
 import { layoutTree, type Layout } from '@/model/layout';
 import { useProjectStore } from '@/store/project';
+import { ChangeList, COLORS, SIGNS } from './ChangeList';
 import classes from './history.module.css';
 
 interface TreePictureProps {
@@ -19,14 +15,6 @@ interface TreePictureProps {
   readonly after: Diagram;
 }
 
-/** A sign for each kind of change, since colour alone is not accessible. */
-const SIGNS: Record<ChangeKind, string> = { added: '+', removed: '−', changed: '≠', moved: '⇄' };
-const COLORS: Record<ChangeKind, string> = {
-  added: 'var(--bts-success)',
-  removed: 'var(--bts-failure)',
-  changed: 'var(--bts-running)',
-  moved: 'var(--bts-accent)',
-};
 const onThePage = (name: string) => `var(--bts-${name})`;
 
 /** Both states of a tree in one picture; added, removed, changed and moved blocks are marked and listed. */
@@ -69,53 +57,9 @@ export function TreePicture({ before, after }: TreePictureProps) {
             </ActionIcon>
           </Tooltip>
         </div>
-        <ul className={classes['changes']} aria-label={t('changes')}>
-          {preorder(difference.merged).map((id) => {
-            const change = difference.changes.get(id);
-            const node = difference.merged.nodes[id];
-            if (!change || !node) return null;
-            return (
-              <li
-                key={id}
-                data-kind={change.kind}
-                onPointerEnter={() => setChosen(id)}
-                onPointerLeave={() => setChosen(null)}
-              >
-                <Change name={displayName(node)} change={change} />
-              </li>
-            );
-          })}
-        </ul>
+        <ChangeList difference={difference} onPoint={setChosen} />
       </div>
     </div>
-  );
-}
-
-function Change({ name, change }: { readonly name: string; readonly change: NodeDifference }) {
-  const { t } = useTranslation('revisions');
-  const isField = change.kind === 'changed';
-  return (
-    <>
-      <span className={classes['sign']} style={{ color: COLORS[change.kind] }} aria-hidden="true">
-        {SIGNS[change.kind]}
-      </span>
-      <div>
-        <b>{name}</b>{' '}
-        <span className={classes['kind']}>
-          {t(`kind.${isField ? 'changed' : (change.deed ?? change.kind)}`)}
-        </span>
-        {change.fields.map(({ field, before, after }) => (
-          <div key={field} className={classes['field']}>
-            <span>{field}</span> {before === null ? null : <del>{before}</del>}
-            {before !== null && after !== null ? ' → ' : null}
-            {after === null ? null : <ins>{after}</ins>}
-          </div>
-        ))}
-        {isField && change.deed !== null ? (
-          <div className={classes['field']}>{t(`kind.${change.deed}`)}</div>
-        ) : null}
-      </div>
-    </>
   );
 }
 

@@ -1,6 +1,8 @@
 import { act, screen } from '@testing-library/react';
 import { expect, it, onTestFinished } from 'vitest';
 import type { Scene } from '@/generated/messages';
+import { ofSession, useSource } from '@/store/moment/source';
+import { atPresent, useMoment } from '@/store/moment/store';
 import { frames } from '@/store/session/frames';
 import { useSessionStore } from '@/store/session/store';
 import { show } from '../../../harness/testing';
@@ -9,6 +11,19 @@ import { useScene } from './useScene';
 function Named() {
   return <p>{useScene()?.name ?? 'none'}</p>;
 }
+
+it('is the recorded one of a kept run, also without a world', () => {
+  onTestFinished(() => {
+    useSource.setState(ofSession);
+    useMoment.setState(atPresent);
+  });
+  show(<Named />);
+  act(() => {
+    useSource.setState({ source: { ...ofSession.source } });
+    useMoment.setState({ scene: { name: 'Yard' } as Scene });
+  });
+  expect(screen.getByText('Yard')).toBeInTheDocument();
+});
 
 it('is the last scene, as long as there is a world', () => {
   onTestFinished(() => {

@@ -24,6 +24,8 @@ export interface TreeDifference {
   /** The newer tree, with the removed nodes at their old places. */
   readonly merged: Diagram;
   readonly changes: ReadonlyMap<NodeId, NodeDifference>;
+  /** The id in the newer tree of each node of the older one that both have. */
+  readonly pairs: ReadonlyMap<NodeId, NodeId>;
 }
 
 /** Adds removed nodes at their old places, after their former previous siblings. */
@@ -116,5 +118,5 @@ export function treeDifference(older: Diagram, newer: Diagram): TreeDifference {
       deed: known?.deed ?? DEEDS[operation.op],
     });
   }
-  return { merged: merge(older, newer, removed, pairs), changes };
+  return { merged: merge(older, newer, removed, pairs), changes, pairs };
 }

@@ -83,6 +83,12 @@ it('goes to a run of the session as soon as it is there', async () => {
   await vi.waitFor(() => expect(window.location.search).toBe('?run=0a&t=3.000'));
 });
 
+it('goes to an earlier run of the session', () => {
+  useSessionStore.setState({ segments: [segment, { ...segment, run: '0c' }] });
+  follow('?run=0a&t=3');
+  expect(shownAddress()).toEqual({ run: '0a', isKept: false, t: 3 });
+});
+
 it('opens a run whose session has ended, if it was kept', async () => {
   follow('?run=0a&t=3', { 'GET /projects/p1/runs': { items: [stored] } });
   await vi.waitFor(() => expect(useSource.getState().kept?.id).toBe(KEPT));

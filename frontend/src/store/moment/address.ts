@@ -1,10 +1,11 @@
 import { ApiError } from '@/api/errors';
 import { runs, type StoredRun } from '@/api/runs';
 import { useProjectStore } from '@/store/project';
+import { runsOf } from '@/store/recording/liveSource';
 import { storedSource } from '@/store/recording/storedSource';
 import { projectPath } from '@/store/route';
 import { useSessionStore } from '@/store/session/store';
-import { extent, lookAt, openKept } from './looking';
+import { extent, openKept, openRun } from './looking';
 import { useSource } from './source';
 import { useMoment } from './store';
 
@@ -70,10 +71,11 @@ export function followAddress(joined: Promise<void>, onMissing: (missing: Missin
     window.history.replaceState(window.history.state, '', window.location.pathname + query);
   };
   const go = (): boolean => {
-    if (!wanted || wanted.isKept || extent()?.run !== wanted.run) return false;
-    const { t } = wanted;
+    if (!wanted || wanted.isKept) return false;
+    const { run, t } = wanted;
+    if (!runsOf(useSessionStore.getState().segments).includes(run)) return false;
     wanted = null;
-    lookAt(t ?? extent()?.from ?? 0);
+    openRun(run, t);
     return true;
   };
   const open = (run: StoredRun) => {

@@ -6,6 +6,7 @@ import { useProjectStore } from '@/store/project';
 import { Engine } from '@/store/recording/engine';
 import { liveSource } from '@/store/recording/liveSource';
 import type { EngineLink } from '@/store/recording/recordedRun';
+import { shownFrames } from '@/store/session/frames';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import {
@@ -16,6 +17,7 @@ import {
   lookAt,
   lookNow,
   openKept,
+  openRun,
   setEngineLink,
   storyUntilNow,
 } from './looking';
@@ -103,6 +105,24 @@ it('shows nothing without a recording', () => {
   expect(isLookingBack()).toBe(false);
 });
 
+it('opens an earlier run of the session, and returns from it to the last one', async () => {
+  useSessionStore.setState({ segments: [segment('a'), { ...segment('b'), to_t: 0.8 }] });
+  openRun('a', 0.5);
+  await shown(0.5);
+  expect(extent()).toMatchObject({ run: 'a', to: 1 });
+  expect(shownFrames.scene()?.type).toBe('scene');
+  openRun('b');
+  await shown(0);
+  expect(extent()).toMatchObject({ run: 'b', to: 0.8 });
+  expect(shownFrames.scene()).toBeNull();
+  openRun('gone');
+  expect(extent()?.run).toBe('b');
+  openRun('a');
+  useSessionStore.setState({ segments: [segment('b')] });
+  expect(isLookingBack()).toBe(false);
+  expect(extent()?.run).toBe('b');
+});
+
 it('tells what the tree did until now, or until the shown moment', async () => {
   const all = (await storyUntilNow())!;
   expect(useMoment.getState().t).toBeNull();
@@ -131,7 +151,11 @@ it('opens a kept run without a session, and closes it in the present', async () 
   lookAt(0.5);
   await shown(0.5);
   expect(Object.values(usePastSession.getState().blackboard).map(({ key }) => key)).toContain('offset');
+  expect(useMoment.getState().trees['MainTree']?.isAttached).toBe(true);
+  expect(useMoment.getState().scene?.type).toBe('scene');
+  expect(shownFrames.scene()).toBe(useMoment.getState().scene);
   lookNow();
+  expect(shownFrames.scene()).toBeNull();
   expect(useSource.getState()).toEqual({ source: liveSource, kept: null });
   expect(extent()).toBeNull();
 });

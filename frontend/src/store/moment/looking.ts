@@ -1,15 +1,17 @@
 import type { NodeStatus } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
 import { usePastLive } from '@/store/project/live';
+import { earlierSource, runsOf } from '@/store/recording/liveSource';
 import { RecordedRun, type EngineLink } from '@/store/recording/recordedRun';
 import type { FromEngine } from '@/store/recording/engine';
 import type { Story } from '@/store/recording/story';
 import type { Changes, Moment, Overview, RecordingSource } from '@/store/recording/types';
 import { useSessionStore } from '@/store/session/store';
 import type { LogLine } from '@/store/session/types';
+import { identified, recordedTrees } from './recordedTrees';
 import { consoleOf, linesUntil, rowsOf, usePastSession } from './session';
 import { markedRange, nextMoment, noRange, useRange } from './range';
-import { ofSession, useSource, type Kept } from './source';
+import { isPresentRun, ofSession, useSource, type Kept } from './source';
 import { atPresent, useMoment } from './store';
 import { showPresentWorld, showWorld } from './world';
 
@@ -79,13 +81,23 @@ export function openKept(source: RecordingSource, kept: Kept, t: number | null =
   if (begin) lookAt(t ?? begin.from);
 }
 
+/** Opens a run of the session at a moment, or at its begin; one that is not there any more is left out. */
+export function openRun(name: string, t: number | null = null): void {
+  const runs = runsOf(useSessionStore.getState().segments);
+  if (!runs.includes(name)) return;
+  lookNow();
+  if (name !== runs.at(-1)) change({ source: earlierSource(name), kept: null });
+  const begin = extent();
+  if (begin) lookAt(t ?? begin.from);
+}
+
 /** Returns to the present, and closes a kept run. */
 export function lookNow(): void {
   if (useMoment.getState().t === null) return;
   const { speed } = useMoment.getState();
   useMoment.setState({ ...atPresent, speed, overview: useMoment.getState().overview });
   recorded?.want(null);
-  if (useSource.getState().kept !== null) change(ofSession);
+  if (!isPresentRun(useSource.getState())) change(ofSession);
   showPresentWorld();
 }
 
@@ -222,7 +234,14 @@ async function refresh(): Promise<void> {
       const { t, tick, shown } = useMoment.getState();
       if (t === null) return;
       const known = shown ? shown.generation : -1;
-      const moment = await theRun().ask({ what: 'moment', t, tick, known });
+      const scene = shown ? shown.sceneId : -1;
+      const asked = theRun();
+      const moment = await asked.ask({ what: 'moment', t, tick, known, scene });
+      if (asked !== recorded) {
+        // It is of a run that was left meanwhile.
+        isOutdated = true;
+        continue;
+      }
       if (moment && useMoment.getState().t !== null) show(moment);
     } while (isOutdated);
   } finally {
@@ -232,7 +251,8 @@ async function refresh(): Promise<void> {
 
 function show(moment: Moment): void {
   const before = useMoment.getState();
-  const tree = moment.tree ?? before.tree;
+  const tree = moment.tree ? identified(moment.tree) : before.tree;
+  const trees = moment.tree ? recordedTrees(tree, moment.files ?? {}) : before.trees;
   if (before.overview !== linesOf && before.overview) {
     linesOf = before.overview;
     lines = consoleOf(before.overview);
@@ -262,8 +282,10 @@ function show(moment: Moment): void {
     },
     true,
   );
-  useMoment.setState({ shown: moment, tree });
-  showWorld(moment);
+  const isSame = moment.scene === null && moment.sceneId === before.shown?.sceneId;
+  const scene = isSame ? before.scene : moment.scene;
+  useMoment.setState({ shown: moment, tree, trees, scene });
+  showWorld(moment, isPresentRun(useSource.getState()) ? null : scene);
 }
 
 /** Returns to the present when the run is gone, and when the user edits, since edits belong to the present. */

@@ -1,8 +1,9 @@
 import { create } from 'zustand';
 import { useStore } from 'zustand';
-import type { TreeNode } from '@/generated/messages';
+import type { Scene } from '@/generated/messages';
 import { usePastLive, useLiveStore, type LiveState } from '@/store/project/live';
-import type { Moment, Overview } from '@/store/recording/types';
+import type { Moment, Overview, RecordedNode } from '@/store/recording/types';
+import type { RecordedTree } from './recordedTrees';
 
 interface MomentData {
   /** The moment at which the user looks, in s; null: the present. */
@@ -11,8 +12,12 @@ interface MomentData {
   readonly tick: number | null;
   /** What is shown of it; it lags behind `t` while the recording is read. Null: the present. */
   readonly shown: Moment | null;
-  /** The tree as it ran at the shown moment. */
-  readonly tree: readonly TreeNode[];
+  /** The nodes that ran at the shown moment. */
+  readonly tree: readonly RecordedNode[];
+  /** The trees that ran, the main tree first. */
+  readonly trees: Readonly<Record<string, RecordedTree>>;
+  /** The recorded world of the shown moment. */
+  readonly scene: Scene | null;
   /** The recording as far as it was read. */
   readonly overview: Overview | null;
   /** Why a part of the recording cannot be read; empty if nothing is wrong. */
@@ -29,6 +34,8 @@ export const atPresent: MomentData = {
   tick: null,
   shown: null,
   tree: [],
+  trees: {},
+  scene: null,
   overview: null,
   failure: '',
   isPlaying: false,

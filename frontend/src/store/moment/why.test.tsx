@@ -63,11 +63,11 @@ describe('the shown tick', () => {
     act(() =>
       useMoment.setState({
         t: 1,
-        tree: nodes,
+        tree: nodes.map((node) => ({ ...node, ports: {} })),
         shown: {
-          ...{ t: 1, tick: 5, tickT: 1, durationMs: 1, generation: 1, tree: null },
+          ...{ t: 1, tick: 5, tickT: 1, durationMs: 1, generation: 1, tree: null, files: null },
           ...{ statuses: [[2, 'RUNNING']], was: [[2, 'IDLE']], flashes: [[1, 'SKIPPED']] },
-          ...{ entries: [], poses: null, scan: null, pictures: [], isHalted: true },
+          ...{ entries: [], scene: null, sceneId: -1, poses: null, scan: null, pictures: [], isHalted: true },
         },
       }),
     );

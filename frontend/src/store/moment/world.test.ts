@@ -54,11 +54,14 @@ const moment = (t: number, x: number): Moment => ({
   durationMs: null,
   generation: 1,
   tree: null,
+  files: null,
   statuses: [],
   flashes: [],
   was: [],
   isHalted: false,
   entries: [],
+  scene: null,
+  sceneId: -1,
   poses: poses(t, x),
   scan,
   pictures: [{ t, topic: '/world/camera/camera/compressed', jpeg: new Uint8Array([1]) }],
@@ -84,6 +87,21 @@ it('shows the recorded world in place of the present one, and the present one ag
   frames.publish(poses(6, 6));
   showPresentWorld();
   expect(heard.mock.calls).toEqual([[5], [1], [6]]);
+  stop();
+});
+
+it('shows the world of another run, in one that has none and in place of the present one', () => {
+  const heard = vi.fn();
+  const stop = shownFrames.listen('scene', ({ name }) => heard(name));
+  const other = { ...scene, name: 'other' };
+  showWorld(moment(1, 1), other);
+  showWorld(moment(2, 1), other);
+  expect(shownFrames.scene()).toBe(other);
+  frames.publish(scene);
+  expect(heard.mock.calls).toEqual([['other']]);
+  showPresentWorld();
+  expect(heard.mock.calls).toEqual([['other'], ['w']]);
+  expect(shownFrames.scene()).toBe(scene);
   stop();
 });
 

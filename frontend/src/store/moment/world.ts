@@ -6,9 +6,13 @@ import { currentPoses } from '@/store/session/poses';
 
 type Quaternion = readonly [number, number, number, number];
 
-/** Shows the world of a moment in 3D and camera views. */
-export function showWorld({ t, poses, scan, pictures }: Moment): void {
-  const scene = frames.scene();
+/**
+ * Shows the world of a moment in 3D and camera views.
+ *
+ * @param recorded the world of a run that is not the present one; null: the present one.
+ */
+export function showWorld({ t, poses, scan, pictures }: Moment, recorded: Scene | null = null): void {
+  const scene = recorded ?? frames.scene();
   const shown: (Poses | Scan | Camera)[] = [];
   if (poses) shown.push({ type: 'poses', t, ids: poses.ids, poses: poses.poses });
   if (scan && scene) {
@@ -16,7 +20,7 @@ export function showWorld({ t, poses, scan, pictures }: Moment): void {
     if (frame) shown.push(frame);
   }
   for (const picture of pictures) shown.push(cameraFrame(picture, scene));
-  shownFrames.hold(shown);
+  shownFrames.hold(shown, recorded);
 }
 
 /** Shows the world as it is now. */
@@ -57,7 +61,7 @@ export function cameraFrame({ t, topic, jpeg }: PictureAt, scene: Scene | null):
 
 /** Returns whether a moment has a picture of a camera; null: of any. */
 export const hasPicture = ({ pictures }: Moment, sensor: string | null): boolean =>
-  pictures.some((picture) => sensor === null || cameraFrame(picture, frames.scene()).sensor === sensor);
+  pictures.some((picture) => sensor === null || cameraFrame(picture, shownFrames.scene()).sensor === sensor);
 
 /** Returns a pose that is given in the frame of another pose. */
 export function composed(outer: ArrayLike<number>, inner: ArrayLike<number>): number[] {

@@ -5,7 +5,13 @@ import type { Story } from './story';
 import type { Changes, Moment, Overview, TickAt } from './types';
 
 export type Ask =
-  | { readonly what: 'moment'; readonly t: number; readonly tick: number | null; readonly known: number }
+  | {
+      readonly what: 'moment';
+      readonly t: number;
+      readonly tick: number | null;
+      readonly known: number;
+      readonly scene?: number;
+    }
   | { readonly what: 'tick'; readonly t: number; readonly tick: number | null; readonly by: number }
   | {
       readonly what: 'change';
@@ -67,7 +73,14 @@ export class Engine {
     const index = this.index.segment(number, from_t);
     let reader = this.readers.get(number);
     if (!reader)
-      this.readers.set(number, (reader = new SegmentReader(`segment ${number}`, (read) => index.add(read))));
+      this.readers.set(
+        number,
+        (reader = new SegmentReader(
+          `segment ${number}`,
+          (read) => index.add(read),
+          (name, data) => index.attach(name, data),
+        )),
+      );
     try {
       reader.append(bytes);
       if (reader.offset >= size) index.to = to_t;
@@ -92,7 +105,7 @@ export class Engine {
     try {
       switch (ask.what) {
         case 'moment':
-          return this.index.momentAt(ask.t, ask.known, ask.tick);
+          return this.index.momentAt(ask.t, ask.known, ask.tick, ask.scene);
         case 'tick':
           return this.index.tickFrom(ask.t, ask.by, ask.tick);
         case 'change':

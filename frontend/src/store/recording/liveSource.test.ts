@@ -4,7 +4,7 @@ import * as connection from '@/store/session/connection';
 import { frames } from '@/store/session/frames';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
-import { liveSource } from './liveSource';
+import { earlierSource, liveSource, runsOf } from './liveSource';
 
 const segment = (run: string, number: number): Segment => ({
   run,
@@ -54,4 +54,15 @@ it('takes the frame that it asked for, and no other', async () => {
 it('fails with the reason of a refused command', async () => {
   vi.spyOn(connection, 'send').mockRejectedValue(new Error('not recorded'));
   await expect(liveSource.read(segment('a', 1), 0, 10)).rejects.toThrow('not recorded');
+});
+
+it('offers the segments of an earlier run', () => {
+  const segments = [segment('a', 0), segment('a', 1), segment('b', 0)];
+  useSessionStore.setState({ segments });
+  expect(runsOf(segments)).toEqual(['a', 'b']);
+  expect(earlierSource('a').segments()).toEqual(segments.slice(0, 2));
+  const changed = vi.fn();
+  earlierSource('a').subscribe(changed);
+  useSessionStore.setState({ segments: segments.slice(1) });
+  expect(changed).toHaveBeenCalledOnce();
 });

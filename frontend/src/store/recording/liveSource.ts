@@ -1,3 +1,4 @@
+import type { Segment } from '@/generated/messages';
 import { send } from '@/store/session/connection';
 import { frames } from '@/store/session/frames';
 import { useSessionStore } from '@/store/session/store';
@@ -34,3 +35,15 @@ export const liveSource: RecordingSource = {
       );
     }),
 };
+
+/** Returns the runs whose recordings can be read, the last one at the end. */
+export const runsOf = (segments: readonly Segment[]): string[] => [
+  ...new Set(segments.map(({ run }) => run)),
+];
+
+/** Returns the recording of an earlier run of the page's session. */
+export const earlierSource = (run: string): RecordingSource => ({
+  segments: () => useSessionStore.getState().segments.filter((segment) => segment.run === run),
+  subscribe: (changed) => liveSource.subscribe(changed),
+  read: (segment, offset, length) => liveSource.read(segment, offset, length),
+});

@@ -36,6 +36,14 @@ it('shows at each tick what the ticks until then have told', () => {
   }
 });
 
+it('shows the world, and sends it only to who has another one', () => {
+  const { index } = sample();
+  const { scene, sceneId } = at(index, 0.5);
+  expect(scene).toMatchObject({ type: 'scene', sensors: [{ kind: 'lidar' }, { kind: 'camera' }] });
+  expect(scene!.objects.length).toBeGreaterThan(100);
+  expect(index.momentAt(1, -1, null, sceneId)).toMatchObject({ scene: null, sceneId });
+});
+
 it('shows each value with its writer and the time of its last write', () => {
   const { index, raw } = sample();
   const written = new Map<string, { t: number; value: unknown; writer: number }>();

@@ -1,5 +1,6 @@
-import type { NodeStatus } from '@/generated/messages';
+import type { NodeStatus, Scene } from '@/generated/messages';
 import { moved, posesAt } from './posesAt';
+import { sceneOf } from './sceneOf';
 import type { Read } from './segmentReader';
 import { SegmentIndex, type State } from './segmentIndex';
 import type { TickStep } from './steps';
@@ -14,6 +15,7 @@ const MOST_MARKS = 1000;
 /** A whole recording, as far as it was read: what was at each moment. */
 export class RunIndex {
   private readonly segments = new Map<number, SegmentIndex>();
+  private readonly scenes = new Scenes();
 
   constructor(readonly run: string) {}
 
@@ -56,11 +58,12 @@ export class RunIndex {
    * @param known the generation of the tree that the asker has.
    * @param tick the last of several ticks of that time; null: all of them.
    */
-  momentAt(t: number, known = -1, tick: number | null = null): Moment | null {
+  momentAt(t: number, known = -1, tick: number | null = null, knownScene = -1): Moment | null {
     const segment = this.at(t);
     if (!segment) return null;
     const state = segment.stateAt(t, tick);
     const last = state.tick;
+    const sceneId = this.scenes.idOf(lastOf(segment.scenes, t));
     return {
       t,
       tick: state.number,
@@ -68,6 +71,7 @@ export class RunIndex {
       durationMs: last?.durationMs ?? null,
       generation: state.generation,
       tree: state.generation === known ? null : state.nodes,
+      files: state.generation === known ? null : state.files,
       statuses: [...state.statuses],
       flashes: last?.flashed ?? [],
       was: state.was,
@@ -76,6 +80,8 @@ export class RunIndex {
         ...entry,
         ...this.since(segment, state, id, t),
       })),
+      scene: sceneId === knownScene ? null : this.scenes.of(sceneId),
+      sceneId,
       poses: posesAt(segment.poses, t),
       scan: scanOf(lastOf(segment.scans, t)),
       pictures: [...segment.pictures.values()].flatMap((list) => pictureOf(lastOf(list, t)) ?? []),
@@ -173,6 +179,33 @@ export class RunIndex {
     return { since: null, writer: null };
   }
 }
+
+/** The different worlds of a recording: each segment has its world again. */
+class Scenes {
+  private readonly known: { readonly bytes: Uint8Array; readonly scene: Scene | null }[] = [];
+  private readonly ids = new WeakMap<Read, number>();
+
+  /** Returns the number of the world that a message holds; -1 without one. */
+  idOf(read: Read | null): number {
+    if (read === null) return -1;
+    let id = this.ids.get(read);
+    if (id === undefined) {
+      const { data } = read.decode();
+      const bytes = data instanceof Uint8Array ? data : new Uint8Array();
+      id = this.known.findIndex((each) => isEqual(each.bytes, bytes));
+      if (id < 0) id = this.known.push({ bytes: bytes.slice(), scene: sceneOf(bytes) }) - 1;
+      this.ids.set(read, id);
+    }
+    return id;
+  }
+
+  of(id: number): Scene | null {
+    return this.known[id]?.scene ?? null;
+  }
+}
+
+const isEqual = (a: Uint8Array, b: Uint8Array): boolean =>
+  a.length === b.length && a.every((byte, at) => byte === b[at]);
 
 const placed = (step: TickStep | undefined): TickAt | null =>
   step ? { t: step.t, tick: step.number } : null;

@@ -29,6 +29,22 @@ it('begins from a keyframe, and a new tree begins idle and empty', () => {
   expect(index.stateAt(2).entries.size).toBe(0);
 });
 
+it('gives each tree the diagrams that were attached before it, and no other files', () => {
+  const index = new SegmentIndex(0, 0);
+  const attach = (name: string, text: string) => index.attach(name, new TextEncoder().encode(text));
+  attach('project/trees/Main.json', 'first');
+  attach('project/actions/Go.py', 'code');
+  index.add(read('/bt/tree', 0, tree));
+  attach('project/trees/Main.json', 'second');
+  attach('project/trees/Leg.json', 'leg');
+  index.add(read('/bt/tree', 2, { ...tree, generation: 2 }));
+  expect(index.stateAt(1).files).toEqual({ 'project/trees/Main.json': 'first' });
+  expect(index.stateAt(2).files).toEqual({
+    'project/trees/Main.json': 'second',
+    'project/trees/Leg.json': 'leg',
+  });
+});
+
 it('marks faults, collisions, ends and flags, and names the node of a line', () => {
   const index = new SegmentIndex(0, 0);
   index.add(read('/bt/tree', 0, tree));

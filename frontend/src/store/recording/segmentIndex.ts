@@ -1,5 +1,5 @@
 import { decode } from '@msgpack/msgpack';
-import type { LogLevel, NodeStatus, Poses, TreeNode } from '@/generated/messages';
+import type { LogLevel, NodeStatus, Poses } from '@/generated/messages';
 import type { PosesFrame } from './posesAt';
 import type { Read } from './segmentReader';
 import {
@@ -18,10 +18,14 @@ import {
   type Mark,
   type RecordedFault,
   type RecordedLine,
+  type RecordedNode,
   type StatusOf,
 } from './types';
 
 export const entryId = ({ scope, key }: Pick<Entry, 'scope' | 'key'>) => `${scope}\u0000${key}`;
+
+const DIAGRAM = /^project\/trees\/[^/]+\.json$/;
+const TEXT = new TextDecoder();
 
 interface Written {
   readonly t: number;
@@ -35,7 +39,8 @@ interface LastWrite extends Written {
 /** The state of tree and blackboard after some steps. */
 export interface State {
   generation: number;
-  nodes: readonly TreeNode[];
+  nodes: readonly RecordedNode[];
+  files: Readonly<Record<string, string>>;
   statuses: Map<number, NodeStatus>;
   entries: Map<string, Entry>;
   written: Map<string, Written>;
@@ -54,6 +59,7 @@ export class SegmentIndex {
   readonly faults: RecordedFault[] = [];
   readonly marks: Mark[] = [];
   readonly poses: PosesFrame[] = [];
+  readonly scenes: Read[] = [];
   readonly scans: Read[] = [];
   readonly pictures = new Map<string, Read[]>();
   /** The last time that was read. */
@@ -63,6 +69,7 @@ export class SegmentIndex {
   /** Whether all was read, and nothing follows. */
   isWhole = false;
   private paths = new Map<number, string>();
+  private files: Readonly<Record<string, string>> = {};
   /** The writes of each key, in order. */
   private readonly writes = new Map<string, LastWrite[]>();
 
@@ -81,7 +88,7 @@ export class SegmentIndex {
     if (read.type === 'sensor_msgs/msg/CompressedImage') return this.addPicture(read);
     switch (topic) {
       case '/bt/tree': {
-        const step = treeStep(t, read.decode());
+        const step = treeStep(t, read.decode(), this.files);
         this.paths = new Map(step.nodes.map(({ uid, path }) => [uid, path]));
         return void this.steps.push(step);
       }
@@ -95,11 +102,19 @@ export class SegmentIndex {
         return this.addLine(read);
       case '/bt/fault':
         return this.addFault(read);
+      case '/world/scene':
+        return void this.scenes.push(read);
       case '/world/poses':
         return this.addPoses(read);
       case '/scan':
         return void this.scans.push(read);
     }
+  }
+
+  /** Takes an attached file: it belongs to the trees that follow. */
+  attach(name: string, data: Uint8Array): void {
+    if (!DIAGRAM.test(name)) return;
+    this.files = { ...this.files, [name]: TEXT.decode(data) };
   }
 
   /**
@@ -117,6 +132,7 @@ export class SegmentIndex {
     const state: State = {
       generation: 0,
       nodes: [],
+      files: {},
       statuses: new Map(),
       entries: new Map(),
       written: new Map(),
@@ -194,6 +210,7 @@ function apply(state: State, step: Step): void {
     case 'tree':
       state.generation = step.generation;
       state.nodes = step.nodes;
+      state.files = step.files;
       state.statuses = new Map();
       state.entries = new Map();
       state.tick = null;

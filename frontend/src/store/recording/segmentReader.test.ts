@@ -42,6 +42,17 @@ async function fileOf(definition: string, data: Uint8Array, times: readonly bigi
   return new Uint8Array(Buffer.concat(parts));
 }
 
+it('reads attached files', () => {
+  const names: string[] = [];
+  const reader = new SegmentReader(
+    'sample',
+    () => undefined,
+    (name, data) => names.push(`${name} ${data.length > 0}`),
+  );
+  reader.append(sample());
+  expect(names).toContain('project/trees/MainTree.json true');
+});
+
 it('reads every message of a recording, however its bytes arrive', () => {
   const whole = read(sample());
   expect(whole.filter(({ topic }) => topic === '/bt/tick')).toHaveLength(21);

@@ -7,6 +7,7 @@ export const MOST_CHUNK_BYTES = 64 << 20;
 const MOST_BYTES = 2 ** 31;
 const MOST_CHANNELS = 10_000;
 const MOST_MESSAGES = 10_000_000;
+const MOST_ATTACHED_BYTES = 8 << 20;
 
 export interface Read {
   readonly topic: string;
@@ -36,10 +37,12 @@ export class SegmentReader {
   private bytes = 0;
   private unpacked = 0;
   private messages = 0;
+  private attached = 0;
 
   constructor(
     private readonly name: string,
     private readonly take: (read: Read) => void,
+    private readonly attach: (name: string, data: Uint8Array) => void = () => undefined,
   ) {
     this.stream = new McapStreamReader({
       decompressHandlers: { zstd: (data, size) => this.unpack(data, Number(size)) },
@@ -80,6 +83,10 @@ export class SegmentReader {
         return this.channel(record);
       case 'Message':
         return this.message(record);
+      case 'Attachment':
+        // More than a project has is left out; nothing else depends on it.
+        this.attached += record.data.length;
+        if (this.attached <= MOST_ATTACHED_BYTES) this.attach(record.name, record.data);
     }
   }
 

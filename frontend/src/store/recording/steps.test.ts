@@ -10,7 +10,13 @@ it('reads a tree, whose lists may be too short', () => {
     path: ['/a', '/a/b'],
   });
   expect(nodes).toHaveLength(2);
-  expect(nodes[1]).toMatchObject({ uid: 2, parent: 1, type: '', path: '/a/b' });
+  expect(nodes[1]).toMatchObject({ uid: 2, parent: 1, type: '', path: '/a/b', ports: {} });
+});
+
+it('reads what the ports were given, as texts', () => {
+  const ports_json = ['{"a":"{key}","b":2}', '[1]', 'no JSON'];
+  const { nodes } = treeStep(1, { generation: 1, uid: [1, 2, 3], ports_json });
+  expect(nodes.map(({ ports }) => ports)).toEqual([{ a: '{key}', b: '2' }, {}, {}]);
 });
 
 it('reads statuses, and takes unknown ones as idle', () => {

@@ -1,12 +1,14 @@
-import type { NodeStatus, TreeNode } from '@/generated/messages';
+import type { NodeStatus } from '@/generated/messages';
 import type { Fields } from './cdr';
-import { STATUSES, type Entry, type StatusOf } from './types';
+import { STATUSES, type Entry, type RecordedNode, type StatusOf } from './types';
 
 export interface TreeStep {
   readonly kind: 'tree';
   readonly t: number;
   readonly generation: number;
-  readonly nodes: readonly TreeNode[];
+  readonly nodes: readonly RecordedNode[];
+  /** The diagrams that were attached up to here, by their names in the recording. */
+  readonly files: Readonly<Record<string, string>>;
 }
 
 export interface KeyframeStep {
@@ -46,11 +48,12 @@ const numbers = (value: unknown): ArrayLike<number> => (value ?? []) as ArrayLik
 const texts = (value: unknown): readonly string[] => (value ?? []) as readonly string[];
 const statusOf = (code: number | undefined): NodeStatus => STATUSES[code ?? 0] ?? 'IDLE';
 
-export function treeStep(t: number, fields: Fields): TreeStep {
+export function treeStep(t: number, fields: Fields, files: TreeStep['files'] = {}): TreeStep {
   const of = (name: string) => texts(fields[name]);
   const [type, kind, name, path, node, tree] = ['type', 'kind', 'name', 'path', 'node_id', 'tree_id'].map(of);
+  const ports = of('ports_json');
   const parents = numbers(fields['parent']);
-  const nodes = Array.from(numbers(fields['uid']), (uid, at): TreeNode => ({
+  const nodes = Array.from(numbers(fields['uid']), (uid, at): RecordedNode => ({
     uid,
     parent: parents[at] ?? 0,
     type: type?.[at] ?? '',
@@ -59,8 +62,20 @@ export function treeStep(t: number, fields: Fields): TreeStep {
     path: path?.[at] ?? '',
     node_id: node?.[at] ?? '',
     tree_id: tree?.[at] ?? '',
+    ports: portsOf(ports[at] ?? '{}'),
   }));
-  return { kind: 'tree', t, generation: Number(fields['generation']), nodes };
+  return { kind: 'tree', t, generation: Number(fields['generation']), nodes, files };
+}
+
+function portsOf(text: string): RecordedNode['ports'] {
+  const ports = parsed(text);
+  if (typeof ports !== 'object' || ports === null || Array.isArray(ports)) return {};
+  return Object.fromEntries(
+    Object.entries(ports).map(([port, value]) => [
+      port,
+      typeof value === 'string' ? value : JSON.stringify(value),
+    ]),
+  );
 }
 
 export function keyframeStep(t: number, fields: Fields): KeyframeStep {

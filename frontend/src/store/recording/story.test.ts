@@ -9,13 +9,14 @@ import type { StatusOf } from './types';
 
 const node = (uid: number) => ({
   ...{ uid, parent: uid - 1, type: 'Sequence', kind: 'Control', name: `n${uid}`, path: `n${uid}` },
-  ...{ node_id: `n${uid}`, tree_id: 'Main' },
+  ...{ node_id: `n${uid}`, tree_id: 'Main', ports: {} },
 });
 const tree = (t: number, generation = 1): Step => ({
   kind: 'tree',
   t,
   generation,
   nodes: [node(1), node(2)],
+  files: {},
 });
 const tick = (number: number, changed: readonly StatusOf[] = [], t = number): Step => ({
   ...{ kind: 'tick', t, number, durationMs: 1, changed, flashed: [] },

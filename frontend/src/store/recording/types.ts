@@ -1,4 +1,4 @@
-import type { LogLevel, NodeStatus, Segment, TreeNode } from '@/generated/messages';
+import type { LogLevel, NodeStatus, Scene, Segment, TreeNode } from '@/generated/messages';
 
 /** The statuses by their numbers in a recording. */
 export const STATUSES: readonly NodeStatus[] = ['IDLE', 'RUNNING', 'SUCCESS', 'FAILURE', 'SKIPPED'];
@@ -11,6 +11,11 @@ export interface RecordingSource {
   read(segment: Segment, offset: number, length: number): Promise<Uint8Array>;
   /** Calls back when segments came, grew or went; returns a function that stops it. */
   subscribe(changed: () => void): () => void;
+}
+
+/** A node as it ran, with what its ports were given. */
+export interface RecordedNode extends TreeNode {
+  readonly ports: Readonly<Record<string, string>>;
 }
 
 /** A value of the blackboard at a moment. */
@@ -108,7 +113,9 @@ export interface Moment {
   readonly durationMs: number | null;
   /** The generation of the tree; its nodes are sent only when the asker does not know them. */
   readonly generation: number;
-  readonly tree: readonly TreeNode[] | null;
+  readonly tree: readonly RecordedNode[] | null;
+  /** The attached diagrams by their names in the recording; sent with the nodes. */
+  readonly files: Readonly<Record<string, string>> | null;
   /** The nodes that are not idle. */
   readonly statuses: readonly StatusOf[];
   /** Results within the last tick that did not stay. */
@@ -118,6 +125,10 @@ export interface Moment {
   /** Whether the tree was halted after the last tick. */
   readonly isHalted: boolean;
   readonly entries: readonly EntryAt[];
+  /** The world: sent only when the asker has another one. */
+  readonly scene: Scene | null;
+  /** Which world it is, in this recording; -1 without one. */
+  readonly sceneId: number;
   readonly poses: PosesAt | null;
   readonly scan: ScanAt | null;
   readonly pictures: readonly PictureAt[];

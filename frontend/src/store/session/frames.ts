@@ -62,6 +62,8 @@ const RECORDED: readonly Frame['type'][] = ['poses', 'scan', 'camera'];
 /** Distributes the frames that the views show: those of the present, or of the moment that the user looks at. */
 class ShownFrames {
   private past: readonly StreamFrame[] | null = null;
+  /** The world of the past, if it is not the present one. */
+  private recorded: Scene | null = null;
   private readonly listeners = new Set<{ kind: Frame['type']; listener: Listener }>();
 
   /** As `FrameBus.listen`. */
@@ -69,7 +71,7 @@ class ShownFrames {
     const own = { kind, listener: listener as Listener };
     this.listeners.add(own);
     const stop = frames.listen(kind, (frame) => {
-      if (this.past === null || !RECORDED.includes(kind)) listener(frame);
+      if (!this.isHeld(kind)) listener(frame);
     });
     for (const frame of this.past ?? []) if (frame.type === kind) own.listener(frame);
     return () => {
@@ -78,17 +80,35 @@ class ShownFrames {
     };
   }
 
-  /** Shows recorded frames in place of those of the present. */
-  hold(past: readonly StreamFrame[]): void {
-    this.past = past;
-    this.tell(past);
+  /** Shows recorded frames in place of those of the present; `recorded` is their world, if it is another one. */
+  hold(past: readonly StreamFrame[], recorded: Scene | null = null): void {
+    const isNew = recorded !== this.recorded;
+    this.recorded = recorded;
+    this.past = recorded ? [recorded, ...past] : past;
+    const scene = isNew ? this.scene() : null;
+    this.tell(scene ? [scene, ...past] : past);
+  }
+
+  /** Returns the world that the views show. */
+  scene(): Scene | null {
+    return this.recorded ?? frames.scene();
   }
 
   /** Shows the present again; it is given with all poses, since a frame has only those that changed. */
   letGo(poses: StreamFrame): void {
     if (this.past === null) return;
+    const present = this.recorded ? frames.scene() : null;
     this.past = null;
-    this.tell([poses, ...frames.last().filter(({ type }) => type === 'scan' || type === 'camera')]);
+    this.recorded = null;
+    this.tell([
+      ...(present ? [present] : []),
+      poses,
+      ...frames.last().filter(({ type }) => type === 'scan' || type === 'camera'),
+    ]);
+  }
+
+  private isHeld(kind: Frame['type']): boolean {
+    return this.past !== null && (RECORDED.includes(kind) || (kind === 'scene' && this.recorded !== null));
   }
 
   private tell(shown: readonly StreamFrame[]): void {

@@ -45,6 +45,14 @@ export function neighbour(diagram: Diagram, id: NodeId, direction: Direction): N
   return (direction === 'after' ? cousins[0] : cousins.at(-1)) ?? uncle;
 }
 
+/** Returns the block to which a key leads from a block, or from none; null for another key. */
+export function neighbourByKey(diagram: Diagram, id: NodeId | null, key: string): NodeId | null {
+  if (key === 'Home') return diagram.root;
+  const direction = DIRECTIONS[diagram.layout][key];
+  if (!direction) return null;
+  return id === null ? diagram.root : neighbour(diagram, id, direction);
+}
+
 function move(direction: Direction): void {
   if (direction === 'before' || direction === 'after') reorderSelection(direction === 'after' ? 1 : -1);
   else if (direction === 'up') moveOut();

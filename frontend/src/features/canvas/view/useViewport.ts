@@ -14,6 +14,11 @@ export const LEAST_ZOOM = 0.004;
 
 export const FIT = { padding: 0.14, maxZoom: 1.1, minZoom: LEAST_ZOOM } as const;
 
+/** The zoom below which blocks show only their names. */
+export const NAMES = 0.65;
+/** The zoom below which they show only symbol, colour and status. */
+export const FAR = 0.42;
+
 /** The zoom below which the names of blocks are hard to read. */
 export const READABLE = 0.6;
 const EDGE = 48;

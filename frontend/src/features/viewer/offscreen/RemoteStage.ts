@@ -1,5 +1,5 @@
 import { useMoment } from '@/store/moment/store';
-import { frames, shownFrames } from '@/store/session/frames';
+import { shownFrames } from '@/store/session/frames';
 import { currentPoses } from '@/store/session/poses';
 import { trail } from '@/store/session/trace/trail';
 import { addMeasured } from '../measuring';
@@ -77,7 +77,7 @@ export class RemoteStage {
   private sendFrames(): void {
     const forward = (frame: Extract<ToWorker, { kind: 'frame' }>['frame']) =>
       this.post({ kind: 'frame', frame });
-    this.stops.push(frames.listen('scene', forward));
+    this.stops.push(shownFrames.listen('scene', forward));
     // A frame contains only the poses that changed, and a scene only the initial ones, so the current poses
     // are sent too.
     const sendPast = () => this.post({ kind: 'past', poses: [...currentPoses], trail: trail.keep() });

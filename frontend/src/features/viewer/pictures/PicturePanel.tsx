@@ -41,7 +41,7 @@ export function PicturePanel({
   }, [stream, sensor, canvas]);
   const past = useMoment((state) => state.shown);
   const isMissing = past !== null && (stream === 'view' || !hasPicture(past, sensor));
-  const isEmpty = !hasWorld || !shown || isMissing;
+  const isEmpty = (past === null && !hasWorld) || !shown || isMissing;
   return (
     <>
       <canvas ref={canvas} className={classes['image']} hidden={isEmpty} width={640} height={480}>

@@ -2,32 +2,15 @@ import { useVirtualizer } from '@tanstack/react-virtual';
 import { useMemo, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { NodeStatus, TreeNode } from '@/generated/messages';
-import { useSource } from '@/store/moment/source';
 import { useMoment } from '@/store/moment/store';
-import { depthsOf, isForeign } from './foreign';
-import classes from './runs.module.css';
+import { depthsOf } from './depths';
+import classes from './recorded.module.css';
 
 const ROW = 22;
 
-/** The tree of a kept run that is not one of the project's, with its statuses at the shown moment. */
-export function RecordedTree() {
-  const { t } = useTranslation('runs');
-  const isKept = useSource((state) => state.kept !== null);
-  const tree = useMoment((state) => state.tree);
-  const isShown = useMoment((state) => state.shown !== null);
-  if (!isKept || !isShown || !isForeign(tree)) return null;
-  return (
-    <section className={classes['panel']} aria-label={t('log.nodes')} data-testid="recorded-tree">
-      <details open>
-        <summary>{t('log.tree', { count: tree.length })}</summary>
-        <Rows tree={tree} />
-      </details>
-    </section>
-  );
-}
-
-function Rows({ tree }: { readonly tree: readonly TreeNode[] }) {
-  const { t } = useTranslation(['runs', 'run']);
+/** All nodes that ran as a list, each instance for itself, with the statuses of the shown moment. */
+export function NodeList({ tree }: { readonly tree: readonly TreeNode[] }) {
+  const { t } = useTranslation(['axis', 'run']);
   const shown = useMoment((state) => state.shown);
   const scroller = useRef<HTMLDivElement>(null);
   const depths = useMemo(() => depthsOf(tree), [tree]);
@@ -43,8 +26,14 @@ function Rows({ tree }: { readonly tree: readonly TreeNode[] }) {
   });
   return (
     // A part that scrolls must be reachable by the keyboard.
-    // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex
-    <div ref={scroller} className={classes['scroller']} tabIndex={0} role="group" aria-label={t('log.nodes')}>
+    <div
+      ref={scroller}
+      className={classes['scroller']}
+      // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex
+      tabIndex={0}
+      role="group"
+      aria-label={t('past.nodes')}
+    >
       <ul style={{ height: virtual.getTotalSize() }}>
         {virtual.getVirtualItems().map(({ index, start }) => {
           const node = tree[index];

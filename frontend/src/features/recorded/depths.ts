@@ -1,9 +1,5 @@
 import type { TreeNode } from '@/generated/messages';
 
-/** Returns whether a recorded tree was not made of diagrams of BT Studio, so that no canvas can show it. */
-export const isForeign = (tree: readonly TreeNode[]): boolean =>
-  tree.length > 0 && tree.every(({ node_id }) => node_id === '');
-
 /** Returns the depth of each node of a tree in pre-order; the root has 0. */
 export function depthsOf(tree: readonly TreeNode[]): number[] {
   const depths = new Map<number, number>([[0, -1]]);

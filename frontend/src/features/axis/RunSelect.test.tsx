@@ -1,0 +1,33 @@
+import { screen } from '@testing-library/react';
+import { expect, it, onTestFinished, vi } from 'vitest';
+import { show, user } from '../../../harness/testing';
+import { extent, lookNow, setEngineLink } from '@/store/moment/looking';
+import { useMoment } from '@/store/moment/store';
+import { initialSession } from '@/store/session/reduce';
+import { useSessionStore } from '@/store/session/store';
+import { RunSelect } from './RunSelect';
+
+const segment = (run: string) => ({
+  ...{ run, branch: 0, number: 0, version: 0 },
+  ...{ from_t: 0, to_t: 1, bytes: 1, complete: true },
+});
+
+it('offers the runs of the session, and the last one as the present', async () => {
+  setEngineLink(() => ({ post: vi.fn(), onMessage: () => undefined }));
+  onTestFinished(() => {
+    lookNow();
+    useSessionStore.setState(initialSession, true);
+  });
+  useSessionStore.setState({ segments: [segment('a')] });
+  const { rerender } = show(<RunSelect run="a" />);
+  expect(screen.queryByRole('combobox')).toBeNull();
+  useSessionStore.setState({ segments: [segment('a'), segment('b')] });
+  rerender(<RunSelect run="b" />);
+  expect(screen.getAllByRole('option').map(({ textContent }) => textContent)).toEqual(['Last run', 'Run 1']);
+  await user.selectOptions(screen.getByRole('combobox', { name: 'Run of the session' }), 'Run 1');
+  expect(extent()?.run).toBe('a');
+  rerender(<RunSelect run="a" />);
+  await user.selectOptions(screen.getByRole('combobox'), 'Last run');
+  expect(useMoment.getState().t).toBeNull();
+  expect(extent()?.run).toBe('b');
+});

@@ -1,0 +1,129 @@
+import { ReactFlow, ReactFlowProvider, useStore } from '@xyflow/react';
+import '@xyflow/react/dist/style.css';
+import { useCallback, useMemo, useState, type KeyboardEvent, type MouseEvent } from 'react';
+import type { Diagram, NodeId } from '@/model/diagram';
+import type { ChangeKind } from '@/model/difference/changes';
+import { expandTrees } from '@/model/expand';
+import { layoutTree } from '@/model/layout';
+import type { Vocabulary } from '@/model/vocabulary';
+import { Block } from './block/Block';
+import { FlowProjection, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
+import { neighbourByKey } from './gestures/keyboard';
+import { TreeEdge } from './TreeEdge';
+import { useCompact } from './view/compact';
+import { Dots } from './view/Dots';
+import { useKnownSizes } from './view/useKnownSizes';
+import { FAR, FIT, LEAST_ZOOM, NAMES } from './view/useViewport';
+import classes from './Canvas.module.css';
+
+interface Props {
+  readonly diagram: Diagram;
+  readonly vocabulary: Vocabulary;
+  readonly label: string;
+  readonly selected: NodeId | null;
+  readonly onSelect: (id: NodeId | null) => void;
+  /** The user opens a block: by a double click, or by Enter. */
+  readonly onOpen: (id: NodeId) => void;
+  /** The blocks that are marked as different. */
+  readonly marks: ReadonlyMap<NodeId, ChangeKind>;
+}
+
+const nodeTypes = { block: Block };
+const edgeTypes = { tree: TreeEdge };
+const NO_PROBLEMS = new Map();
+
+/** The canvas of a tree that cannot be edited; it shows the statuses of the moment at which the user looks. */
+export function ReadOnlyCanvas(props: Props) {
+  return (
+    <ReactFlowProvider key={props.diagram.id}>
+      <View {...props} />
+    </ReactFlowProvider>
+  );
+}
+
+function View({ diagram, vocabulary, label, selected, onSelect, onOpen, marks }: Props) {
+  useKnownSizes();
+  const isFar = useStore((state) => state.transform[2] < FAR);
+  const hasNamesOnly = useStore(({ transform: [, , zoom] }) => zoom < NAMES && zoom >= FAR);
+  const isCompact = useCompact((state) => state.isCompact);
+  const [projection] = useState(() => new FlowProjection());
+  const layout = useMemo(
+    () => layoutTree(diagram, vocabulary, { isCompact }),
+    [diagram, vocabulary, isCompact],
+  );
+  const { nodes: plain, edges } = useMemo(
+    () =>
+      projection.project({
+        diagram,
+        shown: expandTrees(diagram, {}, new Set()),
+        layout,
+        vocabulary,
+        problems: NO_PROBLEMS,
+        selection: new Set(selected === null ? [] : [selected]),
+        isReadOnly: true,
+      }),
+    [projection, diagram, layout, vocabulary, selected],
+  );
+  const nodes = useMemo(
+    () =>
+      plain.map((node) => {
+        const kind = marks.get(node.id);
+        return kind === undefined ? node : { ...node, className: classes[`mark_${kind}`] ?? '' };
+      }),
+    [plain, marks],
+  );
+  const onNodeClick = useCallback((_: MouseEvent, { id }: BlockNode) => onSelect(id), [onSelect]);
+  const onNodeDoubleClick = useCallback((_: MouseEvent, { id }: BlockNode) => onOpen(id), [onOpen]);
+  const onKeyDown = (event: KeyboardEvent) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const next = neighbourByKey(diagram, selected, event.key);
+    if (next !== null) onSelect(next);
+    else if (event.key === 'Enter' && selected !== null) onOpen(selected);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  return (
+    // The canvas is a single Tab stop; the arrow keys move inside, as in a tree widget.
+    // eslint-disable-next-line jsx-a11y/no-noninteractive-element-interactions
+    <div
+      className={classes['canvas']}
+      data-testid="recorded-canvas"
+      data-tree={diagram.id}
+      data-readonly=""
+      data-far={isFar || undefined}
+      data-names={hasNamesOnly || undefined}
+      role="application"
+      aria-label={label}
+      // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex
+      tabIndex={0}
+      onKeyDown={onKeyDown}
+    >
+      <ReactFlow<BlockNode, TreeEdgeType>
+        nodes={nodes}
+        edges={edges}
+        nodeTypes={nodeTypes}
+        edgeTypes={edgeTypes}
+        onNodeClick={onNodeClick}
+        onNodeDoubleClick={onNodeDoubleClick}
+        onPaneClick={() => onSelect(null)}
+        nodesDraggable={false}
+        nodesConnectable={false}
+        elementsSelectable={false}
+        nodesFocusable={false}
+        edgesFocusable={false}
+        disableKeyboardA11y
+        fitView
+        fitViewOptions={FIT}
+        minZoom={LEAST_ZOOM}
+        maxZoom={2.2}
+        panOnScroll
+        zoomOnDoubleClick={false}
+        onlyRenderVisibleElements={nodes.length > 150}
+        attributionPosition="bottom-right"
+      >
+        <Dots />
+      </ReactFlow>
+    </div>
+  );
+}

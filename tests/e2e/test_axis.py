@@ -42,6 +42,7 @@ def test_the_past_of_a_run_is_looked_at(
     nothing_acts_on_the_robot(studio)
     each_tick_shows_what_was_seen_then(studio, observer)
     why_is_answered_as_the_run_was(studio, observer)
+    what_changed_is_listed(studio)
     it_plays(studio)
     the_address_brings_it_back(studio)
     escape_returns_to_the_present(studio, present)
@@ -138,7 +139,7 @@ def why_is_answered_as_the_run_was(studio: Studio, observer: Observer) -> None:
     blocks = {node["uid"]: node["node_id"] for node in snapshot["tree"]["nodes"]}
     returned = {blocks[uid] for uid, status in told["changed"] + told["flashed"] if status != "IDLE"}
     for block in studio.at("recorded-canvas").get_by_test_id(NODES).all():
-        block.click()
+        block.click(position={"x": 4, "y": 4})
         studio.page.keyboard.press("Alt+w")
         question = studio.at("why-question")
         expect(question).to_contain_text(f"(tick {number})")
@@ -146,6 +147,28 @@ def why_is_answered_as_the_run_was(studio: Studio, observer: Observer) -> None:
         assert node not in returned or "not ticked" not in question.inner_text()
     studio.picture("why")
     studio.at("why-step").first.click()
+    panel(studio, "Blackboard")
+    studio.at("axis-strip").focus()
+
+
+def what_changed_is_listed(studio: Studio) -> None:
+    """By keys: two moments are marked, their differences listed, the part zoomed, and all taken back."""
+    press = studio.page.keyboard.press
+    press("Alt+[")
+    press("Shift+ArrowRight")
+    press("Alt+]")
+    press("Alt+d")
+    changes = studio.at("axis-changes")
+    expect(changes.get_by_test_id("axis-change").filter(has_text="moved").first).to_be_visible()
+    press("Alt+=")
+    expect(studio.at("axis-end-A")).to_be_visible()
+    studio.picture("changes")
+    press("Alt+d")
+    expect(changes).to_have_count(0)
+    press("Alt+0")
+    studio.at("axis-menu").click()
+    studio.at("axis-time.clearRange").click()
+    expect(studio.at("axis-end-A")).to_have_count(0)
     studio.at("axis-strip").focus()
 
 

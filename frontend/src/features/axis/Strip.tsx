@@ -8,12 +8,14 @@ import {
 } from '@tabler/icons-react';
 import { drawStretch, paletteOf } from '@/features/timeline/draw';
 import { goSeconds, goTicks, lookAt, lookNow, setPlaying, type Extent } from '@/store/moment/looking';
+import { following, markedRange, panned, useRange, within } from '@/store/moment/range';
 import { isPresentRun, useSource } from '@/store/moment/source';
 import { useMoment } from '@/store/moment/store';
 import type { Mark, MarkKind } from '@/store/recording/types';
 import { useSessionStore } from '@/store/session/store';
 import { trace } from '@/store/session/trace/trace';
 import classes from './axis.module.css';
+import { zoom } from './rangeCommands';
 import { apart, marksOf, rootStretches } from './strip';
 
 const ICONS: Readonly<Record<MarkKind, typeof IconBugFilled>> = {
@@ -23,6 +25,8 @@ const ICONS: Readonly<Record<MarkKind, typeof IconBugFilled>> = {
   flag: IconFlagFilled,
 };
 const MARK_PX = 24;
+const WHEEL_STEP = 1.25;
+const PAN_STEP = 0.1;
 
 /** The strip of the run, with the root's status as its colour, its marks, and the moment that is shown. */
 export function Strip({ extent }: { readonly extent: Extent }) {
@@ -35,13 +39,25 @@ export function Strip({ extent }: { readonly extent: Extent }) {
   // What the page has seen is of the present run.
   const isPresent = useSource(isPresentRun);
   const width = useWidth(strip);
-  const { from, to } = extent;
+  const a = useRange((state) => state.a);
+  const b = useRange((state) => state.b);
+  const view = useRange((state) => state.view);
+  const { from, to } = view ? within(view, extent) : extent;
   const length = Math.max(to - from, 1e-3);
   const shareOf = (time: number) => Math.min(Math.max((time - from) / length, 0), 1);
   const marks = useMemo(
-    () => apart(marksOf(overview, isPresent ? logs : [], from), (MARK_PX * length) / Math.max(width, 1)),
-    [overview, isPresent, logs, from, length, width],
+    () =>
+      apart(
+        marksOf(overview, isPresent ? logs : [], from).filter(({ t: at }) => at >= from && at <= to),
+        (MARK_PX * length) / Math.max(width, 1),
+      ),
+    [overview, isPresent, logs, from, to, length, width],
   );
+  useZoomByWheel(strip, extent);
+  useEffect(() => {
+    const { view: now } = useRange.getState();
+    if (moment !== null && now) useRange.setState({ view: following(now, extent, moment) });
+  }, [moment, extent]);
 
   useEffect(() => {
     const draw = () => {
@@ -91,8 +107,8 @@ export function Strip({ extent }: { readonly extent: Extent }) {
     const keys: Record<string, () => void> = {
       ArrowLeft: () => go(-1),
       ArrowRight: () => go(1),
-      Home: () => lookAt(from),
-      End: () => lookAt(to),
+      Home: () => lookAt(extent.from),
+      End: () => lookAt(extent.to),
       Escape: lookNow,
       ' ': () => setPlaying(!useMoment.getState().isPlaying),
     };
@@ -104,7 +120,8 @@ export function Strip({ extent }: { readonly extent: Extent }) {
     doIt();
   };
 
-  const at = moment ?? to;
+  const at = moment ?? extent.to;
+  const range = markedRange({ a, b });
   return (
     <div className={classes['strip']} ref={strip}>
       <canvas ref={canvas} className={classes['canvas']} aria-hidden="true" />
@@ -114,24 +131,32 @@ export function Strip({ extent }: { readonly extent: Extent }) {
         tabIndex={0}
         data-testid="axis-strip"
         aria-label={t('strip')}
-        aria-valuemin={round(from)}
-        aria-valuemax={round(to)}
+        aria-valuemin={round(extent.from)}
+        aria-valuemax={round(extent.to)}
         aria-valuenow={round(at)}
         aria-valuetext={
           moment === null
-            ? t('now', { to: to.toFixed(1) })
-            : t('at', { t: moment.toFixed(2), to: to.toFixed(1) })
+            ? t('now', { to: extent.to.toFixed(1) })
+            : t('at', { t: moment.toFixed(2), to: extent.to.toFixed(1) })
         }
         onPointerDown={onPress}
         onPointerMove={onMove}
         onKeyDown={onKeyDown}
       >
+        {range && (
+          <span
+            className={classes['range']}
+            style={{ left: `${shareOf(range.from) * 100}%`, right: `${(1 - shareOf(range.to)) * 100}%` }}
+          />
+        )}
         <span
           className={classes['cursor']}
           data-past={moment === null ? undefined : true}
           style={{ left: `${shareOf(at) * 100}%` }}
         />
       </div>
+      {a !== null && a >= from && a <= to && <EndButton name="A" at={a} share={shareOf(a)} />}
+      {b !== null && b >= from && b <= to && <EndButton name="B" at={b} share={shareOf(b)} />}
       {marks.map((mark) => (
         <MarkButton key={`${mark.kind}${mark.t}`} mark={mark} share={shareOf(mark.t)} />
       ))}
@@ -157,6 +182,55 @@ function MarkButton({ mark, share }: { readonly mark: Mark; readonly share: numb
       <Icon size={12} aria-hidden="true" />
     </button>
   );
+}
+
+/** A marked moment; a click goes there. */
+function EndButton({
+  name,
+  at,
+  share,
+}: {
+  readonly name: 'A' | 'B';
+  readonly at: number;
+  readonly share: number;
+}) {
+  const { t } = useTranslation('axis');
+  return (
+    <button
+      type="button"
+      className={classes['end']}
+      data-testid={`axis-end-${name}`}
+      style={{ left: `${share * 100}%` }}
+      aria-label={t('end', { name, t: at.toFixed(2) })}
+      onClick={() => lookAt(at)}
+    >
+      {name}
+    </button>
+  );
+}
+
+/** Zooms by the wheel round the pointer; with Shift, or sideways, the part is moved. */
+function useZoomByWheel(ref: { readonly current: HTMLElement | null }, extent: Extent): void {
+  useEffect(() => {
+    const element = ref.current;
+    if (!element) return;
+    const onWheel = (event: WheelEvent) => {
+      event.preventDefault();
+      const { view } = useRange.getState();
+      const by = event.shiftKey ? event.deltaY : event.deltaX;
+      if (Math.abs(by) > Math.abs(event.shiftKey ? 0 : event.deltaY)) {
+        useRange.setState({ view: panned(view, extent, Math.sign(by) * PAN_STEP) });
+        return;
+      }
+      const box = element.getBoundingClientRect();
+      const { from, to } = view ?? extent;
+      const share = (event.clientX - box.left) / Math.max(box.width, 1);
+      zoom(event.deltaY < 0 ? 1 / WHEEL_STEP : WHEEL_STEP, from + share * (to - from));
+    };
+    // React listens passively, so that the page would scroll as well.
+    element.addEventListener('wheel', onWheel, { passive: false });
+    return () => element.removeEventListener('wheel', onWheel);
+  }, [ref, extent]);
 }
 
 const round = (t: number) => Math.round(t * 1000) / 1000;

@@ -10,6 +10,8 @@ import { useSessionStore } from '@/store/session/store';
 import { CommandButton } from '@/ui/CommandButton';
 import classes from './axis.module.css';
 import { copyShownLink } from './commands';
+import { AxisMenu } from './AxisMenu';
+import { Changes } from './Changes';
 import { RunSelect } from './RunSelect';
 import { Strip } from './Strip';
 
@@ -30,65 +32,69 @@ export function TimeAxis() {
   const isBack = moment !== null;
   const play = t(isPlaying ? 'pause' : 'play');
   return (
-    <section
-      className={classes['axis']}
-      aria-label={t('label')}
-      data-testid="time-axis"
-      data-past={isBack || undefined}
-      data-t={moment?.toFixed(3)}
-      data-shown={shown?.t.toFixed(3)}
-    >
-      <Tooltip label={play}>
-        <ActionIcon aria-label={play} data-testid="axis-play" onClick={() => setPlaying(!isPlaying)}>
-          {isPlaying ? <IconPlayerPause size={16} /> : <IconPlayerPlay size={16} />}
-        </ActionIcon>
-      </Tooltip>
-      <NativeSelect
-        size="xs"
-        className={classes['speed']}
-        aria-label={t('speed')}
-        value={String(speed)}
-        data={PLAY_SPEEDS.map((each) => ({ value: String(each), label: `×${each}` }))}
-        onChange={({ currentTarget }) => useMoment.setState({ speed: Number(currentTarget.value) })}
-      />
-      <RunSelect run={extent.run} />
-      <Strip extent={extent} />
-      <span className={classes['note']} role="status">
-        {failure ? (
-          <span className={classes['failure']} title={failure}>
-            {failure}
-          </span>
-        ) : isBack && !shown ? (
-          t('reading')
-        ) : isBack ? (
-          <span className={classes['back']} title={t('backHelp')}>
-            {kept ? t('kept', { name: kept.name }) : t(source === liveSource ? 'back' : 'earlier')}
-          </span>
-        ) : null}
-      </span>
-      <span className={classes['time']} data-testid="axis-time">
-        {isBack ? `${moment.toFixed(2)} / ${extent.to.toFixed(1)} s` : `${extent.to.toFixed(1)} s`}
-      </span>
-      {isBack ? (
-        <Tooltip label={t('link.copy')}>
-          <ActionIcon aria-label={t('link.copy')} data-testid="axis-link" onClick={copyShownLink}>
-            <IconLink size={16} />
+    <>
+      <Changes end={extent.to} />
+      <section
+        className={classes['axis']}
+        aria-label={t('label')}
+        data-testid="time-axis"
+        data-past={isBack || undefined}
+        data-t={moment?.toFixed(3)}
+        data-shown={shown?.t.toFixed(3)}
+      >
+        <Tooltip label={play}>
+          <ActionIcon aria-label={play} data-testid="axis-play" onClick={() => setPlaying(!isPlaying)}>
+            {isPlaying ? <IconPlayerPause size={16} /> : <IconPlayerPlay size={16} />}
           </ActionIcon>
         </Tooltip>
-      ) : null}
-      <CommandButton command="tests.moment" size={26} testId="axis-test" />
-      <Tooltip label={`${t('toLive')} (Esc)`} disabled={!isBack}>
-        <Button
-          size="compact-xs"
-          className={classes['live']}
-          variant={isBack ? 'filled' : 'default'}
-          disabled={!isBack}
-          data-testid="axis-live"
-          onClick={lookNow}
-        >
-          {t('live')}
-        </Button>
-      </Tooltip>
-    </section>
+        <NativeSelect
+          size="xs"
+          className={classes['speed']}
+          aria-label={t('speed')}
+          value={String(speed)}
+          data={PLAY_SPEEDS.map((each) => ({ value: String(each), label: `×${each}` }))}
+          onChange={({ currentTarget }) => useMoment.setState({ speed: Number(currentTarget.value) })}
+        />
+        <RunSelect run={extent.run} />
+        <Strip extent={extent} />
+        <AxisMenu />
+        <span className={classes['note']} role="status">
+          {failure ? (
+            <span className={classes['failure']} title={failure}>
+              {failure}
+            </span>
+          ) : isBack && !shown ? (
+            t('reading')
+          ) : isBack ? (
+            <span className={classes['back']} title={t('backHelp')}>
+              {kept ? t('kept', { name: kept.name }) : t(source === liveSource ? 'back' : 'earlier')}
+            </span>
+          ) : null}
+        </span>
+        <span className={classes['time']} data-testid="axis-time">
+          {isBack ? `${moment.toFixed(2)} / ${extent.to.toFixed(1)} s` : `${extent.to.toFixed(1)} s`}
+        </span>
+        {isBack ? (
+          <Tooltip label={t('link.copy')}>
+            <ActionIcon aria-label={t('link.copy')} data-testid="axis-link" onClick={copyShownLink}>
+              <IconLink size={16} />
+            </ActionIcon>
+          </Tooltip>
+        ) : null}
+        <CommandButton command="tests.moment" size={26} testId="axis-test" />
+        <Tooltip label={`${t('toLive')} (Esc)`} disabled={!isBack}>
+          <Button
+            size="compact-xs"
+            className={classes['live']}
+            variant={isBack ? 'filled' : 'default'}
+            disabled={!isBack}
+            data-testid="axis-live"
+            onClick={lookNow}
+          >
+            {t('live')}
+          </Button>
+        </Tooltip>
+      </section>
+    </>
   );
 }

@@ -6,6 +6,7 @@ import type { LaunchNode } from '@/generated/messages';
 import { useConsoleFilter } from '@/features/console/filter';
 import { showPanel } from '@/workspace/tabs';
 import { openFile } from '@/store/project/navigation';
+import { useIsBack } from '@/store/moment/store';
 import { restartNode } from '@/store/run/topics';
 import { useSessionStore } from '@/store/session/store';
 import classes from './topics.module.css';
@@ -37,6 +38,7 @@ function NodeRow({ node }: { readonly node: LaunchNode }) {
     ({ executor, introspection }) =>
       (executor === 'application_running' || executor === 'paused') && introspection?.role !== 'viewer',
   );
+  const isBack = useIsBack();
   const lastLine = useSessionStore(
     ({ logs }) => logs.findLast((line) => line.launch_node === node.id)?.text ?? '',
   );
@@ -70,7 +72,7 @@ function NodeRow({ node }: { readonly node: LaunchNode }) {
           size="compact-xs"
           variant="default"
           leftSection={<IconRefresh size={13} />}
-          disabled={!canRestart}
+          disabled={!canRestart || isBack}
           onClick={() => void restart()}
         >
           {t('restart')}

@@ -4,6 +4,8 @@ import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
+import { lookAt } from '@/store/moment/looking';
+import { useMoment } from '@/store/moment/store';
 import { clearPlots, togglePlot, useTopicsStore } from '@/store/session/topics';
 import { dataOf, HEIGHT_PX, markOf, optionsFor } from './chart';
 import { csvOf, download } from './csv';
@@ -18,8 +20,8 @@ interface PlotProps {
 }
 
 /**
- * A plot of the chosen fields over simulated time. The wheel zooms, a drag moves, a double click shows
- * everything.
+ * A plot of the chosen fields over simulated time, with the moment at which one looks back. The wheel zooms, a drag
+ * moves, a double click shows everything, a click goes to its moment.
  */
 export function Plot({ isVisible }: PlotProps) {
   const { t } = useTranslation('topics');
@@ -41,20 +43,35 @@ export function Plot({ isVisible }: PlotProps) {
     if (!element || !isVisible) return;
     const chart = new uPlot(optionsFor(plotted, element, timeLabel), dataOf(plotted), element);
     let version = -1;
+    const cursor = document.createElement('div');
+    cursor.className = classes['momentCursor'] ?? '';
+    cursor.dataset['testid'] = 'plot-cursor';
+    chart.over.append(cursor);
+    const place = () => {
+      const { t: moment } = useMoment.getState();
+      const left = moment === null ? -1 : chart.valToPos(moment, 'x');
+      cursor.hidden = !(left >= 0 && left <= chart.over.clientWidth);
+      cursor.style.left = `${left}px`;
+    };
     const draw = () => {
       const range = shown.current;
       chart.setData(dataOf(plotted), range === null);
       if (range) chart.setScale('x', { ...range });
+      place();
     };
     const show = (range: TimeRange | null) => {
       shown.current = range;
       setZoomed(range !== null);
       if (range) chart.setScale('x', { ...range });
       else draw();
+      place();
     };
     showRange.current = show;
     draw();
-    const endGestures = gestures(chart, element, show);
+    const endGestures = gestures(chart, element, show, lookAt);
+    const endFollowing = useMoment.subscribe((now, before) => {
+      if (now.t !== before.t) place();
+    });
     const timer = setInterval(() => {
       const { plotVersion } = useTopicsStore.getState();
       if (held.current || plotVersion === version) return;
@@ -67,6 +84,7 @@ export function Plot({ isVisible }: PlotProps) {
     resized.observe(element);
     return () => {
       endGestures();
+      endFollowing();
       clearInterval(timer);
       resized.disconnect();
       chart.destroy();

@@ -1,6 +1,7 @@
 import { Alert, Autocomplete, Button, Group, JsonInput, Modal, Stack, Text, Tooltip } from '@mantine/core';
 import { useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { useIsBack } from '@/store/moment/store';
 import { describeType, publish } from '@/store/run/topics';
 import { CommandError } from '@/store/session/control';
 import { useTopicsStore } from '@/store/session/topics';
@@ -46,6 +47,7 @@ function PublishForm({ topic: firstTopic, type: firstType }: PublishFormProps) {
 
   // Only a message that the user sees can be sent: not before the type's fields are shown.
   const canSend = topic.trim() !== '' && type.trim() !== '' && (typed !== null || description !== undefined);
+  const isBack = useIsBack();
   const submit = async () => {
     if (!canSend) return;
     try {
@@ -132,7 +134,7 @@ function PublishForm({ topic: firstTopic, type: firstType }: PublishFormProps) {
             {t('close')}
           </Button>
           <Tooltip label={t('publishKeys')}>
-            <Button disabled={!canSend} onClick={() => void submit()}>
+            <Button disabled={!canSend || isBack} onClick={() => void submit()}>
               {t('publishOnce')}
             </Button>
           </Tooltip>

@@ -2,6 +2,7 @@ import { Button, SegmentedControl } from '@mantine/core';
 import { IconPlugConnected, IconSend } from '@tabler/icons-react';
 import { Suspense, useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { useIsBack } from '@/store/moment/store';
 import { perform } from '@/commands/registry';
 import { refreshTopics } from '@/store/run/topics';
 import { useSessionStore } from '@/store/session/store';
@@ -37,6 +38,7 @@ export function TopicsPanel() {
     return () => clearInterval(timer);
   }, [isVisible, isUp, shown]);
 
+  const isBack = useIsBack();
   const failed = nodes.filter((node) => node.state === 'failed').length;
   return (
     <section ref={panel} className={classes['panel']} data-testid="topics" aria-label={t('label')}>
@@ -60,7 +62,7 @@ export function TopicsPanel() {
           size="compact-sm"
           variant="default"
           leftSection={<IconSend size={14} />}
-          disabled={!isUp || isViewer}
+          disabled={!isUp || isViewer || isBack}
           onClick={() => openPublish('', '')}
         >
           {t('publish')}

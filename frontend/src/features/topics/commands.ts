@@ -1,5 +1,6 @@
 import { IconPlugConnected, IconSend } from '@tabler/icons-react';
 import { registerCommands, type UserCommand } from '@/commands/registry';
+import { isLookingBack } from '@/store/moment/store';
 import { useSessionStore } from '@/store/session/store';
 import { openConnect } from './ConnectDialog';
 import { openPublish } from './publishing';
@@ -17,7 +18,7 @@ const rows: UserCommand[] = [
     group: 'run',
     labelKey: 'topics:command.publish',
     icon: IconSend,
-    enabled: () => !['idle', 'connected'].includes(useSessionStore.getState().executor),
+    enabled: () => !isLookingBack() && !['idle', 'connected'].includes(useSessionStore.getState().executor),
     run: () => openPublish('', ''),
   },
 ];

@@ -3,6 +3,7 @@ import type uPlot from 'uplot';
 import { gestures } from './plotGestures';
 
 const setRange = vi.fn();
+const goTo = vi.fn();
 let over: HTMLElement;
 let host: HTMLElement;
 let end: () => void;
@@ -15,7 +16,7 @@ beforeEach(() => {
   over.setPointerCapture = vi.fn();
   Object.defineProperty(over, 'clientWidth', { value: 100 });
   const chart = { over, scales: { x: { min: 0, max: 10 } }, posToVal: (px: number) => px / 10 };
-  end = gestures(chart as unknown as uPlot, host, setRange);
+  end = gestures(chart as unknown as uPlot, host, setRange, goTo);
 });
 
 const pointer = (type: string, clientX: number) =>
@@ -38,6 +39,17 @@ describe('gestures', () => {
     pointer('pointerup', 70);
     pointer('pointermove', 90);
     expect(setRange).toHaveBeenCalledOnce();
+  });
+
+  it('go to the time of a click, and not of a drag', () => {
+    goTo.mockClear();
+    pointer('pointerdown', 50);
+    pointer('pointermove', 70);
+    pointer('pointerup', 70);
+    expect(goTo).not.toHaveBeenCalled();
+    pointer('pointerdown', 40);
+    pointer('pointerup', 41);
+    expect(goTo).toHaveBeenCalledExactlyOnceWith(4.1);
   });
 
   it('cancel a drag with Escape', () => {

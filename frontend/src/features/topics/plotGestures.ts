@@ -5,6 +5,9 @@ const WHEEL_STEP = 1.2;
 /** The share of the range by which an arrow key moves it. */
 const ARROW_STEP = 0.2;
 
+/** A pointer that moved less is a click. */
+const CLICK_PX = 3;
+
 type SetRange = (range: TimeRange | null) => void;
 
 function rangeOf({ scales }: uPlot): TimeRange | null {
@@ -34,10 +37,16 @@ function rangeAfter(key: string, range: TimeRange): TimeRange | null | undefined
 }
 
 /**
- * Adds the gestures of a plot: the wheel zooms, a drag moves, and a double click or 0 shows everything.
+ * Adds the gestures of a plot: the wheel zooms, a drag moves, a double click or 0 shows everything, and a click
+ * goes to the time under it.
  * Returns a function that removes them.
  */
-export function gestures(chart: uPlot, host: HTMLElement, setRange: SetRange): () => void {
+export function gestures(
+  chart: uPlot,
+  host: HTMLElement,
+  setRange: SetRange,
+  goTo: (time: number) => void,
+): () => void {
   const { over } = chart;
   let held: { x: number; range: TimeRange } | null = null;
   const ends = new AbortController();
@@ -71,6 +80,14 @@ export function gestures(chart: uPlot, host: HTMLElement, setRange: SetRange): (
       const { x, range } = held;
       const secondsPerPx = (range.max - range.min) / Math.max(1, over.clientWidth);
       setRange(moved(range, (x - event.clientX) * secondsPerPx));
+    },
+    { signal },
+  );
+  over.addEventListener(
+    'pointerup',
+    ({ clientX }) => {
+      if (held && Math.abs(clientX - held.x) <= CLICK_PX)
+        goTo(chart.posToVal(clientX - over.getBoundingClientRect().left, 'x'));
     },
     { signal },
   );

@@ -5,11 +5,12 @@ import { earlierSource, runsOf } from '@/store/recording/liveSource';
 import { RecordedRun, type EngineLink } from '@/store/recording/recordedRun';
 import type { FromEngine } from '@/store/recording/engine';
 import type { Story } from '@/store/recording/story';
-import type { Moment, Overview, RecordingSource } from '@/store/recording/types';
+import type { Changes, Moment, Overview, RecordingSource } from '@/store/recording/types';
 import { useSessionStore } from '@/store/session/store';
 import type { LogLine } from '@/store/session/types';
 import { identified, recordedTrees } from './recordedTrees';
 import { consoleOf, linesUntil, rowsOf, usePastSession } from './session';
+import { markedRange, nextMoment, noRange, useRange } from './range';
 import { isPresentRun, ofSession, useSource, type Kept } from './source';
 import { atPresent, useMoment } from './store';
 import { showPresentWorld, showWorld } from './world';
@@ -61,6 +62,7 @@ export function lookAt(t: number, tick: number | null = null): void {
   const now = extent();
   if (!now) return;
   const isFirst = useMoment.getState().t === null;
+  if (run !== '' && run !== now.run) useRange.setState(noRange);
   run = now.run;
   useMoment.setState({
     t: Math.min(Math.max(t, now.from), now.to),
@@ -103,6 +105,7 @@ function change(source: typeof ofSession): void {
   recorded?.end();
   recorded = null;
   useSource.setState(source);
+  useRange.setState(noRange);
   useMoment.setState({ overview: null, failure: '' });
 }
 
@@ -143,6 +146,16 @@ async function beginning(): Promise<{ t: number; tick: number | null } | null> {
       resolve(now.t === null ? null : { t: now.t, tick: now.tick });
     });
   });
+}
+
+/** Returns what changed between two moments; null while one of them is not read. */
+export async function changesBetween(from: number, to: number): Promise<Changes | null> {
+  const run = theRun();
+  run.want(useMoment.getState().t ?? to);
+  const changes = await run.ask({ what: 'changes', from, to });
+  // The part with the second moment is read first.
+  if (changes === null && useMoment.getState().t === null) run.want(from);
+  return changes;
 }
 
 /**
@@ -187,9 +200,11 @@ function play(last: number): void {
     const { isPlaying, t, speed } = useMoment.getState();
     const end = extent()?.to;
     if (!isPlaying || t === null || end === undefined) return;
-    const next = t + ((now - last) / 1000) * speed;
+    const range = useRange.getState();
+    const loop = range.isLooping ? markedRange(range) : null;
+    const next = nextMoment(t, ((now - last) / 1000) * speed, loop);
     lookAt(next);
-    if (next >= end) useMoment.setState({ isPlaying: false });
+    if (next >= end && !loop) useMoment.setState({ isPlaying: false });
     else play(now);
   });
 }

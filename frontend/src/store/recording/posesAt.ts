@@ -1,4 +1,4 @@
-import type { PosesAt } from './types';
+import type { MovedAt, PosesAt } from './types';
 
 /** A frame `poses` of the stream: the ids, and 16 bytes for each. */
 export interface PosesFrame {
@@ -13,6 +13,9 @@ const TURN_PER_UNIT = 1 / (32767 * Math.SQRT2);
 /** An object paused for a longer time did not move, and over a longer way it was put elsewhere. */
 const LONGEST_S = 0.2;
 const LONGEST_M = 1;
+/** Less is the rounding of poses, or a body that settles. */
+const LEAST_M = 1e-3;
+const LEAST_DEGREES = 0.5;
 
 export type Pose = readonly [number, number, number, number, number, number, number];
 
@@ -95,4 +98,23 @@ export function posesAt(frames: readonly PosesFrame[], t: number): PosesAt | nul
     packPose(between(from, to, (t - frame.t) / (then.frame.t - frame.t)), poses, index * POSE_BYTES);
   });
   return { ids: new Uint8Array(ids.buffer), poses };
+}
+
+/** Returns the bodies whose poses differ. */
+export function moved(from: PosesAt | null, to: PosesAt | null): MovedAt[] {
+  if (!from || !to) return [];
+  const before = unpacked(from);
+  return [...unpacked(to)].flatMap(([id, b]): MovedAt[] => {
+    const a = before.get(id);
+    if (!a) return [];
+    const metres = Math.hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+    const dot = Math.abs(a[3] * b[3] + a[4] * b[4] + a[5] * b[5] + a[6] * b[6]);
+    const degrees = (2 * Math.acos(Math.min(1, dot)) * 180) / Math.PI;
+    return metres < LEAST_M && degrees < LEAST_DEGREES ? [] : [{ id, metres, degrees }];
+  });
+}
+
+function unpacked({ ids, poses }: PosesAt): Map<number, Pose> {
+  const list = new Uint16Array(ids.slice().buffer);
+  return new Map(Array.from(list, (id, at) => [id, unpackPose(poses, at * POSE_BYTES)]));
 }

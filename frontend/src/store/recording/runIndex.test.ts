@@ -94,7 +94,7 @@ it('sends a tree once', () => {
 
 it('tells the changes between two moments', () => {
   const { index } = sample();
-  expect(index.changes(0.5, 0.5)).toEqual({ statuses: [], entries: [] });
+  expect(index.changes(0.5, 0.5)).toEqual({ statuses: [], entries: [], poses: [] });
   expect(index.changes(0.05, 0.9)!.entries.length).toBeGreaterThan(0);
 });
 

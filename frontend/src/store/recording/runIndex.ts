@@ -1,5 +1,5 @@
 import type { NodeStatus, Scene } from '@/generated/messages';
-import { posesAt } from './posesAt';
+import { moved, posesAt } from './posesAt';
 import { sceneOf } from './sceneOf';
 import type { Read } from './segmentReader';
 import { SegmentIndex, type State } from './segmentIndex';
@@ -106,8 +106,9 @@ export class RunIndex {
 
   /** Returns what changed from one time to another; null if one of them is not read. */
   changes(from: number, to: number): Changes | null {
-    const [a, b] = [from, to].map((t) => this.at(t)?.stateAt(t) ?? null);
-    if (!a || !b) return null;
+    const [before, after] = [this.at(from), this.at(to)];
+    if (!before || !after) return null;
+    const [a, b] = [before.stateAt(from), after.stateAt(to)];
     const uids = b.nodes.map(({ uid, path }) => ({ uid, path }));
     const statuses = uids
       .map(({ uid, path }) => ({
@@ -119,12 +120,13 @@ export class RunIndex {
       .filter((each) => each.from !== each.to);
     const ids = new Set([...a.entries.keys(), ...b.entries.keys()]);
     const entries = [...ids].flatMap((id) => {
-      const [before, after] = [a.entries.get(id), b.entries.get(id)];
-      const { scope = '', key = '' } = before ?? after ?? {};
-      const isSame = JSON.stringify(before?.value) === JSON.stringify(after?.value);
-      return isSame ? [] : [{ scope, key, from: before?.value, to: after?.value }];
+      const [old, now] = [a.entries.get(id), b.entries.get(id)];
+      const { scope = '', key = '' } = old ?? now ?? {};
+      if (JSON.stringify(old?.value) === JSON.stringify(now?.value)) return [];
+      const { since } = this.since(after, b, id, to);
+      return [{ scope, key, from: old?.value, to: now?.value, since }];
     });
-    return { statuses, entries };
+    return { statuses, entries, poses: moved(posesAt(before.poses, from), posesAt(after.poses, to)) };
   }
 
   /** Returns what the tree of a moment did until then, as far as it was read without a gap. */

@@ -137,7 +137,22 @@ export interface Moment {
 /** What changed between two moments. */
 export interface Changes {
   readonly statuses: readonly { uid: number; path: string; from: NodeStatus; to: NodeStatus }[];
-  readonly entries: readonly { scope: string; key: string; from: unknown; to: unknown }[];
+  /** With the time of the last write before the second moment; null if it is not read. */
+  readonly entries: readonly {
+    scope: string;
+    key: string;
+    from: unknown;
+    to: unknown;
+    since: number | null;
+  }[];
+  readonly poses: readonly MovedAt[];
+}
+
+/** A body of the scene that moved between two moments. */
+export interface MovedAt {
+  readonly id: number;
+  readonly metres: number;
+  readonly degrees: number;
 }
 
 /** An error of a recording: what, and where. */

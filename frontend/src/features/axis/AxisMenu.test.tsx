@@ -1,0 +1,41 @@
+import { screen } from '@testing-library/react';
+import { afterEach, beforeEach, expect, it } from 'vitest';
+import { registerCommands } from '@/commands/registry';
+import { noRange, useRange } from '@/store/moment/range';
+import { initialSession } from '@/store/session/reduce';
+import { useSessionStore } from '@/store/session/store';
+import { show, user } from '../../../harness/testing';
+import { AXIS_MENU, AxisMenu } from './AxisMenu';
+import { rangeCommands } from './rangeCommands';
+
+const segment = {
+  run: 'a',
+  branch: 0,
+  number: 0,
+  version: 0,
+  from_t: 0,
+  to_t: 100,
+  bytes: 1,
+  complete: true,
+};
+let stop = () => {};
+
+beforeEach(() => {
+  stop = registerCommands(rangeCommands);
+  useSessionStore.setState({ segments: [segment] });
+});
+afterEach(() => {
+  stop();
+  useSessionStore.setState(initialSession, true);
+  useRange.setState(noRange);
+});
+
+it('has all commands of the axis, with their keys, and does them', async () => {
+  expect([...AXIS_MENU.flat()].sort()).toEqual(rangeCommands.map(({ id }) => id).sort());
+  show(<AxisMenu />);
+  await user.click(screen.getByRole('button', { name: 'Range, changes and zoom' }));
+  const loop = await screen.findByTestId('axis-time.loop');
+  expect(loop).toBeDisabled();
+  await user.click(screen.getByTestId('axis-time.markA'));
+  expect(useRange.getState().a).toBe(100);
+});

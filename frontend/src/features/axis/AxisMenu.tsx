@@ -1,0 +1,52 @@
+import { ActionIcon, Menu, Tooltip } from '@mantine/core';
+import { IconAdjustmentsHorizontal } from '@tabler/icons-react';
+import { useTranslation } from 'react-i18next';
+import { useCommandTable } from '@/commands/registry';
+import { keysOf } from '@/commands/shortcuts';
+
+/** The commands for range, changes and zoom, in groups. */
+export const AXIS_MENU = [
+  ['time.markA', 'time.markB', 'time.loop', 'time.clearRange'],
+  ['time.whatChanged'],
+  ['time.zoomIn', 'time.zoomOut', 'time.fit'],
+] as const;
+
+/** The menu of the time axis. */
+export function AxisMenu() {
+  const { t } = useTranslation();
+  const { t: words } = useTranslation('axis');
+  const commands = useCommandTable((state) => state.commands);
+  return (
+    <Menu position="top-end" width={300}>
+      <Menu.Target>
+        <Tooltip label={words('menu')}>
+          <ActionIcon aria-label={words('menu')} data-testid="axis-menu">
+            <IconAdjustmentsHorizontal size={16} />
+          </ActionIcon>
+        </Tooltip>
+      </Menu.Target>
+      <Menu.Dropdown>
+        {AXIS_MENU.map((ids, at) => [
+          at > 0 ? <Menu.Divider key={ids[0]} /> : null,
+          ...ids.map((id) => {
+            const command = commands[id];
+            if (!command) return null;
+            const Icon = command.icon;
+            return (
+              <Menu.Item
+                key={id}
+                data-testid={`axis-${id}`}
+                disabled={command.enabled?.() === false}
+                leftSection={Icon ? <Icon size={16} /> : null}
+                rightSection={<kbd>{keysOf(command)}</kbd>}
+                onClick={() => command.run()}
+              >
+                {t(command.labelKey)}
+              </Menu.Item>
+            );
+          }),
+        ])}
+      </Menu.Dropdown>
+    </Menu>
+  );
+}

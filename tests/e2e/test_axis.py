@@ -178,6 +178,7 @@ def the_address_brings_it_back(studio: Studio) -> None:
     values = shown_values(studio)
     studio.page.reload()
     expect(axis(studio)).to_have_attribute("data-shown", f"{then:.3f}")
+    panel(studio, "Blackboard")  # the question before this has brought the inspector to the front
     expect(studio.at("moment-stats")).to_have_attribute("data-tick", str(number))
     assert shown_values(studio) == values
 

@@ -198,10 +198,13 @@ def the_address_brings_it_back(studio: Studio) -> None:
     studio.page.keyboard.press("Shift+ArrowRight")
     expect(studio.page).to_have_url(re.compile(r"\?run=[0-9a-f]+&t=2\.\d"))
     then, number = shown_t(studio), tick(studio)
+    panel(studio, "Blackboard")  # the question before this has brought the inspector to the front
     values = shown_values(studio)
     studio.page.reload()
     expect(axis(studio)).to_have_attribute("data-shown", f"{then:.3f}")
     expect(studio.at("moment-stats")).to_have_attribute("data-tick", str(number))
+    panel(studio, "Blackboard")
+    expect(studio.at("blackboard").get_by_test_id("written").first).to_be_visible()
     assert shown_values(studio) == values
 
 

@@ -1,6 +1,14 @@
-import { ReactFlow, ReactFlowProvider, useStore } from '@xyflow/react';
+import { ReactFlow, ReactFlowProvider, useReactFlow, useStore } from '@xyflow/react';
 import '@xyflow/react/dist/style.css';
-import { useCallback, useMemo, useState, type KeyboardEvent, type MouseEvent } from 'react';
+import {
+  useCallback,
+  useEffect,
+  useMemo,
+  useRef,
+  useState,
+  type KeyboardEvent,
+  type MouseEvent,
+} from 'react';
 import type { Diagram, NodeId } from '@/model/diagram';
 import type { ChangeKind } from '@/model/difference/changes';
 import { expandTrees } from '@/model/expand';
@@ -72,6 +80,13 @@ function View({ diagram, vocabulary, label, selected, onSelect, onOpen, marks }:
       }),
     [plain, marks],
   );
+  // The tab may get its size after it was drawn; a view that the user has chosen stays.
+  const flow = useReactFlow();
+  const isMoved = useRef(false);
+  const size = useStore(({ width, height }) => `${width} ${height}`);
+  useEffect(() => {
+    if (!isMoved.current) void flow.fitView(FIT);
+  }, [flow, size]);
   const onNodeClick = useCallback((_: MouseEvent, { id }: BlockNode) => onSelect(id), [onSelect]);
   const onNodeDoubleClick = useCallback((_: MouseEvent, { id }: BlockNode) => onOpen(id), [onOpen]);
   const onKeyDown = (event: KeyboardEvent) => {
@@ -107,6 +122,9 @@ function View({ diagram, vocabulary, label, selected, onSelect, onOpen, marks }:
         onNodeClick={onNodeClick}
         onNodeDoubleClick={onNodeDoubleClick}
         onPaneClick={() => onSelect(null)}
+        onMoveStart={(event) => {
+          if (event) isMoved.current = true;
+        }}
         nodesDraggable={false}
         nodesConnectable={false}
         elementsSelectable={false}

@@ -85,8 +85,8 @@ export function RunRow({ projectId, run, onOpen, onChange, onRemove }: Props) {
         </ActionIcon>
         <ActionIcon
           size="md"
-          aria-label={t('link.copy', { name: run.name })}
-          title={t('link.copy', { name: run.name })}
+          aria-label={t('link.copy', { name })}
+          title={t('link.copy', { name })}
           onClick={() =>
             void copyLink(
               linkTo(projectId, { run: run.id, t: null }),

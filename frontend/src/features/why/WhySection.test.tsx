@@ -47,8 +47,8 @@ describe('why a block was ticked', () => {
     ]);
     expect(screen.getByTestId('why-question')).toHaveTextContent('Why is it RUNNING? (tick 4)');
     expect(steps()).toEqual([
-      'Each tick begins at the root, `Sequence`. RUNNING',
-      '`IsFree` returned SUCCESS, so `Forward` is ticked. RUNNING',
+      'Each tick begins at the root, “Sequence”. RUNNING',
+      '“IsFree” returned SUCCESS, so “Forward” is ticked. RUNNING',
     ]);
     tick(
       5,
@@ -62,7 +62,7 @@ describe('why a block was ticked', () => {
         [1, 'FAILURE'],
       ],
     );
-    expect(steps()[1]).toBe('`Forward` was RUNNING, so `Sequence` resumes it. FAILURE');
+    expect(steps()[1]).toBe('“Forward” was RUNNING, so “Sequence” resumes it. FAILURE');
     tick(
       6,
       [],
@@ -71,7 +71,7 @@ describe('why a block was ticked', () => {
         [1, 'FAILURE'],
       ],
     );
-    expect(steps()[1]).toBe('`IsFree` returned FAILURE, so `Sequence` ended before `Forward`. not ticked');
+    expect(steps()[1]).toBe('“IsFree” returned FAILURE, so “Sequence” ended before “Forward”. not ticked');
   });
 
   it('each line leads to its block', () => {
@@ -82,7 +82,7 @@ describe('why a block was ticked', () => {
     ]);
     fireEvent.click(screen.getByTestId('why-outcome'));
     expect(useProjectStore.getState().revealed).toMatchObject({ tree: 'Main', node: 'c' });
-    expect(screen.getByTestId('why-outcome')).toHaveTextContent('`IsFree` returned RUNNING');
+    expect(screen.getByTestId('why-outcome')).toHaveTextContent('“IsFree” returned RUNNING');
   });
 
   it('a halt explains nothing, and says so', () => {
@@ -102,7 +102,7 @@ describe('why a block was ticked', () => {
       [3, 'RUNNING'],
     ]);
     fireEvent.change(screen.getByLabelText('Call of the subtree'), { target: { value: '1' } });
-    expect(steps()[1]).toContain('`Forward` is RUNNING, so `Sequence` did not come to `Forward`.');
+    expect(steps()[1]).toContain('“Forward” is RUNNING, so “Sequence” did not come to “Forward”.');
   });
 
   it('asking opens it and moves the focus there; a block that did not run has none', () => {

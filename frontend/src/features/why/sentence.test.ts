@@ -22,7 +22,7 @@ describe('the words for a reason', () => {
 
   it('name the nodes as the canvas does', () => {
     expect(sentence(t, nodes, { code: 'after', by: 2, status: 'SUCCESS' }, 3, 1)).toBe(
-      '`keep clear` returned SUCCESS, so `Forward` is ticked.',
+      '“keep clear” returned SUCCESS, so “Forward” is ticked.',
     );
     expect(nameOf(undefined)).toBe('');
   });
@@ -30,9 +30,9 @@ describe('the words for a reason', () => {
   it('name the conditions that can have decided', () => {
     const reason = { code: 'condition', status: 'SKIPPED' } as const;
     expect(sentence(t, nodes, { ...reason, conditions: ['_skipIf', '_while'] }, 3, 1)).toContain(
-      '`_skipIf` or `_while` of `main`',
+      '_skipIf or _while of “main”',
     );
-    expect(sentence(t, nodes, { ...reason, conditions: [] }, 3, 1)).toContain('A pre-condition of `main`');
+    expect(sentence(t, nodes, { ...reason, conditions: [] }, 3, 1)).toContain('A pre-condition of “main”');
   });
 });
 

@@ -16,7 +16,7 @@ export function sentence(
 ): string {
   const name = (uid: number | undefined) => nameOf(nodes.find((node) => node.uid === uid));
   const { code, by, status, conditions } = reason;
-  const words = conditions?.map((each) => `\`${each}\``).join(` ${t('or')} `);
+  const words = conditions?.join(` ${t('or')} `);
   const of = {
     ...{ child: name(child), parent: name(parent), by: name(by), status: status ?? '' },
     conditions: words === undefined || words === '' ? t('aCondition') : words,

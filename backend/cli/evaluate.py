@@ -79,8 +79,10 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     gates = _read_gates(gate or [])
     plan = _plan(project, name, runs, to_the_end=to_the_end, is_part=seeds is not None or only_failed)
     chosen = _seeds(plan, seeds, report if only_failed else None)
-    if only_failed and report is not None:
-        report /= ONLY_FAILED
+    if report is not None:
+        report = report / ONLY_FAILED if only_failed else report
+        if not (resume or only_failed):
+            _require_new(report)
     older = None if against is None else _older_plan(plan, project, against)
     if older is None and any(each.kind == "no-worse" for each in gates):
         raise typer.BadParameter("name the older version with --against", param_hint="--gate no-worse")
@@ -183,6 +185,16 @@ def _seeds(plan: Plan, listed: str | None, failed_in: Path | None) -> list[int]:
         return found
     first = plan.evaluation.seed
     return list(range(first, first + plan.evaluation.most_runs))
+
+
+def _require_new(report: Path) -> None:
+    from backend.cli.errors import BAD_ARGUMENTS, CliError
+    from executor.evaluation.results import Results, ResultsError
+
+    try:
+        Results(report).require_none()
+    except ResultsError as error:
+        raise CliError(str(error), status=BAD_ARGUMENTS) from error
 
 
 def _warn(gates: Sequence[Gate], plan: Plan, runs: int) -> None:

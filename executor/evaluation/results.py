@@ -40,7 +40,7 @@ def kept_outcomes(
     if header.get("inputs") != inputs_of(plan):
         raise ResultsError(
             f"{results.folder / HEADER}:1:1: the results are of another version of the project or "
-            "evaluation; evaluate again without --resume"
+            "evaluation; name another folder"
         )
     earlier: list[dict[str, str]] = header.get("fingerprints", [])
     notes = [
@@ -106,6 +106,14 @@ class Results:
                     raise ResultsError(f"{path}:{number}:1: {error}") from error
                 found[outcome.seed] = outcome
         return [found[seed] for seed in sorted(found)]
+
+    def require_none(self) -> None:
+        """Raises ResultsError if the folder holds outcomes, so that none is replaced without a word."""
+        if any((self._folder / name).exists() for name in (HEADER, RUNS, PART)):
+            raise ResultsError(
+                f"{self._folder}: it holds the results of an earlier evaluation "
+                "(continue that one with --resume, or name another folder)"
+            )
 
     def begin(self, header: dict[str, Any], kept: Iterable[Outcome] = ()) -> None:
         """Begins new results, with outcomes that are kept.

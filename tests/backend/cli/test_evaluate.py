@@ -105,6 +105,10 @@ def test_an_interrupted_evaluation_continues(tmp_path):
     whole = (report / "runs.jsonl").read_bytes()
     assert whole.startswith(done)
     assert len(whole.splitlines()) == 6
+    again = studio("evaluate", folder, "--report", report)
+    assert again.returncode == 2
+    assert "holds the results of an earlier evaluation" in again.stderr
+    assert (report / "runs.jsonl").read_bytes() == whole
     (folder / "actions" / "Drive.py").write_text(SETS)
     other = studio("evaluate", folder, "--report", report, "--resume")
     assert other.returncode == 2

@@ -195,9 +195,12 @@ def test_every_route_that_writes_is_here_or_named():
         "delete_my_account",
         "start_session",  # a repeated request is answered with the existing session
         "end_session",
-        "keep_run",  # one transaction, and nothing is read for the answer; so are the next two
+        "keep_run",  # one transaction, and nothing is read for the answer; so are the next five
+        "keep_log",
+        "open_log",
         "change_run",
         "delete_run",
+        "delete_my_run",
         # These store nothing.
         "check_project",
         "test_project",

@@ -140,7 +140,7 @@ def test_a_new_field_has_the_caret_and_is_blamed_only_when_it_is_left(shared_stu
     page.keyboard.press("Tab")
     expect(problems).to_contain_text("_skipIf")
     field.click()
-    page.keyboard.type("true")
+    page.keyboard.type("hurt")
     expect(problems).to_contain_text("the project can run")
     studio.saved()
 

@@ -15,7 +15,7 @@ HARD_EXTRA_S: Final = 5
 """How long after the limit a process that does not react is ended."""
 
 _LIMITED_CLOCK: Final = -8
-"""The clock of the kernel for RLIMIT_CPU. It counts ticks, and differs from getrusage by seconds after minutes.
+"""The clock of the kernel for RLIMIT_CPU. It counts ticks; after minutes, getrusage differs by seconds.
 
 The number is that of ``CPUCLOCK_PROF`` of the own process (``linux/posix-timers.h``).
 """

@@ -140,8 +140,9 @@ def test_a_new_field_has_the_caret_and_is_blamed_only_when_it_is_left(shared_stu
     page.keyboard.press("Tab")
     expect(problems).to_contain_text("_skipIf")
     field.click()
-    page.keyboard.type("hurt")
-    expect(problems).to_contain_text("the project can run")
+    page.keyboard.type("true")
+    expect(problems).not_to_contain_text("is empty")
+    expect(problems).to_contain_text("“Forward” is never ticked")
     studio.saved()
 
 

@@ -38,7 +38,7 @@ it('has the marks of its own run, and none of another', () => {
   useMoment.setState({ overview });
   const { rerender } = show(<Strip extent={{ run: 'a', from: 0, to: 10 }} />);
   const mark = screen.getByRole('button', { name: 'Fault at 5.00 s: ValueError' });
-  expect(mark.style.left).toBe('50%');
+  expect(mark.style.getPropertyValue('--at')).toBe('50%');
   rerender(<Strip extent={{ run: 'b', from: 0, to: 10 }} />);
   expect(screen.queryByTestId('axis-mark')).toBeNull();
 });

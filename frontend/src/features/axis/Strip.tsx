@@ -1,4 +1,12 @@
-import { useEffect, useMemo, useRef, useState, type KeyboardEvent, type PointerEvent } from 'react';
+import {
+  type CSSProperties,
+  type KeyboardEvent,
+  type PointerEvent,
+  useEffect,
+  useMemo,
+  useRef,
+  useState,
+} from 'react';
 import { useTranslation } from 'react-i18next';
 import {
   IconAlertTriangleFilled,
@@ -174,7 +182,7 @@ function MarkButton({ mark, share }: { readonly mark: Mark; readonly share: numb
       className={classes['mark']}
       data-kind={mark.kind}
       data-testid="axis-mark"
-      style={{ left: `${share * 100}%` }}
+      style={{ '--at': `${share * 100}%` } as CSSProperties}
       title={label}
       aria-label={label}
       onClick={() => lookAt(mark.t)}

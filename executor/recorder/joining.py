@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import sys
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,6 +25,8 @@ __all__ = ["NOT_RECORDED", "join_newest", "join_run", "main"]
 
 NOT_RECORDED = 3
 LAST = "last"
+ATTEMPTS = 4
+PAUSE_S = 0.25
 
 
 def join_run(folder: Path, run: str, out: Path) -> int:
@@ -57,17 +60,25 @@ def join_newest(folder: Path, out: Path) -> int:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Runs the command; returns the exit status."""
+    """Runs the command; returns the exit status.
+
+    The recorder writes, renames and removes files meanwhile: what fails at first is tried again.
+    """
     folder, run, out = arguments if arguments is not None else sys.argv[1:]
     die_with_parent()
-    try:
-        found = (
-            join_newest(Path(folder), Path(out)) if run == LAST else join_run(Path(folder), run, Path(out))
-        )
-        return 0 if found else NOT_RECORDED
-    except (OSError, RecordingError) as error:
-        sys.stderr.write(f"{error}\n")
-        return 1
+    for left in reversed(range(ATTEMPTS)):
+        try:
+            return 0 if _join(Path(folder), run, Path(out)) else NOT_RECORDED
+        except (OSError, RecordingError) as error:
+            if not left:
+                sys.stderr.write(f"{error}\n")
+            else:
+                time.sleep(PAUSE_S)
+    return 1
+
+
+def _join(folder: Path, run: str, out: Path) -> int:
+    return join_newest(folder, out) if run == LAST else join_run(folder, run, out)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import io
 import json
 import os
 import signal
+import urllib.error
 import urllib.request
 from typing import Any
 
@@ -66,8 +67,11 @@ async def joined(manager, run):
     def fetch() -> bytes:
         url = f"http://127.0.0.1:{manager.ready['port']}/recordings/{run}/0"
         request = urllib.request.Request(url, headers={"Authorization": f"Bearer {TOKEN}"})
-        with urllib.request.urlopen(request) as answer:  # noqa: S310 - of this manager
-            data: bytes = answer.read()
+        try:
+            with urllib.request.urlopen(request) as answer:  # noqa: S310 - of this manager
+                data: bytes = answer.read()
+        except urllib.error.HTTPError as error:
+            raise AssertionError(error.read().decode()) from error
         return data
 
     data = await asyncio.to_thread(fetch)

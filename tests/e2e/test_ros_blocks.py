@@ -130,7 +130,8 @@ def the_block_is_built_from_lists(studio: Studio) -> None:
     add_field(studio, "goal.pose.pose.position.x", "goal__pose__pose__position__x")
     studio.at("port-goal__pose__pose__position__x").fill(str(GOAL_M))
     add_field(studio, "feedback.distance_remaining", "feedback__distance_remaining")
-    studio.at("port-wait_for_server_timeout").fill("20000")
+    for timeout in ("wait_for_server_timeout", "server_timeout"):  # a busy machine is late
+        studio.at(f"port-{timeout}").fill("20000")
     studio.saved()
     expect(made).to_contain_text("position.x")
     expect(made).not_to_have_attribute("data-problem", "error")
@@ -151,7 +152,7 @@ def the_robot_drives_to_the_goal(studio: Studio) -> None:
     observer = studio.observe()
     wait_until(lambda: bool(observer.of("finished")), "the goal is reached")
     assert observer.of("finished")[0]["data"]["status"] == "SUCCESS"
-    track = observer.track("robot")
-    assert math.dist(track[0][1:], track[-1][1:]) == pytest.approx(GOAL_M, abs=0.15)
+    _, *place = observer.track("robot")[-1]  # the robot started at the origin
+    assert math.hypot(*place[:2]) == pytest.approx(GOAL_M, abs=0.15)
     studio.picture("ros-action-reached")
     observer.close()

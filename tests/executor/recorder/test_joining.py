@@ -30,6 +30,15 @@ def test_a_run_that_was_not_recorded_and_a_damaged_one_are_said(tmp_path, capsys
     assert "00000.0.mcap:0: it does not begin as an MCAP file" in capsys.readouterr().err
 
 
+def test_a_file_that_the_recorder_changes_meanwhile_is_read_again(tmp_path, monkeypatch):
+    shelf, _ = filled(tmp_path, 15)
+    path = file_of(tmp_path, shelf.segments[0])
+    whole = path.read_bytes()
+    path.write_bytes(b"x" + whole)
+    monkeypatch.setattr("executor.recorder.joining.time.sleep", lambda _: path.write_bytes(whole))
+    assert main([str(tmp_path), "a1", str(tmp_path / "out")]) == 0
+
+
 def test_the_newest_run_of_a_folder_is_joined(tmp_path):
     out = tmp_path / "out.mcap"
     folder = tmp_path / "out.mcap.parts"

@@ -201,9 +201,19 @@ class ReadRecording(Struct, forbid_unknown_fields=True):
 
 
 class Flag(Struct, forbid_unknown_fields=True):
-    """Marks the present moment of the recording with a text."""
+    """Sets, changes or removes a flag: a mark of the user in the recording of the present run.
 
-    text: Annotated[str, Meta(min_length=1, max_length=1000)]
+    `t` is its moment in s; null is the present, or leaves the moment of a flag as it is. `id` names the flag
+    to change, "" sets a new one; an empty `text` removes it. `user` is who sets it, as the client names them.
+    With `run` the command is refused (`not_present`) if another run has begun. Other refusals:
+    `not_recorded`, `unknown_flag`, `no_text`, and `too_many` beyond 200 flags of a run.
+    """
+
+    text: Annotated[str, Meta(max_length=1000)]
+    t: Annotated[float, Meta(ge=0, le=1e7)] | None = None
+    id: Annotated[str, Meta(max_length=32)] = ""
+    user: Annotated[str, Meta(max_length=150)] = ""
+    run: Annotated[str, Meta(max_length=32)] = ""
 
 
 COMMANDS: Final[dict[str, type[Struct]]] = {

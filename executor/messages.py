@@ -113,6 +113,7 @@ LaunchState = Literal["running", "ended", "failed"]
 FaultKind = Literal["exception", "process", "timeout", "load"]
 PortEffect = Literal["next_tick", "next_start"]
 MismatchCode = Literal["type", "reliability", "durability", "qos"]
+StopReason = Literal["disk_full", "disk_failed", "recorder_died", "recorder_hung"]
 FinishReason = Literal["root_finished", "action_raised", "terminated", "process_died"]
 
 
@@ -398,6 +399,30 @@ class Segment(Struct):
     complete: bool = False
 
 
+class FlagSet(Struct):
+    """A flag of the user was set or changed in a run, at a moment in s; with an empty `text` it is gone."""
+
+    run: str
+    id: str
+    t: float
+    text: str
+    user: str = ""
+
+
+class RecordingStopped(Struct):
+    """The recording of a run stopped at a simulated time in s; the run itself continues.
+
+    What happens from then on is missing: until another recorder has started if it `goes_on`, else to the end
+    of the run. `detail` is the cause as the system tells it.
+    """
+
+    run: str
+    t: float
+    reason: StopReason
+    detail: str
+    goes_on: bool
+
+
 class Snapshot(Struct):
     """The full state for a client that joins late; later events change it."""
 
@@ -423,6 +448,10 @@ class Snapshot(Struct):
     """How long the present tick has hung, s; 0 while none does."""
     segments: list[Segment] = []
     """All that can be read of the recordings of this session."""
+    flags: list[FlagSet] = []
+    """The flags of the present run."""
+    stops: list[RecordingStopped] = []
+    """Where recordings of this session stopped."""
 
 
 EVENTS: Final[dict[str, type[Struct]]] = {
@@ -446,6 +475,8 @@ EVENTS: Final[dict[str, type[Struct]]] = {
     "topic_mismatch": TopicMismatch,
     "launch_nodes": LaunchNodes,
     "segment": Segment,
+    "flag": FlagSet,
+    "recording_stopped": RecordingStopped,
 }
 
 

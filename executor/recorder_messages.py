@@ -59,7 +59,16 @@ class Recorded(Message, tag="recorded"):
     segment: messages.Segment
 
 
+class Stopped(Message, tag="stopped"):
+    """The recording of a run stopped at a simulated time in s, since the disk is full or fails."""
+
+    run: str
+    t: float
+    reason: messages.StopReason
+    detail: str
+
+
 ToRecorder = StartRecorder | Stop | BeginRun | Told | ReadSegment
-FromRecorder = Beat | Log | Answer | Frame | Recorded
+FromRecorder = Beat | Log | Answer | Frame | Recorded | Stopped
 decode_to_recorder: Final = msgspec.msgpack.Decoder(ToRecorder).decode
 decode_from_recorder: Final = msgspec.msgpack.Decoder(FromRecorder).decode

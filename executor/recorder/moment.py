@@ -32,6 +32,7 @@ class Moment:
         self._uids: dict[str, int] = {}
         self._status: dict[int, int] = {}
         self._blackboard: dict[tuple[str, str], tuple[str, str]] = {}
+        self._flags: dict[str, Mapping[str, Any]] = {}
         self._tick = 0
 
     @property
@@ -63,6 +64,8 @@ class Moment:
                 self._take_entries(fields)
             case "Keyframe":
                 self._take_keyframe(fields)
+            case "Flag":
+                self._flags[fields["id"]] = fields
             case _:
                 pass
 
@@ -78,6 +81,8 @@ class Moment:
         if self._tree is not None:
             head.append(("/bt/tree", "Tree", self._tree | {"stamp": t_ns}))
             head.append(("/bt/keyframe", "Keyframe", self.keyframe(t_ns, 0, b"")))
+        flags = [flag for flag in self._flags.values() if flag["text"]]
+        head += [("/bt/flag", "Flag", {**flag, "stamp": t_ns}) for flag in flags]
         return head
 
     def keyframe(self, t_ns: int, step: int, world: bytes) -> dict[str, Any]:

@@ -8,6 +8,7 @@ second everything is flushed. A full disk stops the recording, not the run.
 from __future__ import annotations
 
 import argparse
+import errno
 import os
 import platform
 import selectors
@@ -38,6 +39,7 @@ from executor.supervision.confine import die_with_parent
 if TYPE_CHECKING:
     import socket
 
+    from executor.messages import StopReason
     from executor.recorder import shelf
 
 __all__ = ["RecorderProcess", "main"]
@@ -48,6 +50,7 @@ ORDER_S: Final = 0.1
 TOLD_S: Final = 1.0
 MOST_SOURCES: Final = 16
 BRANCH: Final = 0
+FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 _NO_FIELDS: Final = (KeyError, TypeError, ValueError, AttributeError, OverflowError, struct.error)
 _encode = msgspec.msgpack.Encoder().encode
 
@@ -275,7 +278,9 @@ class RecorderProcess:
             return
         self._refused.add(writer.run)
         writer.abandon()
-        self._say(f"The recording stops here: {error.strerror}. The run continues.")
+        reason: StopReason = "disk_full" if error.errno in FULL else "disk_failed"
+        detail = error.strerror or type(error).__name__
+        self._channel.send(recorder_messages.Stopped(writer.run, writer.now_ns * 1e-9, reason, detail))
 
     def _say(self, text: str) -> None:
         self._channel.send(child_messages.Log("warning", text))

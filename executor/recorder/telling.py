@@ -11,7 +11,7 @@ __all__ = ["told"]
 
 
 def told(name: str, t_ns: int, data: Mapping[str, Any], uid: int) -> tuple[str, str, dict[str, Any]] | None:
-    """Returns topic, type and fields of an event `log`, `fault`, `finished` or `flag`; None for others.
+    """Returns topic, type and fields of an event that has a place in a recording; None for others.
 
     Raises:
         KeyError: the data are not those of the event.
@@ -21,7 +21,11 @@ def told(name: str, t_ns: int, data: Mapping[str, Any], uid: int) -> tuple[str, 
         case "log":
             line = {"source": data["source"], "level": data["level"], "text": data["text"]}
         case "flag":
-            line = {"source": "flag", "level": "info", "text": data["text"]}
+            flag = {part: data[part] for part in ("id", "text", "user")}
+            return "/bt/flag", "Flag", flag | {"stamp": t_ns, "moment": max(0, round(data["t"] * 1e9))}
+        case "recording_stopped":
+            gap = {"stamp": t_ns, "reason": data["reason"], "text": data["detail"]}
+            return "/bt/gap", "Gap", gap
         case "finished":
             text = data.get("message") or f"The tree ended with {data['status']}."
             line = {"source": "session", "level": "info", "text": text}

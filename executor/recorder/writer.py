@@ -26,7 +26,7 @@ LIBRARY: Final = "bt-studio"
 """The name of the writer in the head of each file."""
 PART_TYPE: Final = "application/vnd.msgpack"
 """The type of attachments with meshes and textures."""
-FORMAT_VERSION: Final = 2
+FORMAT_VERSION: Final = 3
 """The version of our types. A reader of this version reads all lower ones."""
 _SEQUENCES: Final = 1 << 32
 

@@ -9,6 +9,7 @@ from msgspec import Struct
 from executor import child_messages, messages, recorder_messages
 from executor.session import streaming
 from executor.session.clients import MOST_ECHOED_BY_VIEWER, MOST_STREAMS
+from executor.session.flags import FlagRefused
 from executor.session.ladder import State
 from executor.session.questions import ANSWER_S
 from executor.session.steps import RESET_TIMEOUT_S
@@ -171,10 +172,12 @@ def _read_recording(stage: Stage, event: CommandCame, data: messages.ReadRecordi
 
 
 def _flag(stage: Stage, event: CommandCame, data: messages.Flag) -> None:
-    if stage.recording.flag(data.text):
-        stage.output.send(event.client, messages.Ack(), event.request)
+    try:
+        stage.recording.flag(data)
+    except FlagRefused as refused:
+        stage.output.refuse(event, refused.code, refused.message, refused.hint)
     else:
-        stage.output.refuse(event, "not_recorded", "There is no recording to mark.", "Press Run first.")
+        stage.output.send(event.client, messages.Ack(), event.request)
 
 
 def _take_over(stage: Stage, event: CommandCame, _: Struct) -> None:

@@ -128,7 +128,10 @@ TABLE: Final[dict[str, Row]] = {
     "read_recording": _act(
         ANY, "Reads a part of a recording; it comes as a frame `recording`.", for_viewers=True
     ),
-    "flag": _act(WORLD_UP, "Marks the present moment of the recording."),
+    "flag": _act(
+        WORLD_UP,
+        "Sets, changes or removes a mark of the user at a moment of the present run.",
+    ),
     "take_over": _act(ANY, "Becomes the driver; the last driver becomes a viewer.", for_viewers=True),
     "ping": _act(
         ANY, "Is answered at once; no answer for 3 s means that the manager hangs.", for_viewers=True

@@ -16,11 +16,13 @@ from executor.messages import (
     BlackboardEntry,
     Fault,
     Finished,
+    FlagSet,
     LaunchNode,
     LaunchNodes,
     Log,
     NodeStatus,
     PortSet,
+    RecordingStopped,
     Segment,
     Sim,
     Snapshot,
@@ -40,6 +42,7 @@ LOG_LINES: Final = 500
 FAULTS: Final = 50
 ENTRIES: Final = 5000
 MISMATCHES: Final = 50
+STOPS: Final = 20
 SMOOTHING: Final = 0.1
 
 
@@ -65,6 +68,8 @@ class Mirror:
         self.real_time_factor = 0.0
         self.universe = ""
         self.segments: dict[tuple[str, int, int], Segment] = {}
+        self.flags: dict[str, FlagSet] = {}
+        self.stops: deque[RecordingStopped] = deque(maxlen=STOPS)
         self.runs = 0
         self._logged = 0
         self._run_starts: deque[tuple[int, int]] = deque(maxlen=LOG_LINES)
@@ -84,7 +89,7 @@ class Mirror:
         self.runs += 1
         self._run_starts.append((self._logged, self.runs))
 
-    def apply(self, event: Struct) -> None:  # noqa: C901 - one line an event
+    def apply(self, event: Struct) -> None:  # noqa: C901, PLR0912 - one line an event
         """Updates the state by one event that is sent to all clients."""
         match event:
             case StateChanged():
@@ -111,6 +116,10 @@ class Mirror:
                 self._apply_mismatch(event)
             case Segment():
                 self._apply_segment(event)
+            case FlagSet():
+                self._apply_flag(event)
+            case RecordingStopped():
+                self.stops.append(event)
             case Sim():
                 self.speed = event.speed
                 self.real_time_factor = event.real_time_factor
@@ -144,6 +153,8 @@ class Mirror:
             hanging_s=hanging_s,
             ports=list(self.ports.values()),
             segments=list(self.segments.values()),
+            flags=list(self.flags.values()),
+            stops=list(self.stops),
         )
 
     def _starts(self) -> list[tuple[int, int]]:
@@ -172,6 +183,17 @@ class Mirror:
             self.segments[key] = event
         else:
             self.segments.pop(key, None)
+        # A later run is recorded again, so what was missed before it is told no more.
+        runs = {run for run, _, _ in self.segments}
+        self.stops = deque((stop for stop in self.stops if stop.run in runs), maxlen=STOPS)
+
+    def _apply_flag(self, event: FlagSet) -> None:
+        if any(flag.run != event.run for flag in self.flags.values()):
+            self.flags.clear()
+        if event.text:
+            self.flags[event.id] = event
+        else:
+            self.flags.pop(event.id, None)
 
     def _apply_mismatch(self, event: TopicMismatch) -> None:
         found = structs.replace(event, resolved=False)

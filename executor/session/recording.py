@@ -11,6 +11,7 @@ from uuid import uuid4
 from msgspec import to_builtins
 
 from executor import child_messages, messages, recorder_messages
+from executor.session.flags import FlagRefused, flag_of
 from executor.session.questions import answer, answer_late
 
 if TYPE_CHECKING:
@@ -24,7 +25,13 @@ __all__ = ["Recording"]
 MOST_LOST: Final = 3
 SILENT_S: Final = 8.0
 LONGEST_LOOK_S: Final = 0.5
-_TOLD: Final = (messages.Log, messages.Fault, messages.Finished)
+_TOLD: Final = (
+    messages.Log,
+    messages.Fault,
+    messages.Finished,
+    messages.FlagSet,
+    messages.RecordingStopped,
+)
 
 
 class Recording:
@@ -41,6 +48,7 @@ class Recording:
         self._lost = 0
         self._silent_s = 0.0
         self._looked_s: float | None = None
+        self._is_stopped = False
         self.run = ""
 
     def start(self, folder: str, *, is_whole: bool = False) -> None:
@@ -51,12 +59,13 @@ class Recording:
         self._stage.children.tell_recorder(recorder_messages.StartRecorder(folder, is_whole))
         if self.run:
             self._begin_run()
+            self._tell_flags()
 
     def begin(self, *, resets: bool = False) -> None:
         """Begins the recording of another run; with `resets` in a world that was reset just now."""
         if not self._folder:
             return
-        self.run = uuid4().hex[:12]
+        self.run, self._is_stopped = uuid4().hex[:12], False
         self._begin_run()
         message = child_messages.BeginRecording(self.run, resets)
         self._stage.children.tell_world(message)
@@ -69,13 +78,18 @@ class Recording:
         t_s = getattr(event, "time", 0.0) or self._stage.sim_time_s
         self._stage.children.tell_recorder(recorder_messages.Told(self.run, name, t_s, to_builtins(event)))
 
-    def flag(self, text: str) -> bool:
-        """Marks the present moment; returns whether there is a recording."""
-        if not self.run or self._stage.children.get("recorder") is None:
-            return False
-        told = recorder_messages.Told(self.run, "flag", self._stage.sim_time_s, {"text": text})
-        self._stage.children.tell_recorder(told)
-        return True
+    def flag(self, wanted: messages.Flag) -> None:
+        """Sets, changes or removes a flag of the present run.
+
+        Raises:
+            FlagRefused: it cannot be kept, or is not there.
+        """
+        if not self.run or self._stage.children.get("recorder") is None or self._is_stopped:
+            hint = "Press Run first." if not self.run else "Press Run again: the next run is recorded."
+            raise FlagRefused("not_recorded", "There is no recording to mark.", hint)
+        stage = self._stage
+        known = {flag.id: flag for flag in stage.mirror.flags.values() if flag.run == self.run}
+        stage.output.emit(flag_of(wanted, known, self.run, stage.sim_time_s))
 
     # --- the recorder -----------------------------------------------------------------------------
 
@@ -88,6 +102,11 @@ class Recording:
         match event.message:
             case recorder_messages.Recorded(segment=segment):
                 stage.output.emit(segment)
+            case recorder_messages.Stopped(run=run, t=t_s, reason=reason, detail=detail):
+                self._is_stopped = self._is_stopped or run == self.run
+                stage.output.emit(messages.RecordingStopped(run, t_s, reason, detail, goes_on=False))
+                text = f"The recording stops here: {detail}. The run continues."
+                stage.output.emit(messages.Log("manager", "warning", text, time=t_s))
             case child_messages.Log(level=level, text=text):
                 stage.output.emit(messages.Log("manager", level, text, time=stage.sim_time_s))
             case child_messages.Answer(request=request, error=error) if request is not None:
@@ -107,7 +126,7 @@ class Recording:
         if self._silent_s >= SILENT_S:
             reason = f"was ended: it did not answer for {SILENT_S:g} s"
             self._stage.children.drop("recorder", reason=reason)
-            self._replace(reason)
+            self._replace("recorder_hung", reason)
 
     def exited(self, event: ChildExited) -> None:
         """Replaces a recorder that has ended."""
@@ -118,16 +137,27 @@ class Recording:
         del stage.children.living["recorder"]
         child.end(event.reason, event.last_lines)
         answer_late(stage, stage.questions.orphaned(child.key), "process_died", event.reason)
-        self._replace("\n".join([event.reason, *event.last_lines[-3:]]))
+        self._replace("recorder_died", "\n".join([event.reason, *event.last_lines[-3:]]))
 
-    def _replace(self, reason: str) -> None:
+    def _replace(self, reason: messages.StopReason, detail: str) -> None:
         self._lost += 1
         ends = self._lost > MOST_LOST
         what = "Nothing more is recorded" if ends else "Another one records from here"
-        text = f"The recorder {reason}. {what}; the run continues."
+        text = f"The recorder {detail}. {what}; the run continues."
+        t_s = self._stage.sim_time_s
         if not ends:
             self.start(self._folder, is_whole=self._is_whole)
-        self._stage.output.emit(messages.Log("manager", "warning", text, time=self._stage.sim_time_s))
+        if self.run:
+            cause = f"The recorder {detail}."
+            stop = messages.RecordingStopped(self.run, t_s, reason, cause, goes_on=not ends)
+            self._stage.output.emit(stop)
+        self._stage.output.emit(messages.Log("manager", "warning", text, time=t_s))
+
+    def _tell_flags(self) -> None:
+        """Tells another recorder of the flags of the run: a part of it may go with the segments before."""
+        for flag in self._stage.mirror.flags.values():
+            if flag.run == self.run:
+                self.tell("flag", flag)
 
     def _begin_run(self) -> None:
         stage = self._stage

@@ -133,7 +133,7 @@ export function watchNavigation() {
   return navigator;
 }
 
-const INTRODUCTION: Introspection = {
+export const INTRODUCTION: Introspection = {
   protocol: 'bt-studio.v1',
   client_id: 'page',
   role: 'driver',

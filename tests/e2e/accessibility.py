@@ -23,20 +23,21 @@ def expect_accessible(studio: Studio, scheme: str) -> None:
     expect_no_findings(studio.page, scheme)
 
 
-def expect_no_findings(page: Page, name: str) -> None:
-    """Runs axe-core on a page as it is."""
+def expect_no_findings(page: Page, name: str, part: str | None = None) -> None:
+    """Runs axe-core on a page as it is, or on the parts of it that a selector names."""
     page.add_style_tag(content=STILL)
     page.evaluate(AXE.read_text(encoding="utf-8"))
     found = page.evaluate(
-        "async () => (await axe.run({"
+        "async part => (await axe.run({"
         # Elements behind an open dialogue are not reachable.
-        "include: document.querySelector('[role=dialog][aria-modal=true]') ?? document,"
+        "include: part ?? document.querySelector('[role=dialog][aria-modal=true]') ?? document,"
         # The tooltip of the button that was pressed may open late, and is in no landmark.
         " exclude: [['[role=tooltip]'], ['[data-portal]:has([role=tooltip])']]},"
         # The size of targets, 24 by 24 px, is a rule that axe leaves out by itself.
         " {resultTypes: ['violations'], rules: {'target-size': {enabled: true}}})).violations"
         ".map(each => `${each.id}: `"
-        " + each.nodes.map(n => n.target.join(' ') + ' — ' + n.failureSummary).join(' | '))"
+        " + each.nodes.map(n => n.target.join(' ') + ' — ' + n.failureSummary).join(' | '))",
+        part,
     )
     assert not found, f"axe-core, {name}:\n" + "\n".join(found)
     small = page.evaluate(SMALL)

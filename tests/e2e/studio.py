@@ -182,7 +182,7 @@ class Studio:
 
     def observe(self) -> Observer:
         """Joins the project's session as a second client, with this browser's cookie."""
-        project = self.page.url.rstrip("/").split("/")[-1]
+        project = self.page.url.split("?")[0].rstrip("/").split("/")[-1]
         session = self.page.evaluate(
             "project => fetch(`/api/v1/projects/${project}/session`, {method: 'POST'}).then(r => r.json())",
             project,

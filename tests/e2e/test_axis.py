@@ -43,6 +43,7 @@ def test_the_past_of_a_run_is_looked_at(
     each_tick_shows_what_was_seen_then(studio, observer)
     why_is_answered_as_the_run_was(studio, observer)
     what_changed_is_listed(studio)
+    flags_are_set_seen_by_others_and_removed(studio, observer)
     it_plays(studio)
     the_address_brings_it_back(studio)
     escape_returns_to_the_present(studio, present)
@@ -169,6 +170,57 @@ def what_changed_is_listed(studio: Studio) -> None:
     studio.at("axis-menu").click()
     studio.at("axis-time.clearRange").click()
     expect(studio.at("axis-end-A")).to_have_count(0)
+    studio.at("axis-strip").focus()
+
+
+def flags_are_set_seen_by_others_and_removed(studio: Studio, observer: Observer) -> None:
+    """By keys, at a moment of the past; another client sees each change at once, also a newcomer."""
+    page, press = studio.page, studio.page.keyboard.press
+    studio.at("axis-strip").focus()
+    press("Home")
+    for _ in range(3):
+        press("Shift+ArrowRight")
+    then = float(axis(studio).get_attribute("data-t") or "nan")
+    press("Alt+m")
+    page.keyboard.type("It finds the line")
+    press("Enter")
+    mark = axis(studio).get_by_role("button", name=re.compile("^Flag .*It finds the line"))
+    expect(mark).to_be_visible()
+    expect(studio.at("axis-strip")).to_be_focused()
+    wait_until(lambda: observer.of("flag"), "another client hears of the flag")
+    flag = observer.of("flag")[-1]["data"]
+    assert (flag["text"], round(flag["t"], 2)) == ("It finds the line", round(then, 2))
+    newcomer = studio.observe()
+    wait_until(lambda: newcomer.of("snapshot"), "a newcomer hears of the session")
+    assert [each["text"] for each in newcomer.of("snapshot")[-1]["data"]["flags"]] == ["It finds the line"]
+    newcomer.close()
+    press("End")
+    press("Alt+Shift+[")
+    wait_until(lambda: abs(shown_t(studio) - then) < 0.01, "the flag is the mark before the end")
+    press("Alt+Shift+m")
+    marks = studio.at("axis-marks")
+    line = marks.get_by_test_id("mark-line").filter(has_text="It finds the line")
+    line.get_by_test_id("mark-edit").click()
+    studio.at("flag-text").fill("It turns here")
+    for scheme in ("dark", "light"):
+        page.evaluate("s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme)
+        expect_no_findings(page, f"flags, {scheme}", "[data-testid=axis-marks], [data-testid=flag-form]")
+        studio.picture(f"flags-{scheme}")
+    page.set_viewport_size({"width": 390, "height": 800})
+    studio.picture("flags-narrow")
+    page.set_viewport_size({"width": 1440, "height": 900})
+    studio.at("flag-keep").click()
+    line = marks.get_by_test_id("mark-line").filter(has_text="It turns here")
+    line.get_by_test_id("mark-remove").click()
+    expect(line).to_have_count(0)
+    page.get_by_role("button", name="Undo", exact=True).last.click()
+    expect(line).to_have_count(1)
+    assert [each["data"]["text"] for each in observer.of("flag")][1:] == [
+        "It turns here",
+        "",
+        "It turns here",
+    ]
+    marks.get_by_role("button", name="Close the list of marks").click()
     studio.at("axis-strip").focus()
 
 

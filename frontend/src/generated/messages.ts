@@ -29,6 +29,8 @@ export type PortEffect = "next_tick" | "next_start";
 
 export type MismatchCode = "type" | "reliability" | "durability" | "qos";
 
+export type StopReason = "disk_full" | "disk_failed" | "recorder_died" | "recorder_hung";
+
 export type FinishReason = "root_finished" | "action_raised" | "terminated" | "process_died";
 
 /** A command without arguments. */
@@ -197,9 +199,20 @@ export interface ReadRecording {
   branch?: number;
 }
 
-/** Marks the present moment of the recording with a text. */
+/**
+ * Sets, changes or removes a flag: a mark of the user in the recording of the present run.
+ *
+ * `t` is its moment in s; null is the present, or leaves the moment of a flag as it is. `id` names the flag
+ * to change, "" sets a new one; an empty `text` removes it. `user` is who sets it, as the client names them.
+ * With `run` the command is refused (`not_present`) if another run has begun. Other refusals:
+ * `not_recorded`, `unknown_flag`, `no_text`, and `too_many` beyond 200 flags of a run.
+ */
 export interface Flag {
   text: string;
+  t?: number | null;
+  id?: string;
+  user?: string;
+  run?: string;
 }
 
 /** The envelope of a command; `data` is decoded as `COMMANDS[command]`. */
@@ -471,6 +484,29 @@ export interface Segment {
   complete: boolean;
 }
 
+/** A flag of the user was set or changed in a run, at a moment in s; with an empty `text` it is gone. */
+export interface FlagSet {
+  run: string;
+  id: string;
+  t: number;
+  text: string;
+  user: string;
+}
+
+/**
+ * The recording of a run stopped at a simulated time in s; the run itself continues.
+ *
+ * What happens from then on is missing: until another recorder has started if it `goes_on`, else to the end
+ * of the run. `detail` is the cause as the system tells it.
+ */
+export interface RecordingStopped {
+  run: string;
+  t: number;
+  reason: StopReason;
+  detail: string;
+  goes_on: boolean;
+}
+
 /** The full state for a client that joins late; later events change it. */
 export interface Snapshot {
   state: State;
@@ -491,6 +527,8 @@ export interface Snapshot {
   run_starts: [number, number][];
   hanging_s: number;
   segments: Segment[];
+  flags: FlagSet[];
+  stops: RecordingStopped[];
 }
 
 /** The envelope of an event. */
@@ -709,6 +747,8 @@ export interface Events {
   topic_mismatch: TopicMismatch;
   launch_nodes: LaunchNodes;
   segment: Segment;
+  flag: FlagSet;
+  recording_stopped: RecordingStopped;
 }
 
 /** What the stream socket sends, told by `type`. */

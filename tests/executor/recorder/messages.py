@@ -60,6 +60,8 @@ MESSAGES: dict[str, dict[str, Any]] = {
         "data_json": '{"linear":0.1}',
         "user": "ada",
     },
+    "Flag": {"stamp": T_NS, "moment": 500_000_000, "id": "f1", "text": "Here it turns", "user": "ada"},
+    "Gap": {"stamp": T_NS, "reason": "recorder_died", "text": "was killed by SIGKILL"},
     "Poses": {"stamp": T_NS, "data": b"\x83\xa5poses"},
     "Scene": {"stamp": T_NS, "data": b"\x83\xa5scene"},
     "Keyframe": {

@@ -50,6 +50,15 @@ def test_the_head_holds_scene_all_poses_tree_and_keyframe():
     assert moment.uid("nowhere") == 0
 
 
+def test_the_head_holds_the_flags_that_were_not_removed():
+    moment = Moment()
+    for number, text in ((1, "one"), (2, "two"), (1, "")):
+        moment.take("Flag", {"stamp": 3, "moment": number, "id": str(number), "text": text, "user": ""})
+    [(topic, name, fields)] = moment.head(9)
+    assert (topic, name) == ("/bt/flag", "Flag")
+    assert fields == {"stamp": 9, "moment": 2, "id": "2", "text": "two", "user": ""}
+
+
 def test_a_keyframe_of_the_application_replaces_the_state():
     moment = Moment()
     moment.take("Keyframe", {"tick": 1, "status": b"", "blackboard_json": "[]"})  # without a tree

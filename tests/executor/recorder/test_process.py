@@ -110,9 +110,7 @@ async def test_a_run_holds_tree_ticks_world_topics_lines_and_flags():
         assert times == sorted(times)
         numbers = [fields["number"] for topic, _, fields in found if topic == "/bt/tick"]
         assert numbers == list(range(numbers[0], numbers[-1] + 1))
-        assert [f["text"] for topic, _, f in found if topic == "/bt/log" and f["source"] == "flag"] == [
-            "here"
-        ]
+        assert [f["text"] for topic, _, f in found if topic == "/bt/flag"] == ["here"]
 
         where = {"run": segment["run"], "segment": segment["number"], "version": segment["version"]}
         assert await client.ask("read_recording", where | {"offset": 0, "length": 1 << 20}) == "ack"

@@ -21,8 +21,8 @@ from executor.stream.scene_parts import PREFIX
 
 SAMPLES = Path(__file__).with_name("samples")
 VERSIONS = range(1, FORMAT_VERSION + 1)
-UNIVERSES = {1: "line", 2: "house"}
-KEYFRAMES = {1: 1, 2: 2}
+UNIVERSES = {1: "line", 2: "house", 3: "house"}
+KEYFRAMES = {1: 1, 2: 2, 3: 2}
 
 
 @pytest.mark.parametrize("version", VERSIONS)
@@ -81,3 +81,19 @@ def test_the_scene_is_whole_with_its_attached_parts(version):
     whole = msgspec.convert(scene, Scene)
     assert whole.objects
     assert bool(parts) == (version > 1)
+
+
+def test_flags_and_gaps_are_there_from_version_3_on():
+    with (SAMPLES / "v3.mcap").open("rb") as file:
+        found = [
+            (schema.name.rpartition("/")[2], decode(schema.name, message.data))
+            for schema, _, message in make_reader(file).iter_messages(topics=["/bt/flag", "/bt/gap"])
+            if schema is not None
+        ]
+    told = [(name, {k: v for k, v in fields.items() if k != "stamp"}) for name, fields in found]
+    assert told == [
+        ("Flag", {"moment": 500_000_000, "id": "f1", "text": "The line bends here", "user": "ada"}),
+        ("Flag", {"moment": 700_000_000, "id": "f2", "text": "A mistake", "user": ""}),
+        ("Flag", {"moment": 700_000_000, "id": "f2", "text": "", "user": ""}),
+        ("Gap", {"reason": "recorder_died", "text": "was killed by SIGKILL"}),
+    ]

@@ -11,7 +11,6 @@ from executor.recorder.telling import told
     ("name", "data", "line"),
     [
         ("log", {"source": "action", "level": "error", "text": "x"}, ("action", "error", "x")),
-        ("flag", {"text": "here"}, ("flag", "info", "here")),
         ("finished", {"status": "SUCCESS"}, ("session", "info", "The tree ended with SUCCESS.")),
         ("finished", {"status": "IDLE", "message": "It died."}, ("session", "info", "It died.")),
     ],
@@ -37,3 +36,18 @@ def test_a_fault_has_its_place():
 
 def test_other_events_have_no_line():
     assert told("sim", 5, {}, 0) is None
+
+
+def test_a_flag_has_its_own_moment_and_a_stop_is_a_gap():
+    flag = {"run": "r", "id": "f1", "t": 1.5, "text": "here", "user": "ada"}
+    assert told("flag", 5, flag, 0) == (
+        "/bt/flag",
+        "Flag",
+        {"stamp": 5, "moment": 1_500_000_000, "id": "f1", "text": "here", "user": "ada"},
+    )
+    stop = {"run": "r", "t": 1.0, "reason": "recorder_died", "detail": "was killed", "goes_on": True}
+    assert told("recording_stopped", 5, stop, 0) == (
+        "/bt/gap",
+        "Gap",
+        {"stamp": 5, "reason": "recorder_died", "text": "was killed"},
+    )

@@ -9,10 +9,13 @@ from executor.messages import (
     BlackboardEntry,
     Fault,
     Finished,
+    FlagSet,
     LaunchNode,
     LaunchNodes,
     Log,
     PortSet,
+    RecordingStopped,
+    Segment,
     StateChanged,
     Tick,
     TopicMismatch,
@@ -20,7 +23,7 @@ from executor.messages import (
     TreeNode,
 )
 from executor.session.ladder import State
-from executor.session.mirror import FAULTS, LOG_LINES, Mirror
+from executor.session.mirror import FAULTS, LOG_LINES, STOPS, Mirror
 
 NODE = TreeNode(uid=1, parent=0, type="A", kind="action", name="", path="A::1", node_id="", tree_id="T")
 
@@ -45,6 +48,20 @@ def test_events_add_up_to_the_snapshot() -> None:
     assert (snapshot.state, snapshot.statuses) == (State.PAUSED.value, [(1, "RUNNING")])
     assert [item.key for item in snapshot.blackboard] == ["b"]
     assert mirror.tick_load() == (2.0, 50.0)
+
+
+def test_flags_are_those_of_the_present_run_and_stops_are_bounded() -> None:
+    mirror = Mirror()
+    for flag in (FlagSet("a", "1", 1.0, "one"), FlagSet("a", "2", 2.0, "two"), FlagSet("a", "1", 1.0, "")):
+        mirror.apply(flag)
+    assert [flag.text for flag in mirror.snapshot().flags] == ["two"]
+    mirror.apply(FlagSet("b", "3", 0.0, "three"))
+    assert [flag.text for flag in mirror.snapshot().flags] == ["three"]
+    for at in range(STOPS + 5):
+        mirror.apply(RecordingStopped("a", float(at), "recorder_died", "was killed", goes_on=True))
+    assert [stop.t for stop in mirror.snapshot().stops] == [float(at + 5) for at in range(STOPS)]
+    mirror.apply(Segment("b", 0, 0, 0, 0.0, 1.0, 10))
+    assert mirror.snapshot().stops == []
 
 
 def test_a_new_run_begins_empty_and_faults_are_bounded() -> None:

@@ -3,7 +3,15 @@
 from __future__ import annotations
 
 from executor import child_messages, messages, recorder_messages
-from executor.session.events import ChildExited, ChildLooked, ChildSaid, RecordingWanted, Spawn, StreamOpened
+from executor.session.events import (
+    ChildExited,
+    ChildLooked,
+    ChildSaid,
+    ClientJoined,
+    RecordingWanted,
+    Spawn,
+    StreamOpened,
+)
 from executor.session.ladder import State
 from executor.session.recording import MOST_LOST, SILENT_S
 from tests.executor.session.play import Play
@@ -61,6 +69,55 @@ def test_lines_faults_and_flags_are_recorded():
     assert play.reply(play.command("flag", text="here")) == "ack"
     lines = [(t.name, t.t, t.data["text"]) for t in told(play, recorder_messages.Told)]
     assert lines == [("log", 2.0, "hello"), ("flag", play.session.sim_time_s, "here")]
+
+
+def test_all_clients_see_a_flag_at_once_and_a_late_one_too():
+    play = recorded()
+    play.session.sim_time_s = 5.0
+    assert play.reply(play.command("flag", text="here", t=2.0, user="ada")) == "ack"
+    [flag] = play.sent("flag")
+    assert (flag.run, flag.t, flag.text, flag.user) == (play.session.recording.run, 2.0, "here", "ada")
+    play.command("flag", text="there", id=flag.id)
+    assert [f.text for f in play.session.snapshot().flags] == ["there"]
+    play.command("flag", text="", id=flag.id)
+    assert play.session.snapshot().flags == []
+    assert play.reply(play.command("flag", text="again", id=flag.id)) == "unknown_flag"
+
+
+def test_viewers_set_no_flags():
+    play = recorded()
+    play.happens(ClientJoined("v"))
+    assert play.reply(play.command("flag", "v", text="mine")) == "not_driver"
+    assert play.sent("flag") == []
+
+
+def test_another_recorder_hears_of_the_flags_and_the_gap():
+    play = recorded()
+    play.command("flag", text="here")
+    play.child_dies("recorder", "was killed by SIGKILL")
+    [flag, again] = [t for t in told(play, recorder_messages.Told) if t.name == "flag"]
+    assert again.data == flag.data
+    [gap] = [t for t in told(play, recorder_messages.Told) if t.name == "recording_stopped"]
+    assert (gap.data["reason"], gap.data["goes_on"]) == ("recorder_died", True)
+    for _ in range(MOST_LOST):
+        play.child_dies("recorder", "was killed by SIGKILL")
+    assert [stop.goes_on for stop in play.sent("recording_stopped")] == [True] * MOST_LOST + [False]
+    assert play.reply(play.command("flag", text="late")) == "not_recorded"
+
+
+def test_a_full_disk_is_a_mark_for_all_and_the_next_run_is_recorded_again():
+    play = recorded()
+    run = play.session.recording.run
+    says(play, recorder_messages.Stopped(run, 3.5, "disk_full", "No space left on device"))
+    [stop] = play.sent("recording_stopped")
+    assert stop == messages.RecordingStopped(run, 3.5, "disk_full", "No space left on device", goes_on=False)
+    assert play.session.snapshot().stops == [stop]
+    [line] = play.sent("log")
+    assert line.text == "The recording stops here: No space left on device. The run continues."
+    assert play.state is State.APPLICATION_RUNNING
+    assert play.reply(play.command("flag", text="late")) == "not_recorded"
+    play.command("reset_world")
+    assert play.reply(play.command("flag", text="in time")) == "ack"
 
 
 def test_all_clients_get_segments_and_a_late_one_too():

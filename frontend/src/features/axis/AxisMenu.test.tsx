@@ -6,6 +6,7 @@ import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import { show, user } from '../../../harness/testing';
 import { AXIS_MENU, AxisMenu } from './AxisMenu';
+import { markCommands } from './markCommands';
 import { rangeCommands } from './rangeCommands';
 
 const segment = {
@@ -21,7 +22,7 @@ const segment = {
 let stop = () => {};
 
 beforeEach(() => {
-  stop = registerCommands(rangeCommands);
+  stop = registerCommands([...markCommands, ...rangeCommands]);
   useSessionStore.setState({ segments: [segment] });
 });
 afterEach(() => {
@@ -31,9 +32,10 @@ afterEach(() => {
 });
 
 it('has all commands of the axis, with their keys, and does them', async () => {
-  expect([...AXIS_MENU.flat()].sort()).toEqual(rangeCommands.map(({ id }) => id).sort());
+  const all = [...markCommands, ...rangeCommands];
+  expect([...AXIS_MENU.flat()].sort()).toEqual(all.map(({ id }) => id).sort());
   show(<AxisMenu />);
-  await user.click(screen.getByRole('button', { name: 'Range, changes and zoom' }));
+  await user.click(screen.getByRole('button', { name: 'Marks, range, changes and zoom' }));
   const loop = await screen.findByTestId('axis-time.loop');
   expect(loop).toBeDisabled();
   await user.click(screen.getByTestId('axis-time.markA'));

@@ -4,8 +4,9 @@ import { useTranslation } from 'react-i18next';
 import { useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
 
-/** The commands for range, changes and zoom, in groups. */
+/** The commands for marks, range, changes and zoom, in groups. */
 export const AXIS_MENU = [
+  ['time.flag', 'time.marks', 'time.markBack', 'time.markForth'],
   ['time.markA', 'time.markB', 'time.loop', 'time.clearRange'],
   ['time.whatChanged'],
   ['time.zoomIn', 'time.zoomOut', 'time.fit'],

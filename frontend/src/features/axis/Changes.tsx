@@ -46,7 +46,7 @@ export function Changes({ end, between = changesBetween }: ChangesProps) {
   return (
     <section className={classes['changes']} aria-label={t('changes.label')} data-testid="axis-changes">
       <header className={classes['changesHead']}>
-        <h3>{t('changes.title', { a: a.toFixed(2), b: to.toFixed(2) })}</h3>
+        <strong>{t('changes.title', { a: a.toFixed(2), b: to.toFixed(2) })}</strong>
         <ActionIcon size="sm" aria-label={t('changes.close')} onClick={close}>
           <IconX size={14} />
         </ActionIcon>

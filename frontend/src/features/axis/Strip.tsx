@@ -8,30 +8,21 @@ import {
   useState,
 } from 'react';
 import { useTranslation } from 'react-i18next';
-import {
-  IconAlertTriangleFilled,
-  IconBugFilled,
-  IconCircleCheckFilled,
-  IconFlagFilled,
-} from '@tabler/icons-react';
 import { drawStretch, paletteOf } from '@/features/timeline/draw';
 import { goSeconds, goTicks, lookAt, lookNow, setPlaying, type Extent } from '@/store/moment/looking';
 import { following, markedRange, panned, useRange, within } from '@/store/moment/range';
 import { isPresentRun, useSource } from '@/store/moment/source';
 import { useMoment } from '@/store/moment/store';
-import type { Mark, MarkKind } from '@/store/recording/types';
-import { useSessionStore } from '@/store/session/store';
+import { editFlag, useFlags } from '@/store/moment/flags';
+import type { Mark } from '@/store/recording/types';
 import { trace } from '@/store/session/trace/trace';
 import classes from './axis.module.css';
 import { zoom } from './rangeCommands';
-import { apart, marksOf, rootStretches } from './strip';
+import { MARK_ICONS } from './markIcons';
+import { useMarks } from './marks';
+import { adviceOf, labelOf } from './markTexts';
+import { apart, rootStretches } from './strip';
 
-const ICONS: Readonly<Record<MarkKind, typeof IconBugFilled>> = {
-  fault: IconBugFilled,
-  collision: IconAlertTriangleFilled,
-  finished: IconCircleCheckFilled,
-  flag: IconFlagFilled,
-};
 const MARK_PX = 24;
 const WHEEL_STEP = 1.25;
 const PAN_STEP = 0.1;
@@ -43,7 +34,6 @@ export function Strip({ extent }: { readonly extent: Extent }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const moment = useMoment((state) => state.t);
   const overview = useMoment((state) => (state.overview?.run === extent.run ? state.overview : null));
-  const logs = useSessionStore((state) => state.logs);
   // What the page has seen is of the present run.
   const isPresent = useSource(isPresentRun);
   const width = useWidth(strip);
@@ -53,14 +43,15 @@ export function Strip({ extent }: { readonly extent: Extent }) {
   const { from, to } = view ? within(view, extent) : extent;
   const length = Math.max(to - from, 1e-3);
   const shareOf = (time: number) => Math.min(Math.max((time - from) / length, 0), 1);
-  const marks = useMemo(
-    () =>
-      apart(
-        marksOf(overview, isPresent ? logs : [], from).filter(({ t: at }) => at >= from && at <= to),
-        (MARK_PX * length) / Math.max(width, 1),
-      ),
-    [overview, isPresent, logs, from, to, length, width],
-  );
+  const all = useMarks(extent.run, extent.from);
+  const marks = useMemo(() => {
+    // A flag of the present may be later than what can be read of the recording.
+    const end = to < extent.to ? to : Infinity;
+    return apart(
+      all.filter(({ t: at }) => at >= from && at <= end),
+      (MARK_PX * length) / Math.max(width, 1),
+    );
+  }, [all, extent.to, from, to, length, width]);
   useZoomByWheel(strip, extent);
   useEffect(() => {
     const { view: now } = useRange.getState();
@@ -166,7 +157,7 @@ export function Strip({ extent }: { readonly extent: Extent }) {
       {a !== null && a >= from && a <= to && <EndButton name="A" at={a} share={shareOf(a)} />}
       {b !== null && b >= from && b <= to && <EndButton name="B" at={b} share={shareOf(b)} />}
       {marks.map((mark) => (
-        <MarkButton key={`${mark.kind}${mark.t}`} mark={mark} share={shareOf(mark.t)} />
+        <MarkButton key={`${mark.kind}${mark.id ?? ''}${mark.t}`} mark={mark} share={shareOf(mark.t)} />
       ))}
     </div>
   );
@@ -174,8 +165,9 @@ export function Strip({ extent }: { readonly extent: Extent }) {
 
 function MarkButton({ mark, share }: { readonly mark: Mark; readonly share: number }) {
   const { t } = useTranslation('axis');
-  const Icon = ICONS[mark.kind];
-  const label = t(`mark.${mark.kind}`, { t: mark.t.toFixed(2), text: mark.text.split('\n')[0] ?? '' });
+  const Icon = MARK_ICONS[mark.kind];
+  const label = labelOf(t, mark);
+  const advice = adviceOf(t, mark);
   return (
     <button
       type="button"
@@ -183,9 +175,13 @@ function MarkButton({ mark, share }: { readonly mark: Mark; readonly share: numb
       data-kind={mark.kind}
       data-testid="axis-mark"
       style={{ '--at': `${share * 100}%` } as CSSProperties}
-      title={label}
-      aria-label={label}
-      onClick={() => lookAt(mark.t)}
+      title={`${label} ${advice}`.trim()}
+      aria-label={`${label} ${advice}`.trim()}
+      onClick={() => {
+        lookAt(mark.t);
+        if (mark.kind === 'stopped') useFlags.setState({ isListed: true });
+      }}
+      onDoubleClick={() => editFlag(mark)}
     >
       <Icon size={12} aria-hidden="true" />
     </button>

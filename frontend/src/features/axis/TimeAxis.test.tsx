@@ -101,3 +101,14 @@ it('goes to a mark', async () => {
   await user.click(screen.getByRole('button', { name: `Collision at 0.25 s: ${text}` }));
   await shown('0.250');
 });
+
+it('says that nothing of a run is recorded, and what can be done', () => {
+  useSessionStore.setState({
+    segments: [],
+    stops: [{ run: 'b', t: 0, reason: 'disk_full', detail: 'No space left on device', goes_on: false }],
+  });
+  show(<TimeAxis />);
+  expect(screen.getByTestId('axis-unrecorded')).toHaveTextContent(
+    /No space left on device.*continues.*Free some disk space/,
+  );
+});

@@ -2,7 +2,9 @@ import { ActionIcon, Button, NativeSelect, Tooltip } from '@mantine/core';
 import { IconLink, IconPlayerPause, IconPlayerPlay } from '@tabler/icons-react';
 import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
+import type { RecordingStopped } from '@/generated/messages';
 import { extent as extentNow, lookNow, setPlaying } from '@/store/moment/looking';
+import { unrecorded } from '@/store/moment/flags';
 import { useSource } from '@/store/moment/source';
 import { PLAY_SPEEDS, useMoment } from '@/store/moment/store';
 import { liveSource } from '@/store/recording/liveSource';
@@ -12,8 +14,20 @@ import classes from './axis.module.css';
 import { copyShownLink } from './commands';
 import { AxisMenu } from './AxisMenu';
 import { Changes } from './Changes';
+import { FlagForm } from './FlagForm';
+import { Marks } from './Marks';
 import { RunSelect } from './RunSelect';
 import { Strip } from './Strip';
+
+/** A line about a run of which nothing could be recorded. */
+function Unrecorded({ stop }: { readonly stop: RecordingStopped }) {
+  const { t } = useTranslation('axis');
+  return (
+    <p className={classes['unrecorded']} role="status" data-testid="axis-unrecorded">
+      {t('stopped.nothing', { detail: stop.detail })} {t(`stopped.${stop.reason}`)}
+    </p>
+  );
+}
 
 /** The time axis of the recorded run, below everything. */
 export function TimeAxis() {
@@ -28,12 +42,16 @@ export function TimeAxis() {
   const isPlaying = useMoment((state) => state.isPlaying);
   const speed = useMoment((state) => state.speed);
   const failure = useMoment((state) => state.failure);
-  if (!extent || extent.to <= extent.from) return null;
+  const missing = useSessionStore(unrecorded);
+  if (!extent || extent.to <= extent.from) return missing ? <Unrecorded stop={missing} /> : null;
   const isBack = moment !== null;
   const play = t(isPlaying ? 'pause' : 'play');
   return (
     <>
       <Changes end={extent.to} />
+      <Marks extent={extent} />
+      <FlagForm />
+      {missing && <Unrecorded stop={missing} />}
       <section
         className={classes['axis']}
         aria-label={t('label')}

@@ -16,6 +16,7 @@ import { isLookingBack, useMoment } from '@/store/moment/store';
 import { useSource } from '@/store/moment/source';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
+import { markCommands } from './markCommands';
 import { rangeCommands } from './rangeCommands';
 import { copyLink } from '@/ui/copyLink';
 
@@ -112,4 +113,4 @@ export function copyShownLink(): void {
   void copyLink(linkTo(projectId, shown), note);
 }
 
-export const registerAxisCommands = () => registerCommands([...rows, ...rangeCommands]);
+export const registerAxisCommands = () => registerCommands([...rows, ...rangeCommands, ...markCommands]);

@@ -56,6 +56,15 @@ it('marks what the console tells of the last run only', () => {
   ]);
 });
 
+it('has the flags and stops of the session in place of the recorded ones of the present run', () => {
+  const flag = (id: string, t: number) => ({ t, kind: 'flag' as const, text: id, id });
+  const old = { t: 14, kind: 'flag' as const, text: 'of version 2' };
+  const read = overview({ marks: [flag('removed', 12), old, { t: 13, kind: 'stopped', text: 'recorded' }] });
+  const texts = (own: Parameters<typeof marksOf>[3]) => marksOf(read, [], 0, own).map(({ text }) => text);
+  expect(texts([flag('new', 15)])).toEqual(['of version 2', 'new']);
+  expect(texts(null)).toEqual(['removed', 'recorded', 'of version 2']);
+});
+
 it('leaves out marks under others, and keeps faults', () => {
   const marks = [1, 1.1, 1.2, 5].map((t) => ({
     t,

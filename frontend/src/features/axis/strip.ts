@@ -35,8 +35,17 @@ function outside(stretch: Stretch, ranges: readonly Range[]): Stretch[] {
   return [...parts, { ...stretch, start }];
 }
 
-/** Returns the marks of a run: as recorded where that was read, else from the console of the page. */
-export function marksOf(overview: Overview | null, logs: readonly LogLine[], from: number): Mark[] {
+/**
+ * Returns the marks of a run: as recorded where that was read, else from the console of the page.
+ *
+ * @param own flags and stops of the present run, which replace the recorded ones; null: of another run.
+ */
+export function marksOf(
+  overview: Overview | null,
+  logs: readonly LogLine[],
+  from: number,
+  own: readonly Mark[] | null = null,
+): Mark[] {
   const begin = logs.findLastIndex(({ run }) => run !== undefined) + 1;
   const isRead = (t: number) => overview?.read.some(([start, end]) => t >= start && t <= end) ?? false;
   const seen: Mark[] = [];
@@ -47,12 +56,14 @@ export function marksOf(overview: Overview | null, logs: readonly LogLine[], fro
     else if (level === 'error' && source !== 'world' && seen.at(-1)?.t !== t)
       seen.push({ t, kind: 'fault', text });
   }
-  return [...(overview?.marks ?? []), ...seen].sort((a, b) => a.t - b.t);
+  const isOwn = ({ id, kind }: Mark) => kind === 'stopped' || (kind === 'flag' && id !== undefined);
+  const recorded = (overview?.marks ?? []).filter((mark) => own === null || !isOwn(mark));
+  return [...recorded, ...seen, ...(own ?? [])].sort((a, b) => a.t - b.t);
 }
 
-/** Drops marks that would lie under another one; a fault stays rather than a collision. */
+/** Drops marks that would lie under another one; a flag stays rather than a fault, which rather than others. */
 export function apart(marks: readonly Mark[], leastS: number): Mark[] {
-  const rank = { fault: 0, flag: 1, finished: 2, collision: 3 };
+  const rank = { stopped: 0, flag: 1, fault: 2, finished: 3, collision: 4 };
   const kept: Mark[] = [];
   for (const mark of [...marks].sort((a, b) => rank[a.kind] - rank[b.kind] || a.t - b.t))
     if (kept.every((other) => Math.abs(other.t - mark.t) >= leastS)) kept.push(mark);

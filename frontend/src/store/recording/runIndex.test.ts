@@ -4,7 +4,7 @@ import { RunIndex } from './runIndex';
 import { SegmentReader } from './segmentReader';
 import { STATUSES, type Moment } from './types';
 
-function sample(): { index: RunIndex; raw: { topic: string; t: number; fields: Record<string, unknown> }[] } {
+function sample(name = 'v1'): { index: RunIndex; raw: { topic: string; t: number; fields: Record<string, unknown> }[] } {
   const index = new RunIndex('r');
   const segment = index.segment(0, 0);
   const raw: { topic: string; t: number; fields: Record<string, unknown> }[] = [];
@@ -12,7 +12,7 @@ function sample(): { index: RunIndex; raw: { topic: string; t: number; fields: R
     segment.add(read);
     raw.push({ topic: read.topic, t: read.t, fields: read.decode() });
   });
-  reader.append(new Uint8Array(readFileSync('../tests/executor/recorder/samples/v1.mcap')));
+  reader.append(new Uint8Array(readFileSync(`../tests/executor/recorder/samples/${name}.mcap`)));
   return { index, raw };
 }
 
@@ -128,4 +128,12 @@ it('knows since when a value is there, also where the tree was written again', (
   add('/bt/tree', 20, tree);
   add('/bt/keyframe', 20, { tick: 1, status: [1], blackboard_json: '[["","k","int",3]]' });
   expect(index.momentAt(20)!.entries).toMatchObject([{ key: 'k', value: 3, since: 1, writer: 1 }]);
+});
+
+it('has the flags that were not removed, and the gaps, as marks', () => {
+  const { marks } = sample('v3').index.overview();
+  expect(marks.map(({ kind, t, text, user }) => [kind, t, text, user])).toEqual([
+    ['stopped', 1, 'was killed by SIGKILL', undefined],
+    ['flag', 0.5, 'The line bends here', 'ada'],
+  ]);
 });

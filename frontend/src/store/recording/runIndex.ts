@@ -5,12 +5,18 @@ import type { Read } from './segmentReader';
 import { SegmentIndex, type State } from './segmentIndex';
 import type { TickStep } from './steps';
 import { storyUntil, type Story } from './story';
-import type { Changes, EntryAt, Moment, Overview, PictureAt, ScanAt, TickAt } from './types';
+import type { Changes, EntryAt, FlagMark, Moment, Overview, PictureAt, ScanAt, TickAt } from './types';
 
 /** The bytes of pictures that are kept; beyond them, those of the oldest segments go. */
 const MOST_PICTURE_BYTES = 128 << 20;
 const MOST_LINES = 20_000;
 const MOST_MARKS = 1000;
+
+/** Returns the flags that are set at the end of what was read. */
+function flagsOf(segments: readonly SegmentIndex[]): FlagMark[] {
+  const last = new Map(segments.flatMap(({ flags }) => flags.map((flag) => [flag.id, flag] as const)));
+  return [...last.values()].filter(({ text }) => text !== '').slice(-MOST_MARKS);
+}
 
 /** A whole recording, as far as it was read: what was at each moment. */
 export class RunIndex {
@@ -46,7 +52,7 @@ export class RunIndex {
       run: this.run,
       read: all.map(({ from, until, to }) => [from, Math.max(until, to)] as const),
       root,
-      marks: all.flatMap(({ marks }) => marks).slice(-MOST_MARKS),
+      marks: [...all.flatMap(({ marks }) => marks).slice(-MOST_MARKS), ...flagsOf(all)],
       lines: all.flatMap(({ lines }) => lines).slice(-MOST_LINES),
       faults: all.flatMap(({ faults }) => faults).slice(-MOST_MARKS),
     };

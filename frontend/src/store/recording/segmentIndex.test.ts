@@ -64,6 +64,15 @@ it('marks faults, collisions, ends and flags, and names the node of a line', () 
   expect(isCollision({ source: 'action', text: 'I bumped into it' })).toBe(false);
 });
 
+it('keeps a flag at its own moment, which is before it was set, and marks a gap', () => {
+  const index = new SegmentIndex(0, 0);
+  const moment = { sec: 1, nanosec: 500_000_000 };
+  index.add(read('/bt/flag', 4, { moment, id: 'f1', text: 'here', user: 'ada' }));
+  index.add(read('/bt/gap', 5, { reason: 'recorder_died', text: 'It was killed.' }));
+  expect(index.flags).toEqual([{ t: 1.5, kind: 'flag', id: 'f1', text: 'here', user: 'ada' }]);
+  expect(index.marks).toEqual([{ t: 5, kind: 'stopped', text: 'It was killed.' }]);
+});
+
 it('refuses times that run backwards', () => {
   const index = new SegmentIndex(0, 0);
   index.add(read('/scan', 2, {}));

@@ -1,5 +1,6 @@
 import { decode } from '@msgpack/msgpack';
 import type { LogLevel, NodeStatus, Poses } from '@/generated/messages';
+import type { Fields } from './cdr';
 import type { PosesFrame } from './posesAt';
 import type { Read } from './segmentReader';
 import {
@@ -15,6 +16,7 @@ import {
   RecordingError,
   STATUSES,
   type Entry,
+  type FlagMark,
   type Mark,
   type RecordedFault,
   type RecordedLine,
@@ -58,6 +60,8 @@ export class SegmentIndex {
   readonly lines: RecordedLine[] = [];
   readonly faults: RecordedFault[] = [];
   readonly marks: Mark[] = [];
+  /** The flags as they were set, in order: the last one of an id holds. */
+  readonly flags: FlagMark[] = [];
   readonly poses: PosesFrame[] = [];
   readonly scenes: Read[] = [];
   readonly scans: Read[] = [];
@@ -102,6 +106,10 @@ export class SegmentIndex {
         return this.addLine(read);
       case '/bt/fault':
         return this.addFault(read);
+      case '/bt/flag':
+        return this.addFlag(read);
+      case '/bt/gap':
+        return this.mark(t, 'stopped', String(read.decode()['text'] ?? ''));
       case '/world/scene':
         return void this.scenes.push(read);
       case '/world/poses':
@@ -183,6 +191,12 @@ export class SegmentIndex {
     this.mark(t, 'fault', of('message'));
   }
 
+  private addFlag({ decode: told }: Read): void {
+    const { id, moment, text, user } = told();
+    const flag = { t: secondsOf(moment), text: String(text), id: String(id), user: String(user) };
+    this.flags.push({ ...flag, kind: 'flag' });
+  }
+
   private addPoses({ t, decode: told }: Read): void {
     const { ids, poses } = decode(told()['data'] as Uint8Array) as Poses;
     if (!(ids instanceof Uint8Array) || !(poses instanceof Uint8Array) || poses.length !== ids.length * 8)
@@ -199,6 +213,12 @@ export class SegmentIndex {
   private mark(t: number, kind: Mark['kind'], text: string): void {
     this.marks.push({ t, kind, text });
   }
+}
+
+/** Returns a `builtin_interfaces/Time` in s. */
+function secondsOf(time: unknown): number {
+  const { sec, nanosec } = time as Fields;
+  return Number(sec) + Number(nanosec) / 1e9;
 }
 
 /** Whether a line of the world tells of a collision. */

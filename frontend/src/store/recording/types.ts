@@ -1,4 +1,4 @@
-import type { LogLevel, NodeStatus, Scene, Segment, TreeNode } from '@/generated/messages';
+import type { LogLevel, NodeStatus, RecordingStopped, Scene, Segment, TreeNode } from '@/generated/messages';
 
 /** The statuses by their numbers in a recording. */
 export const STATUSES: readonly NodeStatus[] = ['IDLE', 'RUNNING', 'SUCCESS', 'FAILURE', 'SKIPPED'];
@@ -56,13 +56,22 @@ export interface RecordedFault {
   readonly path: string;
 }
 
-export type MarkKind = 'fault' | 'collision' | 'finished' | 'flag';
+export type MarkKind = 'fault' | 'collision' | 'finished' | 'flag' | 'stopped';
 
 export interface Mark {
   readonly t: number;
   readonly kind: MarkKind;
   readonly text: string;
+  /** What identifies a flag within its run. */
+  readonly id?: string;
+  /** Who set a flag, if it is known. */
+  readonly user?: string;
+  /** Why the recording stopped, as the session tells it. */
+  readonly stop?: Pick<RecordingStopped, 'reason' | 'goes_on'>;
 }
+
+/** A flag as it was set, changed or, with an empty text, removed. */
+export type FlagMark = Mark & { readonly kind: 'flag'; readonly id: string };
 
 /** A tick: several can have one time, since a world that is slow stands between them. */
 export interface TickAt {

@@ -45,6 +45,8 @@ const snapshot = (more: Partial<Snapshot> = {}): Snapshot => ({
   run_starts: [],
   hanging_s: 0,
   segments: [],
+  flags: [],
+  stops: [],
   state: 'application_running',
   tree: null,
   statuses: [],
@@ -356,4 +358,20 @@ it('knows each segment in its last state, and forgets those that are gone', () =
     { ...segment, number: 1 },
   ]);
   expect(told(segment, { ...segment, bytes: 0 })).toEqual([]);
+});
+
+it('knows the flags of the present run, and where a recording stopped until a later run is recorded', () => {
+  const flag = (id: string, text: string, run = 'a') => message('flag', { run, id, t: 1, text, user: '' });
+  const set = [flag('1', 'one'), flag('2', 'two'), flag('1', 'first')].reduce(reduce, initialSession);
+  expect(set.flags.map(({ text }) => text)).toEqual(['two', 'first']);
+  expect(reduce(set, flag('2', '')).flags.map(({ id }) => id)).toEqual(['1']);
+  expect(reduce(set, flag('3', 'other', 'b')).flags.map(({ run }) => run)).toEqual(['b']);
+  const stop = { run: 'a', t: 2, reason: 'disk_full', detail: 'No space left', goes_on: false } as const;
+  const stopped = reduce(set, message('recording_stopped', stop));
+  expect(stopped.stops).toEqual([stop]);
+  const segment = { branch: 0, number: 0, version: 0, from_t: 0, to_t: 1, bytes: 1, complete: false };
+  expect(reduce(stopped, message('segment', { ...segment, run: 'a' })).stops).toEqual([stop]);
+  expect(reduce(stopped, message('segment', { ...segment, run: 'b' })).stops).toEqual([]);
+  const joined = reduce(initialSession, message('snapshot', snapshot({ flags: set.flags, stops: [stop] })));
+  expect(joined).toMatchObject({ flags: set.flags, stops: [stop] });
 });

@@ -2,6 +2,7 @@ import type {
   BlackboardEntry,
   Events,
   Fault,
+  FlagSet,
   LaunchNode,
   Log,
   PortSet,
@@ -43,6 +44,8 @@ export const initialSession: SessionData = {
   ports: {},
   mismatches: [],
   segments: [],
+  flags: [],
+  stops: [],
   sim: null,
   simTime: 0,
   tick: 0,
@@ -121,7 +124,13 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     ),
   }),
   finished: (_, data) => ({ finished: data }),
-  segment: ({ segments }, data) => ({ segments: withSegment(segments, data) }),
+  segment: ({ segments, stops }, data) => {
+    const now = withSegment(segments, data);
+    // A later run is recorded again, so what was missed before it is told no more.
+    return { segments: now, stops: stops.filter((stop) => now.some(({ run }) => run === stop.run)) };
+  },
+  flag: ({ flags }, data) => ({ flags: withFlag(flags, data) }),
+  recording_stopped: ({ stops }, data) => ({ stops: [...stops, data] }),
   sim: (_, data) => ({ sim: data, speed: data.speed }),
   snapshot: (state, data, { seq, t }) => ({
     executor: data.state,
@@ -141,6 +150,8 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     ports: data.ports.reduce(withPort, {}),
     mismatches: data.mismatches,
     segments: data.segments,
+    flags: data.flags,
+    stops: data.stops,
     ...keptLogs({ ...state, logs: [] }, data, t),
   }),
 };
@@ -187,6 +198,12 @@ function withSegment(segments: readonly Segment[], changed: Segment): Segment[] 
   if (changed.bytes === 0) return segments.filter((each) => !isIt(each));
   const isKnown = segments.some(isIt);
   return isKnown ? segments.map((each) => (isIt(each) ? changed : each)) : [...segments, changed];
+}
+
+/** Returns the flags of the present run with a new state of one; one without text is gone. */
+function withFlag(flags: readonly FlagSet[], changed: FlagSet): FlagSet[] {
+  const others = flags.filter(({ run, id }) => run === changed.run && id !== changed.id);
+  return changed.text === '' ? others : [...others, changed];
 }
 
 const isSameMismatch = (a: TopicMismatch, b: TopicMismatch): boolean =>

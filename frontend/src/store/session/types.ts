@@ -2,11 +2,13 @@ import type {
   BlackboardEntry,
   Fault,
   Finished,
+  FlagSet,
   Introspection,
   LaunchNode,
   Log,
   PortSet,
   Progress,
+  RecordingStopped,
   Segment,
   Sim,
   State,
@@ -65,6 +67,10 @@ export interface SessionData {
   mismatches: TopicMismatch[];
   /** The segments of the recordings of this session that can be read, those of the last run at the end. */
   segments: Segment[];
+  /** The flags of the present run. */
+  flags: FlagSet[];
+  /** Where recordings of this session stopped. */
+  stops: RecordingStopped[];
   sim: Sim | null;
   simTime: number;
   tick: number;

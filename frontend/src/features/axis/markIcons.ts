@@ -1,0 +1,17 @@
+import {
+  IconAlertTriangleFilled,
+  IconBugFilled,
+  IconCircleCheckFilled,
+  IconFlagFilled,
+  IconPlayerRecordFilled,
+} from '@tabler/icons-react';
+import type { MarkKind } from '@/store/recording/types';
+
+/** The symbols of the marks on the time axis. */
+export const MARK_ICONS: Readonly<Record<MarkKind, typeof IconBugFilled>> = {
+  fault: IconBugFilled,
+  collision: IconAlertTriangleFilled,
+  finished: IconCircleCheckFilled,
+  flag: IconFlagFilled,
+  stopped: IconPlayerRecordFilled,
+};

@@ -108,7 +108,7 @@ def invite(
 
 @admin.command()
 def users() -> None:
-    """Lists the accounts with what they store."""
+    """Lists the accounts with their storage."""
     with _accounts():
         from backend.projects.storage.usage import usage_of_all
 

@@ -1,4 +1,4 @@
-"""`bt-studio diff`: what differs between two versions, by nodes instead of lines."""
+"""`bt-studio diff`: shows the differences between two versions, by nodes instead of lines."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def diff(  # noqa: PLR0913, PLR0917 - these are the options
         bool, typer.Option("--layout", help="Count positions, folding and layout as changes, too.")
     ] = False,
 ) -> None:
-    """Prints what differs between two projects or trees; nothing if they are equal."""
+    """Prints the differences between two projects or trees; nothing if they are equal."""
     from backend.cli import _translation as cli
     from backend.cli.versions import open_version
     from translator import TranslatorError

@@ -210,7 +210,7 @@ def _warn(gates: Sequence[Gate], plan: Plan, runs: int) -> None:
 def _open_results(
     plan: Plan, folder: Path | None, seeds: Sequence[int], *, resume: bool, strict: bool
 ) -> tuple[Results | None, list[Outcome]]:
-    """Returns the folder of results with what is kept of it."""
+    """Returns the folder of results, with the outcomes that are kept."""
     from backend.cli.errors import BAD_ARGUMENTS, CliError
     from executor.evaluation.fingerprint import fingerprint
     from executor.evaluation.results import Results, ResultsError, inputs_of, kept_outcomes
@@ -247,7 +247,7 @@ def _open_results(
 def _run(
     plan: Plan, seeds: Sequence[int], workers: int | None, kept: Sequence[Outcome], results: Results | None
 ) -> tuple[Progress, bool]:
-    """Runs what is left; returns what is known, and whether Ctrl+C ended it."""
+    """Runs the remaining seeds; returns all outcomes, and whether Ctrl+C ended it."""
     from backend.cli.errors import CliError
     from executor.evaluation.evaluate import Interrupted, ThreadsError, evaluate
 

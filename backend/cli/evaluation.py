@@ -26,7 +26,7 @@ SINGLE: Final = {
 def run_one(  # noqa: PLR0913 - one an option
     project: str, name: str, seed: int, *, record: Path | None, report: Path | None, as_json: bool
 ) -> None:
-    """Runs one seed, prints what became of it, and fails if it is no success."""
+    """Runs one seed, prints its outcome, and fails unless it is a success."""
     from backend.cli import _translation as cli
     from backend.cli.errors import CliError
     from backend.cli.run import fix_hashes
@@ -126,7 +126,7 @@ def _say_on_stderr(line: str) -> None:
 
 
 def outcome_lines(outcome: Outcome) -> Iterator[str]:
-    """Yields what the terminal says of a run."""
+    """Yields the lines that the terminal shows for a run."""
     yield f"{outcome.outcome} after {outcome.end_s:.2f} s with seed {outcome.seed}: {outcome.why}"
     for item in outcome.items:
         margin = "" if item["margin"] is None else f" by {abs(item['margin']):.3g} {item['unit']}".rstrip()

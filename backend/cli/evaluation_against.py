@@ -26,7 +26,7 @@ def open_older(newer: Project, project: str, against: str) -> Project:
 
     Args:
         newer: the newer version.
-        project: what names it on the command line.
+        project: its path or name on the command line.
         against: a folder or zip; `NAME@7`, the seventh revision of a stored project; or a revision of git of
             the folder of the project, such as HEAD~1.
 

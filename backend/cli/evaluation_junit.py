@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def junit_xml(name: str, summary: Summary, verdicts: Sequence[Verdict]) -> bytes:
-    """Returns the results; a run that says nothing of the project is skipped there."""
+    """Returns the results; a run that failed for reasons outside of the project counts as skipped."""
     counts = summary.counts
     failures = counts.get("failure", 0) + sum(not verdict.passes for verdict in verdicts)
     errors = sum(counts.get(outcome, 0) for outcome in ("error", "crashed", "timeout"))

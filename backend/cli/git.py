@@ -25,7 +25,7 @@ Yes = Annotated[bool, typer.Option("--yes", help="Do not ask.")]
 
 @git.command()
 def install(folder: Folder = Path(), yes: Yes = False) -> None:  # noqa: FBT002
-    """Shows what it will write to the repository's own config and .gitattributes, asks, and writes it."""
+    """Shows the changes to the repository's own config and .gitattributes, asks, and writes them."""
     from backend.cli.git_repository import Repository, settings
 
     repository = Repository(folder)
@@ -43,7 +43,7 @@ def install(folder: Folder = Path(), yes: Yes = False) -> None:  # noqa: FBT002
 
 @git.command()
 def uninstall(folder: Folder = Path(), yes: Yes = False) -> None:  # noqa: FBT002
-    """Takes back what `install` wrote."""
+    """Removes the settings that `install` wrote."""
     from backend.cli.git_repository import DRIVER, Repository
 
     repository = Repository(folder)

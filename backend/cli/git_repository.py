@@ -58,7 +58,7 @@ class Repository:
         self.attributes.write_text(text + ("\n" if text and not text.endswith("\n") else "") + self.block())
 
     def uninstall(self) -> None:
-        """Removes what `install` wrote, and nothing else."""
+        """Removes the settings that `install` wrote, and nothing else."""
         for section in (f"diff.{DRIVER}", f"merge.{DRIVER}"):
             _git(self.top, "config", "--local", "--remove-section", section)
         if not self.attributes.is_file():

@@ -68,7 +68,7 @@ def import_(  # noqa: PLR0913, PLR0917 - these are the options of formats.md
 
 
 def _take_over(source: Path, folder: Path, *, as_json: bool) -> None:
-    """Writes stubs of the nodes that a plugin or palette has, and tells where written actions differ."""
+    """Writes stubs for the nodes of a plugin or palette, and lists the differences from existing actions."""
     from backend.cli import _translation as cli
     from translator import TranslatorError, take_over
     from translator.archive import read_file

@@ -112,7 +112,7 @@ class LockstepRun:
         tree: the tree, after `set_up`.
         node: the world's ROS node, after `set_up`.
         sensors: the sensors of the world, after `set_up`.
-        report: what is known of the run so far.
+        report: the facts of the run so far.
         has_ended: whether the tree has ended.
         counts: the results of each node, in the order of the nodes; empty before `set_up`.
     """
@@ -312,7 +312,7 @@ class LockstepRun:
         return recorder
 
     def _record_output(self) -> None:
-        """Prepares the streams that also write what users' code prints into the recording."""
+        """Prepares the streams that also write the output of users' code into the recording."""
         if self._options.recording is None:
             return
 

@@ -60,7 +60,7 @@ class GraphTap:
         self._look_s = 0.0
 
     def poll(self, now_s: float) -> None:
-        """Takes what has arrived; looks for topics twice a second of real time."""
+        """Takes the messages that have arrived; looks for topics twice a second of real time."""
         if now_s >= self._look_s:
             self._look_s = now_s + LOOK_S
             self._look()

@@ -248,7 +248,7 @@ class WorldProcess:
         self._channel.send(child_messages.WorldReady("", has_tf(), "none"))
 
     def _send_frame(self, message: child_messages.Sim | child_messages.Log | child_messages.Frame) -> None:
-        """Sends a message of the loop; pictures that somebody looks at are recorded too."""
+        """Sends a message of the loop; pictures that a client subscribes to are recorded too."""
         self._channel.send(message)
         if isinstance(message, child_messages.Frame) and self._recorder is not None:
             self._recorder.picture(message)

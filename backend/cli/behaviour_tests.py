@@ -31,8 +31,8 @@ def run_tests(
     as_json: Annotated[bool, typer.Option("--json", help="Print the results as JSON.")] = False,  # noqa: FBT002
 ) -> None:
     """Runs the behaviour tests of a project, the files tests/*.test.yaml; exit status 1 if one fails."""
-    from backend.cli import _translation as cli
-    from backend.cli.errors import BAD_ARGUMENTS, CliError
+    from backend.cli.shared import translation as cli
+    from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
     from translator import TranslatorError
     from translator.behaviour_tests import errors_before_tests, to_job
     from tree_gardener.testing.apart import run_apart

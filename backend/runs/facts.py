@@ -19,7 +19,7 @@ from backend.config.environment import REPOSITORY
 from backend.core.problems import StudioError
 from backend.runs.choices import Result
 from backend.runs.length import DamagedError, length_of
-from backend.workers.lanes import pool
+from backend.workers.priorities import pool
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -19,7 +19,7 @@ from backend.runs import serializers as s
 from backend.runs.outside import require_converter
 from backend.workers.aside import conversions
 from backend.workers.deferred import Deferred
-from backend.workers.lanes import pool
+from backend.workers.priorities import pool
 
 if TYPE_CHECKING:
     from concurrent.futures import Future

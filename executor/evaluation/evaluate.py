@@ -38,7 +38,7 @@ LIBRARIES: Final = (
     "executor.navigation.start",
     "executor.render.choose",
     "executor.ros.default_context",
-    "executor.ros.mismatches",
+    "executor.ros.graph.mismatches",
     "executor.ros.node",
     "executor.ros.shared_topics",
     "executor.ros.spin",

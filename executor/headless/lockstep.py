@@ -224,7 +224,7 @@ class LockstepRun:
         from executor.navigation.start import make_navigation  # noqa: PLC0415
         from executor.render import make_renderer  # noqa: PLC0415
         from executor.ros.default_context import DefaultContext  # noqa: PLC0415
-        from executor.ros.mismatches import Mismatches  # noqa: PLC0415
+        from executor.ros.graph.mismatches import Mismatches  # noqa: PLC0415
         from executor.ros.node import WorldNode  # noqa: PLC0415
         from executor.ros.shared_topics import share_commands  # noqa: PLC0415
         from executor.ros.spin import DrainingExecutor  # noqa: PLC0415

@@ -1,4 +1,4 @@
-"""No folder of Python holds over twenty modules without a reason; `frontend/tools/rooms.js` tests the page."""
+"""No folder of Python has over twenty modules without a reason; `frontend/tools/rooms.js` tests the page."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from executor.recorder.cdr import CdrError, decode, encode, encode_object
 from executor.recorder.definitions import OURS, full_text, names_of_ours
-from tests.executor.recorder.messages import MESSAGES, T_NS
+from tests.executor.recorder.messages import MESSAGES
 
 
 def test_every_type_has_an_example():

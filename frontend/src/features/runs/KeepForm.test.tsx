@@ -1,4 +1,4 @@
-import { screen } from '@testing-library/react';
+import { act, screen } from '@testing-library/react';
 import { afterEach, expect, it, vi } from 'vitest';
 import type { Segment } from '@/generated/messages';
 import { initialSession } from '@/store/session/reduce';
@@ -25,4 +25,20 @@ it('has a name already, and forgets the note of a kept run alone', async () => {
   expect(note).toHaveValue(' slow ');
   await user.click(screen.getByRole('button', { name: 'Keep' }));
   expect(note).toHaveValue('');
+});
+
+it('keeps an earlier run of the session, too; one that is gone meanwhile is not offered', async () => {
+  const segment = (run: string) => ({ run }) as Segment;
+  useSessionStore.setState({ segments: [segment('a1'), segment('b2')] });
+  const onKeep = vi.fn().mockResolvedValue(true);
+  show(<KeepForm onKeep={onKeep} />);
+  const which = screen.getByRole('combobox', { name: 'Run' });
+  expect(which).toHaveValue('b2');
+  await user.selectOptions(which, 'Run 1');
+  await user.click(screen.getByRole('button', { name: 'Keep' }));
+  expect(onKeep).toHaveBeenCalledWith(expect.objectContaining({ run: 'a1' }));
+  act(() => useSessionStore.setState({ segments: [segment('b2')] }));
+  expect(screen.queryByRole('combobox', { name: 'Run' })).toBeNull();
+  await user.click(screen.getByRole('button', { name: 'Keep' }));
+  expect(onKeep).toHaveBeenLastCalledWith(expect.objectContaining({ run: 'b2' }));
 });

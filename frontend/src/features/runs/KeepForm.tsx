@@ -1,15 +1,21 @@
-import { Button, Group, TextInput } from '@mantine/core';
+import { Button, Group, NativeSelect, TextInput } from '@mantine/core';
 import { IconDeviceFloppy } from '@tabler/icons-react';
-import { useState } from 'react';
+import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { RunToKeep } from '@/api/runs';
+import { runsOf } from '@/store/recording/liveSource';
 import { useSessionStore } from '@/store/session/store';
-import { recordedRun } from './present';
+import { runToKeep } from './present';
 
 /** A form that keeps the run of the session, with a name and a note. */
 export function KeepForm({ onKeep }: { readonly onKeep: (run: RunToKeep) => Promise<boolean> }) {
   const { t, i18n } = useTranslation('runs');
-  const run = useSessionStore(recordedRun);
+  const { t: words } = useTranslation('axis');
+  const segments = useSessionStore((state) => state.segments);
+  const runs = useMemo(() => runsOf(segments), [segments]);
+  const [chosen, setChosen] = useState(() => runToKeep(runs));
+  // A run whose recording is gone meanwhile is not kept.
+  const run = runs.find((each) => each === chosen) ?? runs.at(-1);
   const [name, setName] = useState(() => new Date().toLocaleString(i18n.language));
   const [note, setNote] = useState('');
   const [isKeeping, setKeeping] = useState(false);
@@ -28,6 +34,20 @@ export function KeepForm({ onKeep }: { readonly onKeep: (run: RunToKeep) => Prom
       }}
     >
       <Group align="end" gap="xs" mb="md">
+        {runs.length > 1 ? (
+          <NativeSelect
+            label={t('which')}
+            value={run}
+            data={runs
+              .map((value, at) => {
+                const isLast = at === runs.length - 1;
+                return { value, label: words(isLast ? 'run.last' : 'run.earlier', { n: at + 1 }) };
+              })
+              .reverse()}
+            onChange={({ currentTarget: { value } }) => setChosen(value)}
+            data-testid="run-to-keep"
+          />
+        ) : null}
         <TextInput
           label={t('name')}
           maxLength={100}

@@ -183,7 +183,7 @@ class Mirror:
             self.segments[key] = event
         else:
             self.segments.pop(key, None)
-        # A later run is recorded again, so what was missed before it is told no more.
+        # A later run is recorded again, so what was missed before it is not shown any more.
         runs = {run for run, _, _ in self.segments}
         self.stops = deque((stop for stop in self.stops if stop.run in runs), maxlen=STOPS)
 

@@ -154,7 +154,7 @@ class Recording:
         self._stage.output.emit(messages.Log("manager", "warning", text, time=t_s))
 
     def _tell_flags(self) -> None:
-        """Tells another recorder of the flags of the run: a part of it may go with the segments before."""
+        """Sends another recorder the flags of the run: a part of it may go with the segments before."""
         for flag in self._stage.mirror.flags.values():
             if flag.run == self.run:
                 self.tell("flag", flag)

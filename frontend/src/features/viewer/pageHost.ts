@@ -1,4 +1,5 @@
 import { notifications } from '@mantine/notifications';
+import { lookAt } from '@/store/moment/looking';
 import { send } from '@/store/session/connection';
 import { canMove, useMoves } from './lastMove';
 import { addMeasured } from './measuring';
@@ -10,6 +11,7 @@ export const pageHost: StageHost = {
   keys: window,
   canMove,
   addMeasured,
+  goTo: (t) => lookAt(t),
   async moveBody(body, pose, from) {
     try {
       await send('move_body', { id: body, pose });

@@ -3,7 +3,8 @@ import { useEffect } from 'react';
 import type { OrbitControls } from '@react-three/drei/core/OrbitControls';
 import type { ComponentRef } from 'react';
 import { DraggedBody, carriable } from './scene/DraggedBody';
-import { pointedAt, pointedAtHeight } from './pointing';
+import { pointedAt, pointedAtHeight, trailMomentAt } from './pointing';
+import { shownTrail } from '@/store/session/trace/shownTrail';
 import { useMeasuring } from './measuring';
 import type { StageHost } from './scene/host';
 import type { World } from './scene/World';
@@ -15,10 +16,10 @@ const RIGHT_BUTTON = 2;
 const TURN_RAD = Math.PI / 12;
 
 /**
- * Adds the tools of the pointer: dragging bodies while time is paused, and measuring. The camera controls
- * turn the view.
+ * Adds the tools of the pointer: dragging bodies while time is paused, measuring, and going to the moment of a
+ * place on the trail. The camera controls turn the view.
  */
-export function useTools(world: World, controls: Controls, host: StageHost): void {
+export function useTools(world: World, controls: Controls, host: StageHost, hasTrail = false): void {
   const camera = useThree((state) => state.camera);
   const own = useThree((state) => state.gl.domElement);
   const canvas = host.element ?? own;
@@ -74,12 +75,21 @@ export function useTools(world: World, controls: Controls, host: StageHost): voi
       if (event.buttons !== 0) return;
       const isMeasuring = useMeasuring.getState().isOn;
       const hit = !isMeasuring && host.canMove() ? pointedAt(event, canvas, camera, world) : null;
-      canvas.style.cursor = isMeasuring ? 'crosshair' : hit && carriable(world, hit.objectId) ? 'grab' : '';
+      const isCarriable = hit !== null && carriable(world, hit.objectId) !== null;
+      const cursor = isCarriable ? 'grab' : momentAt(event) === null ? '' : 'pointer';
+      canvas.style.cursor = isMeasuring ? 'crosshair' : cursor;
     };
+    const momentAt = (event: PointerEvent): number | null =>
+      hasTrail ? trailMomentAt(event, canvas, camera, world, shownTrail) : null;
     const onUp = (event: PointerEvent) => {
       if (dragged) return end(true);
       const isClick = Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < CLICK_PX;
-      if (!isClick || event.button !== 0 || !useMeasuring.getState().isOn) return;
+      if (!isClick || event.button !== 0) return;
+      if (!useMeasuring.getState().isOn) {
+        const t = momentAt(event);
+        if (t !== null) host.goTo(t);
+        return;
+      }
       const hit = pointedAt(event, canvas, camera, world);
       if (hit) host.addMeasured([hit.point.x, hit.point.y, hit.point.z]);
       invalidate();
@@ -108,5 +118,5 @@ export function useTools(world: World, controls: Controls, host: StageHost): voi
       canvas.removeEventListener('pointercancel', onCancel);
       host.keys.removeEventListener('keydown', onKey);
     };
-  }, [world, controls, camera, canvas, host, invalidate]);
+  }, [world, controls, camera, canvas, host, invalidate, hasTrail]);
 }

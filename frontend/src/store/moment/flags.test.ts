@@ -60,7 +60,7 @@ it('lets nobody mark a kept run', () => {
   expect(canFlag()).toBe(false);
 });
 
-it('has the marks of one run', () => {
+it('leaves out the marks of other runs', () => {
   useSessionStore.setState({ stops: [stop], flags: [flag] });
   expect(marksOfSession('a').map(({ kind, t }) => [kind, t])).toEqual([
     ['flag', 4],

@@ -13,6 +13,7 @@ import { consoleOf, linesUntil, rowsOf, usePastSession } from './session';
 import { markedRange, nextMoment, noRange, useRange } from './range';
 import { isPresentRun, ofSession, useSource, type Kept } from './source';
 import { atPresent, useMoment } from './store';
+import { showPresentTrail, showTrail } from './trail';
 import { showPresentWorld, showWorld } from './world';
 
 /** The length of the run that can be looked at, in s; null without a recording. */
@@ -99,11 +100,13 @@ export function lookNow(): void {
   recorded?.want(null);
   if (!isPresentRun(useSource.getState())) change(ofSession);
   showPresentWorld();
+  showPresentTrail();
 }
 
 function change(source: typeof ofSession): void {
   recorded?.end();
   recorded = null;
+  showPresentTrail();
   useSource.setState(source);
   useRange.setState(noRange);
   useMoment.setState({ overview: null, failure: '' });
@@ -285,7 +288,10 @@ function show(moment: Moment): void {
   const isSame = moment.scene === null && moment.sceneId === before.shown?.sceneId;
   const scene = isSame ? before.scene : moment.scene;
   useMoment.setState({ shown: moment, tree, trees, scene });
-  showWorld(moment, isPresentRun(useSource.getState()) ? null : scene);
+  const isPresent = isPresentRun(useSource.getState());
+  showWorld(moment, isPresent ? null : scene);
+  const run = theRun();
+  void showTrail(moment.t, before.overview, isPresent, () => run.ask({ what: 'trail' }));
 }
 
 /** Returns to the present when the run is gone, and when the user edits, since edits belong to the present. */

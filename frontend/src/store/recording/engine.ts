@@ -21,6 +21,7 @@ export type Ask =
       readonly direction: 1 | -1;
     }
   | { readonly what: 'story'; readonly t: number; readonly tick: number | null }
+  | { readonly what: 'trail' }
   | { readonly what: 'changes'; readonly from: number; readonly to: number };
 
 export interface Answers {
@@ -28,6 +29,7 @@ export interface Answers {
   tick: TickAt | null;
   change: TickAt | null;
   story: Story | null;
+  trail: Float32Array | null;
   changes: Changes | null;
 }
 
@@ -112,6 +114,8 @@ export class Engine {
           return this.index.changeFrom(ask.uid, ask.t, ask.direction, ask.tick);
         case 'story':
           return this.index.storyUntil(ask.t, ask.tick);
+        case 'trail':
+          return this.index.trail();
         case 'changes':
           return this.index.changes(ask.from, ask.to);
       }

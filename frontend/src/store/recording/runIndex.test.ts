@@ -4,7 +4,10 @@ import { RunIndex } from './runIndex';
 import { SegmentReader } from './segmentReader';
 import { STATUSES, type Moment } from './types';
 
-function sample(name = 'v1'): { index: RunIndex; raw: { topic: string; t: number; fields: Record<string, unknown> }[] } {
+function sample(name = 'v1'): {
+  index: RunIndex;
+  raw: { topic: string; t: number; fields: Record<string, unknown> }[];
+} {
   const index = new RunIndex('r');
   const segment = index.segment(0, 0);
   const raw: { topic: string; t: number; fields: Record<string, unknown> }[] = [];

@@ -5,6 +5,7 @@ import type { Read } from './segmentReader';
 import { SegmentIndex, type State } from './segmentIndex';
 import type { TickStep } from './steps';
 import { storyUntil, type Story } from './story';
+import { trailOf } from './trailOf';
 import type { Changes, EntryAt, FlagMark, Moment, Overview, PictureAt, ScanAt, TickAt } from './types';
 
 /** The bytes of pictures that are kept; beyond them, those of the oldest segments go. */
@@ -133,6 +134,18 @@ export class RunIndex {
       return [{ scope, key, from: old?.value, to: now?.value, since }];
     });
     return { statuses, entries, poses: moved(posesAt(before.poses, from), posesAt(after.poses, to)) };
+  }
+
+  /** Returns the path of the first robot, as far as it was read. */
+  trail(): Float32Array {
+    const all = this.inOrder();
+    const scene = this.scenes.of(this.scenes.idOf(all.flatMap(({ scenes }) => scenes)[0] ?? null));
+    const robot = scene?.objects.find(({ kind }) => kind === 'robot');
+    if (!robot) return new Float32Array();
+    return trailOf(
+      all.flatMap(({ poses }) => poses),
+      robot.id,
+    );
   }
 
   /** Returns what the tree of a moment did until then, as far as it was read without a gap. */

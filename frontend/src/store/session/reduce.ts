@@ -126,7 +126,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
   finished: (_, data) => ({ finished: data }),
   segment: ({ segments, stops }, data) => {
     const now = withSegment(segments, data);
-    // A later run is recorded again, so what was missed before it is told no more.
+    // A later run is recorded again, so what was missed before it is not shown any more.
     return { segments: now, stops: stops.filter((stop) => now.some(({ run }) => run === stop.run)) };
   },
   flag: ({ flags }, data) => ({ flags: withFlag(flags, data) }),

@@ -85,7 +85,7 @@ describe('the drawing in a worker', () => {
   it('knows what happened before it was opened', () => {
     const { drawing } = begin();
     drawing.receive({ kind: 'frame', frame: SCENE });
-    const past = JSON.stringify({ time: 3, points: [0, 0, 1, 0] });
+    const past = JSON.stringify({ time: 3, points: [0, 0, 1, 0], times: [2, 3] });
     drawing.receive({ kind: 'past', poses: [[1, [4, 0, 0, 0, 0, 0, 1]]], trail: past });
     expect(currentPoses.get(1)).toEqual([4, 0, 0, 0, 0, 0, 1]);
     expect([trail.count, trail.time]).toEqual([2, 3]);

@@ -2,6 +2,7 @@ import { createRoot, extend, type ReconcilerRoot } from '@react-three/fiber';
 import * as THREE from 'three';
 import { frames } from '@/store/session/frames';
 import { currentPoses } from '@/store/session/poses';
+import { shownTrail } from '@/store/session/trace/shownTrail';
 import { trail } from '@/store/session/trace/trail';
 import { useMeasuring } from '../measuring';
 import { Stage } from '../scene/Stage';
@@ -47,6 +48,8 @@ export class Drawing {
       case 'past':
         for (const [id, pose] of message.poses) currentPoses.set(id, pose);
         return trail.restore(message.trail);
+      case 'trail':
+        return shownTrail.show(message.until, message.points);
       case 'event':
         if (message.to === 'element') return this.host.proxy.receive(message.event);
         return dispatch(this.host.keys, message.event);

@@ -1,6 +1,7 @@
 import { useMoment } from '@/store/moment/store';
 import { shownFrames } from '@/store/session/frames';
 import { currentPoses } from '@/store/session/poses';
+import { shownTrail } from '@/store/session/trace/shownTrail';
 import { trail } from '@/store/session/trace/trail';
 import { addMeasured } from '../measuring';
 import { pageHost } from '../pageHost';
@@ -88,6 +89,9 @@ export class RemoteStage {
         if (before.shown && !now.shown) sendPast();
       }),
     );
+    const sendTrail = () => this.post({ kind: 'trail', until: shownTrail.until, points: shownTrail.points });
+    if (shownTrail.until !== null) sendTrail();
+    this.stops.push(shownTrail.subscribe(sendTrail));
     this.stops.push(shownFrames.listen('poses', forward), shownFrames.listen('scan', forward));
   }
 
@@ -121,6 +125,8 @@ export class RemoteStage {
       case 'cursor':
         this.canvas.style.cursor = message.cursor;
         return;
+      case 'goTo':
+        return pageHost.goTo(message.t);
       case 'measured':
         return addMeasured(message.point);
       case 'move':

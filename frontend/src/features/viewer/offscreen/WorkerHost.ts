@@ -46,6 +46,10 @@ export class WorkerHost implements StageHost {
     else waiting?.refused(new Error(error));
   }
 
+  goTo(t: number): void {
+    this.post({ kind: 'goTo', t });
+  }
+
   addMeasured(point: Point): void {
     this.post({ kind: 'measured', point });
   }

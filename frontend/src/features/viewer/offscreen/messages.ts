@@ -36,6 +36,8 @@ export type ToWorker =
   | { readonly kind: 'frame'; readonly frame: Frame }
   /** The poses and the trail that the page recorded before this view was opened. */
   | { readonly kind: 'past'; readonly poses: readonly (readonly [number, Pose])[]; readonly trail: string }
+  /** The path that is shown of the past: until a moment, or null for the present. */
+  | { readonly kind: 'trail'; readonly until: number | null; readonly points: Float32Array | null }
   | { readonly kind: 'event'; readonly to: 'element' | 'keys'; readonly event: SentEvent }
   /** The answer to `move`; the error is null if the session moved the body. */
   | { readonly kind: 'moved'; readonly id: number; readonly error: string | null };
@@ -48,6 +50,8 @@ export type FromWorker =
   /** The view draws too slowly, in Hz. */
   | { readonly kind: 'slow'; readonly hz: number }
   | { readonly kind: 'cursor'; readonly cursor: string }
+  /** The user has clicked on the trail: its moment there, in s. */
+  | { readonly kind: 'goTo'; readonly t: number }
   | { readonly kind: 'measured'; readonly point: Point }
   | {
       readonly kind: 'move';

@@ -3,7 +3,7 @@ import { useCallback, useEffect, useMemo, useRef } from 'react';
 import type { Scene } from '@/generated/messages';
 import { shownFrames } from '@/store/session/frames';
 import { forEachPose, type Pose } from '@/store/session/poses';
-import { trail } from '@/store/session/trace/trail';
+import { shownTrail } from '@/store/session/trace/shownTrail';
 import type { StageHost } from './host';
 import { FirstPicture } from './FirstPicture';
 import { FramesView, FrustumView } from './HelperViews';
@@ -55,7 +55,7 @@ export function Stage(props: StageProps) {
   );
   const world = useMemo(() => new World(scene, isSimple, textures), [scene, isSimple, textures]);
   const lidar = useMemo(() => new LidarView(), []);
-  const trailView = useMemo(() => new TrailView(trail), []);
+  const trailView = useMemo(() => new TrailView(shownTrail), []);
   const framesView = useMemo(() => new FramesView(scene, world), [scene, world]);
   const frustum = useMemo(() => new FrustumView(scene, world), [scene, world]);
   const controls = useRef<Orbit | null>(null);
@@ -82,7 +82,9 @@ export function Stage(props: StageProps) {
       lidar.show(scan);
       requestFrame();
     });
+    const stopTrail = shownTrail.subscribe(requestFrame);
     return () => {
+      stopTrail();
       stopPoses();
       stopScans();
     };
@@ -112,7 +114,7 @@ export function Stage(props: StageProps) {
     most: LARGEST_M,
   }));
   useFollow(world, controls, { isOn: options.follow, view, onMoved, requestFrame });
-  useTools(world, controls, host);
+  useTools(world, controls, host, options.trail);
 
   return (
     <Surroundings

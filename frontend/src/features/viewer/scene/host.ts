@@ -19,6 +19,8 @@ export interface StageHost {
    * @throws Error if the session refuses; the user was notified.
    */
   moveBody(body: string, pose: BodyPose, from: BodyPose): Promise<void>;
+  /** Shows the moment at which the robot was at a place of its trail, in s. */
+  goTo(t: number): void;
   /** Adds a point to the measurement, in m, in the world frame. */
   addMeasured(point: Point): void;
 }

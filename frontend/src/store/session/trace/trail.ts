@@ -8,6 +8,8 @@ const FASTEST_M_S = 5;
 /** The path of the first robot: x and y in m, in the world frame. It is recorded whichever view is open. */
 export class Trail {
   readonly points = new Float32Array(MAX_POINTS * 2);
+  /** The simulated time of each point, in s. */
+  readonly times = new Float32Array(MAX_POINTS);
   count = 0;
   /** The simulated time of the last point, in s. */
   time = 0;
@@ -23,10 +25,12 @@ export class Trail {
     this.time = t;
     if (this.count === MAX_POINTS) {
       this.points.copyWithin(0, MAX_POINTS, MAX_POINTS * 2);
+      this.times.copyWithin(0, MAX_POINTS / 2, MAX_POINTS);
       this.count = MAX_POINTS / 2;
     }
     this.points[this.count * 2] = x;
     this.points[this.count * 2 + 1] = y;
+    this.times[this.count] = t;
     this.count += 1;
     this.version += 1;
   }
@@ -39,6 +43,10 @@ export class Trail {
     return this.points[index * 2 + 1] ?? 0;
   }
 
+  t(index: number): number {
+    return this.times[index] ?? 0;
+  }
+
   clear(): void {
     this.count = 0;
     this.time = 0;
@@ -47,13 +55,17 @@ export class Trail {
 
   keep(): string {
     const points = Array.from(this.points.subarray(0, this.count * 2), (v) => Math.round(v * 1000) / 1000);
-    return JSON.stringify({ time: this.time, points });
+    const times = Array.from(this.times.subarray(0, this.count), (v) => Math.round(v * 1000) / 1000);
+    return JSON.stringify({ time: this.time, points, times });
   }
 
   restore(text: string | null): void {
     if (!text) return;
     try {
-      const { time, points } = JSON.parse(text) as { time: number; points: number[] };
+      const { time, points, times } = JSON.parse(text) as Record<'points' | 'times', number[]> & {
+        time: number;
+      };
+      this.times.set(times.slice(0, MAX_POINTS));
       this.points.set(points.slice(0, MAX_POINTS * 2));
       this.count = Math.min(points.length >> 1, MAX_POINTS);
       this.time = time;

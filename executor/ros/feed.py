@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -16,6 +16,13 @@ if TYPE_CHECKING:
 UNHEARD_HZ: Final = 2.0
 SHOWN_HZ: Final = 10.0
 """The rate of measurements that views show, also where no ROS node receives them."""
+
+
+class Coded(NamedTuple):
+    """A message of a type (`tf2_msgs/msg/TFMessage`) as CDR, for a tap alone."""
+
+    kind: str
+    data: bytes
 
 
 class Due:
@@ -44,7 +51,7 @@ class Feed:
 
     Without subscribers it is measured for a tap at most `unheard_hz` times in a second, if `Feeds.sample` was
     called. `is_picture` is set if the measurement must be rendered; `of_camera` is also set for messages that
-    accompany a picture.
+    accompany a picture. `encode` returns the message for a tap where nobody else takes it.
     """
 
     publishers: list[Any]
@@ -53,6 +60,7 @@ class Feed:
     is_picture: bool = False
     of_camera: bool = False
     unheard_hz: float = UNHEARD_HZ
+    encode: Callable[[float], Coded] | None = None
 
     @property
     def has_receiver(self) -> bool:
@@ -75,6 +83,10 @@ class Feed:
         """
         receivers = [publisher for publisher in self.publishers if publisher.get_subscription_count()]
         if not receivers and (tap is None or self.of_camera or not is_sampled):
+            return
+        if self.encode is not None and tap is not None and not receivers and faults is None:
+            for publisher in self.publishers:
+                tap(publisher.topic_name, self.encode(now_s), now_s)
             return
         message = self.make(sensors, now_s)
         if faults is not None:

@@ -10,6 +10,7 @@ from sensor_msgs.msg import CompressedImage, Image
 from std_msgs.msg import Header
 
 from executor.recorder.cdr import encode_object
+from executor.ros.feed import Coded
 from executor.ros.messages import to_time
 
 if TYPE_CHECKING:
@@ -40,7 +41,9 @@ class TopicTap:
 
     def __call__(self, topic: str, message: Any, now_s: float) -> None:
         """Takes one message."""
-        if isinstance(message, Image):
+        if isinstance(message, Coded):
+            self._write(topic, message.kind, now_s, message.data)
+        elif isinstance(message, Image):
             self._picture(topic, message, now_s)
         else:
             self._write(topic, kind_of(message), now_s, encode_object(kind_of(message), message))

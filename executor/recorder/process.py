@@ -1,8 +1,8 @@
 """The recorder of a session: `python -m executor.recorder.process --channel-fd N`.
 
 World and application send what happens over links of their own (`executor.recorder.link`), the manager tells
-of lines, faults and the end. None of the user's code is in this process, and it survives all others. Links are
-read four times in a second, just after all sources send, and twice in a second everything is flushed: what
+of lines, faults and the end. None of the user's code is in this process, and it survives all others. Links
+are read four times in a second, just after all sources send, and twice in a second everything is flushed: what
 arrives between does not wake the process. A full disk stops the recording, not the run.
 """
 
@@ -81,6 +81,7 @@ class RecorderProcess:
         self._order = Ordering[Record | Heard | Dump]()
         self._look_s = 0.0
         self._flush_s = 0.0
+        self._has_told = False
         self._early: list[_Early] = []
 
     def run(self) -> None:
@@ -110,9 +111,11 @@ class RecorderProcess:
         self._look_s = now_s + FULL_S if is_full else next_batch_s(now_s - LATER_S) + LATER_S
         if now_s >= self._flush_s:
             self._flush_s = now_s + FLUSH_S - BATCH_S / 2  # at every second look
-            self._channel.send(child_messages.Beat(0))
+            self._has_told = False
             if self._writer is not None:
                 self._guarded(self._writer.flush)
+            if not self._has_told:  # a segment is a sign of life too
+                self._channel.send(child_messages.Beat(0))
 
     # --- the manager ------------------------------------------------------------------------------
 
@@ -197,6 +200,7 @@ class RecorderProcess:
         return next((one for one in known if (one.run, one.number, one.version) == wanted), None)
 
     def _announce(self, segment: shelf.Segment) -> None:
+        self._has_told = True
         times = segment.from_ns * 1e-9, segment.to_ns * 1e-9
         place = segment.run, BRANCH, segment.number, segment.version
         self._channel.send(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 if TYPE_CHECKING:
@@ -23,6 +24,13 @@ class Coded(NamedTuple):
 
     kind: str
     data: bytes
+
+
+class Shown(NamedTuple):
+    """A picture for a tap: its message, and what returns it as JPEG."""
+
+    message: Any
+    jpeg: Callable[[], bytes]
 
 
 class Due:
@@ -51,7 +59,8 @@ class Feed:
 
     Without subscribers it is measured for a tap at most `unheard_hz` times in a second, if `Feeds.sample` was
     called. `is_picture` is set if the measurement must be rendered; `of_camera` is also set for messages that
-    accompany a picture. `encode` returns the message for a tap where nobody else takes it.
+    accompany a picture. `encode` returns the message for a tap where nobody else takes it; `jpeg` returns a
+    picture that clients may get too.
     """
 
     publishers: list[Any]
@@ -61,6 +70,7 @@ class Feed:
     of_camera: bool = False
     unheard_hz: float = UNHEARD_HZ
     encode: Callable[[float], Coded] | None = None
+    jpeg: Callable[[Sensors], bytes] | None = None
 
     @property
     def has_receiver(self) -> bool:
@@ -95,8 +105,9 @@ class Feed:
         for publisher in receivers:
             publisher.publish(message)
         if tap is not None:
+            shown = message if self.jpeg is None else Shown(message, partial(self.jpeg, sensors))
             for publisher in receivers if self.of_camera else self.publishers:
-                tap(publisher.topic_name, message, now_s)
+                tap(publisher.topic_name, shown, now_s)
 
     def _publish_faulty(self, message: Any, now_s: float, tap: Tap | None, faults: TopicFaults) -> None:
         for publisher in self.publishers:

@@ -153,9 +153,10 @@ class RobotTopics:
         is_picture: bool = False,
         of_camera: bool = False,
         unheard_hz: float = UNHEARD_HZ,
+        jpeg: Callable[[Sensors], bytes] | None = None,
     ) -> None:
         of_camera = is_picture or of_camera
-        self.feeds.append(Feed(publishers, make, rate_hz, is_picture, of_camera, unheard_hz))
+        self.feeds.append(Feed(publishers, make, rate_hz, is_picture, of_camera, unheard_hz, jpeg=jpeg))
 
     def _add_motion(self) -> None:
         frames, base = self._frames, self._base
@@ -197,6 +198,7 @@ class RobotTopics:
                 camera, sensors.picture(self._robot(), camera), now_s, frames
             ),
             is_picture=True,
+            jpeg=lambda sensors: sensors.jpeg(self._robot(), camera),
         )
         if camera.depth_topic is not None:
             self._feed(

@@ -13,6 +13,7 @@ import asyncio
 import os
 import re
 import sys
+from contextlib import nullcontext
 from http import HTTPStatus
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -23,6 +24,9 @@ from websockets.http11 import Response
 from executor.recorder.joining import NO_ROOM, NOT_RECORDED
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+    from contextlib import AbstractContextManager
+
     from websockets.http11 import Request
 
 __all__ = ["Recordings", "is_recording"]
@@ -43,10 +47,14 @@ class Recordings:
 
     Args:
         folder: has the segments; the joined files are beside it.
+        starting: is entered while a process runs that nobody else may wait for.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(
+        self, folder: Path, starting: Callable[[], AbstractContextManager[None]] = nullcontext
+    ) -> None:
         self._folder = folder
+        self._starting = starting
         self._joining = asyncio.Lock()
         self._in_memory: tuple[str, int] | None = None
         """The name of a run, and the descriptor of its file."""
@@ -86,12 +94,16 @@ class Recordings:
             fresh.unlink(missing_ok=True)
             self._in_memory = run, os.memfd_create("bt-studio-recording", os.MFD_CLOEXEC)
             _, problem = await self._write(run, _path_of(self._in_memory[1]), self._in_memory[1])
-        elif not code:
+        elif code == 0:
             fresh.rename(joined)
         return problem
 
     async def _write(self, run: str, out: Path, *descriptors: int) -> tuple[int | None, Response | None]:
         """Writes the file of a run; returns the status of the process, and the answer if it failed."""
+        with self._starting():
+            return await self._run(run, out, *descriptors)
+
+    async def _run(self, run: str, out: Path, *descriptors: int) -> tuple[int | None, Response | None]:
         process = await asyncio.create_subprocess_exec(
             sys.executable,
             "-m",

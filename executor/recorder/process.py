@@ -2,7 +2,7 @@
 
 World and application send what happens over links of their own (`executor.recorder.link`), the manager tells
 of lines, faults and the end. None of the user's code is in this process, and it survives all others. Links
-are read four times in a second, just after all sources send, and twice in a second everything is flushed: what
+are read four times in a second, just after all sources send, and every second time all is flushed: what
 arrives between does not wake the process. A full disk stops the recording, not the run.
 """
 

@@ -108,8 +108,9 @@ def test_a_topic_that_only_a_recording_takes_is_encoded_for_it_alone() -> None:
 
 def test_a_picture_comes_with_what_codes_it() -> None:
     publisher, said = Publisher(1, "/camera/image_raw"), []
-    feed = Feed([publisher], lambda _, t: "message", 10.0, is_picture=True, of_camera=True, jpeg=lambda s: s)
-    feed.publish(b"jpeg", 0.0, lambda *message: said.append(message))
+    code = lambda _: b"jpeg"  # noqa: E731 - one line
+    feed = Feed([publisher], lambda _, t: "message", 10.0, is_picture=True, of_camera=True, jpeg=code)
+    feed.publish(None, 0.0, lambda *message: said.append(message))
     ((topic, shown, now_s),) = said
     assert (topic, shown.message, shown.jpeg(), now_s) == ("/camera/image_raw", "message", b"jpeg", 0.0)
     assert publisher.sent == ["message"]

@@ -131,7 +131,7 @@ def _put_all(steps: Sequence[_Step], data: bytearray, values: Sequence[Any]) -> 
 
 
 def _steps(fields: Sequence[Field]) -> tuple[_Step, ...]:
-    """Returns what puts the values of fields, in their order."""
+    """Returns the functions that put the values of fields, in their order."""
     steps: list[_Step] = []
     for is_number, group in itertools.groupby(enumerate(fields), lambda each: _is_number(each[1])):
         members = list(group)
@@ -154,7 +154,7 @@ def _mapping_steps(name: str) -> tuple[Take, tuple[_Step, ...]]:
 
 @functools.cache
 def _object_writer(name: str) -> Put:
-    """Returns what writes the fields of an object, in their order; those of its parts are its own."""
+    """Returns the function that writes the fields of an object, in their order, with those of its parts."""
     leaves = list(_leaves(name))
     if not leaves:
         return lambda data, value: None
@@ -168,7 +168,7 @@ def _object_writer(name: str) -> Put:
 
 
 def _getter(get: Take, count: int) -> Take:
-    """Returns what takes values as a tuple, also a single one."""
+    """Returns a function that takes values as a tuple, also a single one."""
     return get if count > 1 else lambda message: (get(message),)
 
 

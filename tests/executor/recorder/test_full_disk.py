@@ -1,4 +1,4 @@
-"""Users' code fills the disk with the recording: what was recorded before is there, and the run goes on."""
+"""Users' code fills the disk with the recording: what was recorded before is there, and the run continues."""
 
 from __future__ import annotations
 

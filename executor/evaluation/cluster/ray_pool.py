@@ -47,7 +47,7 @@ def import_ray(*, is_own: bool) -> Any:
     """
     os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
     os.environ.setdefault("RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO", "0")
-    os.environ.setdefault("RAY_worker_niceness", "0")  # noqa: SIM112 - 15 starves runs on a busy machine
+    os.environ.setdefault("RAY_worker_niceness", "0")
     if is_own and "ray" not in sys.modules:
         os.environ["RAY_AUTH_MODE"] = "token"
         os.environ["RAY_AUTH_TOKEN"] = secrets.token_hex(32)
@@ -74,7 +74,7 @@ class RayPool:
     def __init__(
         self, parcel: bytes, address: str, *, first_limit_s: float, scale: Callable[[Outcome], float]
     ) -> None:
-        self._mine = fingerprint()  # before Ray is loaded, which brings packages of its own
+        self._mine = fingerprint()
         self._is_own = address == AUTO and not has_cluster()
         self._ray = import_ray(is_own=self._is_own)
         self._parcel = parcel

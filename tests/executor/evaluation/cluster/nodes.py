@@ -9,12 +9,12 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import psutil
 
 from executor.evaluation.cluster.ray_pool import import_ray
 from executor.evaluation.evaluate import evaluate
-from executor.evaluation.fingerprint import fingerprint
 from executor.evaluation.plan import make_plan
 from translator import open_path
 
@@ -44,12 +44,15 @@ def wait_for(count: int) -> list[psutil.Process]:
 def main() -> None:
     folder, seeds, nodes = Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3])
     plan = make_plan(open_path(folder), "main")
-    fingerprint()
     import_ray(is_own=False)
     from ray.cluster_utils import Cluster
 
     os.environ.pop("RAY_ADDRESS", None)
-    options = {"num_cpus": 1, "object_store_memory": MEMORY, "include_dashboard": False}
+    options: dict[str, Any] = {
+        "num_cpus": 1,
+        "object_store_memory": MEMORY,
+        "include_dashboard": False,
+    }
     cluster = Cluster()
     started = [cluster.add_node(**options) for _ in range(nodes)]
     told: list[str] = []

@@ -116,7 +116,7 @@ class Recovery:
         """Reports the results of children before a line that were to be reported together."""
         meaning = self.lines.get(line)
         if meaning is not None and meaning.pending:
-            self.recorder.results += [self.values[place] for place in meaning.pending]
+            self.recorder.results += [self.values[place].marks[index] for place, index in meaning.pending]
 
     def report(self, line: int, node: Node) -> None:
         """Reports to observers what the function has not reported when it is left at a line."""

@@ -20,7 +20,7 @@ from tree_gardener.node import Control
 from tree_gardener.runner import Runner
 
 R, S, F = PyTreesStatus.RUNNING, PyTreesStatus.SUCCESS, PyTreesStatus.FAILURE
-TWO = "<Sequence><Sequence><A/><B/></Sequence>" + "<A/>" * 31 + "</Sequence>"
+TWO = f"<Sequence><Repeat num_cycles='1'><Sequence><A/><B/></Sequence></Repeat>{'<A/>' * 9}</Sequence>"
 
 
 def coded(tree: Tree) -> list[int]:

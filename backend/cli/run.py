@@ -44,6 +44,10 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
         str | None,
         typer.Option(help="Run one seed of this evaluation, in lock-step, and judge it."),
     ] = None,
+    judged_by: Annotated[
+        str | None,
+        typer.Option("--judged-by", help="With --evaluation: the project that the evaluation is taken from."),
+    ] = None,
     record: Annotated[
         Path | None,
         typer.Option(help="MCAP file (.mcap) for all that happens in the run."),
@@ -51,19 +55,21 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     as_json: Annotated[bool, typer.Option("--json", help="Print the report as JSON.")] = False,  # noqa: FBT002
 ) -> None:
     """Runs a project; exit status 1 if it cannot run, an action raised, or an action is an unwritten stub."""
-    from backend.cli import _translation as cli
-    from backend.cli.errors import CliError
+    from backend.cli.shared import translation as cli
+    from backend.cli.shared.errors import CliError
     from translator import TranslatorError
     from translator.export import unwritten_actions
     from tree_gardener.stubs import stubs_sentence
 
     _refuse_contradictions(record, universe, lockstep=lockstep, viewer=viewer)
     if evaluation is not None:
-        from backend.cli.evaluation import run_one
+        from backend.cli.evaluating.one_run import run_one
 
         _refuse_with_evaluation(universe, robot, duration, viewer=viewer)
-        run_one(project, evaluation, seed, record=record, report=report, as_json=as_json)
+        run_one(project, evaluation, seed, judged_by=judged_by, record=record, report=report, as_json=as_json)
         return
+    if judged_by is not None:
+        raise typer.BadParameter("name the evaluation with --evaluation", param_hint="--judged-by")
     if lockstep:
         fix_hashes()
     stubs: list[str] = []
@@ -138,7 +144,7 @@ def fix_hashes(others: Mapping[str, str] | None = None) -> None:
 
 
 def _in_lockstep(project: Project, options: LockstepOptions) -> Report:
-    from backend.cli.errors import CliError
+    from backend.cli.shared.errors import CliError
     from executor.headless.errors import HeadlessError
     from executor.headless.guard import Guard, Hung
     from executor.headless.lockstep import run_lockstep
@@ -164,7 +170,7 @@ def _in_lockstep(project: Project, options: LockstepOptions) -> Report:
 
 
 def _in_real_time(project: Project, options: HeadlessOptions) -> Report:
-    from backend.cli.errors import CliError
+    from backend.cli.shared.errors import CliError
     from executor.headless.errors import HeadlessError
     from executor.headless.live import run_headless
     from translator import to_app_zip

@@ -19,13 +19,12 @@ if TYPE_CHECKING:
 
     from executor.evaluation.document import Fault
     from executor.evaluation.plan import Plan
-    from executor.headless.lockstep import LockstepRun
+    from executor.evaluation.run import EvaluationRun
     from executor.robots.config import RobotConfig
     from executor.universes.model import Universe
     from translator import Project
 
 MOST_ATTEMPTS: Final = 200
-MESSAGE: Final = "a fault of the evaluation makes this action raise"
 
 
 @dataclass(frozen=True)
@@ -46,7 +45,7 @@ class Scheduled:
 def schedule(faults: Sequence[Fault], seed: int) -> list[Scheduled]:
     """Draws which faults happen with a seed, and when.
 
-    Each is drawn by its kind and what it names; equal ones are numbered, so that no fault changes another.
+    The draws of a fault depend on its kind, target and number among equals, so no fault changes another.
     """
     found: list[Scheduled] = []
     seen: dict[str, int] = {}
@@ -92,7 +91,7 @@ def topics_of(config: RobotConfig, renamed: Mapping[str, str]) -> list[str]:
 
 
 def fault_problems(plan: Plan, place: Callable[..., tuple[int, int]]) -> Iterator[Problem]:
-    """Yields what faults name and does not exist."""
+    """Yields the references of faults to things that do not exist."""
     for index, fault in enumerate(plan.evaluation.faults):
         found = _problem(plan, fault)
         if found is not None:
@@ -105,7 +104,7 @@ def fault_problems(plan: Plan, place: Callable[..., tuple[int, int]]) -> Iterato
 def _problem(  # noqa: PLR0911 - one a field
     plan: Plan, fault: Fault
 ) -> tuple[str, str, list[str]] | None:
-    """Returns field, message and known names of what a fault names wrongly, or None."""
+    """Returns field, message and known names for a wrong name in a fault, or None."""
     ids = [robot.id for robot in plan.universe.robots]
     if fault.robot is not None and fault.robot not in ids:
         return "robot", f"the universe has no robot {fault.robot!r}", ids
@@ -169,7 +168,7 @@ class Faults:
         run: the run, which is set up.
     """
 
-    def __init__(self, plan: Plan, seed: int, run: LockstepRun) -> None:
+    def __init__(self, plan: Plan, seed: int, run: EvaluationRun) -> None:
         self._plan = plan
         self._seed = seed
         self._run = run
@@ -185,7 +184,7 @@ class Faults:
             run.node.change_messages(self._topics)
 
     def act(self, now_s: float) -> None:
-        """Begins and ends what is due."""
+        """Begins and ends the faults that are due."""
         if not self._waiting and not self._active:
             return
         for each in [
@@ -262,11 +261,7 @@ class Faults:
 
     def _switch_action(self, fault: Fault, *, on: bool) -> None:
         [(tree_id, node_id)] = nodes_named(self._plan.project, fault.node or "")
-        for node in self._run.tree.nodes:
-            behaviour: Any = getattr(node, "instance_behaviour", None)
-            if behaviour is not None and (node.tree_id, node.node_id) == (tree_id, node_id):
-                leaf: Any = node  # a leaf holds the function that it calls
-                leaf.update = _raise if on else behaviour.update
+        self._run.switch_action(tree_id, node_id, on=on)
 
     def _kidnap(self, each: Scheduled) -> None:
         fault, robot, world = each.fault, self._robot(each.fault), self._run.world
@@ -304,7 +299,3 @@ class Faults:
 
 def _switch_in(factors: list[float], factor: float, *, on: bool) -> None:
     factors.append(factor) if on else factors.remove(factor)
-
-
-def _raise() -> Any:
-    raise RuntimeError(MESSAGE)

@@ -39,7 +39,17 @@ _TF_QOS: Final = QoSProfile(depth=100)
 
 
 class WorldNode:
-    """Publishes and receives the topics of a world and of its robots."""
+    """Publishes and receives the topics of a world and of its robots.
+
+    Args:
+        world: the world.
+        context: the ROS context.
+        topics: topics that the universe renames, by robot and sensor.
+        true_poses: the robots that publish their true pose.
+        clock_hz: the rate of `/clock`.
+        outlet: the outlet through which messages are published; None publishes directly.
+        node: takes the place of a node of rclpy, as in sealed runs.
+    """
 
     def __init__(  # noqa: PLR0913 - a world, and how it takes part in the graph
         self,
@@ -50,10 +60,11 @@ class WorldNode:
         true_poses: Collection[str] = (),
         clock_hz: float = CLOCK_HZ,
         outlet: Outlet | None = None,
+        node: Any = None,
     ) -> None:
         self._world = world
         self._outlet = outlet
-        self.node = Node(
+        self.node = node or Node(
             "world",
             context=context,
             start_parameter_services=False,

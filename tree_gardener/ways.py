@@ -1,4 +1,4 @@
-"""How a tree is ticked: by its nodes' own methods or by generated code, and how a tick enters the root."""
+"""The ways to tick a tree: the nodes' own methods, or generated code; and the shortest way into the root."""
 
 from typing import TYPE_CHECKING
 

@@ -11,7 +11,9 @@ from tree_gardener.actions import load_actions
 from tree_gardener.blackboard import Blackboard, Entry
 from tree_gardener.clock import Clock, SystemClock, Timers
 from tree_gardener.controls.custom import CustomControl
-from tree_gardener.deep import DEEP, call_deep
+from tree_gardener.debugging.agent import Agent
+from tree_gardener.debugging.wiring import Wiring
+from tree_gardener.deep import DEEP, DEEP_ASKING, call_deep
 from tree_gardener.enums import Enums, constants, types
 from tree_gardener.errors import LoadError, TickError, describe
 from tree_gardener.forest import Forest
@@ -61,6 +63,7 @@ class Tree:
         self.nodes: list[Node] = []
         self.boards: list[Blackboard] = [self.blackboard]
         self.depth = 0
+        self._deep = DEEP
         self.wake_up = False
         self.on_error: Callable[[TickError], None] | None = None
         self.on_warning: Callable[[Node, str], None] | None = None
@@ -384,7 +387,7 @@ class Tree:
         return self._guarded_without_telling(function)
 
     def _guarded_without_telling(self, function: Callable[[], T]) -> T:
-        return call_deep(function, self.depth) if self.depth > DEEP else function()
+        return call_deep(function, self.depth) if self.depth > self._deep else function()
 
     def warn(self, node: Node, message: str) -> None:
         """Reports a tolerated fault of a node, once."""
@@ -472,6 +475,32 @@ class Tree:
             self.link()
         return self._hooks.log
 
+    def debug(self, agent: Agent | None) -> None:
+        """Attaches a debugger, which nodes ask before and after their ticks; None detaches it.
+
+        The agent chooses the nodes with its `Wiring`, at any time, also within a tick.
+        """
+        if self._hooks.wiring is not None:
+            self._hooks.wiring.remove()
+        self._hooks.wiring = None if agent is None else Wiring(self, agent)
+        self._deep = DEEP if agent is None else DEEP_ASKING
+        self.rewire()
+        if self._hooks.wiring is not None and agent is not None:
+            agent.attach(self._hooks.wiring)
+
+    @property
+    def is_ticking(self) -> bool:
+        """Whether a tick is in progress."""
+        return self._ended_tick != self.tick_number
+
+    def rewire(self) -> None:
+        """Looks up again how each node is ticked, also for a tick in progress."""
+        for node in self.nodes:
+            node.rewire()
+        self._tick_root = self.nodes[0].entry()
+        self._generation.doubt()
+        self._choose_way()
+
     def entry_of(self, node: Node, inner: Execute) -> Execute:
         """Returns the function that ticks a node together with its hooks; `inner` is the node's own."""
         return self._hooks.entry(node, inner)
@@ -515,7 +544,7 @@ class Tree:
         """Chooses the shorter way to tick if nothing is to be done round the tick."""
         self._is_plain = not (
             self._recorder.observers
-            or self.depth > DEEP
+            or self.depth > self._deep
             or self._hooks.times_leaves
             or self._generation.queue
         )

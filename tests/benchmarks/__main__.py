@@ -18,6 +18,7 @@ BENCHMARKS = (
     "stream",
     "session",
     "recording",
+    "axis",
     "flood",
     "opening",
     "browser",

@@ -6,7 +6,7 @@ import dataclasses
 import shlex
 import sys
 from pathlib import Path  # noqa: TC003 - typer reads the annotations
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
 
@@ -25,6 +25,13 @@ ONLY_FAILED = "only-failed"
 AGAINST = "against"
 
 
+class _Where(NamedTuple):
+    """Where runs run: on so many processors of this machine, or on a cluster."""
+
+    workers: int | None
+    cluster: str | None
+
+
 def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     project: Annotated[str, typer.Argument(help="A project folder, zip or name.")],
     name: Annotated[str | None, typer.Argument(help="The evaluation; needed if there are several.")] = None,
@@ -36,6 +43,10 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     ] = False,
     workers: Annotated[
         int | None, typer.Option(min=1, max=1024, help="Runs at a time; one a processor without it.")
+    ] = None,
+    cluster: Annotated[
+        str | None,
+        typer.Option(help="Run on a Ray cluster: its address, or auto for this machine's own."),
     ] = None,
     against: Annotated[
         str | None,
@@ -53,6 +64,14 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     strict: Annotated[  # noqa: FBT002
         bool, typer.Option("--strict", help="Refuse to continue results of another platform.")
     ] = False,
+    judged_by: Annotated[
+        str | None,
+        typer.Option("--judged-by", help="The project whose evaluation, universe, robot and judge count."),
+    ] = None,
+    sealed: Annotated[  # noqa: FBT002
+        bool,
+        typer.Option("--sealed", help="Keep tree and actions in a process that sees nothing of the judge."),
+    ] = False,
     to_the_end: Annotated[  # noqa: FBT002
         bool, typer.Option("--to-the-end", help="Let each run take its whole time.")
     ] = False,
@@ -62,14 +81,15 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     Exit status: 0 if all gates pass (without gates: if the evaluation is complete), 1 if not, 2 for bad
     arguments.
     """
-    from backend.cli.evaluating.one_run import SINGLE, evaluations_of
+    from backend.cli.evaluating.one_run import evaluations_of
     from backend.cli.run import fix_hashes
     from backend.cli.shared.errors import CliError
+    from executor.evaluation.pool.environment import SINGLE
     from executor.evaluation.summary import pair
 
     fix_hashes(SINGLE)
     if as_list:
-        for each in evaluations_of(project):
+        for each in evaluations_of(judged_by or project):
             print(each)
         return
     if (resume or only_failed) and report is None:
@@ -77,7 +97,10 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     if sum((runs is not None, seeds is not None, only_failed)) > 1:
         raise typer.BadParameter("leave out all but one", param_hint="--runs / --seeds / --only-failed")
     gates = _read_gates(gate or [])
-    plan = _plan(project, name, runs, to_the_end=to_the_end, is_part=seeds is not None or only_failed)
+    plan = _plan(
+        project, name, runs, judged_by, to_the_end=to_the_end, is_part=seeds is not None or only_failed
+    )
+    plan = _sealed(plan) if sealed else plan
     chosen = _seeds(plan, seeds, report if only_failed else None)
     if report is not None:
         report = report / ONLY_FAILED if only_failed else report
@@ -88,13 +111,14 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
         raise typer.BadParameter("name the older version with --against", param_hint="--gate no-worse")
     _warn(gates, plan, len(chosen))
     results, kept = _open_results(plan, report, chosen, resume=resume, strict=strict)
-    progress, is_interrupted = _run(plan, chosen, workers, kept, results)
+    where = _Where(workers, cluster)
+    progress, is_interrupted = _run(plan, chosen, where, kept, results)
     summary = progress.summary(chosen, sequential=plan.evaluation.until is not None)
     pairs: Pairs | None = None
     if older is not None and not is_interrupted:
         folder = None if report is None else report / AGAINST
         seeds_run = [outcome.seed for outcome in summary.outcomes]
-        before, is_interrupted = _run_older(older, seeds_run, workers, folder, resume=resume, strict=strict)
+        before, is_interrupted = _run_older(older, seeds_run, where, folder, resume=resume, strict=strict)
         pairs = pair(before, summary.outcomes)
     verdicts = _finish(plan, project, summary, gates, results, pairs)
     if junit is not None:
@@ -117,24 +141,47 @@ def _read_gates(texts: Sequence[str]) -> list[Gate]:
         raise typer.BadParameter(str(error), param_hint="--gate") from error
 
 
-def _plan(project: str, name: str | None, runs: int | None, *, to_the_end: bool, is_part: bool) -> Plan:
+def _plan(  # noqa: PLR0913 - as the options say
+    project: str,
+    name: str | None,
+    runs: int | None,
+    judged_by: str | None,
+    *,
+    to_the_end: bool,
+    is_part: bool,
+) -> Plan:
     """Returns the plan; a number of runs or seeds from the command line replaces `runs` and `until`."""
     from backend.cli.evaluating.one_run import evaluations_of, open_plan
     from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
 
     if name is None:
-        names = evaluations_of(project)
+        owner = judged_by or project
+        names = evaluations_of(owner)
         if len(names) != 1:
             there = f"name one of {', '.join(names)}" if names else "write evaluations/main.yaml"
             raise CliError(
-                f"{project}:1:1: there are {len(names)} evaluations: {there}", status=BAD_ARGUMENTS
+                f"{owner}:1:1: there are {len(names)} evaluations: {there}",
+                status=BAD_ARGUMENTS,
             )
         name = names[0]
-    plan = open_plan(project, name)
+    plan = open_plan(project, name, judged_by=judged_by)
     evaluation = plan.evaluation
     if runs is not None or is_part:
         evaluation = evaluation.model_copy(update={"until": None, "runs": runs or evaluation.most_runs})
     return dataclasses.replace(plan, evaluation=evaluation, to_the_end=to_the_end)
+
+
+def _sealed(plan: Plan) -> Plan:
+    from backend.cli.evaluating.one_run import explained
+    from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
+    from executor.evaluation.plan import sealed
+    from executor.evaluation.sealed.confine import SealError
+
+    try:
+        with explained():
+            return sealed(plan)
+    except SealError as error:
+        raise CliError(f"bt-studio: {error}", status=BAD_ARGUMENTS) from error
 
 
 def _older_plan(plan: Plan, project: str, against: str) -> Plan:
@@ -149,13 +196,13 @@ def _older_plan(plan: Plan, project: str, against: str) -> Plan:
 
 
 def _run_older(  # noqa: PLR0913 - as the options say
-    plan: Plan, seeds: Sequence[int], workers: int | None, folder: Path | None, *, resume: bool, strict: bool
+    plan: Plan, seeds: Sequence[int], where: _Where, folder: Path | None, *, resume: bool, strict: bool
 ) -> tuple[list[Outcome], bool]:
     """Runs the older version on the same seeds; returns its outcomes, and whether Ctrl+C ended it."""
     is_begun = folder is not None and (folder / "evaluation.json").exists()
     results, kept = _open_results(plan, folder, seeds, resume=resume and is_begun, strict=strict)
     print("the older version:", flush=True)
-    progress, is_interrupted = _run(plan, seeds, workers, kept, results)
+    progress, is_interrupted = _run(plan, seeds, where, kept, results)
     outcomes = list(progress.summary(seeds, sequential=False).outcomes)
     if results is not None:
         results.finish(outcomes)
@@ -235,6 +282,7 @@ def _open_results(
                 "inputs": inputs_of(plan),
                 "seeds": len(seeds),
                 "to_the_end": plan.to_the_end,
+                "sealed": plan.sealed,
                 "fingerprints": prints,
             },
             kept,
@@ -245,10 +293,11 @@ def _open_results(
 
 
 def _run(
-    plan: Plan, seeds: Sequence[int], workers: int | None, kept: Sequence[Outcome], results: Results | None
+    plan: Plan, seeds: Sequence[int], where: _Where, kept: Sequence[Outcome], results: Results | None
 ) -> tuple[Progress, bool]:
     """Runs the remaining seeds; returns all outcomes, and whether Ctrl+C ended it."""
-    from backend.cli.shared.errors import CliError
+    from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
+    from executor.evaluation.cluster.ray_pool import ClusterError
     from executor.evaluation.evaluate import Interrupted, ThreadsError, evaluate
 
     def told(progress: Progress, done: Done | None) -> None:
@@ -262,11 +311,13 @@ def _run(
         _say(progress.line(sequential=plan.evaluation.until is not None))
 
     try:
-        return evaluate(plan, seeds, workers=workers, kept=kept, told=told), False
+        return evaluate(
+            plan, seeds, workers=where.workers, cluster=where.cluster, kept=kept, told=told
+        ), False
     except Interrupted as interrupted:
         return interrupted.progress, True
-    except ThreadsError as error:
-        raise CliError(f"bt-studio: {error}") from error
+    except (ThreadsError, ClusterError) as error:
+        raise CliError(f"bt-studio: {error}", status=BAD_ARGUMENTS) from error
     finally:
         _say("")
 
@@ -294,7 +345,7 @@ def _finish(  # noqa: PLR0913, PLR0917 - all that the results are of
         print(line)
     for outcome in summary.worst()[:3]:
         print(f"    seed {outcome.seed} {outcome.outcome} after {outcome.end_s:.1f} s: {outcome.why}")
-        print(f"        {command_of(project, plan.name, outcome.seed)}")
+        print(f"        {command_of(project, plan.name, outcome.seed, plan.judged_by)}")
     for line in pairs.lines() if pairs is not None else ():
         print(line)
     verdicts = [check_gate(gate, summary, pairs) for gate in gates]
@@ -312,6 +363,7 @@ def _finish(  # noqa: PLR0913, PLR0917 - all that the results are of
             gates=[(str(verdict), verdict.passes) for verdict in verdicts],
             pairs=pairs,
             fingerprints=[each["id"] for each in header["fingerprints"]],
+            judged_by=plan.judged_by,
         )
         results.write("report.html", report_html(document))
         print(f"results: {results.folder / 'report.html'}")

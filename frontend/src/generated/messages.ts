@@ -683,6 +683,7 @@ export interface Commands {
   restart_node: RestartNode;
   read_recording: ReadRecording;
   flag: Flag;
+  evaluate: Evaluate;
   take_over: Empty;
   ping: Empty;
 }
@@ -709,6 +710,9 @@ export interface Events {
   topic_mismatch: TopicMismatch;
   launch_nodes: LaunchNodes;
   segment: Segment;
+  evaluation_started: EvaluationStarted;
+  evaluation_outcome: EvaluationOutcome;
+  evaluation_ended: EvaluationEnded;
 }
 
 /** What the stream socket sends, told by `type`. */

@@ -13,7 +13,7 @@ from executor.child_messages import Answer, Asked, Beat, Frame, Log, Message, St
 
 
 class StartRecorder(Message, tag="start"):
-    """Records into a folder; what another recorder left there is taken over.
+    """Records into a folder; the segments of an earlier recorder are taken over.
 
     With `is_whole` the recordings have no budgets.
     """

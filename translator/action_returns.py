@@ -34,7 +34,7 @@ class Returns:
         declared: whether the class states them.
         is_sync: whether it is a SyncAction or a Condition, which never returns RUNNING.
         line: the line of the declaration, or that of the class.
-        problem: what is wrong with the declaration, or "".
+        problem: a sentence about a wrong declaration, or "".
     """
 
     known: frozenset[str] = frozenset()
@@ -98,7 +98,7 @@ def _of_class(cls: ast.ClassDef) -> Returns:
 
 
 def _of_update(cls: ast.ClassDef) -> tuple[frozenset[str], frozenset[str]]:
-    """Returns what `update` returns, empty if it is not plain, and what it names."""
+    """Returns the results of `update` (empty if they are not plain), and the names that it uses."""
     updates = [
         item
         for item in cls.body
@@ -137,7 +137,7 @@ def _assigned(cls: ast.ClassDef, name: str) -> list[tuple[ast.stmt, ast.expr]]:
 
 
 def _declared(value: ast.expr) -> tuple[frozenset[str], str]:
-    """Returns the results of a declaration, and what is wrong with it."""
+    """Returns the results of a declaration, and its problem."""
     call = value
     if isinstance(call, ast.Call) and isinstance(call.func, ast.Name) and call.func.id == "frozenset":
         value = call.args[0] if len(call.args) == 1 and not call.keywords else call

@@ -80,7 +80,7 @@ def to_job(project: Project, *, real: bool = False) -> tuple[dict[str, Any], lis
 
 
 def leaf_model(action: ActionModel) -> dict[str, Any]:
-    """Returns what a test needs to know of an action, as `LeafModel.to_json` of the engine writes it."""
+    """Returns the model of an action for tests, in the form that the engine's `LeafModel.to_json` writes."""
     return {
         "kind": _KINDS.get(action.kind) or ("SyncAction" if _is_sync(action) else "Action"),
         "ports": [[port.direction, port.name, port.type, port.default] for port in action.ports],

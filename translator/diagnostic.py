@@ -1,4 +1,4 @@
-"""Diagnostics: what is wrong, where, and what to do about it.
+"""Diagnostics: a problem, its place, and a way to fix it.
 
 Each has a code from the table in `diagnostics.json`, from which the reference page is generated, and which
 the front end uses. A diagnostic always has a place: a file, and a node or a line in the file.

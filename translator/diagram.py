@@ -274,7 +274,7 @@ class _Reader:
         return lost
 
     def conflicts(self, document: dict[str, Any]) -> tuple[dict[str, Any], ...]:
-        """Returns what a merge has left; entries of another form count, too, so that none is lost."""
+        """Returns the open conflicts of a merge; entries of unknown form are kept, so that none is lost."""
         listed = document.get("conflicts") or []
         rows = listed if isinstance(listed, list) else [listed]
         return tuple(row if isinstance(row, dict) else {"op": "", "node": ""} for row in rows)

@@ -46,7 +46,7 @@ class EnumsDocument(BaseModel):
 
 
 def read_enums(raw: bytes | str) -> tuple[dict[str, dict[str, int]], tuple[Diagnostic, ...]]:
-    """Reads `enums.json`; what is not usable is left out, and reported at its line."""
+    """Reads `enums.json`; unusable entries are omitted, and reported at their lines."""
     document, problem = parse_json(raw, file=ENUMS_FILE)
     if problem is not None:
         return {}, (problem,)
@@ -68,7 +68,7 @@ class _Reader:
         self.found.append(diagnostic(code, Place(ENUMS_FILE, line=line, column=column), **values))
 
     def report_repeated_keys(self) -> None:
-        """Reports each key that its object has already: JSON keeps only the last one."""
+        """Reports keys that occur twice in one object: JSON keeps only the last one."""
         held: list[set[str]] = []
         for token in _TOKEN.finditer(self.text):
             if token.group() in {"{", "["}:

@@ -64,7 +64,7 @@ def _at(mark: Any, message: str) -> YamlError:
 
 
 def _measure(text: str) -> None:
-    """Refuses what is deep, long or repeats itself, before anything is built of it."""
+    """Refuses YAML that is too deep, too long or has aliases, before any object is built."""
     depth = values = 0
     for event in yaml.parse(text, Loader=yaml.CSafeLoader):
         mark = event.start_mark

@@ -78,7 +78,7 @@ class Timers:
         return timer
 
     def fire(self) -> None:
-        """Makes the calls whose time has come, in the order of their deadlines."""
+        """Makes the calls whose deadline has passed, in the order of their deadlines."""
         # A tolerance, because seconds in floats do not add up: three times 0.1 s is 0.30000000000000004 s.
         now_s = self.clock.now() + 1e-9
         while self.heap and self.heap[0][0] <= now_s:

@@ -77,7 +77,7 @@ class Hooks:
         self.log: list[tuple[int, Status]] | None = None
 
     def entry(self, node: Node, inner: Execute) -> Execute:
-        """Returns the function that ticks a node together with what runs round it."""
+        """Returns the function that ticks a node together with its hooks."""
         if self.tree.node_times_s is not None or self.has_hook(node):
             inner = functools.partial(self.run, node, inner)
         elif self.marks_leaves and isinstance(node, Leaf):

@@ -70,7 +70,7 @@ class PortSpec:
     Attributes:
         name: the attribute in XML.
         direction: ``input``, ``output`` or ``inout``.
-        type: what it carries.
+        type: the type of its value.
         default: NO_DEFAULT if there is none.
         required: whether a missing value is refused at load.
         description: one sentence.

@@ -1,4 +1,4 @@
-"""Closes what a tree opened on a node that outlives it.
+"""Closes the ROS entities that a tree opened on a node that outlives it.
 
 Most actions leave their publishers and subscriptions to the end of the process. A node that runs one tree
 after the other would keep those of every tree.
@@ -18,7 +18,7 @@ _KINDS: Final = (
 
 
 class OpenedSince:
-    """Remembers what a node has now, so that what is opened later can be closed."""
+    """Remembers the entities of a node, so that those opened later can be closed."""
 
     def __init__(self, node: Any) -> None:
         self._node = node
@@ -26,7 +26,7 @@ class OpenedSince:
         self._parameters = set(_parameters(node))
 
     def close(self) -> None:
-        """Destroys what was opened since, and undeclares the parameters."""
+        """Destroys the entities opened since, and undeclares the parameters."""
         node = self._node
         for waitable in list(node.waitables):  # clients and servers of actions
             if id(waitable) not in self._kept and hasattr(waitable, "destroy"):

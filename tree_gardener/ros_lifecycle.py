@@ -50,7 +50,7 @@ class LifecycleActionNode(LifecycleNodeMixin, ActionNode):
         return _OK if self._life is None else self._life.deactivate()
 
     def on_cleanup(self, _state: LifecycleState) -> TransitionCallbackReturn:
-        """Shuts the tree down and closes what it opened."""
+        """Shuts the tree down and closes its ROS entities."""
         return _OK if self._life is None else self._life.cleanup()
 
     def on_shutdown(self, _state: LifecycleState) -> TransitionCallbackReturn:

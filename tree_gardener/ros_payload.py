@@ -13,7 +13,7 @@ class PayloadError(ValueError):
 
 
 def blackboard_of(payload: str) -> Blackboard:
-    """Returns the root blackboard of a tree that a goal asks for.
+    """Returns the root blackboard for the tree of a goal.
 
     The entry ``payload`` holds the text. If it is a JSON object, each of its members is an entry too.
 

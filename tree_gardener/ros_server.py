@@ -73,7 +73,7 @@ class TreeServer:
         node: the node, whose executor spins in the thread that calls `step`.
         action_name: the name of the action.
         load: builds a tree.
-        on_new_goal: what happens with a goal that comes while a tree runs.
+        on_new_goal: the handling of a goal that arrives while a tree runs.
         callback_group: the group of the server and of the ticks.
         runner: arguments of `RosRunner`, such as ``tick_hz``.
     """
@@ -105,7 +105,7 @@ class TreeServer:
         )
 
     def step(self) -> None:
-        """Handles what happened: cancelled goals, new goals, feedback, and the end of the tree."""
+        """Handles cancelled goals, new goals, feedback, and the end of the tree."""
         for handle in [each for each in self._waiting if each.is_cancel_requested]:
             self._waiting.remove(handle)
             self._end(handle, "canceled", Status.IDLE, CANCELLED)

@@ -31,7 +31,7 @@ def unwritten(tree: "Tree") -> list[str]:
 
 
 def stubs_sentence(names: "Sequence[str]") -> str:
-    """Returns a sentence that names the stubs, and what to do."""
+    """Returns a sentence that names the stubs and the next step."""
     one = len(names) == 1
     listed = names[0] if one else f"{', '.join(names[:-1])} and {names[-1]}"
     is_are = "is an unwritten stub, which always fails" if one else "are unwritten stubs, which always fail"

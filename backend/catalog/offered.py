@@ -10,7 +10,7 @@ from translator import inspect_action
 
 @lru_cache(maxsize=1)
 def offered_actions() -> tuple[dict[str, Any], ...]:
-    """Returns what each node declares, with its source, by name."""
+    """Returns the declaration and the source of each node, by name."""
     from tree_gardener.nav2_library import source_of, table  # noqa: PLC0415 - the engine loads py_trees
 
     sources = {name: source for name in sorted(table()) if (source := source_of(name)) is not None}

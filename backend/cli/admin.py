@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from backend.cli.errors import BAD_ARGUMENTS, CliError
-from backend.cli.stored import stored_projects
+from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
+from backend.cli.shared.stored import stored_projects
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -108,7 +108,7 @@ def invite(
 
 @admin.command()
 def users() -> None:
-    """Lists the accounts with what they store."""
+    """Lists the accounts with their storage."""
     with _accounts():
         from backend.projects.storage.usage import usage_of_all
 

@@ -11,8 +11,8 @@ from typing import Annotated
 
 import typer
 
-from backend.cli.errors import CliError
-from backend.cli.stored import stored_projects
+from backend.cli.shared.errors import CliError
+from backend.cli.shared.stored import stored_projects
 
 
 def backup(
@@ -20,7 +20,7 @@ def backup(
 ) -> None:
     """Writes all accounts, projects and revisions to one file; the server may keep running."""
     with stored_projects():
-        from backend.cli.backup_file import write_backup
+        from backend.cli.shared.backup_file import write_backup
 
         if str(output) == "-":
             counts = write_backup(sys.stdout.buffer)
@@ -43,7 +43,7 @@ def restore(
 ) -> None:
     """Reads a backup into an empty server, which must not be running."""
     with stored_projects():
-        from backend.cli.backup_file import BackupError, read_backup
+        from backend.cli.shared.backup_file import BackupError, read_backup
 
         try:
             if str(source) == "-":

@@ -31,8 +31,8 @@ def run_tests(
     as_json: Annotated[bool, typer.Option("--json", help="Print the results as JSON.")] = False,  # noqa: FBT002
 ) -> None:
     """Runs the behaviour tests of a project, the files tests/*.test.yaml; exit status 1 if one fails."""
-    from backend.cli import _translation as cli
-    from backend.cli.errors import BAD_ARGUMENTS, CliError
+    from backend.cli.shared import translation as cli
+    from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
     from translator import TranslatorError
     from translator.behaviour_tests import errors_before_tests, to_job
     from tree_gardener.testing.apart import run_apart
@@ -75,7 +75,7 @@ def run_tests(
 
 
 def _roots(project: Project, cases: Sequence[Case]) -> list[str]:
-    """Returns the trees to cover: those of the tests, and what the project's main tree calls."""
+    """Returns the trees to cover: those of the tests, and those that the project's main tree calls."""
     from translator.tree import reachable_trees
 
     main = project.settings.main_tree
@@ -107,7 +107,7 @@ def _summary(results: Sequence[Result], failed: int, reached: Coverage) -> str:
 def results_document(
     results: Sequence[Result], problems: Sequence[Diagnostic], reached: Coverage
 ) -> dict[str, Any]:
-    """Returns what `--json` prints."""
+    """Returns the document that `--json` prints."""
     return {
         "format": "bt-studio/test-results",
         "version": 1,
@@ -120,7 +120,7 @@ def results_document(
 
 
 def coverage_document(reached: Coverage, results: Sequence[Result]) -> dict[str, Any]:
-    """Returns the coverage of all tests, and what each of them reached."""
+    """Returns the coverage of all tests, and the items that each test reached."""
     return {
         **reached.to_json(),
         "tests": [{"file": result.file, "name": result.name, "reached": result.seen} for result in results],

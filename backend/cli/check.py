@@ -16,8 +16,8 @@ def check(
     as_json: Annotated[bool, typer.Option("--json", help="Print the findings as JSON.")] = False,  # noqa: FBT002
 ) -> None:
     """Checks a project, a tree or an action; exit status 1 if something keeps it from running."""
-    from backend.cli import _translation as cli
-    from backend.cli.errors import CliError
+    from backend.cli.shared import translation as cli
+    from backend.cli.shared.errors import CliError
     from translator import TranslatorError, inspect_action
     from translator import check as check_project
     from translator.archive import read_file

@@ -24,7 +24,7 @@ def conformance(
     """
     from collections import Counter
 
-    from backend.cli.errors import BAD_ARGUMENTS, CliError
+    from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
 
     missing = [path for path in cases if not path.is_file()]
     if missing:
@@ -50,7 +50,7 @@ def _run(path: Path, *, as_json: bool, shown: int) -> Counter[str]:
     import json
     from collections import Counter
 
-    from backend.cli.errors import BAD_ARGUMENTS, CliError
+    from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
     from tree_gardener.conformance import run_file
 
     counts: Counter[str] = Counter()

@@ -22,7 +22,7 @@ def convert(
     output: Annotated[Path, typer.Option("-o", "--output", help="The .mcap to make.")],
 ) -> None:
     """Converts a robot's log, or a recording of older versions, to MCAP; completes a cut one."""
-    from backend.cli.errors import BAD_ARGUMENTS, CliError
+    from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
     from executor.headless.errors import HeadlessError
     from executor.headless.recording import check_name
     from executor.recorder.reader import RecordingError

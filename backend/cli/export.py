@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from backend.cli.stored import find_project, stored_projects
+from backend.cli.shared.stored import find_project, stored_projects
 
 
 def export(

@@ -23,8 +23,8 @@ def import_(  # noqa: PLR0913, PLR0917 - these are the options of formats.md
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,  # noqa: FBT002
 ) -> None:
     """Imports BehaviorTree.CPP XML (v3, v4), a Groot2 project, or a project of JdeRobot's BT Studio."""
-    from backend.cli import _translation as cli
-    from backend.cli.errors import BAD_ARGUMENTS, CliError
+    from backend.cli.shared import translation as cli
+    from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
     from translator import TranslatorError
     from translator.package.zip import write_zip
     from tree_gardener.stubs import is_stub
@@ -68,8 +68,8 @@ def import_(  # noqa: PLR0913, PLR0917 - these are the options of formats.md
 
 
 def _take_over(source: Path, folder: Path, *, as_json: bool) -> None:
-    """Writes stubs of the nodes that a plugin or palette has, and tells where written actions differ."""
-    from backend.cli import _translation as cli
+    """Writes stubs for the nodes of a plugin or palette, and lists the differences from existing actions."""
+    from backend.cli.shared import translation as cli
     from translator import TranslatorError, take_over
     from translator.archive import read_file
 

@@ -16,8 +16,8 @@ def import_universe(
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,  # noqa: FBT002
 ) -> None:
     """Imports the part of an SDF world that universes have, and lists what was left out."""
-    from backend.cli import _translation as cli
-    from backend.cli.errors import BAD_ARGUMENTS, CliError
+    from backend.cli.shared import translation as cli
+    from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
     from executor.universes.loader import UniverseError
     from executor.universes.sdf import import_sdf
 

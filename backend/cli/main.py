@@ -12,7 +12,7 @@ import typer
 from typer.core import TyperGroup
 from typer.main import get_command as command_of
 
-from backend.cli.errors import WORK_FAILED, CliError, exit_with
+from backend.cli.shared.errors import WORK_FAILED, CliError, exit_with
 
 if TYPE_CHECKING:
     from typer._click import Command, Context
@@ -31,10 +31,10 @@ VERBS: Final[dict[str, Verb]] = {
     "run": Verb("run", "run"),
     "check": Verb("check", "check"),
     "test": Verb("behaviour_tests", "run_tests"),
-    "evaluate": Verb("evaluate", "evaluate"),
-    "diff": Verb("diff", "diff"),
-    "merge": Verb("merge", "merge"),
-    "git": Verb("git", "git"),
+    "evaluate": Verb("evaluating.evaluate", "evaluate"),
+    "diff": Verb("comparing.diff", "diff"),
+    "merge": Verb("comparing.merge", "merge"),
+    "git": Verb("comparing.git", "git"),
     "translate": Verb("translate", "translate"),
     "import": Verb("import_", "import_"),
     "import-universe": Verb("import_universe", "import_universe"),

@@ -30,9 +30,9 @@ def open_log(  # noqa: PLR0913, PLR0917 - one parameter an option
     ] = None,
 ) -> None:
     """Makes a project of the tree in a robot's log, and shows the log on its time axis until Ctrl+C."""
-    from backend.cli.errors import BAD_ARGUMENTS, CliError
     from backend.cli.serve import serve_page, take_options
-    from backend.cli.stored import stored_projects
+    from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
+    from backend.cli.shared.stored import stored_projects
     from executor.recorder.reader import RecordingError
 
     take_options(HOST=host, PORT=port, DATA_DIR=data_dir)

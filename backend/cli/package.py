@@ -25,7 +25,7 @@ def package(  # noqa: PLR0913, PLR0917 - these are the options of formats.md
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,  # noqa: FBT002
 ) -> None:
     """Makes a package that `colcon build` builds: of ROS 2, with the engine beside it, or of C++."""
-    from backend.cli import _translation as cli
+    from backend.cli.shared import translation as cli
     from translator import TranslatorError, to_app_zip, to_cpp_package, to_ros2_package
 
     try:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from backend.cli.stored import stored_projects
+from backend.cli.shared.stored import stored_projects
 
 
 def projects(

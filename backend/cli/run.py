@@ -51,15 +51,15 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     as_json: Annotated[bool, typer.Option("--json", help="Print the report as JSON.")] = False,  # noqa: FBT002
 ) -> None:
     """Runs a project; exit status 1 if it cannot run, an action raised, or an action is an unwritten stub."""
-    from backend.cli import _translation as cli
-    from backend.cli.errors import CliError
+    from backend.cli.shared import translation as cli
+    from backend.cli.shared.errors import CliError
     from translator import TranslatorError
     from translator.export import unwritten_actions
     from tree_gardener.stubs import stubs_sentence
 
     _refuse_contradictions(record, universe, lockstep=lockstep, viewer=viewer)
     if evaluation is not None:
-        from backend.cli.evaluation import run_one
+        from backend.cli.evaluating.one_run import run_one
 
         _refuse_with_evaluation(universe, robot, duration, viewer=viewer)
         run_one(project, evaluation, seed, record=record, report=report, as_json=as_json)
@@ -138,7 +138,7 @@ def fix_hashes(others: Mapping[str, str] | None = None) -> None:
 
 
 def _in_lockstep(project: Project, options: LockstepOptions) -> Report:
-    from backend.cli.errors import CliError
+    from backend.cli.shared.errors import CliError
     from executor.headless.errors import HeadlessError
     from executor.headless.guard import Guard, Hung
     from executor.headless.lockstep import run_lockstep
@@ -164,7 +164,7 @@ def _in_lockstep(project: Project, options: LockstepOptions) -> Report:
 
 
 def _in_real_time(project: Project, options: HeadlessOptions) -> Report:
-    from backend.cli.errors import CliError
+    from backend.cli.shared.errors import CliError
     from executor.headless.errors import HeadlessError
     from executor.headless.live import run_headless
     from translator import to_app_zip

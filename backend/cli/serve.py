@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from backend.cli.errors import CliError
+from backend.cli.shared.errors import CliError
 
 
 def serve(  # noqa: PLR0913, PLR0917 - one parameter an option

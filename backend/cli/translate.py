@@ -28,7 +28,7 @@ def translate(  # noqa: PLR0913, PLR0917 - these are the options of formats.md
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,  # noqa: FBT002
 ) -> None:
     """Translates a project or a tree to BehaviorTree.CPP v4 XML."""
-    from backend.cli import _translation as cli
+    from backend.cli.shared import translation as cli
     from translator import TranslatorError, check, export_files, to_models_xml, to_xsd
     from translator import self_contained as write_self_contained
     from translator.jderobot.self_contained import write_old_form

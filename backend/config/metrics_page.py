@@ -14,7 +14,7 @@ from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Histo
 
 from backend.core.processes import metrics
 from backend.sessions.queries import counts
-from backend.workers.lanes import pool
+from backend.workers.priorities import pool
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -127,7 +127,7 @@ class Child:
                 self._process.send_signal(number)
 
     def close_input(self) -> None:
-        """Closes the worker's standard input, which tells the worker that the parent ends."""
+        """Closes the worker's standard input, the signal that the parent ends."""
         if self._process is not None and self._process.stdin is not None:
             self._process.stdin.close()
 

@@ -1,4 +1,4 @@
-"""Finds out what a recording says about its run, in a child with limits; nothing of it is read here.
+"""Reads the facts of a run from its recording, in a child with limits; this process never reads the file.
 
 The child is `executor.recorder.summary`, known by its command alone. Its picture is decoded and encoded again
 in the pool of workers. What both say is compared with bounds before it is used.
@@ -19,7 +19,7 @@ from backend.config.environment import REPOSITORY
 from backend.core.problems import StudioError
 from backend.runs.choices import Result
 from backend.runs.length import DamagedError, length_of
-from backend.workers.lanes import pool
+from backend.workers.priorities import pool
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -77,11 +77,11 @@ class Facts(msgspec.Struct):
 
 
 def facts_of(file: IO[bytes], owner: str) -> Facts:
-    """Returns what a recording says. Of one that takes too long to read, only its times are known.
+    """Returns the facts of a recording. If reading takes too long, only its times are known.
 
     Args:
         file: the recording; it has a descriptor.
-        owner: for whom the pool works.
+        owner: the user to whom the pool charges the work.
 
     Raises:
         DamagedError: it is no recording.
@@ -95,7 +95,7 @@ def facts_of(file: IO[bytes], owner: str) -> Facts:
 
 
 def join_newest(folder: Path, out: Path, owner: str) -> Facts | None:
-    """Joins the last run in the folder of a session's recordings; returns what it says, None without one.
+    """Joins the segments of the last run in a session's folder; returns its facts, or None without a run.
 
     Raises:
         DamagedError: a segment is damaged, or joining takes too long.
@@ -130,7 +130,7 @@ def _thumbnail(told: _Told, owner: str) -> tuple[str, bytes]:
 
 
 def _told(arguments: list[str], stdin: IO[bytes] | int) -> _Told | None:
-    """Returns what the child says; None if it ended without a word, or said what cannot be."""
+    """Returns the facts that the child printed; None if it printed nothing or impossible values."""
     try:
         done = subprocess.run(
             [sys.executable, "-m", "executor.recorder.summary", *arguments],

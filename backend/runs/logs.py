@@ -35,7 +35,7 @@ __all__ = ["Recording", "keep_log", "may_keep", "open_log", "read_log", "title"]
 
 
 class Recording(NamedTuple):
-    """A recording that was made of a log, the name of the log, and what it says."""
+    """A recording that was converted from a log, with the name of the log and the facts of the run."""
 
     name: str
     file: IO[bytes]
@@ -55,10 +55,10 @@ def may_keep(project_id: UUID, *, acting_user: User) -> Project:
 
 
 def open_log(recording: Recording, files: dict[str, bytes], *, acting_user: User) -> Run:
-    """Stores what was made of a log as a run of a new project, and closes it.
+    """Stores a converted log as a run of a new project, and closes it.
 
     Args:
-        recording: what was made of the log.
+        recording: the converted log.
         files: the project; without files it is an empty one, named as the log.
         acting_user: who owns both.
 
@@ -80,7 +80,7 @@ def title(name: str) -> str:
 
 
 def read_log(log: IO[bytes], filename: str, owner: str) -> Recording:
-    """Returns what was made of a log; nothing of it stays on the disk once the file is closed.
+    """Converts a log; nothing of it stays on the disk once the file is closed.
 
     Raises:
         LogRefusedError: it is no log that can be read.
@@ -99,7 +99,7 @@ def read_log(log: IO[bytes], filename: str, owner: str) -> Recording:
 
 
 def keep_log(project: Project, recording: Recording, *, acting_user: User) -> Run:
-    """Stores what was made of a log as a run of the user, and closes it.
+    """Stores a converted log as a run of the user, and closes it.
 
     Raises:
         RunQuotaError: the user's runs take all the space that they may.

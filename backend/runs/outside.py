@@ -28,7 +28,7 @@ _SMALLER: Final = "Cut the part of the log that matters."
 
 
 class _Told(msgspec.Struct):
-    """The last word of the child: what it wrote, or why it did not."""
+    """The last line of the child: the facts of the recording, or the reason of the failure."""
 
     messages: int = 0
     message: str = ""

@@ -46,7 +46,7 @@ def pull(  # noqa: PLR0913, PLR0917 - where from, what, where to, and how much
     Raises:
         NotRecordedError: there is no such run.
         RunQuotaError: it is larger than `most`.
-        NoAnswerError: the manager does not answer, or what it answers is no recording.
+        NoAnswerError: the manager does not answer, or its answer is not a recording.
     """
     end_s = time.monotonic() + deadline_s
     try:

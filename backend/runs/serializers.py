@@ -69,7 +69,7 @@ class KeepRunSerializer(StrictSerializer):
 
 
 class ChangeRunSerializer(StrictSerializer):
-    """New values of a stored run; what is missing stays."""
+    """New values of a stored run; fields that are missing stay unchanged."""
 
     name = serializers.CharField(max_length=MAX_NAME_LENGTH, required=False)
     note = serializers.CharField(max_length=MAX_NOTE_LENGTH, allow_blank=True, required=False)

@@ -156,7 +156,7 @@ class Runs(ResourceViewSet):
 
 
 def _part(run: Run, begin: int, end: int, headers: dict[str, str]) -> HttpResponse:
-    """Returns a range of a recording, or its beginning if it is long: the client asks for the rest."""
+    """Returns a range of a recording, or its beginning if it is long: the client then requests the rest."""
     end = min(end, begin + MOST_PART_BYTES)
     headers |= {"Content-Range": f"bytes {begin}-{end - 1}/{run.size}"}
     return HttpResponse(b"".join(queries.parts(run, begin, end)), status=206, headers=headers)

@@ -19,7 +19,7 @@ from backend.runs import serializers as s
 from backend.runs.outside import require_converter
 from backend.workers.aside import conversions
 from backend.workers.deferred import Deferred
-from backend.workers.lanes import pool
+from backend.workers.priorities import pool
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
@@ -56,7 +56,7 @@ class MyRuns(ResourceViewSet):
     )
     @action(detail=False, methods=["post"], expensive=("POST",))
     def logs(self, request: Request) -> HttpResponseBase:
-        """Stores a log of a robot as a run of a new project, which has the tree of the log if it tells one.
+        """Stores a log of a robot as a run of a new project, with the tree of the log if it has one.
 
         The body is the file. Known are MCAP, one file of a bag of ROS 2, and the `.btlog` and SQLite logs of
         BehaviorTree.CPP.

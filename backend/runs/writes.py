@@ -59,7 +59,7 @@ class Source(NamedTuple):
 
 
 class Fetched(NamedTuple):
-    """A recording that was fetched from its session, and what it says. The caller closes the file."""
+    """A recording that was fetched from its session, with its facts. The caller closes the file."""
 
     file: IO[bytes]
     facts: Facts
@@ -203,7 +203,7 @@ def _store(file: IO[bytes], project: Project, keeper: User, values: dict[str, An
 
 
 def _lock(keeper: User) -> None:
-    """Makes stores of one user wait for each other, so that of two that are kept at once both count."""
+    """Serialises the writes of one user, so that the quota counts each of several at the same time."""
     transaction_lock(f"runs of {keeper.pk}")
 
 

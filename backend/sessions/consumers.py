@@ -121,7 +121,7 @@ def _noting(session_id: UUID, receive: ASGIReceiveCallable) -> ASGIReceiveCallab
 
 
 def _is_ping(text: str) -> bool:
-    """Returns whether a page only asks if its session hangs; pages do this without a user."""
+    """Returns whether the request only checks whether its session hangs; pages send it without a user."""
     return len(text) <= LONGEST_PING and PING.search(text) is not None
 
 

@@ -87,7 +87,7 @@ class Attendance:
             self._told[send] = text
 
     def keep_warned(self, soon: Container[UUID]) -> None:
-        """Keeps the mark of a warning only for these sessions, since all others were used again."""
+        """Removes the warning mark from all other sessions, since these were used again."""
         self._warned = {session_id for session_id in self._warned if session_id in soon}
 
     async def warn(self, session_id: UUID, text: str) -> None:
@@ -113,7 +113,7 @@ async def say(send: ASGISendCallable, command: str, data: Mapping[str, object]) 
 
 
 def begin() -> None:
-    """Ends what a killed server left, unless other servers do that; called before the first request."""
+    """Ends the executors of a killed server unless other servers do; called before the first request."""
     if is_alone():
         writes.end_orphans()
 

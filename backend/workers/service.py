@@ -26,14 +26,14 @@ from backend.core.problems import StudioError
 from backend.core.processes.numbers import BEAT, STARTED, read_page
 from backend.core.processes.siblings import BEAT_EVERY_S
 from backend.workers import frames
-from backend.workers.lanes import make_lanes
+from backend.workers.priorities import make_pools
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from concurrent.futures import Future
 
-    from backend.workers.lanes import Lanes
     from backend.workers.pool import Pool
+    from backend.workers.priorities import Pools
 
 log = logging.getLogger(__name__)
 
@@ -49,14 +49,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     set_up(environment().log_level, environment().log_style)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)  # its standard input closes when the parent ends
-    lanes = make_lanes()
-    threading.Thread(target=serve, args=(listening(options.socket), lanes), daemon=True).start()
-    threading.Thread(target=beat, args=(lanes, read_page(options.page)), daemon=True).start()
+    pools = make_pools()
+    threading.Thread(target=serve, args=(listening(options.socket), pools), daemon=True).start()
+    threading.Thread(target=beat, args=(pools, read_page(options.page)), daemon=True).start()
     while os.read(STDIN, 1):
         pass
 
 
-def beat(pool: Lanes | Pool, page: memoryview[float]) -> None:
+def beat(pool: Pools | Pool, page: memoryview[float]) -> None:
     """Reports periodically that the pool answers.
 
     It reads `waiting`, which takes the locks of `ask`; so the reports stop if `ask` hangs.
@@ -77,7 +77,7 @@ def listening(path: Path) -> socket.socket:
     return listener
 
 
-def serve(listener: socket.socket, pool: Lanes | Pool) -> None:
+def serve(listener: socket.socket, pool: Pools | Pool) -> None:
     """Serves all connections until the socket closes."""
     with suppress(OSError):
         while True:
@@ -88,7 +88,7 @@ def serve(listener: socket.socket, pool: Lanes | Pool) -> None:
 class _Asker:
     """The connection of one web worker: one thread reads its jobs, another one writes the answers."""
 
-    def __init__(self, connection: socket.socket, pool: Lanes | Pool) -> None:
+    def __init__(self, connection: socket.socket, pool: Pools | Pool) -> None:
         self._connection, self._pool = connection, pool
         self._answers: SimpleQueue[bytes | None] = SimpleQueue()
 

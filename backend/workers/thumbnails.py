@@ -1,4 +1,4 @@
-"""Small pictures of runs: what a camera saw, else a drawing of the world and the robot's way, or of the tree.
+"""Small pictures of runs: a camera picture, else a drawing of the world with the robot's path or of the tree.
 
 The input was written by an untrusted process. So a picture is decoded within bounds and encoded again, and a
 drawing is made of numbers alone.
@@ -66,7 +66,7 @@ def _smaller(picture: bytes) -> bytes:
 
 
 def _averaged(pixels: NDArray[np.uint8], step: int) -> NDArray[np.uint8]:
-    """Returns the means of squares of `step` pixels; what is left over at two edges is cut off."""
+    """Returns the means of squares of `step` pixels; incomplete squares at two edges are cut off."""
     height, width = max(1, pixels.shape[0] // step), max(1, pixels.shape[1] // step)
     whole = pixels[: height * step, : width * step]
     if whole.shape[:2] != (height * step, width * step):

@@ -1,4 +1,4 @@
-"""Sends what happens in the tree to the recorder of the session."""
+"""Sends the events of the tree to the recorder of the session."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class ApplicationRecorder:
             self._link.begin(run)
 
     def pump(self) -> None:
-        """Sends what waits. Called many times in a second."""
+        """Sends the waiting messages. Called many times in a second."""
         self._write_ticks()
         later = self._later
         if later is not None and (self._now() < later.reset_at_s or self._clock() >= later.until_s):

@@ -24,7 +24,7 @@ THICKNESS_M: Final = 0.01
 class Clearance:
     """The smallest distance so far of a robot from some bodies.
 
-    Only what is nearer than the smallest distance so far is measured, so that most looks cost little.
+    Only things nearer than the smallest distance so far are measured, so most calls cost little.
     """
 
     def __init__(self, bullet: Bullet, robot: BulletRobot, bodies: Collection[int]) -> None:

@@ -230,7 +230,7 @@ class Criterion(_Strict):
 
     @property
     def kind(self) -> str:
-        """The name of what is demanded."""
+        """The name of the kind of demand."""
         return next(k for k in ("reach", "never", "visit", "tree", "python") if getattr(self, k) is not None)
 
     @property

@@ -38,7 +38,7 @@ LIBRARIES: Final = (
     "executor.navigation.start",
     "executor.render.choose",
     "executor.ros.default_context",
-    "executor.ros.mismatches",
+    "executor.ros.graph.mismatches",
     "executor.ros.node",
     "executor.ros.shared_topics",
     "executor.ros.spin",
@@ -71,7 +71,7 @@ class Progress:
         return Summary(done, self.wanted, sequential, stopped_early=sequential and len(done) < len(seeds))
 
     def estimate(self) -> str:
-        """Returns what the first run says of all, in words."""
+        """Returns a sentence that estimates the whole duration from the first run."""
         cpu_s, left = self.cpu_s[0], self.wanted - len(self.outcomes)
         return (
             f"a run takes about {cpu_s:.1f} s of a processor and {self.rss_bytes / 1e6:.0f} MB of memory; "
@@ -102,7 +102,7 @@ class Progress:
 
 
 class Interrupted(Exception):  # noqa: N818 - it is no error
-    """Ctrl+C ended the evaluation; `progress` holds what is done."""
+    """Ctrl+C ended the evaluation; `progress` holds the finished runs."""
 
     def __init__(self, progress: Progress) -> None:
         super().__init__("interrupted")

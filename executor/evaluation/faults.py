@@ -46,7 +46,7 @@ class Scheduled:
 def schedule(faults: Sequence[Fault], seed: int) -> list[Scheduled]:
     """Draws which faults happen with a seed, and when.
 
-    Each is drawn by its kind and what it names; equal ones are numbered, so that no fault changes another.
+    The draws of a fault depend on its kind, target and number among equals, so no fault changes another.
     """
     found: list[Scheduled] = []
     seen: dict[str, int] = {}
@@ -92,7 +92,7 @@ def topics_of(config: RobotConfig, renamed: Mapping[str, str]) -> list[str]:
 
 
 def fault_problems(plan: Plan, place: Callable[..., tuple[int, int]]) -> Iterator[Problem]:
-    """Yields what faults name and does not exist."""
+    """Yields the references of faults to things that do not exist."""
     for index, fault in enumerate(plan.evaluation.faults):
         found = _problem(plan, fault)
         if found is not None:
@@ -105,7 +105,7 @@ def fault_problems(plan: Plan, place: Callable[..., tuple[int, int]]) -> Iterato
 def _problem(  # noqa: PLR0911 - one a field
     plan: Plan, fault: Fault
 ) -> tuple[str, str, list[str]] | None:
-    """Returns field, message and known names of what a fault names wrongly, or None."""
+    """Returns field, message and known names for a wrong name in a fault, or None."""
     ids = [robot.id for robot in plan.universe.robots]
     if fault.robot is not None and fault.robot not in ids:
         return "robot", f"the universe has no robot {fault.robot!r}", ids
@@ -185,7 +185,7 @@ class Faults:
             run.node.change_messages(self._topics)
 
     def act(self, now_s: float) -> None:
-        """Begins and ends what is due."""
+        """Begins and ends the faults that are due."""
         if not self._waiting and not self._active:
             return
         for each in [

@@ -29,7 +29,7 @@ def fingerprint() -> dict[str, str]:
 
 
 def differences(mine: dict[str, str], other: dict[str, str]) -> list[str]:
-    """Returns in what two fingerprints differ, in words."""
+    """Returns the differences between two fingerprints, in words."""
     names = sorted((mine.keys() | other.keys()) - {"id"})
     return [
         f"{name}: {other.get(name, 'missing')} then, {mine.get(name, 'missing')} now"

@@ -82,7 +82,7 @@ class Item(ABC):
 
     @abstractmethod
     def verdict(self, duration_s: float) -> Verdict:
-        """Returns what became of it."""
+        """Returns the outcome of the item."""
 
     def _of_goal(self, missing_m: float | None) -> Verdict:
         holds = self.met_s is not None
@@ -106,7 +106,7 @@ class ReachItem(Item):
         self._nearest_m = math.inf
 
     def see(self, truth: Truth, now: Sample) -> None:
-        """Is met when the robot stands in the area, in time."""
+        """Marks the item as met if the robot is in the area before the time limit."""
         in_time = self.deadline_s is None or now.time_s <= self.deadline_s + EPSILON_S
         if self.met_s is None and in_time:
             self._nearest_m = min(self._nearest_m, distance_m(self._corners, now.x, now.y))
@@ -296,7 +296,7 @@ class Referee:
         return None
 
     def verdicts(self) -> list[Verdict]:
-        """Returns what became of each item."""
+        """Returns the outcome of each item."""
         return [item.verdict(self._duration_s) for item in self.items]
 
     def numbers(self) -> dict[str, float]:
@@ -320,7 +320,7 @@ def make_items(
     Args:
         judge: the judge.
         areas: the corners of the universe's areas.
-        measure: returns a function that returns the smallest distance so far from what a word names.
+        measure: returns, for the name of a thing, a function that returns the smallest distance to it so far.
         function: loads a function of the project.
     """
     items: list[Item] = []

@@ -31,7 +31,7 @@ class Outcome:
         outcome: one of `OUTCOMES`.
         why: the item or the error that decided it.
         end_s: the simulated time of the decision.
-        items: what became of each item of the judge.
+        items: the outcome of each item of the judge.
         measures: the measures that are defined for this run.
         drawn: the drawn values by address.
         faults: the faults that happened, with their times.

@@ -182,7 +182,7 @@ def _port_problems(plan: Plan, located: Located) -> list[Problem]:
 
 
 def _judge_problems(plan: Plan, place: Callable[..., tuple[int, int]]) -> Iterator[Problem]:
-    """Yields what the judge names and does not exist, and what can never be met."""
+    """Yields the judge's references to things that do not exist, and its items that can never be met."""
     evaluation, universe = plan.evaluation, plan.universe
     solids = {model.id for model in universe.models if model.solid}
     words = {*_GROUPS, *solids, *(a.id for a in universe.actors), *(r.id for r in universe.robots[1:])}

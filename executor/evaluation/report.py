@@ -1,4 +1,4 @@
-"""The report of an evaluation: one page that holds all it needs, and asks nothing of anyone.
+"""The report of an evaluation: one self-contained page, which makes no request.
 
 Foreign text (names, notes, lines of logs) enters the page as data, in one block of JSON whose `<`, `>` and
 `&` are escaped, and is shown by `textContent`. The policy allows the page's own script and style by their

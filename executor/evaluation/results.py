@@ -29,9 +29,9 @@ class ResultsError(Exception):
 def kept_outcomes(
     results: Results, plan: Plan, mine: dict[str, str]
 ) -> tuple[list[Outcome], list[dict[str, str]], list[str]]:
-    """Returns what a folder holds for a plan: outcomes to keep, all fingerprints, and notes about these.
+    """Reads the folder of a plan; returns the outcomes to keep, all fingerprints, and notes about these.
 
-    Runs that said nothing of the project are run again.
+    Runs that failed for reasons outside of the project are repeated.
 
     Raises:
         ResultsError: there are no results, or they are of another project or evaluation.
@@ -135,7 +135,7 @@ class Results:
             file.write(outcome.to_line().encode() + b"\n")
 
     def finish(self, outcomes: Iterable[Outcome]) -> None:
-        """Writes all outcomes in the order of their seeds, in place of what was there."""
+        """Writes all outcomes in the order of their seeds, and replaces the earlier file."""
         ordered = sorted(outcomes, key=lambda outcome: outcome.seed)
         self._replace(RUNS, b"".join(outcome.to_line().encode() + b"\n" for outcome in ordered))
         with suppress(FileNotFoundError):

@@ -72,7 +72,7 @@ def upper_bound(successes: int, runs: int, confidence: float = 0.95) -> float:
 
 
 def confidence_sequence(successes: int, runs: int, confidence: float = 0.95) -> Interval:
-    """Returns the interval of a rate that holds at all times at once, so that runs may stop at any time.
+    """Returns an interval of a rate that is valid after every run, so that the evaluation may stop after any.
 
     It holds every rate p whose beta-binomial mixture martingale with the prior (1/2, 1/2),
     B(s + 1/2, f + 1/2) / (B(1/2, 1/2) · p^s · (1 - p)^f), is below 1 / (1 - confidence) (Robbins 1970,

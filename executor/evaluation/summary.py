@@ -83,7 +83,7 @@ class Summary:
         return sorted(failed, key=_badness)[:MOST_WORST]
 
     def lines(self, name: str) -> Iterator[str]:
-        """Yields what the terminal says of the results."""
+        """Yields the lines that the terminal shows for the results."""
         low, high = self.interval
         kind = "confidence sequence" if self.sequential else "interval"
         yield (
@@ -141,7 +141,7 @@ class Pairs:
         return newcombe_paired(len(self.both), len(self.only_newer), len(self.only_older), len(self.neither))
 
     def lines(self) -> Iterator[str]:
-        """Yields what the terminal says of the comparison."""
+        """Yields the lines that the terminal shows for the comparison."""
         value, low, high = self.difference
         p = mcnemar(len(self.only_older), len(self.only_newer))
         yield (

@@ -83,7 +83,7 @@ class Drawn:
 
 
 def targets(universe: Universe, config: RobotConfig | None, project: Project) -> dict[str, list[Target]]:
-    """Returns all addresses with what they name; an address that names several things is ambiguous."""
+    """Returns all addresses with the things that they name; an address of several things is ambiguous."""
     found: dict[str, list[Target]] = {"ground.friction": [Target("ground", (), "friction")]}
     named = [*_world_addresses(universe), *_sensor_addresses(config), *_port_addresses(project)]
     for address, target in named:
@@ -137,7 +137,7 @@ def resolve(
     universe: Universe,
     place: Callable[..., tuple[int, int]],
 ) -> tuple[dict[str, Target], list[Problem]]:
-    """Returns what each entry of `vary` names, and what is wrong with the others, before any run.
+    """Returns the target of each entry of `vary`, and the problems of the other entries, before any run.
 
     The bounds of each entry are tried on the universe, so that a value that it cannot have is found now.
     """
@@ -240,7 +240,7 @@ def draw_world(
 
     Args:
         evaluation: the evaluation.
-        found: what its entries name.
+        found: the targets of its entries.
         universe: the universe, as written.
         seed: the seed.
         overlaps: returns whether a thing of a universe stands in another one, other than in those whose place

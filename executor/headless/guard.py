@@ -19,8 +19,7 @@ import time
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Final
 
-from executor.session.trace import action_frame
-from executor.session.vitals import (
+from executor.session.hangs.vitals import (
     BUSY_SHARE,
     END_AFTER_S,
     LOADING_S,
@@ -29,6 +28,7 @@ from executor.session.vitals import (
     STOPPED,
     TRACED,
 )
+from executor.session.trace import action_frame
 from executor.supervision.confine import INTERRUPT_SIGNAL, TRACE_SIGNAL
 from executor.supervision.pulse import NOTES_BYTES
 from executor.supervision.signs import Notes, look_at

@@ -18,9 +18,9 @@ from websockets.exceptions import ConnectionClosed
 
 from executor import messages
 from executor.headless.errors import HeadlessError
-from executor.headless.kept_run import kept_run
 from executor.headless.lines import mismatch_line
 from executor.headless.measured import Measured
+from executor.headless.recorded_segments import recorded_segments
 from executor.headless.viewer import RunViewer
 from executor.manager.manager import Manager, ManagerSettings
 from executor.universes import BUILTIN_IDS, builtin_path
@@ -87,7 +87,7 @@ async def _run(
     progress: Callable[[Report], None],
     say: Callable[[str], None],
 ) -> Report:
-    keeping = contextlib.nullcontext() if options.recording is None else kept_run(options.recording)
+    keeping = contextlib.nullcontext() if options.recording is None else recorded_segments(options.recording)
     with keeping as folder:
         token = secrets.token_urlsafe()
         settings = ManagerSettings(

@@ -112,7 +112,7 @@ class LockstepRun:
         tree: the tree, after `set_up`.
         node: the world's ROS node, after `set_up`.
         sensors: the sensors of the world, after `set_up`.
-        report: what is known of the run so far.
+        report: the facts of the run so far.
         has_ended: whether the tree has ended.
         counts: the results of each node, in the order of the nodes; empty before `set_up`.
     """
@@ -224,7 +224,7 @@ class LockstepRun:
         from executor.navigation.start import make_navigation  # noqa: PLC0415
         from executor.render import make_renderer  # noqa: PLC0415
         from executor.ros.default_context import DefaultContext  # noqa: PLC0415
-        from executor.ros.mismatches import Mismatches  # noqa: PLC0415
+        from executor.ros.graph.mismatches import Mismatches  # noqa: PLC0415
         from executor.ros.node import WorldNode  # noqa: PLC0415
         from executor.ros.shared_topics import share_commands  # noqa: PLC0415
         from executor.ros.spin import DrainingExecutor  # noqa: PLC0415
@@ -312,7 +312,7 @@ class LockstepRun:
         return recorder
 
     def _record_output(self) -> None:
-        """Prepares the streams that also write what users' code prints into the recording."""
+        """Prepares the streams that also write the output of users' code into the recording."""
         if self._options.recording is None:
             return
 

@@ -1,4 +1,4 @@
-"""Records what actions print in lock-step, with the node that printed it."""
+"""Records the output of actions in lock-step, with the node that printed it."""
 
 from __future__ import annotations
 

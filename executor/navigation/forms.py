@@ -39,7 +39,7 @@ def placed(pose: Pose, inner: Pose) -> Pose:
 
 
 def between(outer: Pose, inner: Pose) -> Pose:
-    """Returns the pose of the frame in which `inner` is what `outer` is outside: map to odom."""
+    """Returns the pose of the odom frame in the map frame, from one pose of the robot in both."""
     yaw = wrapped(outer[2] - inner[2])
     x, y, _ = placed((0.0, 0.0, yaw), (inner[0], inner[1], 0.0))
     return outer[0] - x, outer[1] - y, yaw

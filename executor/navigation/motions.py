@@ -23,7 +23,7 @@ LOOK_AHEAD_S: Final = 0.6
 
 @dataclass(frozen=True)
 class Step:
-    """The command of a motion, in m/s and rad/s, what it has covered, and how it ended."""
+    """The command of a motion in m/s and rad/s, the covered distance, and the way in which it ended."""
 
     linear: float = 0.0
     angular: float = 0.0

@@ -23,7 +23,7 @@ MOST_COST: Final = 6.0
 
 
 class Map:
-    """A grid for a round robot: what it may enter, and what each cell costs."""
+    """A grid for a round robot: the cells that it may enter, and the cost of each cell."""
 
     def __init__(self, grid: Grid, radius: float) -> None:
         self.grid = grid

@@ -75,7 +75,7 @@ def command(  # noqa: PLR0913 - a path, a robot on it, and its surroundings
         speed: its present speed, which sets how far it looks ahead.
         clearance: the distance from the robot's body to the next obstacle.
         index: the point of the path that is nearest to the robot.
-        limits: what the robot can do.
+        limits: the largest speeds and accelerations of the robot.
     """
     own = limits or Limits()
     ahead = min(max(abs(speed) * own.lookahead_s, own.shortest_lookahead), own.longest_lookahead)

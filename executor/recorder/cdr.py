@@ -96,7 +96,7 @@ def _writers(name: str) -> tuple[tuple[str, Put], ...]:
 
 @functools.cache
 def _object_writer(name: str) -> Put:
-    """Returns what writes the fields of an object, in their order."""
+    """Returns the function that writes the fields of an object, in their order."""
     parts = [(attrgetter(field.name), _writer(field)) for field in fields_of(name)]
 
     def put(data: bytearray, value: Any) -> None:

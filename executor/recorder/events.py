@@ -13,7 +13,7 @@ import struct
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.recorder.cdr import HEADER, stamp_of
-from executor.recorder.telling import told
+from executor.recorder.event_messages import message_of
 from executor.recorder.values import canonical
 from executor.recorder.writer import nanoseconds
 
@@ -49,7 +49,7 @@ class EventRecorder:
                 self._tick(stamp, data)
             case "blackboard":
                 self._blackboard(stamp, tick, data["entries"])
-            case _ if (line := told(name, stamp["stamp"], data, self._uid(data))) is not None:
+            case _ if (line := message_of(name, stamp["stamp"], data, self._uid(data))) is not None:
                 self._record(*line)
             case _:
                 pass

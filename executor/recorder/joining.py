@@ -62,7 +62,7 @@ def join_newest(folder: Path, out: Path) -> int:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; returns the exit status.
 
-    The recorder writes, renames and removes files meanwhile: what fails at first is tried again.
+    The recorder writes, renames and removes files at the same time, so a failed attempt is repeated.
     """
     folder, run, out = arguments if arguments is not None else sys.argv[1:]
     die_with_parent()

@@ -2,7 +2,7 @@
 
 The recorder listens at an address in Linux's abstract namespace, so that a recorder that was started again is
 found at the same place. What a source sends is kept until the recorder takes it, up to a bound; beyond it
-messages are dropped, and the source tells its whole state again once there is room.
+messages are dropped, and the source sends its whole state again once there is room.
 """
 
 from __future__ import annotations
@@ -109,7 +109,7 @@ class RecorderLink:
                 self._write()
 
     def pump(self) -> None:
-        """Sends what waits, and connects again to a recorder that was lost. Called many times in a second."""
+        """Sends the waiting messages, and reconnects to a lost recorder. Called many times in a second."""
         if not self._run:
             return
         if self._socket is None:

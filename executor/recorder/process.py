@@ -24,13 +24,13 @@ import msgspec
 from executor import __version__, child_messages, recorder_messages
 from executor.messages import Error, RecordingPart, Segment
 from executor.recorder.definitions import DefinitionError
+from executor.recorder.event_messages import message_of
 from executor.recorder.link import ADDRESS_VARIABLE, Dump, Heard, Mark, Record
 from executor.recorder.ordering import Ordering
 from executor.recorder.project_files import project_files, project_name
 from executor.recorder.run_writer import LATEST_NS, RunWriter
 from executor.recorder.shelf import Budgets, Shelf
 from executor.recorder.sources import BrokenSource, Source, listen, take_source
-from executor.recorder.telling import told
 from executor.recorder_messages import FromRecorder, ToRecorder, decode_to_recorder
 from executor.supervision.channel import Channel, ChannelClosed, ChannelError
 from executor.supervision.confine import die_with_parent
@@ -149,7 +149,7 @@ class RecorderProcess:
 
     def _write_line(self, writer: RunWriter, t_ns: int, message: recorder_messages.Told) -> None:
         uid = writer.moment.uid(message.data.get("node_path") or "")
-        if (line := told(message.name, t_ns, message.data, uid)) is not None:
+        if (line := message_of(message.name, t_ns, message.data, uid)) is not None:
             self._guarded(lambda: writer.record(*line))
 
     def _answer(self, message: recorder_messages.ReadSegment) -> None:

@@ -43,7 +43,7 @@ Record = Header | Schema | Channel | Message | Attachment | Metadata
 
 
 class RecordingError(Exception):
-    """A file is not a recording that can be read."""
+    """The file is not a readable recording."""
 
     def __init__(self, name: str, offset: int, message: str, hint: str) -> None:
         super().__init__(f"{name}:{offset}: {message} ({hint})")
@@ -54,7 +54,7 @@ class RecordingError(Exception):
 
 @dataclass(frozen=True)
 class Limits:
-    """The most that a file may hold."""
+    """The largest sizes and counts that a file may have."""
 
     chunk_bytes: int = 64 << 20
     total_bytes: int = 2 << 30
@@ -70,7 +70,7 @@ class RecordReader:
     Args:
         file: the file, at its begin.
         name: its name in errors.
-        limits: the most that it may hold.
+        limits: the largest permitted sizes and counts.
     """
 
     file: BinaryIO

@@ -31,7 +31,7 @@ class RunWriter:
     Args:
         shelf: holds the segments.
         run: the name of the run.
-        about: what the recording is of, as texts by name.
+        about: the metadata of the recording, as texts by name.
         files: the project's files; each segment has them.
     """
 
@@ -92,7 +92,7 @@ class RunWriter:
         self.moment.take(name, fields)
 
     def flush(self) -> None:
-        """Makes all that was written readable, and tells how far the open segment reaches.
+        """Flushes all written messages, and reports the length of the open segment.
 
         Raises:
             OSError: the disk is full.
@@ -109,7 +109,7 @@ class RunWriter:
         """Completes the open segment.
 
         Raises:
-            OSError: the disk is full; what was written before can be read.
+            OSError: the disk is full; everything written before remains readable.
         """
         if self._writer is None or self._file is None:
             return
@@ -128,7 +128,7 @@ class RunWriter:
         self._shelf.add(ended)
 
     def abandon(self) -> None:
-        """Closes the file as it is, after an error of the disk; what was flushed can be read."""
+        """Closes the file without its end, after an error of the disk; flushed data remain readable."""
         if self._file is not None:
             file, self._file, self._writer = self._file, None, None
             if self._open.bytes:

@@ -92,7 +92,7 @@ class Shelf:
     Args:
         folder: holds a folder for each run.
         announce: is called with each segment that is new, changed or gone.
-        budgets: what is beyond them is removed; with None nothing is.
+        budgets: segments beyond them are removed; with None none is.
     """
 
     folder: Path
@@ -103,7 +103,7 @@ class Shelf:
     """The bytes of meshes and textures of each run."""
 
     def recover(self) -> None:
-        """Takes over what a recorder left that was killed; a file without its end gets one."""
+        """Takes over the segments of a killed recorder; a file without its end gets one."""
         for run in sorted(self.folder.iterdir(), key=lambda path: path.stat().st_mtime):
             for path in files_of(self.folder, run.name):
                 with contextlib.suppress(OSError, RecordingError):
@@ -111,7 +111,7 @@ class Shelf:
                     self.add(self._recovered(run.name, path))
 
     def add(self, segment: Segment) -> None:
-        """Adds a complete segment, and removes what exceeds the budgets."""
+        """Adds a complete segment, and removes old ones that exceed the budgets."""
         self.segments.append(segment)
         self.announce(segment)
         if self.budgets is not None:
@@ -141,7 +141,7 @@ class Shelf:
         return max((one.number for one in self.segments if one.run == run), default=-1) + 1
 
     def read(self, segment: Segment, offset: int, length: int) -> bytes:
-        """Returns a part of a segment, at most 1 MiB; of an open one what is whole.
+        """Returns a part of a segment, at most 1 MiB; of an open segment only flushed data.
 
         Raises:
             OSError: its file is gone.

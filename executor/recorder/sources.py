@@ -22,7 +22,7 @@ _CREDENTIALS: Final = struct.Struct("3i")
 
 
 class BrokenSource(Exception):  # noqa: N818 - says what the source is
-    """A source has ended, or sent what is no message."""
+    """A source has ended, or sent bytes that are not a message."""
 
 
 def listen(address: str) -> socket.socket:

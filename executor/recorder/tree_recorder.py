@@ -135,7 +135,7 @@ class TreeRecorder:
         self._tell("/bt/tree", "Tree", fields)
 
     def _written(self, entry: Entry, writer: int) -> None:
-        """Copies a write while the value is what was written; an action may change it later."""
+        """Copies a written value immediately, since an action may change it later."""
         is_removed = entry.board.entries.get(entry.key) is not entry
         is_empty = is_removed or entry.type_name == "empty"
         form = None if is_empty else canonical(entry.value)

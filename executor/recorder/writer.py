@@ -41,7 +41,7 @@ class RecordingWriter:
 
     Args:
         file: the file; it is not closed by `finish`.
-        about: what the recording is of: project, revision, seed, versions, platform.
+        about: the metadata: project, revision, seed, versions, platform.
     """
 
     def __init__(self, file: BinaryIO, about: Mapping[str, str]) -> None:

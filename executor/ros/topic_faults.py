@@ -26,7 +26,7 @@ class TopicFaults:
         self._silent[topic] = self._silent.get(topic, 0) + (1 if on else -1)
 
     def freeze(self, topic: str, *, on: bool) -> None:
-        """Begins or ends that a topic repeats its last message as it was, with its stamp."""
+        """Begins or ends the repetition of a topic's last message, with its old stamp."""
         self._frozen[topic] = self._frozen.get(topic, 0) + (1 if on else -1)
 
     def delay(self, topic: str, delay_s: float, *, on: bool) -> None:
@@ -40,7 +40,7 @@ class TopicFaults:
         draws.append((share, draw)) if on else draws.remove((share, draw))
 
     def take(self, topic: str, message: Any, now_s: float) -> list[Any]:
-        """Returns what is sent now in place of a message: nothing, or one message."""
+        """Returns the messages to send now in place of the given one: none or one."""
         if self._frozen.get(topic):
             message = self._last.setdefault(topic, message)
         else:

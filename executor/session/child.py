@@ -23,7 +23,7 @@ from executor.child_messages import (
     WorldReady,
 )
 from executor.recorder_messages import Recorded
-from executor.session.vitals import Vitals
+from executor.session.hangs.vitals import Vitals
 
 if TYPE_CHECKING:
     from executor.evaluation_messages import FromEvaluation

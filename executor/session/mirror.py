@@ -70,7 +70,7 @@ class Mirror:
         self._run_starts: deque[tuple[int, int]] = deque(maxlen=LOG_LINES)
 
     def begin_run(self, tick_hz: float) -> None:
-        """Removes the state of the previous run, and separates its output from what follows."""
+        """Removes the state of the previous run, and separates its output from the next run's."""
         self.tree = None
         self.statuses.clear()
         self.past = []

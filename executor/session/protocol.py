@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from executor import child_messages, messages
 from executor.child_messages import Fault, Finished
-from executor.session import child_events, child_exits, immediate, steps, streaming, watch
+from executor.session import child_events, child_exits, immediate, steps, streaming
 from executor.session.children import Children
 from executor.session.clients import Clients
 from executor.session.evaluating import Evaluating
@@ -37,6 +37,7 @@ from executor.session.events import (
     Unpack,
     Unpacked,
 )
+from executor.session.hangs import watch
 from executor.session.ladder import HAS_APPLICATION, TABLE, State, is_legal, where
 from executor.session.launch_nodes import LaunchNodes
 from executor.session.mirror import Mirror

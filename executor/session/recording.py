@@ -1,4 +1,4 @@
-"""The recording of a session: its recorder, the runs, and what clients may read of them.
+"""The recording of a session: its recorder, its runs, and the requests of clients to read them.
 
 A recorder that dies or hangs is reported and replaced; the run continues.
 """

@@ -106,7 +106,7 @@ class StreamOutbox:
         self._filled.set()
 
     def _is_full_of_recordings(self) -> bool:
-        """Whether a client has asked for more of a recording than it reads; it has to ask again."""
+        """Whether a client has requested more of a recording than it reads; it must repeat the request."""
         return sum(stream.startswith(RECORDING) for stream in self._frames) >= MOST_PARTS
 
     def lost_share(self, now_s: float) -> float | None:

@@ -21,7 +21,7 @@ _decode = msgspec.msgpack.Decoder().decode
 
 
 def without_parts(scene: bytes) -> tuple[bytes, dict[str, bytes]]:
-    """Returns a scene without its parts, and these by their hash; what is no scene stays as it is."""
+    """Returns a scene without its parts, and the parts by their hash; other frames are returned unchanged."""
     try:
         fields: Any = _decode(scene)
     except (msgspec.DecodeError, RecursionError, UnicodeDecodeError):

@@ -50,7 +50,7 @@ def adopt_orphans() -> None:
 
 
 def confine_reader(memory_bytes: int, seconds: int, written_bytes: int) -> None:
-    """Limits this process, which reads files of others: memory, processor time, what it writes, no children.
+    """Limits this process, which reads untrusted files: memory, processor time, output, no children.
 
     It gives up the network where the platform lets it; most containers refuse, and have limits of their own.
     """

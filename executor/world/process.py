@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
     from executor.child_messages import WorldCommand
     from executor.render.interface import Renderer
-    from executor.ros.topics import TopicReply
+    from executor.ros.graph.topics import TopicReply
     from executor.world.simulation.loop import SimulationLoop
     from executor.world.simulation.outside_graph import OutsideGraph
     from executor.world.simulation.recording import WorldRecorder
@@ -191,12 +191,12 @@ class WorldProcess:
             self._start_outside(message)
             return
         from executor.navigation.start import make_navigation  # noqa: PLC0415
-        from executor.ros.graph_tap import GraphTap  # noqa: PLC0415 - ROS reads the environment
-        from executor.ros.mismatches import Mismatches  # noqa: PLC0415
+        from executor.ros.graph.mismatches import Mismatches  # noqa: PLC0415
+        from executor.ros.graph.tap import GraphTap  # noqa: PLC0415 - ROS reads the environment
+        from executor.ros.graph.topics import Topics  # noqa: PLC0415
         from executor.ros.node import WorldNode  # noqa: PLC0415
         from executor.ros.outlet import Outlet  # noqa: PLC0415
         from executor.ros.tap import TopicTap  # noqa: PLC0415
-        from executor.ros.topics import Topics  # noqa: PLC0415
         from executor.world.sensing.sensors import Sensors  # noqa: PLC0415
         from executor.world.simulation.launch import make_world  # noqa: PLC0415
         from executor.world.simulation.loop import SimulationLoop  # noqa: PLC0415
@@ -235,8 +235,8 @@ class WorldProcess:
         self._channel.send(child_messages.WorldReady(renderer.name, has_tf(), world.name))
 
     def _start_outside(self, message: StartWorld) -> None:
-        from executor.ros.mismatches import Mismatches  # noqa: PLC0415 - ROS reads the environment
-        from executor.ros.topics import Topics  # noqa: PLC0415
+        from executor.ros.graph.mismatches import Mismatches  # noqa: PLC0415 - ROS reads the environment
+        from executor.ros.graph.topics import Topics  # noqa: PLC0415
         from executor.world.simulation.outside_graph import OutsideGraph  # noqa: PLC0415
 
         self._progress(0.6, "Joining the outside ROS graph")
@@ -248,7 +248,7 @@ class WorldProcess:
         self._channel.send(child_messages.WorldReady("", has_tf(), "none"))
 
     def _send_frame(self, message: child_messages.Sim | child_messages.Log | child_messages.Frame) -> None:
-        """Sends a message of the loop; pictures that somebody looks at are recorded too."""
+        """Sends a message of the loop; pictures that a client subscribes to are recorded too."""
         self._channel.send(message)
         if isinstance(message, child_messages.Frame) and self._recorder is not None:
             self._recorder.picture(message)

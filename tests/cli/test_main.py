@@ -9,7 +9,7 @@ import sys
 import pytest
 
 from backend.cli import main
-from backend.cli.errors import CliError
+from backend.cli.shared.errors import CliError
 
 
 @pytest.mark.parametrize("name", list(main.VERBS))

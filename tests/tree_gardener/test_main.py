@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from backend.cli import conformance as verb
-from backend.cli.errors import CliError
+from backend.cli.shared.errors import CliError
 from tests.tree_gardener.trees import subtree
 from tree_gardener.__main__ import main
 

@@ -1,4 +1,4 @@
-"""The topics that leaves command: a robot obeys one command at a time, so that two at once are a mistake."""
+"""The topics that leaves command. A robot follows one command at a time, so two at once are a mistake."""
 
 from __future__ import annotations
 

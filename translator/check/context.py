@@ -62,7 +62,7 @@ class Context:
 
     @cached_property
     def calls(self) -> dict[str, list[tuple[Tree, Node]]]:
-        """Returns the calls of each tree from those that can be reached, with the caller."""
+        """Returns for each tree its calls from reachable trees; each call has the calling tree."""
         found: dict[str, list[tuple[Tree, Node]]] = {}
         for tree_id in sorted(self.reachable):
             tree = self.project.trees[tree_id]

@@ -58,7 +58,7 @@ def _report_unread(context: Context, tree: Tree, own: Keys) -> None:
 
 
 def _report_lost_writes(context: Context, tree: Tree, node: Node, keys: Mapping[str, Keys]) -> None:
-    """Reports what a called tree writes through a remap to a global, which BehaviorTree.CPP 4.10 loses."""
+    """Reports writes of a called tree through a remap to a global key, which BehaviorTree.CPP 4.10 loses."""
     inner = keys.get(node.tree)
     for name, text in node.ports.items() if inner is not None else ():
         key = pointer(text, name)

@@ -25,7 +25,7 @@ _CHANGES: Final = {
 
 
 def check_effects(context: Context) -> None:
-    """Reports decorators that only pass on what their child returns; those with conditions do more."""
+    """Reports decorators that only return their child's result, and have no conditions."""
     for tree in context.project.trees.values():
         for node in tree.walk():
             if len(node.children) == 1 and not node.disabled and not node.conditions:

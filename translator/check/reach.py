@@ -19,7 +19,7 @@ _COUNTS: Final = {"Repeat": "num_cycles", "RetryUntilSuccessful": "num_attempts"
 
 
 def check_reachability(context: Context) -> None:
-    """Reports each branch that can never be ticked, at its first node; nothing is said of what is below."""
+    """Reports each branch that can never be ticked, once, at its first node."""
     for tree in context.project.trees.values():
         stack = [root for root in (tree.root,) if root is not None and root in tree.nodes]
         while stack:

@@ -1,4 +1,4 @@
-"""The path that a finding's reason takes through the trees: the nodes, and what each of them can return."""
+"""The path of a finding's reason through the trees: its nodes, and the possible results of each."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def step(context: Context, tree: Tree, node: Node) -> Step:
 
 
 def because(context: Context, tree: Tree, nodes: Iterable[Node]) -> tuple[Step, ...]:
-    """Returns the path over some nodes, and from the last of them down to what decides its results."""
+    """Returns the path over some nodes, then from the last one down to the node that decides its results."""
     given = list(nodes)
     steps = [step(context, tree, node) for node in given]
     steps += [step(context, *found) for found in _causes(context, tree, given[-1])]

@@ -1,4 +1,4 @@
-"""Checks for branches that run at once: what they write and command, and which of them may be RUNNING."""
+"""Checks branches that run at the same time: their writes and commands, and which of them may be RUNNING."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _COMPARED: Final = 64
 
 
 def check_together(context: Context) -> None:
-    """Reports what two branches that can run at once do to the same thing."""
+    """Reports conflicts between two branches that can run at the same time."""
     topics = _Topics(context)
     roots: dict[str, int] = {}
     for tree_id in context.order:
@@ -118,7 +118,7 @@ class _Topics:
         self.commanded[tree.id] = {topic: self.after(tree, tree.root or "", topic) for topic in first}
 
     def leaf(self, tree: Tree, node: Node) -> Iterator[tuple[str, tuple[Step, ...]]]:
-        """Yields the topics of a leaf or of a SubTree, with the path to what commands them."""
+        """Yields the topics of a leaf or of a SubTree, with the path to the leaf that commands them."""
         if node.is_subtree:
             for topic, path in self.roots.get(node.tree, {}).items():
                 yield topic, (Step(tree.id, node.id, node.label), *path)

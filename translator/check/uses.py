@@ -1,4 +1,4 @@
-"""The uses of blackboard keys: what each node reads and writes, under the names of its own tree.
+"""The uses of blackboard keys: the reads and writes of each node, under the names of its own tree.
 
 Each tree has its own blackboard; a SubTree node connects names of two blackboards. So a SubTree node uses
 what its tree uses, under the names that it gives them.

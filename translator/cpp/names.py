@@ -95,7 +95,7 @@ def unique(name: str, taken: set[str]) -> str:
 
 
 def literal(text: str) -> str:
-    """Returns a string literal in one line; what an editor would not show is an escape."""
+    """Returns a string literal in one line; invisible characters become escapes."""
     return f'"{"".join(_escaped(each) for each in clean(text))}"'
 
 

@@ -40,7 +40,7 @@ _RESERVED_PORTS = {"name", "ID", *CONDITIONS}
 
 @dataclass(frozen=True, slots=True)
 class CppPort:
-    """A port as C++ declares it. `model` is what BehaviorTree.CPP will say of it; `note` is a comment."""
+    """A port as C++ declares it: its entry in BehaviorTree.CPP's `TreeNodesModel`, and a comment (`note`)."""
 
     model: PortModel
     type: str
@@ -91,7 +91,7 @@ class CppNode:
         return BASES[self.form][1]
 
     def diagnostics(self) -> Iterator[Diagnostic]:
-        """Yields what the class does not have of the node."""
+        """Yields the features of the node that the C++ class lacks."""
         for name in self.left_out:
             place = Place(self.path, port=name, line=self.line)
             yield diagnostic("BT0930", place, name=self.id, port=name)
@@ -202,7 +202,7 @@ def _children(action: ActionModel) -> str:
 
 
 def _form(action: ActionModel) -> str:
-    """Returns `sync` for an action that never says RUNNING, else `stateful`; reads the syntax tree."""
+    """Returns `sync` for an action that never returns RUNNING, else `stateful`; reads the syntax tree."""
     from tree_gardener.stubs import is_stub  # noqa: PLC0415 - the engine loads py_trees
 
     if is_stub(action.source):

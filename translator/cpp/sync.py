@@ -24,7 +24,7 @@ ABSENT = "–"
 
 @dataclass(frozen=True, slots=True)
 class InStep:
-    """Stubs to write, by path, and what differs where an action is written already."""
+    """The stubs to write, by path, and the differences of actions that exist already."""
 
     files: Mapping[str, bytes] = field(default_factory=dict)
     diagnostics: tuple[Diagnostic, ...] = ()
@@ -80,7 +80,7 @@ def _with_enums(model: NodeModel, enums: Mapping[str, Mapping[str, int]]) -> Nod
 
 
 def _differing(action: ActionModel, model: NodeModel, file: str) -> Iterator[Diagnostic]:
-    """Yields what differs between an action and the model of its node."""
+    """Yields the differences between an action and the model of its node."""
     place = Place(action.path, line=action.line)
     values = {"name": action.name, "file": file}
     ours_kind, theirs_kind = (EXPLICIT_TAGS.get(kind, "Action") for kind in (action.kind, model.kind))
@@ -97,7 +97,7 @@ def _differing(action: ActionModel, model: NodeModel, file: str) -> Iterator[Dia
 
 
 def _adds_ports(action: ActionModel, model: NodeModel) -> bool:
-    """Returns whether a model says something of ports that a class does not declare."""
+    """Returns whether a model has details of ports that a class does not declare."""
     return action.open and not all(_says_nothing(port) for port in model.ports.values())
 
 

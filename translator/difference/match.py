@@ -160,7 +160,7 @@ class _Matching:
 
 
 class _Kinds:
-    """Numbers of what is equal in both versions: branches, names, types, the path of types from the top."""
+    """Numbers equal things of both versions: branches, names, types, the path of types from the root."""
 
     def __init__(self, shape: Shape, known: dict[Hashable, int]) -> None:
         self.branches: dict[str, int] = {}

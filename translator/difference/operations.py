@@ -1,4 +1,4 @@
-"""Returns what was done between two versions of a tree, as a list of operations on nodes.
+"""Returns the change between two versions of a tree as a list of operations on nodes.
 
 `insert`, `delete`, `wrap` (a new node around others), `unwrap` (a node taken away from around others),
 `move` (another parent), `reorder` (another place among siblings), `rename`, and `change` of one field. A

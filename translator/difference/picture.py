@@ -123,7 +123,7 @@ def _block(shape: Shape, node: str, operations: list[Operation]) -> _Block:
 
 
 def _fold(blocks: dict[str, _Block], tops: list[str]) -> None:
-    """Leaves out what is below blocks without a change in their branch."""
+    """Omits the descendants of blocks without a change in their branch."""
     order: list[str] = []
     stack = list(tops)
     while stack:

@@ -88,7 +88,7 @@ def own_ids(*sources: bytes) -> frozenset[str]:
 
 
 def compare_versions(older: Version, newer: Version, *, layout: bool = False) -> Difference:
-    """Returns what differs. Two single trees are compared with each other, also under different names."""
+    """Returns the differences. Two single trees are compared with each other, also under different names."""
     known = [each for each in (older.ids, newer.ids) if each is not None]
     ids = frozenset.intersection(*known) if known else None
     names = {tree: tree for tree in newer.trees}

@@ -98,7 +98,7 @@ def text(value: Any) -> str:
 
 
 def fields(row: Row, *, layout: bool = False) -> dict[str, str]:
-    """Returns what a node says, by field (a port is `ports.<name>`), without defaults."""
+    """Returns the fields of a node that differ from their defaults, by name (a port is `ports.<name>`)."""
     found: dict[str, str] = {}
     for key in TEXTS:
         if row.get(key):
@@ -115,7 +115,7 @@ def fields(row: Row, *, layout: bool = False) -> dict[str, str]:
 
 
 def tree_fields(document: Document, *, layout: bool = False) -> dict[str, str]:
-    """Returns what a document says, except its nodes, by field."""
+    """Returns the fields of a document, except its nodes, by name."""
     found = {"id": text(document.get("id", ""))}
     for port in document.get("ports") or ():
         rest = {key: value for key, value in port.items() if key != "name"}

@@ -21,7 +21,7 @@ FILE_SIGNS: Final = {"added": "+", "removed": "−", "changed": "≠"}
 
 
 class Line(NamedTuple):
-    """One operation: its sign, the name of the node, and what was done to it."""
+    """One operation: its sign, the name of the node, and a description."""
 
     sign: str
     who: str

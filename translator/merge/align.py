@@ -19,7 +19,7 @@ def align(
 
     Args:
         base: The common version.
-        ours: Our version, whose ids stay.
+        ours: Our version; its ids do not change.
         theirs: Their version.
         ids: Ids that mean the same node in all three.
     """

@@ -1,4 +1,4 @@
-"""Merges two versions of a tree three ways, on nodes: fields, parents, order, what came and went.
+"""Merges two versions of a tree three ways, by nodes: fields, parents, order, added and removed nodes.
 
 Where both sides changed the same thing differently, our side stays and a conflict says what they have. A node
 that one side deleted and the other changed stays in the tree until somebody has decided, with what is below
@@ -37,7 +37,7 @@ def merge_documents(base: Document, ours: Document, theirs: Document) -> Merged:
 
 
 class _Merge:
-    """One merge: first which nodes there are, then where, then in which order, then what they say."""
+    """One merge, in this order: the set of nodes, their parents, their order, their fields."""
 
     def __init__(self, base: Shape, ours: Shape, theirs: Shape) -> None:
         self.base = base
@@ -76,7 +76,7 @@ class _Merge:
     # Which nodes there are.
 
     def is_alive(self, node: str) -> bool:
-        """Whether a node is in the result; a deletion of what the other side changed is a conflict."""
+        """Whether a node is in the result; a conflict where one side deleted it and the other changed it."""
         if node not in self.base.rows or (node in self.ours.rows and node in self.theirs.rows):
             return True
         kept = self.ours if node in self.ours.rows else self.theirs

@@ -62,7 +62,7 @@ def unknown_names(opened: Iterable[Endpoint]) -> list[str]:
 
 
 def parameter_rows(opened: Iterable[Endpoint]) -> list[tuple[str, str, str]]:
-    """Returns (name, default, by whom) of the parameters that the Python of the package declares."""
+    """Returns name, default and declaring action of each parameter that the package's Python declares."""
     rows = {(_cell(item.name), _cell(item.type), _who(item)) for item in opened if item.kind == PARAMETER}
     return sorted(rows)
 

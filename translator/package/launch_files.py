@@ -75,7 +75,7 @@ def companions(files: Mapping[str, bytes]) -> list[str]:
 
 
 def as_program(raw: bytes) -> bytes:
-    """Returns the Python file with a first line by which the system can start it."""
+    """Returns the Python file with the first line (`#!`) of an executable script."""
     return raw if raw.startswith(b"#!") else _SHEBANG + raw
 
 

@@ -259,7 +259,7 @@ def type_name(cpp: str) -> str:
 
 
 def _whole(text: str) -> int | str:
-    """Returns a number of an enumeration; what is none stays a text, which the project's check reports."""
+    """Returns a number of an enumeration; other text stays a string, which the project's check reports."""
     return int(text) if _WHOLE.fullmatch(text) else text
 
 

@@ -127,7 +127,7 @@ class ParallelAll(_Parallel):
         self.ticked = self.done  # a halt of the tree within the tick replaces `done`
 
     def end(self) -> None:
-        """Ends what generated code does."""
+        """Ends the activation that generated code ticks."""
 
     def tally(self, index: int, status: Status) -> None:
         """Takes over the result of a child from generated code."""

@@ -22,7 +22,7 @@ class Code:
     Attributes:
         code: the compiled function.
         parameters: for each parameter its name, if it is one of `FIXED`, or the position of its value.
-        lines: what is on each line.
+        lines: the meaning of each line.
     """
 
     __slots__ = ("__weakref__", "code", "lines", "parameters")

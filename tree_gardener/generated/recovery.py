@@ -86,7 +86,7 @@ class Recovery:
         return self.climb(node, part, status)
 
     def recover(self, error: BaseException, start_s: float = 0.0) -> Status | None:
-        """Continues after an exception in the code, or in what it called.
+        """Continues after an exception in the code, or in a function that it called.
 
         Raises:
             TickError: the exception ends the tick.
@@ -119,7 +119,7 @@ class Recovery:
             self.recorder.results += [self.values[place] for place in meaning.pending]
 
     def report(self, line: int, node: Node) -> None:
-        """Reports to observers what the function has not reported when it is left at a line."""
+        """Sends observers the reports that were still missing when the function was left at a line."""
         if not self.variant.is_observed:
             return
         self.flush(line)
@@ -157,7 +157,7 @@ class Recovery:
         return status
 
     def ended(self, node: Node, status: Status, start_s: float = 0.0) -> None:
-        """Does what runs round a node after its tick: removes its mark, measures and counts."""
+        """Does the bookkeeping after a node's tick: removes its mark, measures and counts."""
         self.unmark()
         if start_s:
             duration_s = time.perf_counter() - start_s

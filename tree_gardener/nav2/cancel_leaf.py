@@ -28,7 +28,7 @@ class Nav2Cancel(Nav2Service):
         return super().literal("server_name")
 
     def set_request(self, request: Any) -> None:
-        """Asks for all goals that were accepted until just now."""
+        """Requests the cancellation of all goals that were accepted up to the present time."""
         now_ns = max(0, self.joined().get_clock().now().nanoseconds - GOALS_BEFORE_NS)
         stamp = request.goal_info.stamp
         stamp.sec, stamp.nanosec = divmod(now_ns, 1_000_000_000)

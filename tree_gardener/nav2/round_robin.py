@@ -6,7 +6,7 @@ from tree_gardener import ControlNode, Port, PortError, Status
 class RoundRobin(ControlNode):
     """Ticks the next child each time: after a success, the one after it.
 
-    A child that fails or is skipped hands over to the next one in the same tick. Without `wrap_around` the
+    After a child that fails or is skipped, the next one is ticked in the same tick. Without `wrap_around` the
     last child ends the round: the node fails, whatever that child returned, and starts again at the first.
     """
 

@@ -19,7 +19,7 @@ def read(environment: Environment, name: Name) -> Entry:
 
 
 def unary(_environment: Environment, expression: Unary, value: Any) -> float:
-    """Applies a prefix."""
+    """Applies a prefix operator."""
     return evaluator.prefixed(expression, value)
 
 

@@ -1,4 +1,4 @@
-"""Runs tests in a process of their own, so that no test can hurt the one that asked for it.
+"""Runs tests in a separate process, so that no test can harm the caller.
 
 The process reads one job from its standard input and writes one line of JSON for each start and each result
 to a pipe. A test that ends the process, or does not end, is one failure; the tests after it continue in a new

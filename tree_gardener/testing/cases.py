@@ -127,8 +127,8 @@ class Failure:
         time_s: its time.
         node: path of the node; "" if it is about no single node.
         tree: the tree to which the node belongs, and `node_id` its id in the diagram.
-        wanted: what was expected.
-        got: what was there.
+        wanted: the expected value.
+        got: the actual value.
         path: the nodes from the root to the node, each with its status after the tick.
     """
 
@@ -158,7 +158,7 @@ class Result:
         ticks: the number of ticks that were done.
         root: what the root returned last; "" without a tick.
         duration_s: how long it took.
-        seen: what of the tree it reached: items by tree and node.
+        seen: the items that it reached, by tree and node.
     """
 
     name: str
@@ -182,7 +182,7 @@ class Result:
 
     @classmethod
     def from_json(cls, document: Mapping[str, Any]) -> "Result":
-        """Reads what `to_json` made."""
+        """Reads the form that `to_json` writes."""
         values = {key: value for key, value in document.items() if key != "passed"}
         failures = tuple(
             Failure(**{**failure, "path": tuple((name, status) for name, status in failure["path"])})

@@ -65,7 +65,7 @@ class Claims:
                 (self._eventually if each.kind == "eventually" else self._never).append(pair)
 
     def after_tick(self) -> None:
-        """Tests what must hold after this tick."""
+        """Tests the claims about this tick."""
         view, tick = self.view, self.view.tick
         failed = []
         for pair in self._at:
@@ -86,7 +86,7 @@ class Claims:
             ]
 
     def at_end(self) -> None:
-        """Tests what must hold at the end, and finds what was never reached."""
+        """Tests the claims about the end, and finds claims that were never reached."""
         for each, test in self._end:
             mismatch = test()
             if mismatch is not None:

@@ -1,4 +1,4 @@
-"""Coverage of trees: what of them the tests have reached, against what could be reached.
+"""Coverage of trees: the items that the tests have reached, out of those that can be reached.
 
 The items of a node: that it was ticked; each result that it can return; each branch of a fallback, switch, if
 or while taken and not taken; each pre-condition true and false; each post-condition run; that it was halted
@@ -45,7 +45,7 @@ def branches(node: Node) -> range:
 
 
 class Watch:
-    """Sees what a run of one tree reaches.
+    """Observes the items that a run of one tree reaches.
 
     Attributes:
         log: results of the nodes in this tick, in order; the tree appends to it.
@@ -72,7 +72,7 @@ class Watch:
                 self._watch_conditions(node)
 
     def take(self) -> None:
-        """Takes over what happened in a tick."""
+        """Adds the changes of a tick."""
         log = self.log
         self.last = dict(log)
         self.results.update(log)
@@ -136,7 +136,7 @@ class Watch:
         condition.call = call
 
     def seen(self) -> Seen:
-        """Returns what the run has reached: items by tree and node."""
+        """Returns the items that the run has reached, by tree and node."""
         found: dict[str, dict[str, set[str]]] = {}
 
         def add(uid: int, *items: str) -> None:
@@ -165,7 +165,7 @@ class Coverage:
         self.reached: dict[str, dict[str, set[str]]] = {}
 
     def add_tree(self, tree: "Tree", returns: Mapping[str, frozenset[str]]) -> None:
-        """Adds the nodes of a tree, with those of its SubTrees, to what can be reached."""
+        """Adds the nodes of a tree and of its SubTrees to the items that can be reached."""
         possible = outcomes(tree.nodes, returns)
         can_halt = haltable(tree.nodes, possible)
         for node, results, halts in zip(tree.nodes, possible, can_halt, strict=True):
@@ -177,13 +177,13 @@ class Coverage:
                     held.append(item)
 
     def add_seen(self, seen: Seen) -> None:
-        """Adds what a test has reached."""
+        """Adds the items that a test has reached."""
         for tree, nodes in seen.items():
             for node, items in nodes.items():
                 self.reached.setdefault(tree, {}).setdefault(node, set()).update(items)
 
     def missing(self) -> list[tuple[str, str, str]]:
-        """Returns what no test has reached: tree, node and item."""
+        """Returns the items that no test has reached, with tree and node."""
         return [
             (tree, node, item)
             for tree, nodes in self.wanted.items()

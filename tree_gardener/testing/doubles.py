@@ -1,4 +1,4 @@
-"""Doubles: what takes the place of a leaf's own Python in a test.
+"""Doubles, which replace the Python of a leaf in a test.
 
 The engine's node stays the one that ticks the leaf in a program; only the behaviour below it is another. So
 conditions, ports, starts and halts are those of the real leaf.
@@ -49,7 +49,7 @@ class LeafModel:
 
 
 def leaf_models(document: Mapping[str, Any]) -> dict[str, LeafModel]:
-    """Reads models from what `LeafModel.to_json` made, by type."""
+    """Reads models from the form that `LeafModel.to_json` writes, by type."""
     return {
         name: LeafModel(
             kind=item["kind"],
@@ -67,7 +67,7 @@ class MissingError(Exception):
 
 
 class Stub(Behaviour):  # type: ignore[misc, unused-ignore]
-    """Stands for a leaf until a double is bound; its `update` says that there is none."""
+    """Replaces a leaf until a double is bound; its `update` raises an error."""
 
     TYPE: ClassVar[str] = ""
 

@@ -1,6 +1,6 @@
 """A job: the tests of a project with all that is needed to run them, as one JSON document.
 
-It is what passes to the process that runs the tests, and what an exported package holds.
+A job is sent to the process that runs the tests, and stored in an exported package.
 """
 
 import dataclasses
@@ -54,7 +54,7 @@ class Job:
         return Suite(xml or self.xml, self.nodes, sources=sources or self.sources, ports=self.ports)
 
     def cases(self, suite: Suite) -> tuple[list[Case], list[Diagnostic]]:
-        """Returns the tests of all files, and what is wrong with the others."""
+        """Returns the tests of all files, and the problems of unreadable ones."""
         cases: list[Case] = []
         problems: list[Diagnostic] = []
         for file in self.files:
@@ -86,7 +86,7 @@ class Job:
 
     @classmethod
     def from_json(cls, document: Mapping[str, Any]) -> "Job":
-        """Reads what `to_json` made."""
+        """Reads the form that `to_json` writes."""
         return cls(
             files=[
                 TestFile(

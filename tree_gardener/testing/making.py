@@ -1,4 +1,4 @@
-"""Makes a behaviour test of what a tree has done: its doubles are what the leaves returned."""
+"""Makes a behaviour test of a run of a tree: its doubles return the results that the leaves returned."""
 
 from collections.abc import Callable, Iterable
 from typing import Any, Final
@@ -25,7 +25,7 @@ class Maker:
         tick_hz: the rate at which it is ticked.
 
     Attributes:
-        problems: what the test cannot repeat, in sentences.
+        problems: sentences about the parts of the run that the test cannot repeat.
     """
 
     def __init__(self, tree: Tree, tick_hz: float) -> None:
@@ -117,7 +117,7 @@ class Maker:
         return watched
 
     def _outputs(self, node: BehaviourLeaf) -> dict[str, Any]:
-        """Returns what a leaf has written to its output ports in this tick."""
+        """Returns the values that a leaf wrote to its output ports in this tick."""
         written = {id(entry): entry for entry, writer in self._written if writer == node.uid}
         if not written:
             return {}

@@ -1,6 +1,6 @@
-"""The results that each node of a tree can return, and what can halt it, by the rules of the nodes.
+"""The results that each node of a tree can return, and whether it can be halted, by the rules of the nodes.
 
-It is what coverage is measured against: a result that no tick can bring is not missing.
+Coverage is measured against this set: a result that cannot occur is not missing.
 """
 
 from collections.abc import Callable, Mapping, Sequence

@@ -36,7 +36,7 @@ class PackagedTests:
         self.problems = [str(problem) for problem in problems]
 
     def failures(self, name: str) -> list[str]:
-        """Runs one test; returns what failed, in sentences."""
+        """Runs one test; returns its failures, in sentences."""
         return [str(failure) for failure in self.suite.run(self.cases[name]).failures]
 
     def parameters(self) -> list[Any]:

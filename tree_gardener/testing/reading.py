@@ -42,7 +42,7 @@ def read_tests(
     tick_hz: float = DEFAULT_HZ,
     suite: "Suite | None" = None,
 ) -> tuple[list[Case], list[Diagnostic]]:
-    """Returns the tests of a document, and what is wrong with the others.
+    """Returns the tests of a document, and the problems of unreadable ones.
 
     Args:
         document: the parsed document.

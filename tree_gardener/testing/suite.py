@@ -41,7 +41,7 @@ class Suite:
         xml: the document. Sources of actions in it are not run.
         nodes: the project's own node types.
         sources: Python source by action, for doubles that are ``real``; None refuses them.
-        ports: the defaults of each tree's own ports, by tree: what the tree has where nobody calls it.
+        ports: the defaults of each tree's own ports, by tree; used where no other tree calls it.
     """
 
     def __init__(
@@ -77,7 +77,7 @@ class Suite:
     # -- before the run -----------------------------------------------------------------------------
 
     def problems_of(self, case: Case) -> list[Diagnostic]:
-        """Returns what is wrong with the names of a test: tree, doubles, nodes and ports."""
+        """Returns the problems of the names in a test: tree, doubles, nodes and ports."""
 
         def problem(code: str, message: str, hint: str, line: int) -> Diagnostic:
             return Diagnostic(code, message, hint, file=case.file, line=line or case.line, column=1)
@@ -313,7 +313,7 @@ def _raised(error: TickError, case: Case, view: View, sentence: str = "") -> Fai
 
 
 def _real_sentence(error: TickError) -> str:
-    """Returns what is said if a real leaf needs ROS, which tests do not have; else ""."""
+    """Returns the error for a real leaf that needs ROS, which tests do not have; else ""."""
     cause = error.cause
     is_missing = isinstance(cause, ImportError) or (
         isinstance(cause, AttributeError) and getattr(cause, "obj", 0) is None

@@ -11,7 +11,7 @@ from backend.accounts.audit import client_address
 from backend.config.environment import REPOSITORY
 from backend.projects.errors import CheckFailedError
 from backend.workers.deferred import Deferred
-from backend.workers.lanes import pool
+from backend.workers.priorities import pool
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -23,7 +23,7 @@ from backend.projects.signals import data_asked
 from backend.projects.storage import queries
 from backend.workers import zips
 from backend.workers.deferred import Deferred
-from backend.workers.lanes import pool
+from backend.workers.priorities import pool
 
 if TYPE_CHECKING:
     from uuid import UUID

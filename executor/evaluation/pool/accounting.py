@@ -32,7 +32,7 @@ def descendants(pid: int) -> list[int]:
 
 
 def usage(pids: Iterable[int]) -> Usage:
-    """Returns what some processes use together; those that have ended count nothing."""
+    """Returns the sum of the resources of some processes; ended processes count as zero."""
     cpu_s, rss = 0.0, 0
     for pid in pids:
         try:

@@ -45,8 +45,8 @@ class Supervisor:
     Args:
         cell: runs one seed in its own process.
         workers: the number of workers.
-        first_limit_s: the limit of processor time of the first run, whose cost nobody knows yet.
-        scale: by what the cost of the first run is multiplied, for a run that takes the whole time.
+        first_limit_s: the limit of processor time of the first run, whose cost is not known yet.
+        scale: the factor on the cost of the first run, for a run that takes the whole time.
         memory_bytes: the limit of memory of a process of a run.
     """
 

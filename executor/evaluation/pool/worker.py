@@ -69,7 +69,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Done:
-    """A run that has ended, and what it cost."""
+    """A run that has ended, with its cost."""
 
     outcome: Outcome
     cpu_s: float
@@ -83,7 +83,7 @@ class Done:
 
 
 def read_done(line: bytes) -> Done:
-    """Reads what `Done.to_line` wrote.
+    """Reads a line that `Done.to_line` wrote.
 
     Raises:
         ValueError: the line is something else.
@@ -167,7 +167,7 @@ class _Watch:
         self.rss_bytes = 0
 
     def wait(self) -> tuple[bytes, str | None]:
-        """Returns what the run wrote, and the outcome if it was ended."""
+        """Returns the output of the run, and the outcome if the run was stopped."""
         end_s = time.monotonic() + self._limits.wall_s
         data, ended = bytearray(), None
         poll = select.poll()

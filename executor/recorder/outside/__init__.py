@@ -1,6 +1,6 @@
 """Logs of robots that BT Studio did not run, turned into our recordings.
 
-    convert     finds what a file is, and converts it
+    convert     finds the format of a file, and converts it
     btlog       BehaviorTree.CPP's FileLogger2
     btsqlite    BehaviorTree.CPP's SqliteLogger
     bags        MCAP and rosbag2: `nav2_msgs/BehaviorTreeLog`, our own types, `/rosout`, scans and pictures

@@ -1,7 +1,7 @@
 """Converts a file from outside in a child with limits, so that a hostile file harms nothing but itself.
 
 The child has 256 MB, 60 s, and no network where the platform lets it give that up. It reads the source and
-writes the target, and tells the result as one line of JSON.
+writes the target, and prints the result as one line of JSON.
 """
 
 from __future__ import annotations
@@ -59,10 +59,10 @@ def command(source: Path, target: Path, name: str) -> list[str]:
 
 
 def outcome(name: str, code: int, output: bytes) -> Converted:
-    """Returns what the child told.
+    """Returns the result that the child printed.
 
     Raises:
-        OutsideError: it told an error, or ended without a word.
+        OutsideError: it printed an error, or ended without any output.
     """
     try:
         told = json.loads(output.decode())
@@ -77,7 +77,7 @@ def outcome(name: str, code: int, output: bytes) -> Converted:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Is the child: gives up what it does not need, and converts."""
+    """The main function of the child: drops privileges that it does not need, and converts."""
     source, target, name = Path(arguments[0]), Path(arguments[1]), arguments[2]
     confine_reader(MEMORY_BYTES, SECONDS, MOST_WRITTEN_BYTES)
     try:

@@ -1,7 +1,7 @@
 """Reads bags of ROS 2: MCAP and SQLite, one file or a folder of them.
 
 Of the topics those are kept that the page can show: `nav2_msgs/BehaviorTreeLog`, our own types, `/rosout`,
-laser scans and JPEG pictures. What a bag says about its other types is not even read.
+laser scans and JPEG pictures. The definitions of other types in a bag are not read.
 """
 
 from __future__ import annotations
@@ -134,7 +134,7 @@ def _changes(sent: Sent, counter: Counter) -> list[NodeChange]:
 
 
 def _copy(sent: Sent, t_ns: int, counter: Counter, writer: RecordingWriter) -> None:
-    """Writes a message as it is; those of ours are read first, since pages rely on them."""
+    """Copies a message unchanged; messages of our types are checked first, since pages rely on them."""
     try:
         if sent.kind in _OURS:
             decode(sent.kind, sent.data)

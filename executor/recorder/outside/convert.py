@@ -1,4 +1,4 @@
-"""Finds what a file from outside is, and writes it as a recording."""
+"""Finds the format of a foreign file, and writes it as a recording."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def convert_outside(source: Path, out: BinaryIO, limits: Limits | None = None, n
     Args:
         source: the file or folder.
         out: the recording.
-        limits: the most that the source may hold.
+        limits: the largest permitted sizes and counts.
         name: its name in errors; by default that of the path.
 
     Raises:

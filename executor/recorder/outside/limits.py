@@ -21,7 +21,7 @@ class Counter:
 
     Args:
         name: the name of the file in errors.
-        limits: the most that it may hold.
+        limits: the largest permitted sizes and counts.
         seconds: how long reading may take.
     """
 

@@ -1,4 +1,4 @@
-"""Reads messages `nav2_msgs/BehaviorTreeLog` and `rcl_interfaces/Log`, whatever their definition says. Pure.
+"""Reads messages `nav2_msgs/BehaviorTreeLog` and `rcl_interfaces/Log` by our definitions, not the file's.
 
 Nav2 added the number of the node in a later version. Which form a message has is seen from its bytes: only
 the right one has statuses in it and ends where the message ends.

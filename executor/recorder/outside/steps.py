@@ -1,6 +1,6 @@
 """Puts the changes of a log together that belong to one tick. Pure.
 
-BehaviorTree.CPP's logs do not say where a tick ends. Changes that follow each other closely make a step,
+BehaviorTree.CPP's logs do not mark the end of a tick. Changes that follow each other closely make a step,
 which is recorded as a tick. No result is lost: a step ends before a node that has returned something in it
 would return something else.
 """

@@ -61,7 +61,7 @@ def tree_of_xml(xml: bytes, name: str, place: int) -> LoggedTree:
 
 
 def flat_tree(names: dict[int, str]) -> LoggedTree:
-    """Returns a tree of nodes of which a log tells only the names: the first, and the others below it."""
+    """Returns a tree for a log with only the names of nodes: the first one is the parent of all others."""
     columns: dict[str, list[Any]] = {column: [] for column in _COLUMNS}
     numbers: dict[int, int] = {}
     for number, name in names.items():

@@ -1,4 +1,4 @@
-"""Reads a recording once, and says how its run went. Memory does not grow with its length."""
+"""Reads a recording once, and returns the facts of its run. Memory does not grow with its length."""
 
 from __future__ import annotations
 
@@ -60,12 +60,12 @@ class Facts:
 
 
 def facts_of(file: BinaryIO, name: str, limits: Limits | None = None) -> Facts:
-    """Returns what a recording says. A message that cannot be read is passed over.
+    """Returns the facts of a recording. Unreadable messages are skipped.
 
     Args:
         file: the recording, at its begin.
         name: its name in errors.
-        limits: the most that it may hold.
+        limits: the largest permitted sizes and counts.
 
     Raises:
         RecordingError: it is no recording, or hostile.

@@ -1,4 +1,4 @@
-"""Sends what happens in a world to the recorder of the session."""
+"""Sends the events of a world to the recorder of the session."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class GraphTap(Protocol):
     """Takes messages of topics that others publish."""
 
     def poll(self, now_s: float) -> None:
-        """Takes what has arrived; the time is real time in s."""
+        """Takes the messages that have arrived; the time is real time in s."""
 
     def restart(self) -> None:
         """Begins again, with the latched messages."""
@@ -122,7 +122,7 @@ class WorldRecorder:
             self._link.send(Dump(nanoseconds(now_s), step, self._world.dump()))
 
     def picture(self, frame: Frame) -> None:
-        """Records a picture of a camera that somebody looks at."""
+        """Records a picture of a camera that a client subscribes to."""
         if self._link.is_recording and frame.stream.partition("/")[0] == "camera":
             camera = _decode_camera(frame.data)
             self._tap.jpeg(f"/world/camera/{camera.sensor}", camera.jpeg, camera.t, camera.sensor)

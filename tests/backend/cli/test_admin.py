@@ -8,7 +8,7 @@ import pytest
 
 from backend.accounts.models import User
 from backend.cli import admin as commands
-from backend.cli.errors import CliError
+from backend.cli.shared.errors import CliError
 from backend.config import server
 from backend.sessions import drain
 from tests.backend.accounts.test_sharing import project_of

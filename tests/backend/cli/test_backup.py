@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from backend.cli.backup import backup
-from backend.cli.errors import CliError
 from backend.cli.new import new
+from backend.cli.shared.errors import CliError
 
 
 def test_everything_is_written_to_one_file(stored_place, capsys):

@@ -10,7 +10,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from backend.cli.behaviour_tests import junit_xml, run_tests
-from backend.cli.errors import CliError
+from backend.cli.shared.errors import CliError
 from tree_gardener.errors import Diagnostic
 from tree_gardener.testing import Failure, Result
 

@@ -7,7 +7,7 @@ import json
 import pytest
 
 from backend.cli.check import check
-from backend.cli.errors import CliError
+from backend.cli.shared.errors import CliError
 
 SOUND = '<root BTCPP_format="4"><BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree></root>'
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from backend.cli.conformance import conformance
-from backend.cli.errors import CliError
+from backend.cli.shared.errors import CliError
 
 CASES = Path(__file__).resolve().parents[2] / "conformance" / "accepts.jsonl"
 

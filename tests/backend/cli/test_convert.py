@@ -6,7 +6,7 @@ import pytest
 from mcap.reader import make_reader
 
 from backend.cli.convert import convert
-from backend.cli.errors import CliError
+from backend.cli.shared.errors import CliError
 from tests.executor.recorder.test_lines import LINES, write
 from tests.executor.recorder.test_recover import flushed
 

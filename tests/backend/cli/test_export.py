@@ -6,9 +6,9 @@ import zipfile
 
 import pytest
 
-from backend.cli.errors import CliError
 from backend.cli.export import export
 from backend.cli.new import new
+from backend.cli.shared.errors import CliError
 
 
 def test_a_stored_project_becomes_a_zip(stored_place):

@@ -6,8 +6,8 @@ import json
 
 import pytest
 
-from backend.cli.errors import CliError
 from backend.cli.import_ import import_
+from backend.cli.shared.errors import CliError
 
 TREE = '<root BTCPP_format="4"><BehaviorTree ID="T"><Drive speed="1"/></BehaviorTree></root>'
 

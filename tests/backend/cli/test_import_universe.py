@@ -6,8 +6,8 @@ import json
 
 import pytest
 
-from backend.cli.errors import CliError
 from backend.cli.import_universe import import_universe
+from backend.cli.shared.errors import CliError
 from executor.universes import parse_universe
 
 SDF = """\

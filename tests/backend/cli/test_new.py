@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from backend.cli.errors import CliError
 from backend.cli.new import new
+from backend.cli.shared.errors import CliError
 from backend.projects.models import Project
 
 

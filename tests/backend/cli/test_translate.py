@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from backend.cli.errors import CliError
+from backend.cli.shared.errors import CliError
 from backend.cli.translate import translate
 
 TREE = '<root BTCPP_format="4"><BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree></root>'

@@ -18,7 +18,7 @@ from backend.core.scratch import AlreadyThereError, NoRoomError, Scratch
 from backend.ingress import bodies, handler
 from backend.ingress.handler import ThreadedHandler
 from backend.projects.models import Project
-from backend.workers.lanes import Lanes
+from backend.workers.priorities import Pools
 from tests.backend.ingress.test_bodies import IMPORT, MEBIBYTE, archive_of, head, parts, refused
 from tests.backend.ingress.test_handler import body
 
@@ -177,11 +177,11 @@ def test_packing_that_fails_leaves_nothing_and_may_be_asked_again(api, monkeypat
     from backend.workers.errors import BusyError
 
     api.post("projects", {"name": "One"}, expect=201)
-    asking = Lanes.ask
-    monkeypatch.setattr(Lanes, "ask", lambda *_, **__: (_ for _ in ()).throw(BusyError("busy")))
+    asking = Pools.ask
+    monkeypatch.setattr(Pools, "ask", lambda *_, **__: (_ for _ in ()).throw(BusyError("busy")))
     api.get("me/data", expect=503)
     assert scratch.scratch().used == 0
-    monkeypatch.setattr(Lanes, "ask", asking)
+    monkeypatch.setattr(Pools, "ask", asking)
     assert zipfile.is_zipfile(io.BytesIO(api.get("me/data")))
     assert Project.objects.count() == 1
 

@@ -14,7 +14,7 @@ from backend.projects.api import presentation
 from backend.projects.signals import project_deleted
 from backend.projects.storage import queries
 from backend.workers.errors import BusyError, WorkFailedError
-from backend.workers.lanes import Lanes
+from backend.workers.priorities import Pools
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
@@ -34,13 +34,13 @@ def fails_later(error):
 
 
 def no_checks(monkeypatch):
-    monkeypatch.setattr(Lanes, "ask", fails_later(WorkFailedError("The worker was killed.")))
+    monkeypatch.setattr(Pools, "ask", fails_later(WorkFailedError("The worker was killed.")))
 
 
 DOWN = OperationalError("the database went away")
 STEPS = {
-    "the check": (Lanes, "ask", WorkFailedError("The worker was killed.")),
-    "the pool": (Lanes, "ask", BusyError("Too much waits.")),
+    "the check": (Pools, "ask", WorkFailedError("The worker was killed.")),
+    "the pool": (Pools, "ask", BusyError("Too much waits.")),
     "the contents": (queries, "contents", DOWN),
     "the notices": (notify._teller, "tell", ConnectionError("Redis is down")),
     "the channel layer": (notify, "get_channel_layer", ConnectionError("Redis is down")),

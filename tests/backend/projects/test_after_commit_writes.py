@@ -21,7 +21,7 @@ from django.utils import timezone
 from backend.accounts.models import Group, GroupMember, User
 from backend.core import notify
 from backend.projects.models import ChangeSet, Draft, Membership, Project, ShareLink
-from backend.workers.lanes import Lanes
+from backend.workers.priorities import Pools
 from tests.backend.accounts.conftest import person, stranger, team  # noqa: F401 - fixtures
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -48,7 +48,7 @@ def dead_after_commit(monkeypatch):
 
     with monkeypatch.context() as patched, connection.execute_wrapper(asking):
         patched.setattr(BaseDatabaseWrapper, "_commit", committing)
-        patched.setattr(Lanes, "ask", failing)
+        patched.setattr(Pools, "ask", failing)
         patched.setattr(notify._teller, "tell", failing)
         patched.setattr("backend.projects.api.notices.tell", failing)
         patched.setattr("backend.accounts.rights.tell", failing)

@@ -16,7 +16,7 @@ from backend.ingress import handler
 from backend.ingress.handler import ThreadedHandler
 from backend.workers.deferred import Deferred, Waiting
 from backend.workers.errors import BusyError
-from backend.workers.lanes import Lanes
+from backend.workers.priorities import Pools
 from tests.backend.conftest import HOST
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -61,7 +61,7 @@ def one(monkeypatch):
 def held(monkeypatch):
     """Work that the test itself completes."""
     work: Future[Any] = Future()
-    monkeypatch.setattr(Lanes, "ask", lambda *_, **__: work)
+    monkeypatch.setattr(Pools, "ask", lambda *_, **__: work)
     return work
 
 
@@ -109,7 +109,7 @@ async def test_too_much_work_is_refused_with_when_to_ask_again(one, project, mon
     def busy(*_, **__):
         raise BusyError("The server has too much to do.")
 
-    monkeypatch.setattr(Lanes, "ask", busy)
+    monkeypatch.setattr(Pools, "ask", busy)
     status, headers, body = await ask(one, f"projects/{project['id']}/xml")
     assert (status, headers[b"retry-after"], json.loads(body)["code"]) == (503, b"5", "busy")
     assert (await ask(one, f"projects/{project['id']}"))[0] == 200  # the project opens without being checked

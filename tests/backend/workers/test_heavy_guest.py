@@ -9,8 +9,8 @@ import pytest
 
 from backend.ingress.handler import ThreadedHandler
 from backend.projects.models import Project
-from backend.workers.lanes import MEMORY_BYTES
 from backend.workers.pool import Limits, Pool
+from backend.workers.priorities import MEMORY_BYTES
 from tests.backend.accounts.conftest import PUBLIC, Person, person, team  # noqa: F401 - fixtures
 from tests.backend.ingress.test_bodies import head
 from translator.limits import NODES_PER_PROJECT, NODES_PER_TREE

@@ -9,8 +9,8 @@ import zipfile
 import pytest
 
 from backend.workers import zips
-from backend.workers.lanes import MEMORY_BYTES
 from backend.workers.pool import Limits, Pool
+from backend.workers.priorities import MEMORY_BYTES
 from translator.limits import FILE_BYTES, PROJECT_BYTES
 
 

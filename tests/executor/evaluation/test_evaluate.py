@@ -1,4 +1,4 @@
-"""Estimates and progress; whole evaluations are run by `tests/backend/cli/test_evaluate.py`."""
+"""Estimates and progress; whole evaluations are run by `tests/backend/cli/evaluating/test_evaluate.py`."""
 
 import pytest
 

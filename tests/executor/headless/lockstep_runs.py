@@ -6,8 +6,8 @@ import json
 import sys
 from pathlib import Path
 
-from backend.cli.errors import CliError
 from backend.cli.run import run
+from backend.cli.shared.errors import CliError
 
 
 def main() -> None:

@@ -15,9 +15,9 @@ from rclpy.node import Node
 from executor.child_messages import ListTopics
 from executor.robots import load_robot
 from executor.ros.commands import Commands
+from executor.ros.graph.topics import TopicError, TopicRequest, Topics
 from executor.ros.node import WorldNode
 from executor.ros.shared_topics import share_commands
-from executor.ros.topics import TopicError, TopicRequest, Topics
 from executor.universes import load_builtin
 from executor.world.physics.bullet import BulletWorld
 from tests.executor.ros.conftest import DOMAIN_ID

@@ -1,4 +1,4 @@
-"""Follows what was certainly ticked upwards: for which results of a node a child was ticked before.
+"""Finds the results of a node that imply that a given child was ticked, from the child upwards.
 
 `certain` is a set of results of the child for which the tick is certain; a result that the child cannot
 return counts as certain.

@@ -40,9 +40,9 @@ def ordered(children: Sequence[int], goes_on: int, ends: int, *, yields: bool = 
 
 
 def rested(children: Sequence[int], goes_on: int, ends: int) -> int:
-    """Returns what an ordered node can return in addition where its parent lets it rest after a result.
+    """Returns the additional results of an ordered node that is not reset after a result.
 
-    It then keeps its count of skipped children, so that it may take them for all or for too few.
+    Its count of skipped children is then kept, and may be too high or too low.
     """
     may_skip = any(child & K for child in children)
     return goes_on | K if may_skip and any(child & ends for child in children) else 0

@@ -3,9 +3,9 @@
 Called trees come first, and a SubTree node can return what the root of its tree can. A tree that calls itself
 is an error; until that is repaired, the call that closes the ring can return anything.
 
-Two sets are computed with the same rules. `may` holds every result that the node may return: what is not in
-it, never happens. `named` starts from the results that actions state in their Python: what is in it was meant
-by somebody. A finding that says *never* uses the first, one that says *can* uses the second.
+Two sets are computed with the same rules. `may` holds every result that the node may return: other results
+never happen. `named` starts from the results that actions state in their Python: the author intended these.
+A finding that says *never* uses the first, one that says *can* uses the second.
 """
 
 from __future__ import annotations

@@ -85,7 +85,7 @@ def is_of_library(action: ActionModel) -> bool:
 
 
 def of_nav2(type_: str, children: Sequence[int]) -> int | None:
-    """Returns the set of a node of Nav2's library; None if its Python says more than its kind."""
+    """Returns the set of a node of Nav2's library; None if its Python decides the results."""
     if (rule := CONTROLS.get(type_)) is not None:
         return rule(children) if children else ALL
     if (added := ADDED.get(type_)) is not None:

@@ -1,7 +1,7 @@
 import { useTranslation } from 'react-i18next';
 import { displayName, preorder, type NodeId } from '@/model/diagram';
 import type { ChangeKind, NodeDifference, TreeDifference } from '@/model/difference/changes';
-import classes from './history.module.css';
+import classes from './revisions.module.css';
 
 /** A sign for each kind of change, since colour alone is not accessible. */
 export const SIGNS: Record<ChangeKind, string> = { added: '+', removed: '−', changed: '≠', moved: '⇄' };

@@ -5,7 +5,7 @@ import type { FileDifference } from '@/api/revisions';
 import { useProjectStore } from '@/store/project';
 import { setComparison, sidesOf, useComparison, type Against, type Comparison } from './compare';
 import { FileDifferenceView } from './FileDifferenceView';
-import classes from './history.module.css';
+import classes from './revisions.module.css';
 import { LabelButton } from './LabelButton';
 import { restore } from './restoring';
 import { useDifferences } from './useSides';

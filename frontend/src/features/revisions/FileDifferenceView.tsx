@@ -3,7 +3,7 @@ import { useMemo, useState, type ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { Diagram } from '@/model/diagram';
 import { treeIdOf } from '@/store/project/state';
-import classes from './history.module.css';
+import classes from './revisions.module.css';
 import { TextDifference } from './TextDifference';
 import { TreePicture } from './TreePicture';
 import { diagramOf, useFileSides, useXmlSides, type FileSides } from './useSides';

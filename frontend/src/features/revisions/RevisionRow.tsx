@@ -4,7 +4,7 @@ import { useTranslation } from 'react-i18next';
 import type { Revision } from '@/api/revisions';
 import { timeAgo } from '@/i18n/timeAgo';
 import { useProjectStore } from '@/store/project';
-import classes from './history.module.css';
+import classes from './revisions.module.css';
 import { LabelButton } from './LabelButton';
 import { sayRevision } from './words';
 

@@ -8,7 +8,7 @@ import { treePath } from '@/store/project/state';
 import { useVisible } from '@/ui/hooks/useVisible';
 import { useComparison } from './compare';
 import { groupRevisions, type RevisionGroup } from './groups';
-import classes from './history.module.css';
+import classes from './revisions.module.css';
 import { RevisionRow } from './RevisionRow';
 import { setScope, useScope } from '@/store/revisions/scope';
 import { useRevisions } from './useRevisions';

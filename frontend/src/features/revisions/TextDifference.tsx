@@ -8,7 +8,7 @@ import { languageOf } from '@/features/code/modes';
 import { phrases } from '@/features/code/phrases';
 import { useIsNarrow } from '@/ui/hooks/useIsNarrow';
 import { dimMetadata } from '@/features/xml/ranges';
-import classes from './history.module.css';
+import classes from './revisions.module.css';
 
 interface TextDifferenceProps {
   /** The path of the file, which determines the syntax colours. */

@@ -8,7 +8,7 @@ import { treeDifference, type TreeDifference } from '@/model/difference/changes'
 import { layoutTree, type Layout } from '@/model/layout';
 import { useProjectStore } from '@/store/project';
 import { ChangeList, COLORS, SIGNS } from './ChangeList';
-import classes from './history.module.css';
+import classes from './revisions.module.css';
 
 interface TreePictureProps {
   readonly before: Diagram;

@@ -1,0 +1,1 @@
+"""Commands that compare or merge versions of a project, and their part in git."""

@@ -1,0 +1,1 @@
+"""Modules that commands share: errors, stored projects, translation, the file of a backup."""

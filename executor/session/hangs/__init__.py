@@ -1,0 +1,1 @@
+"""Detection of hung children: measurements of their beats, and the reaction to a hang."""

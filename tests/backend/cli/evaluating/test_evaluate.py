@@ -1,0 +1,143 @@
+"""`bt-studio evaluate` as it is typed."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from backend.cli.evaluating.evaluate import ONLY_FAILED
+from backend.cli.evaluating.one_run import SINGLE
+from tests.executor.evaluation.projects import DRIVE, write
+
+ROOT = Path(__file__).parents[4]
+MAIN = "from backend.cli.main import main; main()"
+ENVIRONMENT = {**os.environ, **SINGLE, "PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "0"}
+TEXT = """duration_s: 3
+runs: 6
+vary: {robot.pose: {area: start, yaw: [-0.4, 0.4]}, models.crate.pose.y: [1, 3]}
+judge: {success: [{reach: {area: ahead}}], measure: [path_length_m, smallest_clearance_m]}
+"""
+SETS = DRIVE.replace(
+    "        twist = Twist()",
+    """        words = {"alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta"}
+        twist = Twist()
+        twist.angular.z = len(next(iter(words))) / 100""",
+)
+pytestmark = [pytest.mark.simulation, pytest.mark.timeout(300)]
+
+
+def studio(*arguments):
+    return subprocess.run(
+        [sys.executable, "-c", MAIN, *map(str, arguments)],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=280,
+        env=ENVIRONMENT,
+        check=False,
+    )
+
+
+def test_workers_change_nothing_and_a_seed_alone_gives_the_same(tmp_path):
+    folder = write(tmp_path / "p", TEXT, action=SETS)
+    one = studio("evaluate", folder, "--workers", 1, "--report", tmp_path / "one", "--gate", "success>=0.95")
+    assert one.returncode == 1
+    assert "cannot pass with 6 runs: it needs at least 59 of 59" in one.stderr
+    assert "Traceback" not in one.stderr
+    assert "a run takes about" in one.stdout
+    assert "gate success>=0.95: FAILS" in one.stdout
+    two = studio(
+        "evaluate",
+        folder,
+        "main",
+        "--workers",
+        2,
+        "--report",
+        tmp_path / "two",
+        "--junit",
+        tmp_path / "j.xml",
+    )
+    assert (two.returncode, two.stderr) == (0, "")
+    lines = (tmp_path / "one" / "runs.jsonl").read_bytes()
+    assert (tmp_path / "two" / "runs.jsonl").read_bytes() == lines
+    assert len(lines.splitlines()) == 6
+    assert (tmp_path / "two" / "report.html").stat().st_size > 10_000
+    assert 'tests="6"' in (tmp_path / "j.xml").read_text()
+    alone = studio("run", folder, "--evaluation", "main", "--seed", 4, "--json")
+    assert alone.stdout.splitlines()[-1] == lines.decode().splitlines()[4]
+
+    # Some runs fail; only these run again, and the other results stay.
+    failed = [json.loads(line)["seed"] for line in lines.splitlines() if b'"outcome":"failure"' in line]
+    assert 0 < len(failed) < 6
+    again = studio("evaluate", folder, "--only-failed", "--report", tmp_path / "two")
+    assert again.returncode == 0
+    kept = (tmp_path / "two" / ONLY_FAILED / "runs.jsonl").read_text().splitlines()
+    assert [json.loads(line)["seed"] for line in kept] == failed
+    assert (tmp_path / "two" / "runs.jsonl").read_bytes() == lines
+
+
+def test_an_interrupted_evaluation_continues(tmp_path):
+    runs = 20  # so many that the signal comes before the last one
+    folder, report = write(tmp_path / "p", TEXT.replace("runs: 6", f"runs: {runs}")), tmp_path / "r"
+    command = [sys.executable, "-c", MAIN, "evaluate", str(folder), "--workers", "1", "--report", str(report)]
+    with subprocess.Popen(
+        command, cwd=ROOT, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        part = report / "runs.part.jsonl"
+        end_s = time.monotonic() + 200
+        while not (part.exists() and part.read_bytes().count(b"\n") >= 2) and time.monotonic() < end_s:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        said, wrong = process.communicate(timeout=60)
+    assert process.returncode == 1
+    assert "--resume" in wrong
+    assert "incomplete" in said
+    done = (report / "runs.jsonl").read_bytes()
+    assert 2 <= len(done.splitlines()) < runs
+    resumed = studio("evaluate", folder, "--report", report, "--resume")
+    assert (resumed.returncode, resumed.stderr) == (0, "")
+    whole = (report / "runs.jsonl").read_bytes()
+    assert whole.startswith(done)
+    assert len(whole.splitlines()) == runs
+    again = studio("evaluate", folder, "--report", report)
+    assert again.returncode == 2
+    assert "holds the results of an earlier evaluation" in again.stderr
+    assert (report / "runs.jsonl").read_bytes() == whole
+    (folder / "actions" / "Drive.py").write_text(SETS)
+    other = studio("evaluate", folder, "--report", report, "--resume")
+    assert other.returncode == 2
+    assert "another version of the project" in other.stderr
+    assert (report / "runs.jsonl").read_bytes() == whole
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--gate", "better"], "is no gate"),
+        (["--seeds", "1,x"], "write numbers"),
+        (["--seeds", "-1"], "a seed is"),
+        (["--resume"], "name the folder"),
+        (["--runs", "3", "--seeds", "1"], "leave out all but one"),
+        (["other"], "there is no such evaluation"),
+    ],
+)
+def test_bad_arguments_have_the_status_two(tmp_path, options, words):
+    done = studio("evaluate", write(tmp_path, TEXT), *options)
+    assert done.returncode == 2
+    assert words in done.stderr.replace("\n", " ")
+    assert "Traceback" not in done.stderr
+
+
+def test_evaluations_are_listed(tmp_path):
+    folder = write(tmp_path, TEXT, **{"evaluations/second.yaml": "x"})
+    assert studio("evaluate", folder, "--list").stdout == "main\nsecond\n"
+    done = studio("evaluate", folder)
+    assert done.returncode == 2
+    assert "there are 2 evaluations: name one of main, second" in done.stderr

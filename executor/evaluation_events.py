@@ -14,7 +14,7 @@ EvaluationEnd = Literal["complete", "refused", "failed", "replaced"]
 class Evaluate(Struct, forbid_unknown_fields=True):
     """Runs seeds of an evaluation of a project, beside the ladder.
 
-    A job that already runs goes on, and its outcomes so far are sent again; another job ends the one before.
+    A job that already runs continues, and its outcomes so far are sent again; another job ends it.
 
     Attributes:
         job: a name of the job, chosen by the client.

@@ -21,7 +21,7 @@ class JobState(TextChoices):
 
 
 class Result(TextChoices):
-    """What became of a run; the last three say nothing of the project and are not counted."""
+    """The outcome of a run; the last three say nothing of the project and are not counted."""
 
     SUCCESS = "success"
     FAILURE = "failure"

@@ -63,7 +63,7 @@ class Collector:
     Args:
         session: the session; it is ready.
         place: its project and user.
-        is_wanted: whether the session may go on; asked about twice a second.
+        is_wanted: whether the session may continue; asked about twice a second.
     """
 
     def __init__(self, session: Session, place: Place, is_wanted: Callable[[], bool]) -> None:
@@ -109,7 +109,7 @@ class Collector:
                 return  # it was cancelled, so its runs are to end now
 
     def _look(self) -> None:
-        """Renews the lease, and sees whether the session goes on.
+        """Renews the lease, and sees whether the session continues.
 
         Raises:
             _Over: it does not.
@@ -162,7 +162,7 @@ class Collector:
                     if side.revision == found.revision:
                         writes.begun(found, message)
                     else:
-                        writes.goes_on(found)
+                        writes.continues(found)
                 case told.Done():
                     waiting.append((message, _line(message)))
                 case _:
@@ -178,7 +178,7 @@ class Collector:
             if ended is not None:
                 return _ended(found, side, ended)
             if work.has_replay(self._place):
-                return True  # it goes on after the replay
+                return True  # it continues after the replay
             if not writes.hours_left(found.user):
                 writes.wait_again(found)
                 return False
@@ -228,7 +228,7 @@ class Collector:
         self._socket.send(json.dumps(message))
 
     def _hear(self, job: str) -> Any:
-        """Returns the next message about a job; None if there is none for a moment.
+        """Returns the next message about a job; None if nothing comes for a moment.
 
         Raises:
             _LostError: the executor said what cannot be, or refuses the job.

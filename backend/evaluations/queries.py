@@ -1,4 +1,4 @@
-"""Reads of evaluations. Whoever may read a project sees its evaluations."""
+"""Reads of evaluations. All who may read a project see its evaluations."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from datetime import datetime
     from uuid import UUID
 
-__all__ = ["one_round", "round_soon"]
+__all__ = ["collect", "one_round", "round_soon"]
 
 log = logging.getLogger(__name__)
 
@@ -69,7 +69,7 @@ def one_round() -> None:
                 running[place] = session
         for place, session in running.items():
             if session.state != SessionState.QUEUED:
-                _collect(session, place)
+                collect(session, place)
         for session_id, thread in list(_collecting.items()):
             if not thread.is_alive():
                 del _collecting[session_id]
@@ -150,7 +150,8 @@ def _is_ready(session: Session, place: Place) -> bool:
     return session.state == SessionState.READY
 
 
-def _collect(session: Session, place: Place) -> None:
+def collect(session: Session, place: Place) -> None:
+    """Reads the outcomes of a session in a thread, unless that is being done."""
     thread = _collecting.get(session.id)
     if thread is not None and thread.is_alive():
         return

@@ -1,4 +1,4 @@
-"""What an executor says of an evaluation. It is not trusted: each message is decoded with bounds. Pure."""
+"""Reads an executor's messages about an evaluation. They are not trusted, but decoded with bounds. Pure."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is to be done next: which jobs there are, in which order, and for whom. It writes nothing."""
+"""Chooses the next work: of which evaluation, in which order, and for which user. It writes nothing."""
 
 from __future__ import annotations
 

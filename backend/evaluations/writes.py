@@ -178,7 +178,7 @@ def begun(found: Evaluation, told: Begun) -> None:
             setattr(found, name, value)
 
 
-def goes_on(found: Evaluation) -> None:
+def continues(found: Evaluation) -> None:
     """Stores that an evaluation that has begun before runs again."""
     Evaluation.objects.filter(id=found.id, state__in=LIVE).update(state=JobState.RUNNING)
 

@@ -6,7 +6,7 @@ from django.db import models
 
 
 class SessionKind(models.TextChoices):
-    """What a session is for: a user who looks at it, or an evaluation, which runs without anybody."""
+    """The purpose of a session: a user works in it, or evaluations run in it without a page."""
 
     INTERACTIVE = "interactive"
     EVALUATION = "evaluation"

@@ -1,4 +1,4 @@
-"""The kind of a session: of a user who looks at it, or of an evaluation."""
+"""The kind of a session: a user works in it, or evaluations run in it."""
 
 from __future__ import annotations
 

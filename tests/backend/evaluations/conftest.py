@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from django.utils import timezone
 
-from backend.evaluations import rounds, writes
+from backend.evaluations import writes
 from backend.evaluations.told import Begun, Done, read_line
 from backend.projects.choices import Role
 from backend.projects.sharing import memberships
 from backend.projects.storage import writes as projects
 from backend.sessions.models import Session
+from backend.workers.aside import sweeps
 from tests.backend.accounts.conftest import person, stranger, team  # noqa: F401
 
 if TYPE_CHECKING:
@@ -54,7 +55,7 @@ def session_for(people: Any, by: str = "owner", **more: Any) -> Session:
 @pytest.fixture
 def people(person, monkeypatch) -> Any:  # noqa: F811
     """An owner, an editor, a viewer and another user, and the owner's project as `project`."""
-    monkeypatch.setattr(rounds.sweeps, "ask", lambda *_: None)
+    monkeypatch.setattr(sweeps, "ask", lambda *_: None)
     found = {name: person(name) for name in ("owner", "editor", "viewer", "other")}
     owner = found["owner"].user
     files = {"evaluations/room.yaml": ROOM, "universes/own.yaml": b"old", "trees/MainTree.json": b"{}"}

@@ -15,6 +15,7 @@ from backend.evaluations.collector import Collector
 from backend.evaluations.models import Evaluation, Replay
 from backend.evaluations.work import Place
 from backend.sessions import writes as sessions
+from backend.sessions.lease import holder
 from tests.backend.evaluations.conftest import done, line, session_for, store, wish
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -161,7 +162,7 @@ def test_a_deleted_evaluation_ends_its_session(people, collect):
     assert collect(script)[0].state == "ended"
 
 
-def test_a_replay_interrupts_an_evaluation_which_then_goes_on(people, collect):
+def test_a_replay_interrupts_an_evaluation_which_then_continues(people, collect):
     found = wish(people)
     owner = people.owner.user
 
@@ -187,7 +188,7 @@ def test_a_replay_interrupts_an_evaluation_which_then_goes_on(people, collect):
 
 def test_another_server_that_holds_the_lease_reads_alone(people, collect, monkeypatch):
     found = wish(people)
-    monkeypatch.setattr(collector.holder, "hold", lambda *_: False)
+    monkeypatch.setattr(holder, "hold", lambda *_: False)
     _, asked = collect(whole)
     found.refresh_from_db()
     assert (asked, found.state) == ([], "waiting")

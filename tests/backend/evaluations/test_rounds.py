@@ -11,17 +11,17 @@ from backend.evaluations import rounds, writes
 from backend.evaluations.choices import JobState
 from backend.evaluations.models import Evaluation
 from backend.projects.sharing import memberships
-from backend.sessions import drain
 from backend.sessions import writes as sessions
-from backend.sessions.models import Session
+from backend.sessions.models import Drain, Session
+from backend.workers.aside import sweeps
 from tests.backend.evaluations.conftest import begin, session_for, wish
 
 
 @pytest.fixture(autouse=True)
 def _nothing_starts(monkeypatch):
     """Sessions stay in the state in which they are made, and nobody reads them."""
-    monkeypatch.setattr(sessions, "_submit", lambda _: None)
-    monkeypatch.setattr(rounds, "_collect", lambda *_: None)
+    monkeypatch.setattr(sessions, "workers", type("Idle", (), {"submit": lambda *_: None}))
+    monkeypatch.setattr(rounds, "collect", lambda *_: None)
 
 
 def live():
@@ -56,7 +56,7 @@ def test_a_place_is_kept_for_users_who_work(people, settings_of):
     assert len(live()) == 1
 
 
-def test_an_evaluation_ends_its_session_for_a_user_who_waits_and_goes_on_later(people):
+def test_an_evaluation_ends_its_session_for_a_user_who_waits_and_continues_later(people):
     found = wish(people)
     begin(found)
     session_for(people)
@@ -91,14 +91,14 @@ def test_who_lost_the_right_loses_the_evaluation(people):
 
 def test_nothing_starts_before_an_upgrade(people, monkeypatch):
     wish(people)
-    monkeypatch.setattr(rounds, "current_drain", drain.Drain)
+    monkeypatch.setattr(rounds, "current_drain", Drain)
     rounds.one_round()
     assert live() == []
 
 
 def test_a_round_is_asked_for_only_if_there_is_something_to_do(people, monkeypatch):
     asked = []
-    monkeypatch.setattr(rounds.sweeps, "ask", lambda *work: asked.append(work))
+    monkeypatch.setattr(sweeps, "ask", lambda *work: asked.append(work))
     rounds.round_soon()
     assert asked == []
     found = wish(people)

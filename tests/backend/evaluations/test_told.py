@@ -1,4 +1,4 @@
-"""What an executor says is bounded before it is believed."""
+"""Messages of an executor are bounded before they are believed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is done next, and for whom."""
+"""The next work, and its user."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ def test_outcomes_are_stored_once_and_their_sum_is_that_of_the_last_message(peop
     assert row.results["1"]["done"] == 3
 
 
-def test_a_cancelled_evaluation_keeps_what_is_done_and_goes_on_when_it_is_resumed(people):
+def test_a_cancelled_evaluation_keeps_what_is_done_and_continues_when_it_is_resumed(people):
     found = wish(people)
     begin(found)
     store(found, done(0))

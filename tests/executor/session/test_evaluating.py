@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from executor import evaluation_messages
 from executor.evaluation_events import EvaluationOutcome, EvaluationStarted
 from executor.session.evaluating import LAST_LINES
@@ -13,6 +15,7 @@ from executor.session.events import (
     ClientLeft,
     Kill,
     RecordingWanted,
+    Send,
     Spawn,
     Tell,
 )
@@ -43,7 +46,15 @@ def told(play: Play) -> list[evaluation_messages.StartEvaluation]:
 
 
 def answers(play: Play, request: str) -> list[str]:
-    return [e.name for e in play.effects if getattr(e, "request", None) == request]
+    return [event.name for event in sent_as(play, request)]
+
+
+def sent_as(play: Play, request: str) -> list[Send]:
+    return [e for e in play.effects if isinstance(e, Send) and e.request == request]
+
+
+def ends(play: Play) -> list[Any]:
+    return [e.payload for e in play.effects if isinstance(e, Send) and e.name == "evaluation_ended"]
 
 
 def test_outcomes_go_to_the_client_that_asked_as_answers_that_are_never_dropped():
@@ -67,7 +78,7 @@ def test_the_spare_world_and_application_make_room():
     assert {effect.kind for effect in play.effects if isinstance(effect, Kill)} == {"world", "application"}
 
 
-def test_a_client_that_asks_again_gets_what_it_lacks_and_the_work_goes_on():
+def test_a_client_that_asks_again_gets_what_it_lacks_and_the_work_continues():
     play = Play()
     evaluate(play)
     says(play, BEGUN)
@@ -78,7 +89,7 @@ def test_a_client_that_asks_again_gets_what_it_lacks_and_the_work_goes_on():
     says(play, done(2))
     request = evaluate(play, client="e", seeds=[1, 2])
     assert len(told(play)) == 1
-    again = [e.payload for e in play.effects if getattr(e, "request", None) == request][1:]
+    again = [event.payload for event in sent_as(play, request)][1:]
     assert isinstance(again[0], EvaluationStarted)
     assert [event.seed for event in again[1:] if isinstance(event, EvaluationOutcome)] == [1, 2]
 
@@ -88,9 +99,7 @@ def test_another_job_ends_the_one_before():
     first = evaluate(play)
     evaluate(play, job="b2")
     assert answers(play, first)[-1] == "evaluation_ended"
-    assert [e.payload.end for e in play.effects if getattr(e, "name", "") == "evaluation_ended"] == [
-        "replaced"
-    ]
+    assert [event.end for event in ends(play)] == ["replaced"]
     assert len(told(play)) == 2
 
 
@@ -100,7 +109,7 @@ def test_a_recording_is_a_run_of_the_sessions_folder():
     play.happens(RecordingWanted("/folder"))
     request = evaluate(play, seeds=[3], record=True)
     says(play, evaluation_messages.EvaluationDone(1))
-    [ended] = [e.payload for e in play.effects if getattr(e, "name", "") == "evaluation_ended"]
+    [ended] = ends(play)
     assert told(play)[0].record_to == f"/folder/{ended.run}/0.0.mcap"
     assert answers(play, request)[-1] == "evaluation_ended"
 
@@ -111,7 +120,7 @@ def test_a_process_that_dies_fails_the_job_with_its_last_words():
     number = play.session.children.living["evaluation"].number
     lines = ("one", "two", "three", "four")
     play.happens(ChildExited("evaluation", number, "was killed by SIGSEGV", lines))
-    [ended] = [e.payload for e in play.effects if getattr(e, "name", "") == "evaluation_ended"]
+    [ended] = ends(play)
     assert (ended.end, ended.message.splitlines()[0]) == ("failed", "The evaluation was killed by SIGSEGV.")
     assert ended.message.splitlines()[1:] == list(lines[-LAST_LINES:])
     evaluate(play)  # the same job begins again
@@ -122,7 +131,7 @@ def test_a_refused_evaluation_says_why():
     play = Play()
     evaluate(play)
     says(play, evaluation_messages.Refused("room.yaml:3:1: no"))
-    [ended] = [e.payload for e in play.effects if getattr(e, "name", "") == "evaluation_ended"]
+    [ended] = ends(play)
     assert (ended.end, ended.message) == ("refused", "room.yaml:3:1: no")
 
 

@@ -44,6 +44,10 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
         str | None,
         typer.Option(help="Run one seed of this evaluation, in lock-step, and judge it."),
     ] = None,
+    judged_by: Annotated[
+        str | None,
+        typer.Option("--judged-by", help="With --evaluation: the project that the evaluation is taken from."),
+    ] = None,
     record: Annotated[
         Path | None,
         typer.Option(help="MCAP file (.mcap) for all that happens in the run."),
@@ -62,8 +66,10 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
         from backend.cli.evaluating.one_run import run_one
 
         _refuse_with_evaluation(universe, robot, duration, viewer=viewer)
-        run_one(project, evaluation, seed, record=record, report=report, as_json=as_json)
+        run_one(project, evaluation, seed, judged_by=judged_by, record=record, report=report, as_json=as_json)
         return
+    if judged_by is not None:
+        raise typer.BadParameter("name the evaluation with --evaluation", param_hint="--judged-by")
     if lockstep:
         fix_hashes()
     stubs: list[str] = []

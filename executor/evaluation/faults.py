@@ -19,13 +19,12 @@ if TYPE_CHECKING:
 
     from executor.evaluation.document import Fault
     from executor.evaluation.plan import Plan
-    from executor.headless.lockstep import LockstepRun
+    from executor.evaluation.run import EvaluationRun
     from executor.robots.config import RobotConfig
     from executor.universes.model import Universe
     from translator import Project
 
 MOST_ATTEMPTS: Final = 200
-MESSAGE: Final = "a fault of the evaluation makes this action raise"
 
 
 @dataclass(frozen=True)
@@ -169,7 +168,7 @@ class Faults:
         run: the run, which is set up.
     """
 
-    def __init__(self, plan: Plan, seed: int, run: LockstepRun) -> None:
+    def __init__(self, plan: Plan, seed: int, run: EvaluationRun) -> None:
         self._plan = plan
         self._seed = seed
         self._run = run
@@ -262,11 +261,7 @@ class Faults:
 
     def _switch_action(self, fault: Fault, *, on: bool) -> None:
         [(tree_id, node_id)] = nodes_named(self._plan.project, fault.node or "")
-        for node in self._run.tree.nodes:
-            behaviour: Any = getattr(node, "instance_behaviour", None)
-            if behaviour is not None and (node.tree_id, node.node_id) == (tree_id, node_id):
-                leaf: Any = node  # a leaf holds the function that it calls
-                leaf.update = _raise if on else behaviour.update
+        self._run.switch_action(tree_id, node_id, on=on)
 
     def _kidnap(self, each: Scheduled) -> None:
         fault, robot, world = each.fault, self._robot(each.fault), self._run.world
@@ -304,7 +299,3 @@ class Faults:
 
 def _switch_in(factors: list[float], factor: float, *, on: bool) -> None:
     factors.append(factor) if on else factors.remove(factor)
-
-
-def _raise() -> Any:
-    raise RuntimeError(MESSAGE)

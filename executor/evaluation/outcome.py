@@ -4,7 +4,13 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, dataclass, field
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from tree_gardener import Tree
+    from tree_gardener.hooks import ResultCount
 
 SUCCESS: Final = "success"
 FAILURE: Final = "failure"
@@ -19,6 +25,7 @@ COUNTED: Final = (SUCCESS, FAILURE, ERROR, CRASHED, TIMEOUT)
 """Outcomes that count in the rate."""
 NOT_COUNTED: Final = (INVALID, LOST, CANCELLED)
 """Outcomes that say nothing of the project; an evaluation with one of them is incomplete."""
+_LETTERS: Final = (("S", "success"), ("F", "failure"), ("R", "running"), ("K", "skipped"))
 OUTCOMES: Final = (*COUNTED, *NOT_COUNTED)
 
 
@@ -65,6 +72,14 @@ class Outcome:
     def to_line(self) -> str:
         """Returns the outcome as one line of JSON, without the line feed."""
         return json.dumps(asdict(self), ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+
+
+def letters_of(tree: Tree, counts: Sequence[ResultCount]) -> dict[str, str]:
+    """Returns the results of each node of a tree by its path, as `Outcome.seen` has them."""
+    return {
+        node.path: "".join(letter for letter, name in _LETTERS if getattr(count, name))
+        for node, count in zip(tree.nodes, counts, strict=True)
+    }
 
 
 def read_outcome(line: str | bytes) -> Outcome:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 from executor.evaluation.document import ENDING, FOLDER, Evaluation
 from executor.evaluation.drawing import bounds_of
 from executor.evaluation.faults import fault_problems
+from executor.evaluation.sealed.confine import require_seal
 from executor.evaluation.variation import Target, port_text, resolve, targets
 from executor.headless.files import write_files
 from executor.robots.config import RobotConfig, load_robot
@@ -36,7 +37,11 @@ class EvaluationError(Exception):
 
 @dataclass(frozen=True)
 class Plan:
-    """An evaluation of a project, read and checked; `configs` are those of the universe's robots."""
+    """An evaluation of a project, read and checked.
+
+    `configs` are those of the universe's robots; `judged_by` names the project that the evaluation is of, if
+    it is another one.
+    """
 
     project: Project
     name: str
@@ -45,6 +50,8 @@ class Plan:
     configs: tuple[RobotConfig, ...]
     targets: dict[str, Target] = field(default_factory=dict)
     to_the_end: bool = False
+    sealed: bool = False
+    judged_by: str | None = None
 
     @property
     def file(self) -> str:
@@ -110,6 +117,22 @@ def make_plan(project: Project, name: str) -> Plan:
     if problems:
         raise DocumentError(sorted(problems, key=lambda problem: (problem.line, problem.column)), file)
     return plan
+
+
+def sealed(plan: Plan) -> Plan:
+    """Returns the plan with sealed runs.
+
+    Raises:
+        EvaluationError: the result would rest on what the actions claim alone.
+        SealError: this machine cannot seal a process.
+    """
+    require_seal()
+    if all(item.kind == "tree" for item in plan.evaluation.judge.success):
+        raise EvaluationError(
+            f"{plan.file}:1:1: the judge asks for the result of the tree alone, which sealed actions only "
+            "claim (add a criterion on the world, such as `reach` or `never: collision`)"
+        )
+    return replace(plan, sealed=True)
 
 
 def _open_world(project: Project, evaluation: Evaluation) -> tuple[Universe, tuple[RobotConfig, ...]]:

@@ -74,6 +74,7 @@ def report_data(  # noqa: PLR0913 - the parts of the report
     gates: Sequence[tuple[str, bool]] = (),
     pairs: Pairs | None = None,
     fingerprints: Sequence[str] = (),
+    judged_by: str | None = None,
 ) -> dict[str, Any]:
     """Returns all that the page shows.
 
@@ -87,6 +88,7 @@ def report_data(  # noqa: PLR0913 - the parts of the report
         gates: the text of each gate's verdict, and whether it passed.
         pairs: the comparison with another version.
         fingerprints: those of the machines.
+        judged_by: the project that the evaluation is of, if it is another one.
     """
     low, high = summary.interval
     return {
@@ -123,7 +125,7 @@ def report_data(  # noqa: PLR0913 - the parts of the report
                 "items": [item for item in outcome.items if not item["holds"]],
                 "drawn": outcome.drawn,
                 "faults": outcome.faults,
-                "command": command_of(path, evaluation, outcome.seed),
+                "command": command_of(path, evaluation, outcome.seed, judged_by),
             }
             for outcome in summary.worst()
         ],
@@ -132,9 +134,10 @@ def report_data(  # noqa: PLR0913 - the parts of the report
     }
 
 
-def command_of(path: str, evaluation: str, seed: int) -> str:
+def command_of(path: str, evaluation: str, seed: int, judged_by: str | None = None) -> str:
     """Returns the command that plays a run again and records it."""
     words = ["bt-studio", "run", path, "--evaluation", evaluation, "--seed", str(seed)]
+    words += [] if judged_by is None else ["--judged-by", judged_by]
     return shlex.join([*words, "--record", f"seed-{seed}.mcap"])
 
 

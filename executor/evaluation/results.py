@@ -54,7 +54,7 @@ def kept_outcomes(
 
 def inputs_of(plan: Plan) -> str:
     """Returns the digest of all that decides the outcomes: the project's files, and the evaluation."""
-    digest = hashlib.sha256(f"{plan.name}\n{plan.to_the_end}\n".encode())
+    digest = hashlib.sha256(f"{plan.name}\n{plan.to_the_end}\n{'sealed' * plan.sealed}".encode())
     for path, data in sorted(plan.project.files.items()):
         digest.update(f"{path}\n{len(data)}\n".encode())
         digest.update(data)

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import hashlib
 import traceback
 import types
 from typing import TYPE_CHECKING, Any, Final
 
+from executor.evaluation.action_faults import switch_action
 from executor.evaluation.clearance import Clearance, Placement, bodies_to
 from executor.evaluation.faults import Faults
 from executor.evaluation.judge import JudgeError, Referee, Verdict, make_items
-from executor.evaluation.outcome import ERROR, INVALID, SUCCESS, Outcome
+from executor.evaluation.outcome import ERROR, INVALID, SUCCESS, Outcome, letters_of
 from executor.evaluation.plan import python_file
 from executor.evaluation.truth import Bump, Sample, Truth
 from executor.evaluation.variation import InvalidRunError, draw_world
+from executor.headless.errors import HeadlessError
 from executor.headless.lockstep import LockstepOptions, LockstepRun
 from executor.ros.environment import use_lockstep_environment
 from executor.world.physics.bullet import BulletWorld
@@ -33,7 +36,6 @@ BEYOND_S: Final = 0.1  # the judge ends the run, at its first sample that is not
 MOST_BUMPS: Final = 50
 PATH_POINTS: Final = 200
 PATH_PERIOD_S: Final = 0.5
-_LETTERS: Final = (("S", "success"), ("F", "failure"), ("R", "running"), ("K", "skipped"))
 
 
 class _Decided(BaseException):
@@ -63,7 +65,7 @@ def run_cell(  # noqa: PLR0913 - a run, and who listens to it
         HeadlessError: the recording cannot be written.
     """
     use_lockstep_environment()
-    run = _EvaluationRun(plan, seed, recording, say)
+    run = _make_run(plan, seed, recording, say)
     run.heard = moved
     try:
         return run.run(progress)
@@ -71,7 +73,22 @@ def run_cell(  # noqa: PLR0913 - a run, and who listens to it
         run.close()
 
 
-class _EvaluationRun(LockstepRun):
+def actions_seed(seed: int) -> int:
+    """Returns the seed of the random numbers of actions, which tells nothing of the seed of the run."""
+    return int.from_bytes(hashlib.sha256(f"actions {seed}".encode()).digest()[:8], "big")
+
+
+def _make_run(plan: Plan, seed: int, recording: Path | None, say: Callable[[str], None]) -> EvaluationRun:
+    if not plan.sealed:
+        return EvaluationRun(plan, seed, recording, say)
+    from executor.evaluation.sealed.run import SealedRun  # noqa: PLC0415 - it derives from this module's class
+
+    if recording is not None:
+        raise HeadlessError("a sealed run is not recorded: play its seed unsealed")
+    return SealedRun(plan, seed, say)
+
+
+class EvaluationRun(LockstepRun):
     """The run of one seed."""
 
     def __init__(self, plan: Plan, seed: int, recording: Path | None, say: Callable[[str], None]) -> None:
@@ -84,6 +101,7 @@ class _EvaluationRun(LockstepRun):
             on_finish="stop",
             recording=recording,
             outlasts_tree=True,
+            actions_seed=actions_seed(seed),
         )
         super().__init__(plan.project, options, say)
         self.heard: Callable[[], None] = lambda: None
@@ -110,14 +128,14 @@ class _EvaluationRun(LockstepRun):
         except InvalidRunError as error:
             return Outcome(self._seed, INVALID, str(error))
         except LoadError as error:
-            return self._outcome(ERROR, str(error.diagnostics[0]))
+            return self.outcome_of(ERROR, str(error.diagnostics[0]))
         except TickError as error:
-            return self._outcome(ERROR, _place(error.file, error.line, error.path, error.message))
+            return self.outcome_of(ERROR, _place(error.file, error.line, error.path, error.message))
         except JudgeError as error:
-            return self._outcome(ERROR, str(error))
+            return self.outcome_of(ERROR, str(error))
         if self._decision is not None:
-            return self._outcome(self._decision.outcome, self._decision.why)
-        return self._outcome(ERROR, self._error())
+            return self.outcome_of(self._decision.outcome, self._decision.why)
+        return self.outcome_of(ERROR, self.error_text())
 
     # --- the world ---
 
@@ -246,26 +264,30 @@ class _EvaluationRun(LockstepRun):
         self._measures = {name: round(value, 6) for name, value in numbers.items() if value is not None}
         self._verdicts = self._referee.verdicts()
         self._path.append([round(value, 3) for value in (truth.time_s, *self._robot.pose[:2])])
-        self._count_seen()
+        self.count_seen()
 
     # --- the end ---
 
-    def _count_seen(self) -> None:
+    def count_seen(self) -> None:
+        """Keeps the results of each node so far."""
         if self.counts:
-            self._seen = {
-                node.path: "".join(letter for letter, name in _LETTERS if getattr(count, name))
-                for node, count in zip(self.tree.nodes, self.counts, strict=True)
-            }
+            self._seen = letters_of(self.tree, self.counts)
 
-    def _error(self) -> str:
+    def switch_action(self, tree_id: str, node_id: str, *, on: bool) -> None:
+        """Makes an action raise, or ends that."""
+        switch_action(self.tree, tree_id, node_id, on=on)
+
+    def error_text(self) -> str:
+        """Returns the first error with its place."""
         for error in self.report.errors:
             return _place(error["file"], error["line"], error["node_path"], error["message"])
         return "the run ended before it was decided"
 
-    def _outcome(self, outcome: str, why: str) -> Outcome:
+    def outcome_of(self, outcome: str, why: str) -> Outcome:
+        """Returns the outcome, with all that is known of the run."""
         end_s = self._decision.at_s if self._decision is not None else self._truth.time_s
         if self._decision is None:
-            self._count_seen()
+            self.count_seen()
         drawn: dict[str, Any] = {} if self._drawn is None else self._drawn.values
         bumps = self._truth.bumps[:MOST_BUMPS]
         return Outcome(

@@ -63,6 +63,8 @@ class LockstepOptions:
     recording: Path | None = None
     outlasts_tree: bool = False
     """Whether the world continues after the root has finished."""
+    actions_seed: int | None = None
+    """The seed of the random numbers of actions; without it, that of the run."""
 
 
 def run_lockstep(  # noqa: PLR0913 - a run, and who listens to it
@@ -142,12 +144,11 @@ class LockstepRun:
 
     def set_up(self) -> None:
         """Makes the world and the application. Call `close` afterwards, also after an error."""
-        project = self._project
-        recording = self._open_recording(project)
+        recording = self._open_recording(self._project)
         self.world = self.make_world(self._write_assets())
         self._stack.append(self.world.close)
         self._join_ros()
-        self.tree = self._make_tree(project)
+        self.tree = self._make_tree(self._project)  # making the world may have drawn ports of it
         self._recorder = self._make_recorder(recording)
 
     def play(self, progress: Progress | None, watch: Watch | None) -> Report:
@@ -162,7 +163,7 @@ class LockstepRun:
             fault=self._note_fault,
         )
         began_s = time.perf_counter()
-        ticks = math.floor(self._options.duration_s * self._tick_hz + 1e-9)
+        ticks = self.ticks
         for number in range(ticks):
             self._advance(round(number / self._tick_hz / self.world.step_s))
             if not self._call_back():
@@ -191,6 +192,11 @@ class LockstepRun:
         if self._recorder is not None:
             self._recorder.end()
         return self._finish(began_s, runner.statistics.overruns)
+
+    @property
+    def ticks(self) -> int:
+        """The number of ticks of a run that nothing ends earlier."""
+        return math.floor(self._options.duration_s * self._tick_hz + 1e-9)
 
     def close(self) -> None:
         """Frees everything, in reverse order."""
@@ -222,25 +228,17 @@ class LockstepRun:
 
         from executor.headless.waiting import wait_in_simulation  # noqa: PLC0415
         from executor.navigation.start import make_navigation  # noqa: PLC0415
-        from executor.render import make_renderer  # noqa: PLC0415
         from executor.ros.default_context import DefaultContext  # noqa: PLC0415
         from executor.ros.graph.mismatches import Mismatches  # noqa: PLC0415
-        from executor.ros.node import WorldNode  # noqa: PLC0415
         from executor.ros.shared_topics import share_commands  # noqa: PLC0415
         from executor.ros.spin import DrainingExecutor  # noqa: PLC0415
-        from executor.world.sensing.sensors import Sensors  # noqa: PLC0415
         from tree_gardener.ros_node import ActionNode  # noqa: PLC0415
 
         default = DefaultContext(simulated=True)
         context = default.context
         self._stack.append(default.close)
-        self.sensors = Sensors(self.world, make_renderer)
-        self._stack.append(self.sensors.close)
-        renamed = {place.id: place.topics for place in self.world.universe.robots}
-        true_poses = {place.id for place in self.world.universe.robots if place.ground_truth}
-        self.node = WorldNode(
-            self.world, context, topics=renamed, true_poses=true_poses, clock_hz=self._tick_hz
-        )
+        self.open_sensors()
+        self.node = self.make_node(context)
         self._stack.append(self.node.close)
         self._stack.append(share_commands(self.node, context))
         self._navigation = make_navigation(self.world, context)
@@ -257,6 +255,28 @@ class LockstepRun:
         self._stack.append(self._executor.shutdown)
         self._mismatches = Mismatches(self._application, self._say_mismatch)
         self._stack.append(wait_in_simulation(lambda: self.world.time_s, self._let_time_pass))
+
+    def open_sensors(self) -> None:
+        """Makes the sensors of the world."""
+        from executor.render import make_renderer  # noqa: PLC0415 - as below
+        from executor.world.sensing.sensors import Sensors  # noqa: PLC0415 - as below
+
+        self.sensors = Sensors(self.world, make_renderer)
+        self._stack.append(self.sensors.close)
+
+    def make_node(self, context: Any, node: Any = None) -> WorldNode:
+        """Returns the world's ROS node; `node` takes the place of one of rclpy."""
+        from executor.ros.node import WorldNode  # noqa: PLC0415 - ROS reads the environment when loaded
+
+        robots = self.world.universe.robots
+        return WorldNode(
+            self.world,
+            context,
+            topics={place.id: place.topics for place in robots},
+            true_poses={place.id for place in robots if place.ground_truth},
+            clock_hz=self._tick_hz,
+            node=node,
+        )
 
     def _say_mismatch(self, found: TopicMismatch) -> None:
         if not found.resolved:
@@ -277,7 +297,10 @@ class LockstepRun:
         write_files(folder.path, app_files(project))
         prepare()
         self._stack.append(enter(folder.path))
-        self._randomness = seed_randomness(self._options.seed)
+        options = self._options
+        self._randomness = seed_randomness(
+            options.seed if options.actions_seed is None else options.actions_seed
+        )
         self._locator = Locator()
         self._record_output()
         with recorded(*self._output):

@@ -224,7 +224,7 @@ class Manager:
 
         self.take(RecordingWanted(str(folder), is_whole=self._settings.keeps_whole))
         if isinstance(self._server, SessionServer):
-            self._server.recordings = Recordings(folder)
+            self._server.recordings = Recordings(folder, self._supervisor.starting_others)
 
     def _make_folders(self) -> Folders:
         from executor.manager.folders import Folders  # noqa: PLC0415 - as above

@@ -6,7 +6,7 @@ The world subscribes with the application's message type.
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from rclpy.node import Node
 
@@ -15,12 +15,20 @@ if TYPE_CHECKING:
 
     from rclpy.context import Context
 
-    from executor.ros.node import WorldNode
-
 _MAKERS: Final = ("create_publisher", "create_subscription")
 
 
-def share_commands(world: WorldNode, context: Context) -> Callable[[], None]:
+class CommandEnds(Protocol):
+    """The owner of the command subscriptions: the world's node, or its substitute in a sealed run."""
+
+    node: Node
+
+    def make_way(self, topic: str, message_type: type) -> None:
+        """Changes the type of a subscription."""
+        ...
+
+
+def share_commands(world: CommandEnds, context: Context) -> Callable[[], None]:
     """From now on, changes the world's subscription when a node of `context` uses a command topic.
 
     A participant supports one type for a topic, and the choice of the application is not known in advance.
@@ -37,7 +45,7 @@ def share_commands(world: WorldNode, context: Context) -> Callable[[], None]:
     return undo
 
 
-def _making_way(original: Any, world: WorldNode, context: Context) -> Any:
+def _making_way(original: Any, world: CommandEnds, context: Context) -> Any:
     @functools.wraps(original)
     def make(node: Any, msg_type: Any, topic: str, *args: Any, **kwargs: Any) -> Any:
         if node.context is context and node is not world.node:

@@ -221,6 +221,8 @@ class ChildProcess:
     def check_limits(self, descendants: Iterable[psutil.Process]) -> None:
         """Kills the child if its processes, which are searched in `descendants`, exceed its limits."""
         limits = self._program.limits
+        if limits.processes is None and limits.memory_bytes is None:
+            return  # a tree is read from /proc, four times in a second
         tree = self._tree(descendants)
         if limits.processes is not None and len(tree) > limits.processes:
             self.kill(f"was ended: it had {len(tree)} processes, more than the {limits.processes} allowed")

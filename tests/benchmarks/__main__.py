@@ -17,6 +17,7 @@ BENCHMARKS = (
     "stream",
     "session",
     "recording",
+    "axis",
     "flood",
     "opening",
     "browser",

@@ -34,11 +34,19 @@ def open_older(newer: Project, project: str, against: str) -> Project:
         CliError: there is nothing of this name.
         TranslatorError: it cannot be read.
     """
+    return in_worlds_of(newer, _files(project, against))
+
+
+def in_worlds_of(judge: Project, files: Mapping[str, bytes]) -> Project:
+    """Returns the trees and actions of some files, with the worlds and judges of another project.
+
+    Raises:
+        TranslatorError: it cannot be read.
+    """
     from translator import load
 
-    files = _files(project, against)
     kept = {path: data for path, data in files.items() if not path.startswith(OF_THE_WORLD)}
-    world = {path: data for path, data in newer.files.items() if path.startswith(OF_THE_WORLD)}
+    world = {path: data for path, data in judge.files.items() if path.startswith(OF_THE_WORLD)}
     return load({**kept, **world})
 
 

@@ -53,6 +53,14 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     strict: Annotated[  # noqa: FBT002
         bool, typer.Option("--strict", help="Refuse to continue results of another platform.")
     ] = False,
+    judged_by: Annotated[
+        str | None,
+        typer.Option("--judged-by", help="The project whose evaluation, universe, robot and judge count."),
+    ] = None,
+    sealed: Annotated[  # noqa: FBT002
+        bool,
+        typer.Option("--sealed", help="Keep tree and actions in a process that sees nothing of the judge."),
+    ] = False,
     to_the_end: Annotated[  # noqa: FBT002
         bool, typer.Option("--to-the-end", help="Let each run take its whole time.")
     ] = False,
@@ -69,7 +77,7 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
 
     fix_hashes(SINGLE)
     if as_list:
-        for each in evaluations_of(project):
+        for each in evaluations_of(judged_by or project):
             print(each)
         return
     if (resume or only_failed) and report is None:
@@ -77,7 +85,10 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     if sum((runs is not None, seeds is not None, only_failed)) > 1:
         raise typer.BadParameter("leave out all but one", param_hint="--runs / --seeds / --only-failed")
     gates = _read_gates(gate or [])
-    plan = _plan(project, name, runs, to_the_end=to_the_end, is_part=seeds is not None or only_failed)
+    plan = _plan(
+        project, name, runs, judged_by, to_the_end=to_the_end, is_part=seeds is not None or only_failed
+    )
+    plan = _sealed(plan) if sealed else plan
     chosen = _seeds(plan, seeds, report if only_failed else None)
     if report is not None:
         report = report / ONLY_FAILED if only_failed else report
@@ -117,24 +128,47 @@ def _read_gates(texts: Sequence[str]) -> list[Gate]:
         raise typer.BadParameter(str(error), param_hint="--gate") from error
 
 
-def _plan(project: str, name: str | None, runs: int | None, *, to_the_end: bool, is_part: bool) -> Plan:
+def _plan(  # noqa: PLR0913 - as the options say
+    project: str,
+    name: str | None,
+    runs: int | None,
+    judged_by: str | None,
+    *,
+    to_the_end: bool,
+    is_part: bool,
+) -> Plan:
     """Returns the plan; a number of runs or seeds from the command line replaces `runs` and `until`."""
     from backend.cli.evaluating.one_run import evaluations_of, open_plan
     from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
 
     if name is None:
-        names = evaluations_of(project)
+        owner = judged_by or project
+        names = evaluations_of(owner)
         if len(names) != 1:
             there = f"name one of {', '.join(names)}" if names else "write evaluations/main.yaml"
             raise CliError(
-                f"{project}:1:1: there are {len(names)} evaluations: {there}", status=BAD_ARGUMENTS
+                f"{owner}:1:1: there are {len(names)} evaluations: {there}",
+                status=BAD_ARGUMENTS,
             )
         name = names[0]
-    plan = open_plan(project, name)
+    plan = open_plan(project, name, judged_by=judged_by)
     evaluation = plan.evaluation
     if runs is not None or is_part:
         evaluation = evaluation.model_copy(update={"until": None, "runs": runs or evaluation.most_runs})
     return dataclasses.replace(plan, evaluation=evaluation, to_the_end=to_the_end)
+
+
+def _sealed(plan: Plan) -> Plan:
+    from backend.cli.evaluating.one_run import explained
+    from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
+    from executor.evaluation.plan import sealed
+    from executor.evaluation.sealed.confine import SealError
+
+    try:
+        with explained():
+            return sealed(plan)
+    except SealError as error:
+        raise CliError(f"bt-studio: {error}", status=BAD_ARGUMENTS) from error
 
 
 def _older_plan(plan: Plan, project: str, against: str) -> Plan:
@@ -235,6 +269,7 @@ def _open_results(
                 "inputs": inputs_of(plan),
                 "seeds": len(seeds),
                 "to_the_end": plan.to_the_end,
+                "sealed": plan.sealed,
                 "fingerprints": prints,
             },
             kept,
@@ -294,7 +329,7 @@ def _finish(  # noqa: PLR0913, PLR0917 - all that the results are of
         print(line)
     for outcome in summary.worst()[:3]:
         print(f"    seed {outcome.seed} {outcome.outcome} after {outcome.end_s:.1f} s: {outcome.why}")
-        print(f"        {command_of(project, plan.name, outcome.seed)}")
+        print(f"        {command_of(project, plan.name, outcome.seed, plan.judged_by)}")
     for line in pairs.lines() if pairs is not None else ():
         print(line)
     verdicts = [check_gate(gate, summary, pairs) for gate in gates]
@@ -312,6 +347,7 @@ def _finish(  # noqa: PLR0913, PLR0917 - all that the results are of
             gates=[(str(verdict), verdict.passes) for verdict in verdicts],
             pairs=pairs,
             fingerprints=[each["id"] for each in header["fingerprints"]],
+            judged_by=plan.judged_by,
         )
         results.write("report.html", report_html(document))
         print(f"results: {results.folder / 'report.html'}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import sys
 from typing import TYPE_CHECKING, Final
@@ -24,7 +25,14 @@ SINGLE: Final = {
 
 
 def run_one(  # noqa: PLR0913 - one an option
-    project: str, name: str, seed: int, *, record: Path | None, report: Path | None, as_json: bool
+    project: str,
+    name: str,
+    seed: int,
+    *,
+    judged_by: str | None,
+    record: Path | None,
+    report: Path | None,
+    as_json: bool,
 ) -> None:
     """Runs one seed, prints its outcome, and fails unless it is a success."""
     from backend.cli.run import fix_hashes
@@ -32,7 +40,7 @@ def run_one(  # noqa: PLR0913 - one an option
     from backend.cli.shared.errors import CliError
 
     fix_hashes(SINGLE)
-    plan = open_plan(project, name, as_json=as_json)
+    plan = open_plan(project, name, judged_by=judged_by, as_json=as_json)
     outcome = _run(plan, seed, record)
     document = outcome.to_line() + "\n"
     if report is not None:
@@ -60,8 +68,14 @@ def evaluations_of(project: str) -> list[str]:
         return evaluation_names(cli.open_project(project))
 
 
-def open_plan(project: str, name: str, *, as_json: bool = False) -> Plan:
+def open_plan(project: str, name: str, *, judged_by: str | None = None, as_json: bool = False) -> Plan:
     """Reads and checks an evaluation of a project.
+
+    Args:
+        project: the project.
+        name: the evaluation.
+        judged_by: the project whose evaluations, universes and robots count; without it, the project itself.
+        as_json: whether errors are written as JSON.
 
     Raises:
         CliError: it cannot be run; each line has a place.
@@ -71,7 +85,14 @@ def open_plan(project: str, name: str, *, as_json: bool = False) -> Plan:
     with explained(as_json=as_json):
         from executor.evaluation.plan import make_plan
 
-        return make_plan(cli.open_project(project), name)
+        opened = cli.open_project(project)
+        if judged_by is None:
+            return make_plan(opened, name)
+        from backend.cli.evaluating.against import in_worlds_of
+
+        plan = make_plan(cli.open_project(judged_by), name)
+        judged = plan.with_project(in_worlds_of(plan.project, opened.files))
+        return dataclasses.replace(judged, judged_by=judged_by)
 
 
 def explained(*, as_json: bool = False) -> AbstractContextManager[None]:

@@ -149,6 +149,9 @@ def test_what_is_drawn_is_what_runs_and_equal_seeds_are_equal(tmp_path, cells):
     first, second = cells(folder, 1), cells(folder, 2)
     assert first.path[0][1:] == [round(value, 3) for value in first.drawn["robot.pose"][:2]]
     assert first.drawn != second.drawn
+    for found in (first, second):
+        speed = found.drawn["ports.MainTree.go.speed"]
+        assert found.measures["path_length_m"] == pytest.approx(speed * found.end_s, abs=0.1)
     assert cells(folder, 1).to_line() == first.to_line()
 
 

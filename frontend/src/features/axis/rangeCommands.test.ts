@@ -3,21 +3,12 @@ import { noRange, useRange } from '@/store/moment/range';
 import { atPresent, useMoment } from '@/store/moment/store';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
+import { segmentOf } from '../../../harness/runs';
 import { rangeCommands, zoom } from './rangeCommands';
 
 const command = (id: string) => rangeCommands.find((each) => each.id === `time.${id}`)!;
-const segment = {
-  run: 'a',
-  branch: 0,
-  number: 0,
-  version: 0,
-  from_t: 0,
-  to_t: 100,
-  bytes: 1,
-  complete: true,
-};
 
-beforeEach(() => useSessionStore.setState({ segments: [segment] }));
+beforeEach(() => useSessionStore.setState({ segments: [segmentOf()] }));
 afterEach(() => {
   useSessionStore.setState(initialSession, true);
   useMoment.setState(atPresent, true);

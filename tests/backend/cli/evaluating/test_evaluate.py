@@ -135,6 +135,23 @@ def test_bad_arguments_have_the_status_two(tmp_path, options, words):
     assert "Traceback" not in done.stderr
 
 
+def test_a_sealed_run_is_judged_by_another_project_and_needs_more_than_a_claim(tmp_path):
+    judge = write(tmp_path / "judge", TEXT.replace("duration_s: 3", "universe: yard\nduration_s: 3"))
+    own = write(tmp_path / "own", "duration_s: 1\nruns: 1\njudge: {success: [{tree: SUCCESS}]}\n")
+    done = studio("evaluate", own, "--sealed")
+    assert done.returncode == 2
+    assert "evaluations/main.yaml:1:1: the judge asks for the result of the tree alone" in done.stderr
+    done = studio(
+        "evaluate", own, "main", "--judged-by", judge, "--sealed", "--seeds", "2", "--report", tmp_path / "r"
+    )
+    assert done.returncode == 0, done.stderr
+    [line] = (tmp_path / "r" / "runs.jsonl").read_text().splitlines()
+    again = studio("run", own, "--evaluation", "main", "--judged-by", judge, "--seed", "2", "--json")
+    assert again.stdout.splitlines()[-1] == line
+    assert json.loads(line)["drawn"].keys() == {"robot.pose", "models.crate.pose.y"}
+    assert studio("run", own, "--judged-by", judge).returncode == 2
+
+
 def test_evaluations_are_listed(tmp_path):
     folder = write(tmp_path, TEXT, **{"evaluations/second.yaml": "x"})
     assert studio("evaluate", folder, "--list").stdout == "main\nsecond\n"

@@ -1,7 +1,7 @@
 """Reports and comparisons, put together by a child with limits; nothing of it is imported here.
 
-The child is `executor.evaluation.stored`, known by its command alone. What it writes goes to a temporary
-file, so that nobody holds it in memory.
+The child is `executor.evaluation.served.stored`, known by its command alone. Its output goes to a
+temporary file, so that nobody holds it in memory.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ def _ask(what: str, found: Evaluation, document: dict[str, Any]) -> IO[bytes]:
                 _write_lines(source, found, found.older)
             source.seek(0)
             done = subprocess.run(
-                [sys.executable, "-m", "executor.evaluation.stored", what],
+                [sys.executable, "-m", "executor.evaluation.served.stored", what],
                 cwd=REPOSITORY,
                 env={key: os.environ[key] for key in _PASSED if key in os.environ} | _SINGLE,
                 stdin=source,

@@ -147,7 +147,7 @@ def session_programs(domain_id: int) -> dict[Kind, Program]:
         "application": Program((sys.executable, "-m", "executor.application.process"), environment, limits),
         "recorder": Program((sys.executable, "-m", "executor.recorder.process"), link),
         "evaluation": Program(
-            (sys.executable, "-m", "executor.evaluation.process"),
+            (sys.executable, "-m", "executor.evaluation.served.process"),
             dict(SINGLE_THREADED),
             Limits(file_bytes=limits.file_bytes),
         ),

@@ -18,7 +18,7 @@ from executor.child_messages import Fault, Finished
 from executor.session import child_events, child_exits, immediate, steps, streaming
 from executor.session.children import Children
 from executor.session.clients import Clients
-from executor.session.evaluating import Evaluating
+from executor.session.evaluation.evaluating import Evaluating
 from executor.session.events import (
     ChildExited,
     ChildLooked,

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from executor import messages
     from executor.session.children import Children
     from executor.session.clients import Clients
-    from executor.session.evaluating import Evaluating
+    from executor.session.evaluation.evaluating import Evaluating
     from executor.session.events import Unpacked
     from executor.session.ladder import State
     from executor.session.launch_nodes import LaunchNodes

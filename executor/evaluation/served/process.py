@@ -1,4 +1,4 @@
-"""The process of an evaluation in a session: `python -m executor.evaluation.process --channel-fd N`.
+"""The process of an evaluation in a session: `python -m executor.evaluation.served.process --channel-fd N`.
 
 It gets one job, runs its seeds with the pool of this machine, and sends each outcome to the manager. It has
 one thread, since it forks its runs: it writes to its channel itself, and its forks close that.

@@ -6,7 +6,7 @@ from typing import Any
 
 from executor import evaluation_messages
 from executor.evaluation_events import EvaluationOutcome, EvaluationStarted
-from executor.session.evaluating import LAST_LINES
+from executor.session.evaluation.evaluating import LAST_LINES
 from executor.session.events import (
     ChildExited,
     ChildLooked,

@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from executor.evaluation.outcome import Outcome
-from executor.evaluation.process import MOST_LINE_BYTES, processors, run_job, shortened
+from executor.evaluation.served.process import MOST_LINE_BYTES, processors, run_job, shortened
 from executor.evaluation_messages import (
     EvaluationDone,
     Refused,
@@ -27,7 +27,7 @@ from executor.evaluation_messages import (
 from executor.manager.manager import SINGLE_THREADED
 from executor.supervision.channel import encode
 
-EXAMPLE = Path(__file__).parents[3] / "examples" / "laser_bump_and_go"
+EXAMPLE = Path(__file__).parents[4] / "examples" / "laser_bump_and_go"
 QUICK = b"""format: bt-studio/evaluation
 version: 1
 universe: walled_room
@@ -51,7 +51,13 @@ def archive(evaluation: bytes = QUICK) -> str:
 def said(job: StartEvaluation) -> list:
     """Runs the process with a job, as the manager does; returns its messages."""
     ours, theirs = socket.socketpair()
-    command = [sys.executable, "-m", "executor.evaluation.process", "--channel-fd", str(theirs.fileno())]
+    command = [
+        sys.executable,
+        "-m",
+        "executor.evaluation.served.process",
+        "--channel-fd",
+        str(theirs.fileno()),
+    ]
     with subprocess.Popen(
         command, pass_fds=[theirs.fileno()], env={**os.environ, **SINGLE_THREADED}
     ) as process:

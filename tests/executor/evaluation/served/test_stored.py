@@ -6,8 +6,10 @@ import json
 import subprocess
 import sys
 
+import pytest
+
 from executor.evaluation.outcome import Outcome
-from executor.evaluation.stored import comparison, report
+from executor.evaluation.served.stored import comparison, report
 from executor.evaluation.summary import pair
 
 NEWER = [Outcome(seed, "success" if seed < 8 else "failure", measures={"m": 2.0}) for seed in range(10)]
@@ -25,7 +27,7 @@ ABOUT = {
 
 def asked(what: str, about: dict) -> str:
     lines = [json.dumps(about), *(o.to_line() for o in NEWER), "", *(o.to_line() for o in OLDER)]
-    command = [sys.executable, "-m", "executor.evaluation.stored", what]
+    command = [sys.executable, "-m", "executor.evaluation.served.stored", what]
     done = subprocess.run(command, input="\n".join(lines), capture_output=True, text=True, check=True)
     return done.stdout
 
@@ -35,7 +37,7 @@ def test_a_comparison_names_the_seeds_whose_outcome_changed():
     assert found == json.loads(json.dumps(comparison(pair(OLDER, NEWER))))
     assert (found["only_older"], found["only_newer"]) == ([9], [0, 2, 4, 6])
     assert (found["both"], found["neither"]) == (4, 1)
-    assert found["p"] == 0.375  # binomial, 1 of 5, two-sided
+    assert found["p"] == pytest.approx(0.375)  # binomial, 1 of 5, two-sided
     assert found["measures"] == [{"name": "m", "pairs": 10, "difference": [1.0, 1.0, 1.0]}]
 
 

@@ -1,4 +1,4 @@
-"""Summarises stored outcomes: `python -m executor.evaluation.stored report|compare`.
+"""Summarises stored outcomes: `python -m executor.evaluation.served.stored report|compare`.
 
 The web server starts it as a process of its own, since what it reads comes from users' programs. It reads
 from stdin a line with a JSON object, then the lines of `runs.jsonl`, an empty line, and those of the older

@@ -95,9 +95,10 @@ class Hooks:
 
         def execute() -> Status:
             current[0] = uid
-            status = inner()
-            current[0] = 0
-            return status
+            try:
+                return inner()
+            finally:
+                current[0] = 0
 
         return execute
 
@@ -108,9 +109,11 @@ class Hooks:
         def execute() -> Status:
             current[0] = uid
             start_s = clock()
-            status = inner()
+            try:
+                status = inner()
+            finally:
+                current[0] = 0
             duration_s = clock() - start_s
-            current[0] = 0
             if duration_s > tree.slowest[0]:
                 tree.slowest = (duration_s, uid)
             return status
@@ -153,14 +156,16 @@ class Hooks:
         if is_leaf:
             tree.current[0] = node.uid
         start_s = time.perf_counter()
-        status = inner()
+        try:
+            status = inner()
+        finally:
+            if is_leaf:
+                tree.current[0] = 0
         duration_s = time.perf_counter() - start_s
         if times is not None:
             times[node.uid] = times.get(node.uid, 0.0) + duration_s
-        if is_leaf:
-            tree.current[0] = 0
-            if self.times_leaves and duration_s > tree.slowest[0]:
-                tree.slowest = (duration_s, node.uid)
+        if is_leaf and self.times_leaves and duration_s > tree.slowest[0]:
+            tree.slowest = (duration_s, node.uid)
         return status
 
 

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
 Execute = Callable[[], Status]
 Flash = tuple[int, Status]
-Mark = tuple["Node", Status, tuple[Flash, ...]]
-"""A report of results: they are flashes, as a whole, if the node's status is not this one after the tick."""
+Mark = tuple["Node", tuple[Flash, ...]]
+"""A report of results of a node and of nodes below it, all of which are IDLE if it is IDLE."""
 Marks = tuple[Mark, Mark, Mark]
 NO_PORTS: Final[Mapping[str, str]] = {}
 
@@ -57,7 +57,13 @@ class Instance:
         return "" if self.subtree is None else self.subtree.path
 
 
-class Node:
+class _Statuses:
+    """The statuses of a node, in front of all else: one line of the processor's cache holds them."""
+
+    __slots__ = ("reported", "status")
+
+
+class Node(_Statuses):
     """The base of all nodes.
 
     Attributes:
@@ -88,7 +94,7 @@ class Node:
             "manifest",
             "marks",
         ),
-        *("name", "parent", "ports", "reported", "status", "ticks", "tree", "type", "uid", "view"),
+        *("name", "parent", "ports", "ticks", "tree", "type", "uid", "view"),
     )
 
     KIND: ClassVar[Kind]

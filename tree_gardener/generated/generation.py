@@ -154,8 +154,8 @@ class Generation:
         functions = [self.function(planner.variant, region) for region in regions]
         if None in functions:
             return
-        whole = _in_slices(node, functions) if regions[0].root.is_slice else functions[0]
-        node.quick = whole
+        is_sliced = regions[0].root.is_slice
+        node.quick = _in_slices(node, functions, planner.called) if is_sliced else functions[0]
 
     def function(self, variant: Variant, region: Region) -> Callable[[], Any] | None:
         """Returns the function of a region."""
@@ -189,8 +189,12 @@ class Generation:
         return "\n\n".join(found)
 
 
-def _in_slices(node: Any, functions: list[Any]) -> Callable[[], Status | None]:
-    """Returns the function of a node whose children are ticked by several functions."""
+def _in_slices(node: Any, functions: list[Any], outside: list[Node]) -> Callable[[], Status | None]:
+    """Returns the function of a node whose children are ticked by several functions.
+
+    `outside` are the nodes below it that these functions call.
+    """
+    called = tuple([child for child in outside if child.parent is node])
     slices = tuple(functions)
 
     def tick() -> Status | None:
@@ -199,7 +203,7 @@ def _in_slices(node: Any, functions: list[Any]) -> Callable[[], Status | None]:
             status: Status | None = ticked()
             if status is not None:
                 return status
-        ended: Status | None = node.end()
+        ended: Status | None = node.end(called)
         return ended
 
     return tick

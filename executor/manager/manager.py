@@ -63,6 +63,14 @@ GOODBYE_S: Final = 1.0
 LAST_DOMAIN_ID: Final = 100
 LARGEST_DOMAIN_ID: Final = 232
 # Sharing a small picture between threads costs more than it gains, and sessions share one machine.
+SINGLE_THREADED: Final = {
+    "PYTHONHASHSEED": "0",
+    "OPENBLAS_NUM_THREADS": "1",
+    "OMP_NUM_THREADS": "1",
+    "MKL_NUM_THREADS": "1",
+    "LP_NUM_THREADS": "0",
+}
+"""Variables of the process of an evaluation: it forks its runs, and equal seeds are equal runs."""
 FEW_THREADS: Final = {"OPENCV_FOR_THREADS_NUM": "1", "LP_NUM_THREADS": "2"}
 
 
@@ -138,6 +146,11 @@ def session_programs(domain_id: int) -> dict[Kind, Program]:
         "world": Program((sys.executable, "-m", "executor.world.process"), environment),
         "application": Program((sys.executable, "-m", "executor.application.process"), environment, limits),
         "recorder": Program((sys.executable, "-m", "executor.recorder.process"), link),
+        "evaluation": Program(
+            (sys.executable, "-m", "executor.evaluation.served.process"),
+            dict(SINGLE_THREADED),
+            Limits(file_bytes=limits.file_bytes),
+        ),
     }
 
 
@@ -211,7 +224,7 @@ class Manager:
 
         self.take(RecordingWanted(str(folder), is_whole=self._settings.keeps_whole))
         if isinstance(self._server, SessionServer):
-            self._server.recordings = Recordings(folder)
+            self._server.recordings = Recordings(folder, self._supervisor.starting_others)
 
     def _make_folders(self) -> Folders:
         from executor.manager.folders import Folders  # noqa: PLC0415 - as above

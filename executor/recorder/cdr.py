@@ -9,19 +9,22 @@ from __future__ import annotations
 
 import array
 import functools
+import itertools
 import struct
 import sys
-from operator import attrgetter
+from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, Any, Final
 
-from executor.recorder.definitions import fields_of
+from executor.recorder.definitions import PRIMITIVES, fields_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from executor.recorder.definitions import Field
 
     Put = Callable[[bytearray, Any], None]
+    Take = Callable[[Any], Sequence[Any]]
+    _Step = Callable[[bytearray, Sequence[Any]], None]
 
 __all__ = ["CdrError", "decode", "encode", "encode_object", "stamp_of"]
 
@@ -37,6 +40,8 @@ _CODES: Final = {"bool": "B", "byte": "B", "char": "B", "uint8": "B", "int8": "b
     "float64": "d",
 }
 _SIZES: Final = {kind: (code, struct.calcsize(f"<{code}")) for kind, code in _CODES.items()}
+_LARGEST: Final = 8
+"""The size of the largest number, at which all numbers are aligned."""
 _TIME: Final = "builtin_interfaces/Time"
 
 
@@ -55,10 +60,10 @@ def encode(name: str, message: Mapping[str, Any]) -> bytes:
     Raises:
         KeyError: a field is missing.
     """
+    take, steps = _mapping_steps(name)
     data = bytearray()
-    for field, put in _writers(name):
-        put(data, message[field])
-    return HEADER + bytes(data)
+    _put_all(steps, data, take(message))
+    return HEADER + data
 
 
 def encode_object(name: str, message: Any) -> bytes:
@@ -69,7 +74,7 @@ def encode_object(name: str, message: Any) -> bytes:
     """
     data = bytearray()
     _object_writer(name)(data, message)
-    return HEADER + bytes(data)
+    return HEADER + data
 
 
 def decode(name: str, data: bytes) -> dict[str, Any]:
@@ -87,32 +92,103 @@ def decode(name: str, data: bytes) -> dict[str, Any]:
         raise CdrError(f"{name}: {error}") from error
 
 
+class _Run:
+    """Puts neighbouring numbers at once: one packed form for each place at which the first may be."""
+
+    def __init__(self, start: int, codes: Sequence[str]) -> None:
+        self._part = slice(start, start + len(codes))
+        self._pack = [struct.Struct(_padded(codes, at)).pack for at in range(_LARGEST)]
+
+    def __call__(self, data: bytearray, values: Sequence[Any]) -> None:
+        data += self._pack[len(data) % _LARGEST](*values[self._part])
+
+
+class _One:
+    """Puts one value that is not a number."""
+
+    def __init__(self, place: int, put: Put) -> None:
+        self._place = place
+        self._put = put
+
+    def __call__(self, data: bytearray, values: Sequence[Any]) -> None:
+        self._put(data, values[self._place])
+
+
+def _padded(codes: Sequence[str], at: int) -> str:
+    """Returns the form of numbers that begin at a place, with the gaps that align each."""
+    form = "<"
+    for code in codes:
+        size = struct.calcsize(f"<{code}")
+        gap = -at % size
+        form += "x" * gap + code
+        at += gap + size
+    return form
+
+
+def _put_all(steps: Sequence[_Step], data: bytearray, values: Sequence[Any]) -> None:
+    for step in steps:
+        step(data, values)
+
+
+def _steps(fields: Sequence[Field]) -> tuple[_Step, ...]:
+    """Returns the functions that put the values of fields, in their order."""
+    steps: list[_Step] = []
+    for is_number, group in itertools.groupby(enumerate(fields), lambda each: _is_number(each[1])):
+        members = list(group)
+        if is_number:
+            steps.append(_Run(members[0][0], [_SIZES[field.kind][0] for _, field in members]))
+        else:
+            steps += [_One(place, _writer(field)) for place, field in members]
+    return tuple(steps)
+
+
+def _is_number(field: Field) -> bool:
+    return field.kind in _SIZES and not field.is_list
+
+
 @functools.cache
-def _writers(name: str) -> tuple[tuple[str, Put], ...]:
-    return tuple(
-        (field.name, _put_time if field.kind == _TIME else _writer(field)) for field in fields_of(name)
-    )
+def _mapping_steps(name: str) -> tuple[Take, tuple[_Step, ...]]:
+    fields = fields_of(name)
+    return _getter(itemgetter(*(field.name for field in fields)), len(fields)), _steps(fields)
 
 
 @functools.cache
 def _object_writer(name: str) -> Put:
-    """Returns the function that writes the fields of an object, in their order."""
-    parts = [(attrgetter(field.name), _writer(field)) for field in fields_of(name)]
+    """Returns the function that writes the fields of an object, in their order, with those of its parts."""
+    leaves = list(_leaves(name))
+    if not leaves:
+        return lambda data, value: None
+    take = _getter(attrgetter(*(field.name for field in leaves)), len(leaves))
+    steps = _steps(leaves)
 
     def put(data: bytearray, value: Any) -> None:
-        for get, put_one in parts:
-            put_one(data, get(value))
+        _put_all(steps, data, take(value))
 
     return put
 
 
+def _getter(get: Take, count: int) -> Take:
+    """Returns a function that takes values as a tuple, also a single one."""
+    return get if count > 1 else lambda message: (get(message),)
+
+
+def _leaves(name: str, prefix: str = "") -> Iterator[Field]:
+    """Yields the fields of a type, and in the place of a part the part's own, by their dotted names."""
+    for field in fields_of(name):
+        dotted = f"{prefix}{field.name}"
+        if field.is_list or field.kind in PRIMITIVES:
+            yield field._replace(name=dotted)
+        else:
+            yield from _leaves(field.kind, f"{dotted}.")
+
+
 def _writer(field: Field) -> Put:
-    if field.kind in {"string", "wstring"} or field.kind not in _SIZES:
+    if field.kind == _TIME and not field.is_list:
+        return _put_time
+    if field.kind not in _SIZES:
         one = _put_text if field.kind == "string" else _object_writer(field.kind)
         return functools.partial(_put_items, one, field.length) if field.is_list else one
     code, size = _SIZES[field.kind]
-    if not field.is_list:
-        return functools.partial(_put_number, struct.Struct(f"<{code}"), size)
     return functools.partial(_put_numbers, code, size, field.length)
 
 
@@ -139,12 +215,6 @@ def _put_items(one: Put, count: int, data: bytearray, values: Sequence[Any]) -> 
         data.extend(struct.pack("<I", len(values)))
     for value in values:
         one(data, value)
-
-
-def _put_number(form: struct.Struct, size: int, data: bytearray, value: float) -> None:
-    if size > 1:
-        _align(data, size)
-    data.extend(form.pack(value))
 
 
 def _put_numbers(code: str, size: int, count: int, data: bytearray, values: Any) -> None:

@@ -8,6 +8,7 @@ It is a process of its own, so that a long run does not make the manager wait.
 from __future__ import annotations
 
 import contextlib
+import errno
 import sys
 import time
 from pathlib import Path
@@ -21,9 +22,10 @@ from executor.supervision.confine import die_with_parent
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["NOT_RECORDED", "join_newest", "join_run", "main"]
+__all__ = ["NOT_RECORDED", "NO_ROOM", "join_newest", "join_run", "main"]
 
 NOT_RECORDED = 3
+NO_ROOM = 4
 LAST = "last"
 ATTEMPTS = 4
 PAUSE_S = 0.25
@@ -70,6 +72,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         try:
             return 0 if _join(Path(folder), run, Path(out)) else NOT_RECORDED
         except (OSError, RecordingError) as error:
+            if isinstance(error, OSError) and error.errno == errno.ENOSPC:
+                return NO_ROOM
             if not left:
                 sys.stderr.write(f"{error}\n")
             else:

@@ -3,6 +3,9 @@
 The recorder listens at an address in Linux's abstract namespace, so that a recorder that was started again is
 found at the same place. What a source sends is kept until the recorder takes it, up to a bound; beyond it
 messages are dropped, and the source sends its whole state again once there is room.
+
+Messages go in batches, four in a second, at the same moments in all processes of the machine: so the recorder
+wakes four times in a second for all of them. A batch is one MessagePack list, with its length before it.
 """
 
 from __future__ import annotations
@@ -17,17 +20,31 @@ import msgspec
 from msgspec import Struct
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
-__all__ = ["ADDRESS_VARIABLE", "MOST_MESSAGE_BYTES", "Dump", "Heard", "Mark", "Record", "RecorderLink"]
+__all__ = [
+    "ADDRESS_VARIABLE",
+    "BATCH_S",
+    "MOST_BATCH_BYTES",
+    "Dump",
+    "Heard",
+    "Mark",
+    "Record",
+    "RecorderLink",
+    "next_batch_s",
+]
 
 ADDRESS_VARIABLE: Final = "BT_STUDIO_RECORDER"
 PREFIX: Final = struct.Struct("<I")
 MOST_MESSAGE_BYTES: Final = 16 << 20
 MOST_WAITING_BYTES: Final = 16 << 20
-BATCH_S: Final = 0.2
+BATCH_S: Final = 0.25
 BATCH_BYTES: Final = 64 << 10
+MOST_BATCH_BYTES: Final = MOST_MESSAGE_BYTES + 64
 RETRY_S: Final = 1.0
+_LIST: Final = struct.Struct(">BI")
+_LIST_CODE: Final = 0xDD
+"""The first byte of a list in MessagePack whose length has 32 bits."""
 
 
 class Mark(Struct, tag="mark"):
@@ -64,6 +81,11 @@ class Dump(Struct, tag="dump"):
 Sent = Mark | Record | Heard | Dump
 
 
+def next_batch_s(now_s: float) -> float:
+    """Returns the next moment of monotonic time at which all sources send."""
+    return (now_s // BATCH_S + 1) * BATCH_S
+
+
 class RecorderLink:
     """A source's end. All methods are called on one thread.
 
@@ -71,6 +93,7 @@ class RecorderLink:
         address: the recorder's address; "" for none, and then nothing is recorded.
         restate: is called when the recorder needs the whole state of this source: at the begin of a run,
             after a lost connection, and after dropped messages.
+        gather: returns what the source held back for a batch; is called before each.
     """
 
     def __init__(
@@ -78,15 +101,20 @@ class RecorderLink:
         address: str,
         restate: Callable[[], None],
         clock: Callable[[], float] = time.monotonic,
+        gather: Callable[[], Iterable[Record]] = tuple,
     ) -> None:
         self._address = address
         self._restate = restate
         self._clock = clock
+        self._gather = gather
         self._encode = msgspec.msgpack.Encoder().encode
         self._socket: socket.socket | None = None
         self._run = ""
+        self._batch: list[bytes] = []
+        self._batch_bytes = 0
         self._waiting = bytearray()
-        self._sent_s = self._tried_s = -RETRY_S
+        self._due_s = 0.0
+        self._tried_s = -RETRY_S
         self._has_dropped = False
         os.register_at_fork(after_in_child=self._abandon)
 
@@ -97,6 +125,7 @@ class RecorderLink:
 
     def begin(self, run: str) -> None:
         """Begins another run: all that is sent from now on belongs to it."""
+        self._put_gathered()
         self._run = run
         if self._is_connected():
             self._tell_all()
@@ -105,8 +134,8 @@ class RecorderLink:
         """Sends a message of the run, soon; drops it if the recorder is too slow, or not there."""
         if self.is_recording:
             self._put(message)
-            if len(self._waiting) >= BATCH_BYTES or self._clock() - self._sent_s >= BATCH_S:
-                self._write()
+            if self._batch_bytes >= BATCH_BYTES:
+                self._finish_batch()
 
     def pump(self) -> None:
         """Sends the waiting messages, and reconnects to a lost recorder. Called many times in a second."""
@@ -119,12 +148,17 @@ class RecorderLink:
         if self._has_dropped and not self._waiting:
             self._has_dropped = False
             self._tell_all()
-        if self._waiting and self._clock() - self._sent_s >= BATCH_S:
+        now_s = self._clock()
+        if now_s >= self._due_s:
+            self._due_s = next_batch_s(now_s)
+            self._finish_batch()
+        elif self._waiting:
             self._write()
 
     def flush(self, patience_s: float) -> None:
         """Sends all that waits, for at most this time."""
         end_s = self._clock() + patience_s
+        self._finish_batch()
         while self._waiting and self._socket is not None and self._clock() < end_s:
             self._write()
             if self._waiting and self._socket is not None:
@@ -135,24 +169,49 @@ class RecorderLink:
         if self._socket is not None:
             self._socket.close()
             self._socket = None
-        self._waiting.clear()
+        self._clear()
 
     # --- inside ---
 
     def _tell_all(self) -> None:
-        self._waiting_put(self._encode(Mark(self._run)))
+        self._put(Mark(self._run))
         self._restate()
-        self._write()
+        self._finish_batch()
+
+    def _put_gathered(self) -> None:
+        if self.is_recording:
+            for message in self._gather():
+                self._put(message)
 
     def _put(self, message: Sent) -> None:
-        self._waiting_put(self._encode(message))
-
-    def _waiting_put(self, data: bytes) -> None:
-        if len(data) > MOST_MESSAGE_BYTES or len(self._waiting) + len(data) > MOST_WAITING_BYTES:
-            self._has_dropped = self._has_dropped or len(data) <= MOST_MESSAGE_BYTES
+        data = self._encode(message)
+        if len(data) > MOST_MESSAGE_BYTES:
             return
-        self._waiting += PREFIX.pack(len(data))
-        self._waiting += data
+        if len(self._waiting) + self._batch_bytes + len(data) > MOST_WAITING_BYTES:
+            self._has_dropped = True
+            return
+        if self._batch_bytes + len(data) > BATCH_BYTES:
+            self._close_batch()
+        self._batch.append(data)
+        self._batch_bytes += len(data)
+
+    def _finish_batch(self) -> None:
+        """Sends the open batch, as far as the recorder takes it at once."""
+        self._put_gathered()
+        self._close_batch()
+        if self._waiting:
+            self._write()
+
+    def _close_batch(self) -> None:
+        if self._batch:
+            self._waiting += PREFIX.pack(_LIST.size + self._batch_bytes)
+            self._waiting += _LIST.pack(_LIST_CODE, len(self._batch))
+            self._waiting += b"".join(self._batch)
+            self._batch, self._batch_bytes = [], 0
+
+    def _clear(self) -> None:
+        self._waiting.clear()
+        self._batch, self._batch_bytes = [], 0
 
     def _is_connected(self) -> bool:
         now_s = self._clock()
@@ -166,16 +225,15 @@ class RecorderLink:
                 candidate.close()
             else:
                 self._socket = candidate
-                self._waiting.clear()
+                self._clear()
                 self._has_dropped = False
         return self._socket is not None
 
     def _write(self) -> None:
         if self._socket is None:
             return
-        self._sent_s = self._clock()
         try:
-            sent = self._socket.send(self._waiting, socket.MSG_NOSIGNAL) if self._waiting else 0
+            sent = self._socket.send(self._waiting, socket.MSG_NOSIGNAL)
         except BlockingIOError:
             return
         except OSError:

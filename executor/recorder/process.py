@@ -1,13 +1,15 @@
 """The recorder of a session: `python -m executor.recorder.process --channel-fd N`.
 
 World and application send what happens over links of their own (`executor.recorder.link`), the manager tells
-of lines, faults and the end. None of the user's code is in this process, and it survives all others. Once a
-second everything is flushed. A full disk stops the recording, not the run.
+of lines, faults and the end. None of the user's code is in this process, and it survives all others. Links
+are read four times in a second, just after all sources send, and every second time all is flushed: what
+arrives between does not wake the process. A full disk stops the recording, not the run.
 """
 
 from __future__ import annotations
 
 import argparse
+import contextlib
 import errno
 import os
 import platform
@@ -26,7 +28,7 @@ from executor import __version__, child_messages, recorder_messages
 from executor.messages import Error, RecordingPart, Segment
 from executor.recorder.definitions import DefinitionError
 from executor.recorder.event_messages import message_of
-from executor.recorder.link import ADDRESS_VARIABLE, Dump, Heard, Mark, Record
+from executor.recorder.link import ADDRESS_VARIABLE, BATCH_S, Dump, Heard, Mark, Record, next_batch_s
 from executor.recorder.ordering import Ordering
 from executor.recorder.project_files import project_files, project_name
 from executor.recorder.run_writer import LATEST_NS, RunWriter
@@ -38,21 +40,27 @@ from executor.supervision.confine import die_with_parent
 
 if TYPE_CHECKING:
     import socket
+    from collections.abc import Iterable
 
     from executor.messages import StopReason
     from executor.recorder import shelf
 
 __all__ = ["RecorderProcess", "main"]
 
-LOOK_S: Final = 0.5
-"""The time between two flushes; with what waits for its order it is less than a second."""
-ORDER_S: Final = 0.1
+FLUSH_S: Final = 2 * BATCH_S
+LATER_S: Final = 0.05
+"""How long after the moment at which sources send their batches are read."""
+FULL_S: Final = 0.01
+"""The time between two looks at a source that sends as much as its way holds."""
 TOLD_S: Final = 1.0
+GOODBYE_S: Final = 0.5
 MOST_SOURCES: Final = 16
 BRANCH: Final = 0
 FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 _NO_FIELDS: Final = (KeyError, TypeError, ValueError, AttributeError, OverflowError, struct.error)
 _encode = msgspec.msgpack.Encoder().encode
+_Early = tuple[str, int, Record | Heard | Dump]
+"""A message that arrived before its run began, with that run and its source."""
 
 
 class _Stop(Exception):  # noqa: N818 - the way out, not an error
@@ -74,7 +82,10 @@ class RecorderProcess:
         self._refused: set[str] = set()
         self._told: deque[tuple[float, recorder_messages.Told]] = deque()
         self._order = Ordering[Record | Heard | Dump]()
-        self._look_s = time.monotonic()
+        self._look_s = 0.0
+        self._flush_s = 0.0
+        self._has_told = False
+        self._early: list[_Early] = []
 
     def run(self) -> None:
         """Runs until the manager ends it, or is gone."""
@@ -82,27 +93,32 @@ class RecorderProcess:
             while True:
                 self._turn()
         except (_Stop, ChannelClosed):
-            for source in list(self._sources.values()):
-                self._take(source)  # what was sent before the end
+            self._take_all()  # what was sent before the end
             self._guarded(self._end_run)
 
     def _turn(self) -> None:
-        wait_s = max(0.0, self._look_s + LOOK_S - time.monotonic())
-        if len(self._order):
-            wait_s = min(wait_s, ORDER_S)
-        for key, _ in self._selector.select(wait_s):
+        for key, _ in self._selector.select(max(0.0, self._look_s - time.monotonic())):
             if key.fileobj is self._channel:
                 self._take_commands()
-            elif key.fileobj is self._listener:
-                self._accept()
             else:
-                self._take(self._sources[key.fd])
+                self._accept()
+        now_s = time.monotonic()
+        if now_s >= self._look_s:
+            self._look(now_s)
+
+    def _look(self, now_s: float) -> None:
+        """Reads the links, and writes what is ready."""
+        self._take_all()
         self._write_ready()
-        if time.monotonic() - self._look_s >= LOOK_S:
-            self._look_s = time.monotonic()
-            self._channel.send(child_messages.Beat(0))
+        is_full = any(source.is_full for source in self._sources.values())
+        self._look_s = now_s + FULL_S if is_full else next_batch_s(now_s - LATER_S) + LATER_S
+        if now_s >= self._flush_s:
+            self._flush_s = now_s + FLUSH_S - BATCH_S / 2  # at every second look
+            self._has_told = False
             if self._writer is not None:
                 self._guarded(self._writer.flush)
+            if not self._has_told:  # a segment is a sign of life too
+                self._channel.send(child_messages.Beat(0))
 
     # --- the manager ------------------------------------------------------------------------------
 
@@ -128,7 +144,13 @@ class RecorderProcess:
         if self._shelf is not None and (self._writer is None or self._writer.run != message.run):
             files = project_files(message.folder)
             about["project"] = project_name(files)
+            early = self._take_rest()
+            with contextlib.suppress(*_NO_FIELDS):  # no message of our sources
+                self._put_early(early, self._writer.run if self._writer is not None else "")
             self._change_run(self._shelf, message.run, about, files)
+            with contextlib.suppress(*_NO_FIELDS):
+                self._put_early([*self._early, *early], message.run)
+            self._early = early
 
     def _tell(self, message: recorder_messages.Told) -> None:
         """Keeps a message of the manager until world and application have sent what was before it.
@@ -181,6 +203,7 @@ class RecorderProcess:
         return next((one for one in known if (one.run, one.number, one.version) == wanted), None)
 
     def _announce(self, segment: shelf.Segment) -> None:
+        self._has_told = True
         times = segment.from_ns * 1e-9, segment.to_ns * 1e-9
         place = segment.run, BRANCH, segment.number, segment.version
         self._channel.send(
@@ -197,23 +220,51 @@ class RecorderProcess:
             source.connection.close()
             return
         self._sources[source.connection.fileno()] = source
-        self._selector.register(source.connection, selectors.EVENT_READ)
+
+    def _take_all(self) -> None:
+        for source in list(self._sources.values()):
+            self._take(source)
 
     def _take(self, source: Source) -> None:
         try:
             for message in source.messages():
                 if self._writer_of(source.run) is not None and not isinstance(message, Mark):
-                    number = source.connection.fileno()
-                    self._order.put(_time_ns(message), message, number, time.monotonic())
+                    self._put(source.connection.fileno(), message)
         except BrokenSource:
             self._lose(source)
         except _NO_FIELDS as error:
             self._say(f"A message for the recording is not of its type ({type(error).__name__}).")
             self._lose(source)
 
+    def _take_rest(self) -> list[_Early]:
+        """Takes the messages that came before a run begins: of the previous run or of the new one."""
+        taken: list[_Early] = []
+        for source in list(self._sources.values()):
+            number = source.connection.fileno()
+            with contextlib.suppress(BrokenSource):  # it is lost at the next look
+                taken += [
+                    (source.run, number, message)
+                    for message in source.messages()
+                    if not isinstance(message, Mark)
+                ]
+        return taken
+
+    def _put_early(self, early: Iterable[_Early], run: str) -> None:
+        """Puts those that belong to a run into the order."""
+        for of_run, number, message in early:
+            if of_run == run:
+                self._put(number, message)
+
+    def _put(self, number: int, message: Record | Heard | Dump) -> None:
+        """Puts a message of a source into the order.
+
+        Raises:
+            KeyError, ValueError: it has no time of a run.
+        """
+        self._order.put(_time_ns(message), message, number, time.monotonic())
+
     def _lose(self, source: Source) -> None:
         self._order.drop(source.connection.fileno())
-        self._selector.unregister(source.connection)
         del self._sources[source.connection.fileno()]
         source.connection.close()
 
@@ -308,7 +359,7 @@ def main(arguments: list[str] | None = None) -> None:
     channel: Channel[FromRecorder, ToRecorder] = Channel(options.channel_fd, decode_to_recorder)
     try:
         RecorderProcess(channel, listen(os.environ.pop(ADDRESS_VARIABLE))).run()
-        channel.flush(LOOK_S)
+        channel.flush(GOODBYE_S)
     except ChannelError as error:
         sys.exit(f"The manager sent a message that cannot be read: {error}")
 

@@ -219,8 +219,12 @@ class Shelf:
             is_whole = not reader.is_cut and _has_end(source)
             if not is_whole:
                 source.seek(0)
-                with fixed.open("wb") as out:
-                    recover(source, path.name, out)
+                try:
+                    with fixed.open("wb") as out:
+                        recover(source, path.name, out)
+                except OSError:  # there is no room for it: it stays as it was cut
+                    fixed.unlink(missing_ok=True)
+                    return replace(_survey(path, segment), bytes=reader.read_to, is_complete=False)
         if is_whole:
             return _survey(path, segment)
         path.unlink()

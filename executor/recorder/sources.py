@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 
 import msgspec
 
-from executor.recorder.link import MOST_MESSAGE_BYTES, PREFIX, Mark, Sent
+from executor.recorder.link import MOST_BATCH_BYTES, PREFIX, Mark, Sent
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -18,6 +18,7 @@ __all__ = ["BrokenSource", "Source", "listen", "take_source"]
 
 MOST_SOURCES: Final = 16
 READ_BYTES: Final = 1 << 20
+FULL_BYTES: Final = 64 << 10
 _CREDENTIALS: Final = struct.Struct("3i")
 
 
@@ -55,13 +56,17 @@ def take_source(listener: socket.socket) -> Source | None:
 
 
 class Source:
-    """One connection. `run` is the run to which its messages belong; "" before its first mark."""
+    """One connection. `run` is the run to which its messages belong; "" before its first mark.
+
+    `is_full` tells that as much came at once as the way holds, so that more may wait behind it.
+    """
 
     def __init__(self, connection: socket.socket) -> None:
         self.connection = connection
         self.run = ""
+        self.is_full = False
         self._data = bytearray()
-        self._decode = msgspec.msgpack.Decoder(Sent).decode
+        self._decode = msgspec.msgpack.Decoder(list[Sent]).decode
 
     def messages(self) -> Iterator[Sent]:
         """Yields the messages that have arrived.
@@ -69,6 +74,7 @@ class Source:
         Raises:
             BrokenSource: the connection is over, or broken.
         """
+        self.is_full = False
         try:
             data = self.connection.recv(READ_BYTES)
         except BlockingIOError:
@@ -77,25 +83,27 @@ class Source:
             raise BrokenSource(str(error)) from error
         if not data:
             raise BrokenSource("it has ended")
+        self.is_full = len(data) >= FULL_BYTES
         self._data += data
-        while (message := self._next()) is not None:
-            if isinstance(message, Mark):
-                self.run = message.run
-            yield message
+        while (batch := self._next()) is not None:
+            for message in batch:
+                if isinstance(message, Mark):
+                    self.run = message.run
+                yield message
 
-    def _next(self) -> Sent | None:
+    def _next(self) -> list[Sent] | None:
         if len(self._data) < PREFIX.size:
             return None
         (length,) = PREFIX.unpack_from(self._data)
-        if length > MOST_MESSAGE_BYTES:
-            raise BrokenSource(f"it announced a message of {length} bytes")
+        if length > MOST_BATCH_BYTES:
+            raise BrokenSource(f"it announced a batch of {length} bytes")
         end = PREFIX.size + length
         if len(self._data) < end:
             return None
         body = bytes(memoryview(self._data)[PREFIX.size : end])
         del self._data[:end]
         try:
-            message: Sent = self._decode(body)
+            batch: list[Sent] = self._decode(body)
         except (msgspec.DecodeError, RecursionError, UnicodeDecodeError) as error:
             raise BrokenSource(f"it sent what is no message: {error}") from error
-        return message
+        return batch

@@ -16,6 +16,10 @@ class Verdict(NamedTuple):
     note: str = ""
 
 
+_KEPT: Final = Verdict(is_kept=True)
+_LEFT_OUT: Final = Verdict(is_kept=False)
+
+
 class Thinner:
     """Keeps at most 200 KB of each topic in each simulated second, and at least one message."""
 
@@ -30,11 +34,11 @@ class Thinner:
             second, used = int(now_s), 0
         if used and used + size > MOST_BYTES_PER_S:
             if topic in self._noted:
-                return Verdict(is_kept=False)
+                return _LEFT_OUT
             self._noted.add(topic)
             note = (
                 f"{topic} sends more than {MOST_BYTES_PER_S // 1000} KB/s; the recording holds a part of it."
             )
             return Verdict(is_kept=False, note=note)
         self._used[topic] = second, used + size
-        return Verdict(is_kept=True)
+        return _KEPT

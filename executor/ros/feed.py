@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Final
+from functools import partial
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -16,6 +17,20 @@ if TYPE_CHECKING:
 UNHEARD_HZ: Final = 2.0
 SHOWN_HZ: Final = 10.0
 """The rate of measurements that views show, also where no ROS node receives them."""
+
+
+class Coded(NamedTuple):
+    """A message of a type (`tf2_msgs/msg/TFMessage`) as CDR, for a tap alone."""
+
+    kind: str
+    data: bytes
+
+
+class Shown(NamedTuple):
+    """A picture for a tap: its message, and what returns it as JPEG."""
+
+    message: Any
+    jpeg: Callable[[], bytes]
 
 
 class Due:
@@ -44,7 +59,8 @@ class Feed:
 
     Without subscribers it is measured for a tap at most `unheard_hz` times in a second, if `Feeds.sample` was
     called. `is_picture` is set if the measurement must be rendered; `of_camera` is also set for messages that
-    accompany a picture.
+    accompany a picture. `encode` returns the message for a tap where nobody else takes it; `jpeg` returns a
+    picture that clients may get too.
     """
 
     publishers: list[Any]
@@ -53,6 +69,8 @@ class Feed:
     is_picture: bool = False
     of_camera: bool = False
     unheard_hz: float = UNHEARD_HZ
+    encode: Callable[[float], Coded] | None = None
+    jpeg: Callable[[Sensors], bytes] | None = None
 
     @property
     def has_receiver(self) -> bool:
@@ -76,6 +94,10 @@ class Feed:
         receivers = [publisher for publisher in self.publishers if publisher.get_subscription_count()]
         if not receivers and (tap is None or self.of_camera or not is_sampled):
             return
+        if self.encode is not None and tap is not None and not receivers and faults is None:
+            for publisher in self.publishers:
+                tap(publisher.topic_name, self.encode(now_s), now_s)
+            return
         message = self.make(sensors, now_s)
         if faults is not None:
             self._publish_faulty(message, now_s, tap, faults)
@@ -83,8 +105,9 @@ class Feed:
         for publisher in receivers:
             publisher.publish(message)
         if tap is not None:
+            shown = message if self.jpeg is None else Shown(message, partial(self.jpeg, sensors))
             for publisher in receivers if self.of_camera else self.publishers:
-                tap(publisher.topic_name, message, now_s)
+                tap(publisher.topic_name, shown, now_s)
 
     def _publish_faulty(self, message: Any, now_s: float, tap: Tap | None, faults: TopicFaults) -> None:
         for publisher in self.publishers:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from executor.robots.config import Camera, Imu, Lidar
+    from executor.ros.transform_rows import Row
     from executor.world.geometry.transforms import Pose
     from executor.world.interface import LidarReading
     from executor.world.physics.drive import Odometry
@@ -152,12 +153,10 @@ def transform(parent: str, child: str, pose: Pose, time_s: float = 0.0) -> Trans
     return message
 
 
-def odometry_transform(
-    state: Odometry, time_s: float, prefix: str = "", frame: str = BASE_FRAME
-) -> TransformStamped:
+def odometry_row(state: Odometry, prefix: str = "", frame: str = BASE_FRAME) -> Row:
     """Returns the transform from the odometry's frame to the robot."""
     pose = from_xyz_rpy((state.x, state.y, 0.0, 0.0, 0.0, state.yaw))
-    return transform(prefix + ODOM_FRAME, prefix + frame, pose, time_s)
+    return prefix + ODOM_FRAME, prefix + frame, pose
 
 
 def imu(sensor: Imu, reading: ImuReading, prefix: str = "") -> ImuMessage:

@@ -18,16 +18,18 @@ from rosgraph_msgs.msg import Clock
 
 from executor.ros import messages
 from executor.ros.environment import has_tf
-from executor.ros.feed import SHOWN_HZ, Due, Feed, Feeds
+from executor.ros.feed import SHOWN_HZ, Coded, Due, Feed, Feeds
 from executor.ros.outlet import Outlet, Piped
 from executor.ros.raw_take import take
 from executor.ros.robot_topics import LATCHED_QOS, ODOMETRY_HZ, RobotTopics
+from executor.ros.transform_rows import TF_TYPE, encode_transforms
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection
 
     from executor.ros.feed import Tap
     from executor.ros.topic_faults import TopicFaults
+    from executor.ros.transform_rows import Row
     from executor.world.interface import Robot, World
     from executor.world.sensing.sensors import Sensors
 
@@ -212,8 +214,12 @@ class WorldNode:
         return Feed(
             [publisher],
             lambda _, now_s: messages.transforms(
-                [transform for robot in self._robots for transform in robot.moving_transforms(now_s)]
+                [messages.transform(*row, now_s) for row in self._moving_transforms()]
             ),
             ODOMETRY_HZ,
             unheard_hz=SHOWN_HZ,
+            encode=lambda now_s: Coded(TF_TYPE, encode_transforms(self._moving_transforms(), now_s)),
         )
+
+    def _moving_transforms(self) -> list[Row]:
+        return [row for robot in self._robots for row in robot.moving_transforms()]

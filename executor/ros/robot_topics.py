@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
     from executor.robots import sensors as config
+    from executor.ros.transform_rows import Row
     from executor.world.interface import Robot
     from executor.world.sensing.bumper import Zone
     from executor.world.sensing.sensors import Sensors
@@ -110,20 +111,14 @@ class RobotTopics:
             obeyed &= wanted is None or robot.command_joint(joint, wanted.data)
         return obeyed
 
-    def moving_transforms(self, now_s: float) -> list[Any]:
+    def moving_transforms(self) -> list[Row]:
         """Returns the transforms of the odometry frame and of moving links."""
         robot = self._robot()
-        found = [messages.odometry_transform(robot.odometry, now_s, self._frames, self._base)]
+        found = [messages.odometry_row(robot.odometry, self._frames, self._base)]
         for name, (position, _) in robot.joint_states().items():
             joint = self._config.urdf.joints[name]
-            found.append(
-                messages.transform(
-                    self._frames + joint.parent,
-                    self._frames + joint.child,
-                    joint_pose(joint, position),
-                    now_s,
-                )
-            )
+            parent, child = self._frames + joint.parent, self._frames + joint.child
+            found.append((parent, child, joint_pose(joint, position)))
         return found
 
     def fixed_transforms(self) -> list[Any]:
@@ -158,9 +153,10 @@ class RobotTopics:
         is_picture: bool = False,
         of_camera: bool = False,
         unheard_hz: float = UNHEARD_HZ,
+        jpeg: Callable[[Sensors], bytes] | None = None,
     ) -> None:
         of_camera = is_picture or of_camera
-        self.feeds.append(Feed(publishers, make, rate_hz, is_picture, of_camera, unheard_hz))
+        self.feeds.append(Feed(publishers, make, rate_hz, is_picture, of_camera, unheard_hz, jpeg=jpeg))
 
     def _add_motion(self) -> None:
         frames, base = self._frames, self._base
@@ -202,6 +198,7 @@ class RobotTopics:
                 camera, sensors.picture(self._robot(), camera), now_s, frames
             ),
             is_picture=True,
+            jpeg=lambda sensors: sensors.jpeg(self._robot(), camera),
         )
         if camera.depth_topic is not None:
             self._feed(

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import functools
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-import simplejpeg
 from sensor_msgs.msg import CompressedImage, Image
 from std_msgs.msg import Header
 
 from executor.recorder.cdr import encode_object
+from executor.render.jpeg import to_jpeg
+from executor.ros.feed import Coded, Shown
 from executor.ros.messages import to_time
 
 if TYPE_CHECKING:
@@ -18,13 +20,19 @@ if TYPE_CHECKING:
 __all__ = ["TopicTap", "kind_of"]
 
 PICTURES_HZ: Final = 10.0
-QUALITY: Final = 80
 SLACK_S: Final = 1e-6
+_IMAGE: Final = "/image_raw"
 
 
 def kind_of(message: Any) -> str:
     """Returns the type of a message, as `sensor_msgs/msg/LaserScan`."""
-    return f"{type(message).__module__.partition('.')[0]}/msg/{type(message).__name__}"
+    kind = type(message)
+    return _name(kind.__module__, kind.__name__)
+
+
+@functools.cache
+def _name(module: str, name: str) -> str:
+    return f"{module.partition('.')[0]}/msg/{name}"
 
 
 class TopicTap:
@@ -37,30 +45,45 @@ class TopicTap:
     def __init__(self, write: Callable[[str, str, float, bytes], None]) -> None:
         self._write = write
         self._pictures_s: dict[str, float] = {}
+        self._last: dict[str, bytes] = {}
+        """The last picture of each topic."""
 
     def __call__(self, topic: str, message: Any, now_s: float) -> None:
         """Takes one message."""
-        if isinstance(message, Image):
-            self._picture(topic, message, now_s)
+        if isinstance(message, Coded):
+            self._write(topic, message.kind, now_s, message.data)
+        elif isinstance(message, Shown):
+            self._picture(topic, message.message, now_s, message.jpeg)
+        elif isinstance(message, Image):
+            self._picture(topic, message, now_s, functools.partial(_coded, message))
         else:
-            self._write(topic, kind_of(message), now_s, encode_object(kind_of(message), message))
+            kind = kind_of(message)
+            self._write(topic, kind, now_s, encode_object(kind, message))
 
     def jpeg(self, topic: str, jpeg: bytes, now_s: float, frame_id: str) -> None:
-        """Takes a picture that is coded already; at most ten in a second of each topic."""
-        if now_s >= self._pictures_s.get(topic, 0.0):
+        """Takes a picture that is coded already; at most ten in a second of each topic.
+
+        It is left out if the topic of the camera has the same one.
+        """
+        is_there = self._last.get(f"/{frame_id}{_IMAGE}") == jpeg
+        if now_s >= self._pictures_s.get(topic, 0.0) and not is_there:
             self._pictures_s[topic] = now_s + 1.0 / PICTURES_HZ - SLACK_S
             self._write_jpeg(topic, jpeg, now_s, Header(stamp=to_time(now_s), frame_id=frame_id))
 
-    def _picture(self, topic: str, message: Any, now_s: float) -> None:
+    def _picture(self, topic: str, message: Any, now_s: float, code: Callable[[], bytes]) -> None:
         """Takes a colour image; depth has no place in a JPEG."""
         if message.encoding != "rgb8" or now_s < self._pictures_s.get(topic, 0.0):
             return
         self._pictures_s[topic] = now_s + 1.0 / PICTURES_HZ - SLACK_S
-        pixels = np.frombuffer(message.data, np.uint8).reshape(message.height, message.width, 3)
-        jpeg = simplejpeg.encode_jpeg(pixels, quality=QUALITY, colorspace="RGB", colorsubsampling="420")
+        jpeg = self._last[topic] = code()
         self._write_jpeg(topic, jpeg, now_s, message.header)
 
     def _write_jpeg(self, topic: str, jpeg: bytes, now_s: float, header: Header) -> None:
         packed = CompressedImage(header=header, format="rgb8; jpeg compressed bgr8")
         packed.data = np.frombuffer(jpeg, np.uint8)
         self._write(f"{topic}/compressed", kind_of(packed), now_s, encode_object(kind_of(packed), packed))
+
+
+def _coded(message: Any) -> bytes:
+    pixels = np.frombuffer(message.data, np.uint8).reshape(message.height, message.width, 3)
+    return to_jpeg(pixels)

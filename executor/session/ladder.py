@@ -132,6 +132,9 @@ TABLE: Final[dict[str, Row]] = {
         WORLD_UP,
         "Sets, changes or removes a mark of the user at a moment of the present run.",
     ),
+    "evaluate": _act(
+        ANY, "Runs seeds of an evaluation beside the ladder; answers with `evaluation_` events."
+    ),
     "take_over": _act(ANY, "Becomes the driver; the last driver becomes a viewer.", for_viewers=True),
     "ping": _act(
         ANY, "Is answered at once; no answer for 3 s means that the manager hangs.", for_viewers=True

@@ -20,6 +20,7 @@ from executor.child_messages import (
     ToApplication,
     ToWorld,
 )
+from executor.evaluation_messages import FromEvaluation, ToEvaluation
 from executor.recorder_messages import FromRecorder, ToRecorder
 from executor.supervision.channel import AsyncChannel, ChannelClosed, ChannelError, socket_pair
 from executor.supervision.confine import INTERRUPT_SIGNAL, PARENT_VARIABLE
@@ -33,8 +34,8 @@ if TYPE_CHECKING:
 
 __all__ = ["ChildProcess", "Limits", "Program"]
 
-Said = FromWorld | FromApplication | FromRecorder
-Told = ToWorld | ToApplication | ToRecorder
+Said = FromWorld | FromApplication | FromRecorder | FromEvaluation
+Told = ToWorld | ToApplication | ToRecorder | ToEvaluation
 Decode = Callable[[bytes], Said]
 
 MARK: Final = "BT_STUDIO_CHILD"
@@ -220,6 +221,8 @@ class ChildProcess:
     def check_limits(self, descendants: Iterable[psutil.Process]) -> None:
         """Kills the child if its processes, which are searched in `descendants`, exceed its limits."""
         limits = self._program.limits
+        if limits.processes is None and limits.memory_bytes is None:
+            return  # a tree is read from /proc, four times in a second
         tree = self._tree(descendants)
         if limits.processes is not None and len(tree) > limits.processes:
             self.kill(f"was ended: it had {len(tree)} processes, more than the {limits.processes} allowed")

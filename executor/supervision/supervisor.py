@@ -13,6 +13,7 @@ import psutil
 
 from executor import child_messages
 from executor.child_messages import Frame, decode_from_application, decode_from_world
+from executor.evaluation_messages import decode_from_evaluation
 from executor.recorder_messages import decode_from_recorder
 from executor.session.events import (
     ChildExited,
@@ -35,7 +36,7 @@ from executor.supervision.processes import ChildProcess, Decode, Program, Said
 from executor.supervision.shared_memory import remove_abandoned_segments
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Coroutine, Mapping
+    from collections.abc import Callable, Coroutine, Iterator, Mapping
 
 __all__ = ["Supervisor"]
 
@@ -46,6 +47,7 @@ _DECODE: Final[dict[Kind, Decode]] = {
     "world": decode_from_world,
     "application": decode_from_application,
     "recorder": decode_from_recorder,
+    "evaluation": decode_from_evaluation,
 }
 
 
@@ -58,7 +60,7 @@ class Supervisor:
             loop.
         on_frame: is called with each frame; frames bypass the state machine.
         reaps_all: whether every other child process of this process is an orphan of one of the session's
-            children.
+            children, except within `starting_others`.
     """
 
     def __init__(
@@ -78,6 +80,7 @@ class Supervisor:
         self._tasks: set[asyncio.Task[None]] = set()
         self._checker: asyncio.Task[None] | None = None
         self._descendants = Descendants()
+        self._others = 0
         adopt_orphans()
 
     def apply(self, effect: Spawn | Tell | Interrupt | Inspect | Retire | Kill) -> None:
@@ -100,6 +103,15 @@ class Supervisor:
             child.tell(child_messages.Stop())
         if children:
             await asyncio.wait([child.exited for child in children], timeout=grace_s)
+
+    @contextlib.contextmanager
+    def starting_others(self) -> Iterator[None]:
+        """Leaves the status of ended processes to who started them, while this process runs one itself."""
+        self._others += 1
+        try:
+            yield
+        finally:
+            self._others -= 1
 
     async def close(self) -> None:
         """Kills all children, and waits until none of their processes is left."""
@@ -191,7 +203,7 @@ class Supervisor:
             for (kind, _), child in list(self._children.items()):
                 if kind != "world":
                     child.check_limits(there)
-            if self._reaps_all:
+            if self._reaps_all and not self._others:
                 self._reap_orphans(there)
 
     def _reap_orphans(self, descendants: list[psutil.Process]) -> None:

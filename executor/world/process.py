@@ -221,7 +221,7 @@ class WorldProcess:
         node = WorldNode(world, context, topics=renamed, true_poses=true_poses, outlet=outlet)
         self._close.append(node.close)
         self._topics = Topics(node.node, self._answer, commands=node, outlet=outlet)
-        recorder = WorldRecorder(world, sensors, node, TopicTap, os.environ.get(ADDRESS_VARIABLE, ""))
+        recorder = WorldRecorder(world, node, TopicTap, os.environ.get(ADDRESS_VARIABLE, ""))
         recorder.join(partial(GraphTap, context))
         self._close.append(recorder.close)
         self._recorder = recorder

@@ -9,6 +9,7 @@ import sys
 
 BENCHMARKS = (
     "engine",
+    "debugger",
     "translator",
     "behaviours",
     "difference",
@@ -17,6 +18,7 @@ BENCHMARKS = (
     "stream",
     "session",
     "recording",
+    "axis",
     "flood",
     "opening",
     "browser",

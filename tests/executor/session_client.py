@@ -154,10 +154,14 @@ async def _until_closed(socket):
 
 
 @contextlib.asynccontextmanager
-async def manager_process(*arguments, env=None):
-    """Runs a manager in a process of its own; afterwards nothing of it may be left."""
+async def manager_process(*arguments, env=None, prefix=()):
+    """Runs a manager in a process of its own; afterwards nothing of it may be left.
+
+    `prefix` is a command that runs another one in its own place.
+    """
     reader, writer = os.pipe()
     process = await asyncio.create_subprocess_exec(
+        *prefix,
         sys.executable,
         "-m",
         "executor.manager",

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from executor.render.interface import Renderer, Viewpoint
+from executor.render.jpeg import BEST_QUALITY, to_jpeg
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable
@@ -59,6 +60,16 @@ class Sensors:
         if key not in self._kept:
             view = Viewpoint.of_pose(robot.camera_pose(camera), camera.fov, camera.near, camera.far)
             self._kept[key] = self._draw(view, wide, high, smooth=True)
+        return self._kept[key]  # type: ignore[return-value]
+
+    def jpeg(
+        self, robot: Robot, camera: Camera, width: int | None = None, quality: int = BEST_QUALITY
+    ) -> bytes:
+        """Returns the current image of a camera as JPEG; coded once for all that take it."""
+        picture = self.picture(robot, camera, width)
+        key = ("jpeg", robot.id, camera.name, picture.shape[1], quality)
+        if key not in self._kept:
+            self._kept[key] = to_jpeg(picture, quality)
         return self._kept[key]  # type: ignore[return-value]
 
     def depth(self, robot: Robot, camera: Camera) -> NDArray[np.float32]:

@@ -14,6 +14,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, Generic, TypeVar
 
+from executor.render.jpeg import BEST_QUALITY
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -34,7 +36,7 @@ class Level:
 
 
 LEVELS: Final = (
-    Level(1.0, 1.0, 82),
+    Level(1.0, 1.0, BEST_QUALITY),
     Level(1.0, 1.0, 62),
     Level(0.75, 1.0, 60),
     Level(0.6, 0.75, 55),

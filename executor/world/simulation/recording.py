@@ -10,20 +10,19 @@ from executor.messages import Camera
 from executor.recorder.link import Dump, Heard, Record, RecorderLink
 from executor.recorder.thinning import Thinner, Verdict
 from executor.recorder.writer import nanoseconds
-from executor.world.simulation.streams import Streams
+from executor.world.simulation.pose_track import PoseTrack
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection
+    from collections.abc import Callable, Collection, Iterator
 
     from executor.child_messages import Frame
     from executor.ros.node import WorldNode
     from executor.world.interface import World
-    from executor.world.sensing.sensors import Sensors
 
 __all__ = ["WorldRecorder"]
 
-POSES_HZ: Final = 30.0
 KEYFRAME_S: Final = 5.0
+_encode = msgspec.msgpack.Encoder().encode
 _decode_camera = msgspec.msgpack.Decoder(Camera).decode
 
 
@@ -64,7 +63,6 @@ class WorldRecorder:
 
     Args:
         world: the simulated world.
-        sensors: the sensors of the world.
         node: the world's ROS node; each message of its topics is recorded.
         make_tap: makes the tap of the topics; its argument writes topic, type, time in s and message.
         address: the address of the recorder; "" if nothing is recorded.
@@ -73,20 +71,18 @@ class WorldRecorder:
     def __init__(
         self,
         world: World,
-        sensors: Sensors,
         node: WorldNode,
         make_tap: Callable[[Callable[[str, str, float, bytes], None]], Tap],
         address: str,
     ) -> None:
         self._world = world
         self._node = node
-        self._link = RecorderLink(address, self._restate)
+        self._link = RecorderLink(address, self._restate, gather=self._gathered)
         self._thinner = Thinner()
         self._tap = make_tap(self._topic)
         self._make_graph_tap: MakeGraphTap | None = None
         self._graph_tap: GraphTap | None = None
-        self._sensors = sensors
-        self._streams = self._new_streams()
+        self._poses = PoseTrack()
         self._dump_s = 0.0
 
     def join(self, make_graph_tap: MakeGraphTap) -> None:
@@ -111,7 +107,8 @@ class WorldRecorder:
         if not self._link.is_recording:
             return
         now_s = self._world.time_s
-        self._streams.send_due(now_s)
+        if self._poses.is_due(now_s):
+            self._poses.note(now_s, self._world.poses())
         if self._graph_tap is None and self._make_graph_tap is not None:
             self._graph_tap = self._make_graph_tap(self._node.topics, self._foreign, self._note)
         if self._graph_tap is not None:
@@ -135,19 +132,15 @@ class WorldRecorder:
     # --- inside ---
 
     def _restate(self) -> None:
-        self._streams = self._new_streams()  # time may have gone back
-        self._streams.send_due(self._world.time_s)
-        self._dump_s = self._world.time_s
+        now_s = self._dump_s = self._world.time_s
+        scene = {"stamp": nanoseconds(now_s), "data": _encode(self._world.scene)}
+        self._link.send(Record("/world/scene", "Scene", scene))
+        self._poses = PoseTrack()  # time may have gone back
+        self._poses.note(now_s, self._world.poses())
 
-    def _new_streams(self) -> Streams:
-        streams = Streams(self._world, self._sensors, self._frame, clock=lambda: self._world.time_s)
-        streams.subscribe(None, "poses", max_hz=POSES_HZ)
-        return streams
-
-    def _frame(self, frame: Frame) -> None:
-        name = {"scene": "Scene", "poses": "Poses"}[frame.stream]
-        fields = {"stamp": nanoseconds(self._world.time_s), "data": frame.data}
-        self._link.send(Record(f"/world/{frame.stream}", name, fields))
+    def _gathered(self) -> Iterator[Record]:
+        for time_s, frame in self._poses.take():
+            yield Record("/world/poses", "Poses", {"stamp": nanoseconds(time_s), "data": frame})
 
     def _topic(self, topic: str, kind: str, now_s: float, data: bytes) -> None:
         is_picture = topic.endswith("/compressed")

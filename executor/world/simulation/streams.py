@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any, Final
 
 import msgspec
 import numpy as np
-import simplejpeg
 
 from executor.child_messages import Frame
 from executor.messages import Camera, CameraPose, Poses, Scan, StreamName, View
 from executor.render.interface import look_at
+from executor.render.jpeg import to_jpeg
 from executor.stream.pose_codec import pack
 from executor.world.sensing.cameras import find_camera
 from executor.world.simulation.adaptation import LEVELS, Adaptation, Level, ViewSize
@@ -214,7 +214,7 @@ class Streams:
             sensor=name,
             width=width,
             height=height,
-            jpeg=_jpeg(picture, level.quality),
+            jpeg=self._sensors.jpeg(robot, camera, wide, level.quality),
         )
 
     def _view(self, subscription: Subscription) -> View:
@@ -232,7 +232,7 @@ class Streams:
         """Encodes a picture as JPEG; for the same picture as before it returns the same bytes."""
         known, of_quality, jpeg = self._encoded
         if picture is not known or quality != of_quality:
-            jpeg = _jpeg(picture, quality)
+            jpeg = to_jpeg(picture, quality)
             self._encoded = (picture, quality, jpeg)
         return jpeg
 
@@ -275,8 +275,3 @@ class Streams:
             # A picture of one camera must not replace a waiting one of another.
             lane = f"{lane}/{subscription.sensor}"
         self._send(Frame(subscription.client, stream or lane, _encode(frame), keep))
-
-
-def _jpeg(picture: NDArray[np.uint8], quality: int) -> bytes:
-    jpeg: bytes = simplejpeg.encode_jpeg(picture, quality=quality, colorspace="RGB", colorsubsampling="420")
-    return jpeg

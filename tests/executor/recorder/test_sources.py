@@ -9,7 +9,7 @@ import struct
 import msgspec
 import pytest
 
-from executor.recorder.link import MOST_MESSAGE_BYTES, Mark
+from executor.recorder.link import MOST_BATCH_BYTES, Mark
 from executor.recorder.sources import BrokenSource, Source, listen, take_source
 
 
@@ -22,9 +22,9 @@ def pair() -> tuple[socket.socket, Source]:
 @pytest.mark.parametrize(
     "data",
     [
-        struct.pack("<I", MOST_MESSAGE_BYTES + 1),
+        struct.pack("<I", MOST_BATCH_BYTES + 1),
         struct.pack("<I", 3) + b"abc",
-        struct.pack("<I", 1) + msgspec.msgpack.encode(None),
+        struct.pack("<I", 2) + msgspec.msgpack.encode([None]),
         struct.pack("<I", 5) + b"\x91" * 5,
     ],
 )
@@ -39,7 +39,7 @@ def test_bytes_that_are_no_message_end_the_connection(data):
 
 def test_a_message_may_come_in_pieces():
     ours, source = pair()
-    body = msgspec.msgpack.encode(Mark("r1"))
+    body = msgspec.msgpack.encode([Mark("r1")])
     data = struct.pack("<I", len(body)) + body
     with ours:
         ours.sendall(data[:6])

@@ -1,6 +1,6 @@
 from typing import Any
 
-from executor.ros.feed import SHOWN_HZ, UNHEARD_HZ, Feed, Feeds
+from executor.ros.feed import SHOWN_HZ, UNHEARD_HZ, Coded, Feed, Feeds
 
 
 class Publisher:
@@ -92,3 +92,25 @@ def test_a_tap_gets_what_is_sent_and_samples_of_all_else() -> None:
     taken.clear()
     feeds.publish(None, 0.0, lambda topic, _, now_s: taken.append((topic, now_s)))
     assert len(taken) == 3
+
+
+def test_a_topic_that_only_a_recording_takes_is_encoded_for_it_alone() -> None:
+    publisher, said = Publisher(0, "/tf"), []
+    coded = Coded("k", b"data")
+    feed = Feed([publisher], lambda _, t: "message", rate_hz=10.0, encode=lambda _: coded)
+    feed.publish(None, 0.0, lambda *message: said.append(message))
+    feed.publish(None, 0.1)
+    publisher.listeners = 1
+    feed.publish(None, 0.2, lambda *message: said.append(message))
+    assert said == [("/tf", coded, 0.0), ("/tf", "message", 0.2)]
+    assert publisher.sent == ["message"]
+
+
+def test_a_picture_comes_with_what_codes_it() -> None:
+    publisher, said = Publisher(1, "/camera/image_raw"), []
+    code = lambda _: b"jpeg"  # noqa: E731 - one line
+    feed = Feed([publisher], lambda _, t: "message", 10.0, is_picture=True, of_camera=True, jpeg=code)
+    feed.publish(None, 0.0, lambda *message: said.append(message))
+    ((topic, shown, now_s),) = said
+    assert (topic, shown.message, shown.jpeg(), now_s) == ("/camera/image_raw", "message", b"jpeg", 0.0)
+    assert publisher.sent == ["message"]

@@ -8,6 +8,7 @@ from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import CompressedImage, Image
 from std_msgs.msg import Bool
 
+from executor.ros.feed import Coded, Shown
 from executor.ros.tap import TopicTap, kind_of
 
 
@@ -40,3 +41,25 @@ def test_pictures_are_jpeg_at_most_ten_in_a_second():
 def test_depth_is_left_out():
     assert taken((Image(encoding="32FC1"), 0.0)) == []
     assert kind_of(Image()) == "sensor_msgs/msg/Image"
+
+
+def test_a_picture_that_is_coded_for_others_is_not_coded_again_and_recorded_once():
+    said = []
+    tap = TopicTap(lambda *message: said.append(message))
+    picture = Image(height=16, width=32, encoding="rgb8", data=bytes(16 * 32 * 3))
+    tap("/camera/image_raw", Shown(picture, lambda: b"jpeg"), 0.0)
+    tap.jpeg("/world/camera/camera", b"jpeg", 0.0, "camera")
+    tap.jpeg("/world/camera/other", b"jpeg", 0.0, "other")
+    tap.jpeg("/world/camera/camera", b"smaller", 0.0, "camera")
+    assert [topic for topic, *_ in said] == [
+        "/camera/image_raw/compressed",
+        "/world/camera/other/compressed",
+        "/world/camera/camera/compressed",
+    ]
+    assert bytes(deserialize_message(said[0][3], CompressedImage).data) == b"jpeg"
+
+
+def test_a_message_that_is_coded_is_taken_as_it_is():
+    assert taken((Coded("tf2_msgs/msg/TFMessage", b"cdr"), 1.0)) == [
+        ("/topic", "tf2_msgs/msg/TFMessage", 1.0, b"cdr")
+    ]

@@ -14,7 +14,7 @@ import psutil
 import pytest
 
 from executor.child_messages import name_of
-from executor.session.events import ChildExited, ChildSaid, Kill, Retire, Spawn, Tell
+from executor.session.events import ChildExited, ChildLooked, ChildSaid, Kill, Retire, Spawn, Tell
 from executor.supervision.processes import Limits, Program
 from executor.supervision.supervisor import Supervisor
 
@@ -34,13 +34,16 @@ def fakes_alive():
 
 
 class Stage:
-    def __init__(self, habit, kind="application", **limits):
+    def __init__(self, habit, kind="application", *, reaps_all=False, **limits):
         self.kind = kind
         self.events: asyncio.Queue[Any] = asyncio.Queue()
         self.frames: list[Any] = []
         self.seen = []
         self.supervisor = Supervisor(
-            {kind: program(habit, **limits)}, self.events.put_nowait, self.frames.append
+            {kind: program(habit, **limits)},
+            self.events.put_nowait,
+            self.frames.append,
+            reaps_all=reaps_all,
         )
         self.supervisor.apply(Spawn(kind, 1))
 
@@ -190,6 +193,32 @@ async def test_a_program_that_does_not_exist_is_reported():
     event = await asyncio.wait_for(events.get(), 60)
     assert "could not be started" in event.reason
     await supervisor.close()
+
+
+def ended_process():
+    """Returns the id of a child of this process that has ended with the status 7."""
+    pid = os.fork()
+    if not pid:
+        os._exit(7)
+    os.waitid(os.P_PID, pid, os.WEXITED | os.WNOWAIT)
+    return pid
+
+
+def status_of(pid):
+    _, status = os.waitpid(pid, os.WNOHANG)
+    return os.waitstatus_to_exitcode(status)
+
+
+async def test_the_status_of_a_process_that_somebody_waits_for_is_left_to_them():
+    async with stage("good", reaps_all=True) as it:
+        with it.supervisor.starting_others():
+            awaited = ended_process()
+            for _ in range(3):
+                await it.until(lambda e: isinstance(e, ChildLooked))
+            assert status_of(awaited) == 7
+        orphan = ended_process()
+        while psutil.pid_exists(orphan):
+            await it.until(lambda e: isinstance(e, ChildLooked))
 
 
 def test_children_die_with_their_manager():

@@ -14,7 +14,6 @@ from executor.recorder.sources import listen, take_source
 from executor.ros.tap import TopicTap
 from executor.universes import load_builtin
 from executor.world.physics.bullet import BulletWorld
-from executor.world.sensing.sensors import Sensors
 from executor.world.simulation.recording import KEYFRAME_S, WorldRecorder
 
 
@@ -54,18 +53,14 @@ class Others:
         Others.closed += 1
 
 
-def no_renderer() -> Any:
-    raise AssertionError("nothing is drawn for a recording")
-
-
 def test_scene_poses_dumps_and_pictures_are_sent(monkeypatch):
-    monkeypatch.setattr("executor.recorder.link.BATCH_S", 0.0)
+    monkeypatch.setattr("executor.recorder.link.BATCH_S", 1e-6)
     assert BATCH_S > 0
     address = f"bt-studio-test-{secrets.token_hex(8)}"
     world = BulletWorld(load_builtin("walled_room"))
     node: Any = Topics()
     with listen(address) as listener:
-        recorder = WorldRecorder(world, Sensors(world, no_renderer), node, TopicTap, address)
+        recorder = WorldRecorder(world, node, TopicTap, address)
         recorder.join(Others)
         recorder.look(0.0)
         recorder.begin("a1")

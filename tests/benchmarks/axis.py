@@ -1,0 +1,180 @@
+"""Looking back at ten minutes with 600 blocks, 3D and a camera: the time to a moment, and the work for it.
+
+The run is a real one in lock-step; pictures are added at the rate that a session keeps. Chromium draws
+without a GPU; the main thread's work is from traces, in its own processor time.
+"""
+
+from __future__ import annotations
+
+import json
+import random
+import statistics
+import tempfile
+import urllib.request
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from mcap.reader import make_reader
+from sensor_msgs.msg import CompressedImage
+
+from executor.headless.lockstep import LockstepOptions, run_lockstep
+from executor.recorder.cdr import encode_object
+from executor.recorder.writer import RecordingWriter
+from executor.render.jpeg import to_jpeg
+from tests.benchmarks.browser import TEMPLATE, busy_tree, p95, page_of, served_browser
+from tests.benchmarks.trace import TASK, traced
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from playwright.sync_api import CDPSession, Page
+
+    from tests.benchmarks.session import Client
+
+ROOT: Final = Path(__file__).parents[2]
+GROUPS: Final = 119
+LENGTH_S: Final = 600.0
+PICTURE_PERIOD_S: Final = 0.5
+RECENT_S: Final = 60.0
+RECENT_PERIOD_S: Final = 0.1
+PICTURES: Final = "/camera/image_raw/compressed"
+PICTURE_TYPE: Final = "sensor_msgs/msg/CompressedImage"
+MOMENTS: Final = 30
+DRAG_STEPS: Final = 150
+DRAG_MS: Final = 20
+TASKS: Final = frozenset({TASK})
+ASK: Final = """([share, key]) => new Promise((done, fail) => {
+  const axis = document.querySelector('[data-testid=time-axis]');
+  const strip = document.querySelector('[data-testid=axis-strip]');
+  const box = strip.getBoundingClientRect();
+  const before = axis.dataset.shown;
+  const began = performance.now();
+  const look = () => {
+    if (axis.dataset.shown === before) return;
+    watch.disconnect();
+    requestAnimationFrame(() => setTimeout(() => done(performance.now() - began)));
+  };
+  const watch = new MutationObserver(look);
+  watch.observe(axis, { attributes: true });
+  const at = { bubbles: true, pointerId: 1, button: 0, clientY: box.top + box.height / 2, isPrimary: true };
+  const clientX = box.left + box.width * share;
+  strip.dispatchEvent(new PointerEvent('pointerdown', { ...at, clientX, buttons: 1 }));
+  strip.dispatchEvent(new PointerEvent('pointerup', { ...at, clientX }));
+  setTimeout(() => fail(new Error('no moment within 20 s')), 20000);
+})"""
+COUNT: Final = """() => {
+  const axis = document.querySelector('[data-testid=time-axis]');
+  window.shownMoments = new Set();
+  new MutationObserver(() => window.shownMoments.add(axis.dataset.shown)).observe(axis, { attributes: true });
+}"""
+
+
+def main() -> None:
+    """Prints every figure."""
+    with tempfile.TemporaryDirectory() as folder, served_browser() as (browser, client):
+        recording = ten_minutes(Path(folder))
+        print(f"{recording.stat().st_size / 1e6:.1f} MB, {GROUPS * 5 + 7} blocks", flush=True)
+        project = str(client.call("POST", "/projects", {"template": TEMPLATE})["id"])
+        run = kept(client, project, recording)
+        with page_of(browser, client) as page:
+            page.goto(f"{client.server.origin}/projects/{project}?run={run}&t=300")
+            page.get_by_test_id("moment-stats").wait_for()
+            page.wait_for_timeout(3000)
+            measure(page, page.context.new_cdp_session(page))
+
+
+def measure(page: Page, cdp: CDPSession) -> None:
+    """Prints the figures of an open run."""
+    chance = random.Random(1)  # noqa: S311 - the same moments each time
+    shares = [chance.uniform(0.01, 0.99) for _ in range(MOMENTS)]
+    for what in ("cold", "warm"):
+        with traced(cdp) as trace:
+            times = [page.evaluate(ASK, [share, ""]) for share in shares]
+        work = trace.total_ms() / len(times)
+        print(
+            f"a moment, {what}: {statistics.median(times):.0f} ms, p95 {p95(times):.0f} ms; "
+            f"main thread {work:.1f} ms each (all tasks {trace.total_ms(TASKS) / len(times):.1f} ms)",
+            flush=True,
+        )
+    strip = page.get_by_test_id("axis-strip").bounding_box()
+    assert strip
+    middle = strip["y"] + strip["height"] / 2
+    page.evaluate(COUNT)
+    page.mouse.move(strip["x"] + strip["width"] * 0.2, middle)
+    page.mouse.down()
+    began = page.evaluate("performance.now()")
+    with traced(cdp) as trace:
+        for step in range(DRAG_STEPS):
+            page.mouse.move(strip["x"] + strip["width"] * (0.2 + 0.6 * step / DRAG_STEPS), middle)
+            page.wait_for_timeout(DRAG_MS)
+    seconds = (page.evaluate("performance.now()") - began) / 1000
+    page.mouse.up()
+    shown = page.evaluate("window.shownMoments.size")
+    work = trace.total_ms() / shown
+    print(
+        f"dragging: {shown / seconds:.1f} moments a second; main thread {work:.1f} ms each "
+        f"(all tasks {trace.total_ms(TASKS) / shown:.1f} ms)",
+        flush=True,
+    )
+
+
+def kept(client: Client, project: str, recording: Path) -> str:
+    """Stores a recording as a run of a project; returns its id."""
+    request = urllib.request.Request(
+        f"{client.server.origin}/api/v1/projects/{project}/runs/logs?filename=ten.mcap",
+        method="POST",
+        data=recording.read_bytes(),
+        headers={"Content-Type": "application/octet-stream", "Origin": client.server.origin},
+    )
+    with client.opener.open(request) as response:
+        return str(json.loads(response.read())["id"])
+
+
+def ten_minutes(folder: Path) -> Path:
+    """Returns the recording of a robot that drives, with 600 blocks beside its own."""
+    run, out = folder / "run.mcap", folder / "ten.mcap"
+    options = LockstepOptions(duration_s=LENGTH_S, seed=1, on_finish="repeat", recording=run)
+    run_lockstep(files(), options)
+    with run.open("rb") as source, out.open("wb") as target:
+        writer = RecordingWriter(target, {"project": "ten minutes"})
+        reader = make_reader(source)
+        for attached in reader.iter_attachments():
+            writer.attach(attached.name, attached.media_type, attached.data)
+        pictures, due_s = drawn(), 0.0
+        for schema, channel, message in reader.iter_messages():
+            assert schema is not None
+            now_s = message.log_time * 1e-9
+            if now_s >= due_s:
+                due_s = now_s + (RECENT_PERIOD_S if now_s > LENGTH_S - RECENT_S else PICTURE_PERIOD_S)
+                writer.write(PICTURES, PICTURE_TYPE, message.log_time, next(pictures))
+            writer.write(channel.topic, schema.name, message.log_time, message.data)
+        writer.finish()
+    return out
+
+
+def files() -> dict[str, bytes]:
+    """Returns a project: that of the template, with many groups of blocks beside its tree."""
+    folder = ROOT / "examples" / TEMPLATE
+    found = {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*.*") if p.is_file()}
+    path = "trees/MainTree.json"
+    own, busy = json.loads(found[path]), busy_tree(GROUPS)
+    children = [own["root"], *busy["nodes"][busy["root"]]["children"]]
+    nodes = {**own["nodes"], **busy["nodes"], "all": {"type": "Parallel", "children": children}}
+    return found | {path: json.dumps({**busy, "nodes": nodes}).encode()}
+
+
+def drawn() -> Iterator[bytes]:
+    """Yields pictures of 640 x 480 in CDR, of the size of a drawn scene as JPEG."""
+    chance = np.random.default_rng(1)
+    rows, columns = np.mgrid[0:480, 0:640]
+    base = np.stack([rows // 2, columns // 3, (rows + columns) // 5], axis=2)
+    coded: list[Any] = []
+    for _ in range(20):
+        noise = chance.integers(-6, 6, (480, 640, 1))
+        jpeg = to_jpeg(np.clip(base + noise, 0, 255).astype(np.uint8))
+        message = CompressedImage(format="rgb8; jpeg compressed bgr8")
+        message.data = np.frombuffer(jpeg, np.uint8)
+        coded.append(encode_object(PICTURE_TYPE, message))
+    while True:
+        yield from coded

@@ -41,7 +41,7 @@ def tune(  # noqa: PLR0913, PLR0917 - one an option
 ) -> None:
     """Tunes ports: a study by Optuna, then the best three values on fresh seeds, beside today's values.
 
-    A study that the folder holds already goes on. Exit status: 0, 1 if it was interrupted, 2 for bad
+    A study that the folder holds already continues. Exit status: 0, 1 if it was interrupted, 2 for bad
     arguments.
     """
     from backend.cli.evaluating.one_run import open_plan

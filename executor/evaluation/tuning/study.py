@@ -1,6 +1,6 @@
 """The study: Optuna's TPE proposes values, the evaluation rates them. It lives in a file of SQLite.
 
-The sampler is made again for each trial with a seed of its own, so that a study that was interrupted goes on
+The sampler is made again for each trial with a seed of its own, so that a study that was interrupted continues
 as if it had not been, and the number of workers changes nothing.
 """
 

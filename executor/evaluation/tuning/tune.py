@@ -37,7 +37,7 @@ class Objective:
     maximise: bool = True
 
     def rate(self, outcomes: Sequence[Outcome]) -> float | None:
-        """Returns the rating of some runs; None if it is defined for none of them."""
+        """Returns the rating of some runs, or None if no run has it."""
         counted = [outcome for outcome in outcomes if outcome.is_counted]
         if self.name == SUCCESS:
             return sum(outcome.is_success for outcome in counted) / len(counted) if counted else None
@@ -105,7 +105,7 @@ def tune(  # noqa: PLR0913 - a study, and who listens
         plan: the evaluation.
         ports: the ports, with their bounds.
         objective: the rating.
-        folder: holds the study; one that it holds already goes on.
+        folder: holds the study; one that it holds already continues.
         trials: the number of trials.
         runs: the number of runs of a trial, all trials on the same seeds.
         fresh_runs: the number of fresh seeds at the end.

@@ -1,7 +1,7 @@
 """The study: Optuna's TPE proposes values, the evaluation rates them. It lives in a file of SQLite.
 
-The sampler is made again for each trial with a seed of its own, so that a study that was interrupted continues
-as if it had not been, and the number of workers changes nothing.
+The sampler is made again for each trial with a seed of its own, so that an interrupted study continues as if
+it had not been interrupted, and the number of workers changes nothing.
 """
 
 from __future__ import annotations

@@ -54,7 +54,7 @@ class Objective:
 
 @dataclass(frozen=True)
 class Candidate:
-    """Values on the fresh seeds; `trial` is None for those of today."""
+    """Values on the fresh seeds; those of today have no `trial`."""
 
     trial: Trial | None
     outcomes: tuple[Outcome, ...]

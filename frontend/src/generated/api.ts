@@ -1173,7 +1173,7 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * @description Stores a log of a robot as a run of a new project, which has the tree of the log if it tells one.
+         * @description Stores a log of a robot as a run of a new project, with the tree of the log if it has one.
          *
          *     The body is the file. Known are MCAP, one file of a bag of ROS 2, and the `.btlog` and SQLite logs of
          *     BehaviorTree.CPP.
@@ -1798,7 +1798,7 @@ export interface components {
             manifest: string;
             diagnostics: components["schemas"]["Diagnostic"][];
         };
-        /** @description New values of a stored run; what is missing stays. */
+        /** @description New values of a stored run; fields that are missing stay unchanged. */
         PatchedChangeRunRequest: {
             name?: string;
             note?: string;

@@ -49,3 +49,13 @@ it('zooms round the moment, or a given time, and back to all', () => {
   expect(useRange.getState().view).toBeNull();
   expect(command('zoomOut').enabled?.()).toBe(false);
 });
+
+it('clears a range of which only one end is marked', () => {
+  for (const end of ['a', 'b'] as const) {
+    useRange.setState({ ...noRange, [end]: 20 });
+    expect(command('clearRange').enabled?.()).toBe(true);
+    expect(command('loop').enabled?.()).toBe(false);
+  }
+  command('clearRange').run();
+  expect(useRange.getState()).toMatchObject({ a: null, b: null });
+});

@@ -11,7 +11,9 @@ from tree_gardener.actions import load_actions
 from tree_gardener.blackboard import Blackboard, Entry
 from tree_gardener.clock import Clock, SystemClock, Timers
 from tree_gardener.controls.custom import CustomControl
-from tree_gardener.deep import DEEP, call_deep
+from tree_gardener.debugging.agent import Agent
+from tree_gardener.debugging.wiring import Wiring
+from tree_gardener.deep import DEEP, DEEP_ASKING, call_deep
 from tree_gardener.enums import Enums, constants, types
 from tree_gardener.errors import LoadError, TickError, describe
 from tree_gardener.forest import Forest
@@ -379,7 +381,7 @@ class Tree:
         return self._guarded_without_telling(function)
 
     def _guarded_without_telling(self, function: Callable[[], T]) -> T:
-        return call_deep(function, self.depth) if self.depth > DEEP else function()
+        return call_deep(function, self.depth) if self.depth > self._ways.deep else function()
 
     def warn(self, node: Node, message: str) -> None:
         """Reports a tolerated fault of a node, once."""
@@ -466,6 +468,28 @@ class Tree:
             self._hooks.log = []
             self.link()
         return self._hooks.log
+
+    def debug(self, agent: Agent | None) -> None:
+        """Attaches a debugger, which nodes ask before and after their ticks; None detaches it.
+
+        The agent chooses the nodes with its `Wiring`, at any time, also within a tick.
+        """
+        if self._hooks.wiring is not None:
+            self._hooks.wiring.remove()
+        self._hooks.wiring = None if agent is None else Wiring(self, agent)
+        self._ways.deep = DEEP if agent is None else DEEP_ASKING
+        self.rewire()
+        if self._hooks.wiring is not None and agent is not None:
+            agent.attach(self._hooks.wiring)
+
+    @property
+    def is_ticking(self) -> bool:
+        """Whether a tick is in progress."""
+        return self._ended_tick != self.tick_number
+
+    def rewire(self) -> None:
+        """Looks up again how each node is ticked, also for a tick in progress."""
+        self._ways.rewire()
 
     def entry_of(self, node: Node, inner: Execute) -> Execute:
         """Returns the function that ticks a node together with its hooks; `inner` is the node's own."""

@@ -21,9 +21,10 @@ class Ways:
         tick_root: ticks the root, with all that runs round it.
         is_plain: whether nothing is to be done round a tick, so that it may take the shortest way.
         generation: the generated code.
+        deep: the depth beyond which ticks need more of Python's stack.
     """
 
-    __slots__ = ("_hooks", "_recorder", "_tree", "generation", "is_plain", "tick_root")
+    __slots__ = ("_hooks", "_recorder", "_tree", "deep", "generation", "is_plain", "tick_root")
 
     def __init__(self, tree: "Tree", hooks: Hooks, recorder: Recorder) -> None:
         self._tree = tree
@@ -31,6 +32,7 @@ class Ways:
         self._recorder = recorder
         self.generation = Generation(tree, hooks, recorder)
         self.is_plain = True
+        self.deep = DEEP
         self.tick_root: Execute
 
     def link(self) -> None:
@@ -39,6 +41,14 @@ class Ways:
             node.link()
         self.tick_root = self._tree.nodes[0].entry()
         self.generation.restart()
+        self.choose()
+
+    def rewire(self) -> None:
+        """Looks up again how each node is ticked, also for a tick in progress."""
+        for node in self._tree.nodes:
+            node.rewire()
+        self.tick_root = self._tree.nodes[0].entry()
+        self.generation.doubt()
         self.choose()
 
     def link_around(self, uid: int | None) -> None:
@@ -77,7 +87,7 @@ class Ways:
         """Chooses the shortest way if nothing is to be done round a tick."""
         self.is_plain = not (
             self._recorder.observers
-            or self._tree.depth > DEEP
+            or self._tree.depth > self.deep
             or self._hooks.times_leaves
             or self.generation.queue
         )

@@ -101,6 +101,8 @@ class Generation:
         hooks = self.hooks
         if not self.enabled or self.tree.node_times_s is not None or hooks.log is not None:
             return False
+        if hooks.wiring is not None and hooks.wiring.asks_all:
+            return False
         return all(hook.uid is not None for hook in hooks.hooks)
 
     # -- making -----------------------------------------------------------------------------------------
@@ -141,11 +143,14 @@ class Generation:
         variant = Variant(
             bool(recorder.observers), hooks.marks_leaves, hooks.times_leaves, hooks.counts is not None
         )
-        return Planner(variant, hooks.counts, hooks.has_hook)
+        return Planner(variant, hooks.counts, lambda node: hooks.has_hook(node) or hooks.has_debugger(node))
 
     def make(self, planner: Planner, node: Node) -> None:
         """Generates the code of one node, and puts the nodes that it calls into the queue."""
         if isinstance(node, Control) and node.quick is not None:
+            return
+        if self.hooks.has_debugger(node):  # its own method ticks it, so that switching takes effect at once
+            self.queue += [child for child in node.children if child.children]
             return
         regions = planner.regions(node)
         self.queue += [called for called in planner.called if called.children]

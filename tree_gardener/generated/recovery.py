@@ -159,11 +159,7 @@ class Recovery:
         """Returns the result that a pre-condition decided."""
         guard = node.guard
         assert guard is not None
-        forced = SKIPPED if letter == WHILE else guard.deciding[DECIDING.index(letter)][1]
-        if forced is SKIPPED:
-            return node.skipped()
-        guard.after(node, forced)
-        return node.complete(forced)
+        return node.decided(SKIPPED if letter == WHILE else guard.deciding[DECIDING.index(letter)][1])
 
     def conditioned(self, node: Node, status: Status) -> Status:
         """Runs the post-conditions of a node after its result."""

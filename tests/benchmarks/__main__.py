@@ -17,7 +17,6 @@ BENCHMARKS = (
     "stream",
     "session",
     "recording",
-    "axis",
     "flood",
     "opening",
     "browser",

@@ -7,6 +7,8 @@ from typing import Annotated, Any, Final, Literal
 import msgspec
 from msgspec import Meta, Struct
 
+from executor.evaluation_events import Evaluate
+
 StreamName = Literal["poses", "scan", "camera", "view"]
 OnFinish = Literal["stop", "repeat"]
 OnError = Literal["stop", "failure"]
@@ -238,6 +240,7 @@ COMMANDS: Final[dict[str, type[Struct]]] = {
     "restart_node": RestartNode,
     "read_recording": ReadRecording,
     "flag": Flag,
+    "evaluate": Evaluate,
     "take_over": Empty,
     "ping": Empty,
 }

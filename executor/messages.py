@@ -43,6 +43,7 @@ from executor.command_messages import (
     UniverseDocument,
     Unsubscribe,
 )
+from executor.evaluation_events import Evaluate, EvaluationEnded, EvaluationOutcome, EvaluationStarted
 from executor.stream_messages import (
     FRAMES,
     Camera,
@@ -69,6 +70,10 @@ __all__ = [
     "DescribeType",
     "EchoTopic",
     "Empty",
+    "Evaluate",
+    "EvaluationEnded",
+    "EvaluationOutcome",
+    "EvaluationStarted",
     "Flag",
     "LaunchUniverse",
     "Light",
@@ -446,6 +451,9 @@ EVENTS: Final[dict[str, type[Struct]]] = {
     "topic_mismatch": TopicMismatch,
     "launch_nodes": LaunchNodes,
     "segment": Segment,
+    "evaluation_started": EvaluationStarted,
+    "evaluation_outcome": EvaluationOutcome,
+    "evaluation_ended": EvaluationEnded,
 }
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class RosNode:
-    """The ports of a ROS node that name its endpoint and type, and what it is."""
+    """The kind of a ROS node, and the ports that name its endpoint and its type."""
 
     name: str
     type: str

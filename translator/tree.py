@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from translator.catalog import PortModel
 
@@ -124,13 +124,6 @@ class Tree:
             depths.update((child, level + 1) for child in node.children)
         return deepest
 
-    def fresh_id(self) -> str:
-        """Returns a node id that the tree does not use."""
-        number = len(self.nodes) + 1
-        while f"n{number}" in self.nodes:
-            number += 1
-        return f"n{number}"
-
     def with_node(self, node: Node) -> Tree:
         """Returns the tree with the node added or replaced; its parent is not changed."""
         return replace(self, nodes={**self.nodes, node.id: node})
@@ -179,19 +172,6 @@ class Tree:
         drafts = tuple(draft for draft in self.drafts if draft != node_id)
         tree = replace(self, nodes=nodes, drafts=drafts)
         return tree.inserted(tree.nodes[node_id], parent=parent, index=index)
-
-    def renamed_type(self, old: str, new: str) -> Tree:
-        """Returns the tree with the type of all its nodes replaced, as when an action is renamed."""
-        return self._mapped(lambda node: replace(node, type=new) if node.type == old else node)
-
-    def retargeted(self, old: str, new: str) -> Tree:
-        """Returns the tree with all calls of one tree redirected to another, as when a tree is renamed."""
-        return self._mapped(
-            lambda node: replace(node, tree=new) if node.is_subtree and node.tree == old else node
-        )
-
-    def _mapped(self, change: Callable[[Node], Node]) -> Tree:
-        return replace(self, nodes={key: change(node) for key, node in self.nodes.items()})
 
 
 def pointer(text: str, port: str = "") -> str | None:

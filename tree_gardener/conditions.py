@@ -81,8 +81,9 @@ class Guard:
         if self.post is not None:
             self.run(node, self.post)
 
-    def halted(self, node: Node) -> None:
-        """Runs ``_onHalted`` after the node was halted."""
+    def stop(self, node: Node) -> None:
+        """Halts the node, and runs ``_onHalted`` afterwards."""
+        node.halt()
         if self.on_halted is not None:
             self.run(node, self.on_halted)
 

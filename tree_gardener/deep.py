@@ -8,10 +8,13 @@ from typing import Any, Final, TypeVar
 DEEP: Final = 150
 """Trees up to this depth are ticked directly, since Python's default recursion limit suffices for them."""
 
+DEEP_ASKING: Final = 50
+"""The same while nodes ask a debugger, which takes more calls for each level, and some of its own."""
+
 CALLS_ARE_FREE: Final[bool] = sys.version_info >= (3, 11)
 """Whether calls between Python functions need no space on the C stack."""
 
-_FRAMES_PER_LEVEL: Final = 6
+_FRAMES_PER_LEVEL: Final = 9
 _STACK_BYTES_PER_LEVEL: Final = 16 * 1024
 
 T = TypeVar("T")

@@ -17,6 +17,7 @@ from tree_gardener.node import Execute, Leaf, Node
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
 
 if TYPE_CHECKING:
+    from tree_gardener.debugging.wiring import Wiring
     from tree_gardener.tree import Tree
 
 Before = Callable[[Node], Status | None]
@@ -66,6 +67,7 @@ class Hooks:
         times_leaves: whether each leaf is also measured, for `Tree.slowest`.
         counts: the results of each node, in the order of the nodes, if they are counted.
         log: the uid and result of each tick of a node, in order, if they are logged.
+        wiring: which nodes ask a debugger round their ticks, if one is attached.
     """
 
     def __init__(self, tree: "Tree") -> None:
@@ -75,13 +77,18 @@ class Hooks:
         self.times_leaves = False
         self.counts: list[ResultCount] | None = None
         self.log: list[tuple[int, Status]] | None = None
+        self.wiring: Wiring | None = None
 
     def entry(self, node: Node, inner: Execute) -> Execute:
         """Returns the function that ticks a node together with its hooks."""
+        if self.has_debugger(node):
+            inner = node.execute_guarded
         if self.tree.node_times_s is not None or self.has_hook(node):
             inner = functools.partial(self.run, node, inner)
         elif self.marks_leaves and isinstance(node, Leaf):
             inner = self._timed_leaf(node, inner) if self.times_leaves else self._marked_leaf(node, inner)
+        if self.wiring is not None:
+            inner = self.wiring.entry(node, inner)
         if self.log is not None:
             inner = _logged(self.log, node.uid, inner)
         return inner if self.counts is None else _counted(self.counts[node.uid - 1], inner)
@@ -90,14 +97,19 @@ class Hooks:
         """Returns whether a hook runs round the ticks of a node."""
         return bool(self.hooks) and any(hook.uid in (None, node.uid) for hook in self.hooks)
 
+    def has_debugger(self, node: Node) -> bool:
+        """Returns whether a node, or one below it, asks a debugger round its ticks."""
+        return self.wiring is not None and self.wiring.reaches(node)
+
     def _marked_leaf(self, node: Node, inner: Execute) -> Execute:
         current, uid = self.tree.current, node.uid
 
         def execute() -> Status:
             current[0] = uid
-            status = inner()
-            current[0] = 0
-            return status
+            try:
+                return inner()
+            finally:
+                current[0] = 0
 
         return execute
 
@@ -108,9 +120,11 @@ class Hooks:
         def execute() -> Status:
             current[0] = uid
             start_s = clock()
-            status = inner()
+            try:
+                status = inner()
+            finally:
+                current[0] = 0
             duration_s = clock() - start_s
-            current[0] = 0
             if duration_s > tree.slowest[0]:
                 tree.slowest = (duration_s, uid)
             return status
@@ -153,14 +167,16 @@ class Hooks:
         if is_leaf:
             tree.current[0] = node.uid
         start_s = time.perf_counter()
-        status = inner()
+        try:
+            status = inner()
+        finally:
+            if is_leaf:
+                tree.current[0] = 0
         duration_s = time.perf_counter() - start_s
         if times is not None:
             times[node.uid] = times.get(node.uid, 0.0) + duration_s
-        if is_leaf:
-            tree.current[0] = 0
-            if self.times_leaves and duration_s > tree.slowest[0]:
-                tree.slowest = (duration_s, node.uid)
+        if is_leaf and self.times_leaves and duration_s > tree.slowest[0]:
+            tree.slowest = (duration_s, node.uid)
         return status
 
 

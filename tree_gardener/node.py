@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
 Execute = Callable[[], Status]
 Flash = tuple[int, Status]
-Mark = tuple["Node", Status, tuple[Flash, ...]]
-"""A report of results: they are flashes, as a whole, if the node's status is not this one after the tick."""
+Mark = tuple["Node", tuple[Flash, ...]]
+"""A report of results of a node and of nodes below it, all of which are IDLE if it is IDLE."""
 Marks = tuple[Mark, Mark, Mark]
 NO_PORTS: Final[Mapping[str, str]] = {}
 
@@ -57,7 +57,13 @@ class Instance:
         return "" if self.subtree is None else self.subtree.path
 
 
-class Node:
+class _Statuses:
+    """The statuses of a node, in front of all else: one line of the processor's cache holds them."""
+
+    __slots__ = ("reported", "status")
+
+
+class Node(_Statuses):
     """The base of all nodes.
 
     Attributes:
@@ -88,7 +94,7 @@ class Node:
             "manifest",
             "marks",
         ),
-        *("name", "parent", "ports", "reported", "status", "ticks", "tree", "type", "uid", "view"),
+        *("name", "parent", "ports", "ticks", "tree", "type", "uid", "view"),
     )
 
     KIND: ClassVar[Kind]
@@ -115,7 +121,7 @@ class Node:
         self.uid = 0
         self.parent: Node | None = None
         self.children: tuple[Node, ...] = ()
-        self.ticks: tuple[Execute, ...] = ()
+        self.ticks: list[Execute] = []
         self.status = IDLE
         self.guard: Guard | None = None
         self.journal: Recorder | None = None
@@ -187,20 +193,29 @@ class Node:
 
     def entry(self) -> Execute:
         """Returns the function that the parent calls to tick this node."""
-        return self.tree.entry_of(self, self.execute if self.guard is None else self._execute_guarded)
+        return self.tree.entry_of(self, self.execute if self.guard is None else self.execute_guarded)
 
     def link(self) -> None:
-        """Looks up how the children are ticked; called again after hooks were added or removed."""
-        self.ticks = tuple([child.entry() for child in self.children])
+        """Looks up how the children are ticked; called again after hooks were added or removed.
+
+        A node that is being ticked continues with the list that it has.
+        """
+        self.ticks = []
+        self.rewire()
+
+    def rewire(self) -> None:
+        """Looks up how the children are ticked, also for a tick of this node that is in progress."""
+        self.ticks[:] = [child.entry() for child in self.children]
 
     def prepare(self) -> None:
         """Initialises the node's state; called once, when the tree is complete."""
 
     def stop(self) -> None:
         """Halts the node as its parent does: its ``_onHalted`` runs afterwards."""
-        self.halt()
-        if self.guard is not None:
-            self.guard.halted(self)
+        if self.guard is None:
+            self.halt()
+        else:
+            self.guard.stop(self)
         if self.journal is not None and self.reported is not IDLE:
             self.journal.touched.append(self)
 
@@ -223,10 +238,11 @@ class Node:
         if self.journal is not None:
             self.journal.touched.append(self)
 
-    def _execute_guarded(self) -> Status:
+    def execute_guarded(self) -> Status:
         """Ticks a node that has pre- or post-conditions."""
         guard = self.guard
-        assert guard is not None
+        if guard is None:  # a debugger may still give it one
+            return self.execute()
         forced = guard.before(self)
         if forced is None:
             before = self.status
@@ -239,10 +255,19 @@ class Node:
                 self.status = self.status_within(before)
                 raise
             return status
-        if forced is SKIPPED:
+        return self.decided(forced)
+
+    def decided(self, status: Status) -> Status:
+        """Gives the node a result without a tick: a pre-condition or a debugger has decided it."""
+        if status is SKIPPED:
             return self.skipped()
-        guard.after(self, forced)
-        return self.complete(forced)
+        if status is RUNNING:
+            if self.status is not RUNNING:
+                self.start()
+            return RUNNING
+        if self.guard is not None:  # else a debugger has just given it up
+            self.guard.after(self, status)
+        return self.complete(status)
 
     def status_within(self, before: Status) -> Status:
         """Returns the status that the node had while it was ticked, before its result was set."""
@@ -362,10 +387,13 @@ class Decorator(Control):
     KIND = Kind.DECORATOR
 
     def link(self) -> None:
-        """Looks up how the child is ticked."""
-        self.quick = None
-        self.ticks = (self.children[0].entry(),)
+        """Looks up how the child is ticked; generated code is dropped."""
         self.child = self.children[0]
+        super().link()
+
+    def rewire(self) -> None:
+        """Looks up how the child is ticked, also for a tick of this node that is in progress."""
+        super().rewire()
         self.tick_child = self.ticks[0]
 
     def reset(self) -> None:

@@ -101,9 +101,9 @@ class Recorder:
         for node in self.tree.nodes:
             uid = node.uid
             node.marks = (
-                (node, SUCCESS, ((uid, SUCCESS),)),
-                (node, FAILURE, ((uid, FAILURE),)),
-                (node, SKIPPED, ((uid, SKIPPED),)),
+                (node, ((uid, SUCCESS),)),
+                (node, ((uid, FAILURE),)),
+                (node, ((uid, SKIPPED),)),
             )
             node.reported = IDLE
             node.journal = self
@@ -178,11 +178,11 @@ class Recorder:
         if is_disturbed:
             touched += nodes
         flashed: list[Flash] = []
-        for node, held, flashes in results:
-            if node.status is not held and not is_disturbed:
+        for node, flashes in results:
+            if node.status is IDLE and not is_disturbed:
                 flashed += flashes
                 continue
-            for flash in flashes:  # the node still has its result, or is RUNNING and each node below counts
+            for flash in flashes:  # each node may still have its result
                 below = nodes[flash[0] - 1]  # uids count from 1 in the order of the nodes
                 if below.status is flash[1]:
                     touched.append(below)

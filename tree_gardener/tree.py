@@ -11,11 +11,12 @@ from tree_gardener.actions import load_actions
 from tree_gardener.blackboard import Blackboard, Entry
 from tree_gardener.clock import Clock, SystemClock, Timers
 from tree_gardener.controls.custom import CustomControl
-from tree_gardener.deep import DEEP, call_deep
+from tree_gardener.debugging.agent import Agent
+from tree_gardener.debugging.wiring import Wiring
+from tree_gardener.deep import DEEP, DEEP_ASKING, call_deep
 from tree_gardener.enums import Enums, constants, types
 from tree_gardener.errors import LoadError, TickError, describe
 from tree_gardener.forest import Forest
-from tree_gardener.generated.generation import Generation
 from tree_gardener.hooks import After, Before, Hook, Hooks, ResultCount
 from tree_gardener.leaves.behaviour import BehaviourLeaf
 from tree_gardener.loader import Builder
@@ -24,6 +25,7 @@ from tree_gardener.observe import Observer, Recorder
 from tree_gardener.registry import build_registry
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SUCCESS, Status
 from tree_gardener.substitution import parse_rules
+from tree_gardener.ways import Ways
 
 T = TypeVar("T")
 
@@ -72,9 +74,7 @@ class Tree:
         self.node_times_s: dict[int, float] | None = None
         self._hooks = Hooks(self)
         self._recorder = Recorder(self)
-        self._generation = Generation(self, self._hooks, self._recorder)
-        self._is_plain = True
-        self._tick_root: Execute
+        self._ways = Ways(self, self._hooks, self._recorder)
         self._signal = threading.Event()
 
     # -- making -------------------------------------------------------------------------------------
@@ -223,7 +223,7 @@ class Tree:
 
     def _halt(self) -> None:
         if self._ended_tick != self.tick_number:
-            self._generation.doubt()  # a node halts the tree within its own tick
+            self._ways.generation.doubt()  # a node halts the tree within its own tick
         root = self.nodes[0]
         root.stop()
         for node in self.nodes:
@@ -271,12 +271,12 @@ class Tree:
         Raises:
             TickError: a node could not do its work.
         """
-        number = self.tick_number
-        if self._is_plain and self._ended_tick == number:
+        number, ways = self.tick_number, self._ways
+        if ways.is_plain and self._ended_tick == number:
             self.tick_number = number + 1
             if self._timer_heap:
                 self.timers.fire()
-            tick = self._tick_root
+            tick = ways.tick_root
             try:
                 status = tick()
             finally:
@@ -289,7 +289,7 @@ class Tree:
     def _tick_exactly_once(self) -> Status:
         self._begin()
         try:
-            return self._reset_root(self._tick_root())
+            return self._reset_root(self._ways.tick_root())
         finally:
             self._ended_tick = self.tick_number
 
@@ -304,9 +304,9 @@ class Tree:
     def _tick_once(self) -> Status:
         self._begin()
         try:
-            status = self._tick_root()
+            status = self._ways.tick_root()
             while status is RUNNING and self._woken():
-                status = self._tick_root()
+                status = self._ways.tick_root()
             return self._reset_root(status)
         finally:
             self._ended_tick = self.tick_number
@@ -354,15 +354,12 @@ class Tree:
 
     def _begin(self) -> None:
         if self._ended_tick != self.tick_number:
-            self._generation.doubt()  # a node ticks the tree within its own tick
+            self._ways.generation.doubt()  # a node ticks the tree within its own tick
         self.tick_number += 1
         self.slowest = (0.0, 0)
         if self.timers.heap:
             self.timers.fire()
-        if self._generation.queue:
-            self._generation.work()
-            if not self._generation.queue:
-                self._choose_way()
+        self._ways.work()
 
     def _woken(self) -> bool:
         """Returns whether the wake-up flag is set, and clears it."""
@@ -384,7 +381,7 @@ class Tree:
         return self._guarded_without_telling(function)
 
     def _guarded_without_telling(self, function: Callable[[], T]) -> T:
-        return call_deep(function, self.depth) if self.depth > DEEP else function()
+        return call_deep(function, self.depth) if self.depth > self._ways.deep else function()
 
     def warn(self, node: Node, message: str) -> None:
         """Reports a tolerated fault of a node, once."""
@@ -472,50 +469,47 @@ class Tree:
             self.link()
         return self._hooks.log
 
+    def debug(self, agent: Agent | None) -> None:
+        """Attaches a debugger, which nodes ask before and after their ticks; None detaches it.
+
+        The agent chooses the nodes with its `Wiring`, at any time, also within a tick.
+        """
+        if self._hooks.wiring is not None:
+            self._hooks.wiring.remove()
+        self._hooks.wiring = None if agent is None else Wiring(self, agent)
+        self._ways.deep = DEEP if agent is None else DEEP_ASKING
+        self.rewire()
+        if self._hooks.wiring is not None and agent is not None:
+            agent.attach(self._hooks.wiring)
+
+    @property
+    def is_ticking(self) -> bool:
+        """Whether a tick is in progress."""
+        return self._ended_tick != self.tick_number
+
+    def rewire(self) -> None:
+        """Looks up again how each node is ticked, also for a tick in progress."""
+        self._ways.rewire()
+
     def entry_of(self, node: Node, inner: Execute) -> Execute:
         """Returns the function that ticks a node together with its hooks; `inner` is the node's own."""
         return self._hooks.entry(node, inner)
 
     def link(self) -> None:
         """Looks up again how each node is ticked, after hooks or observers changed."""
-        for node in self.nodes:
-            node.link()
-        self._tick_root = self.nodes[0].entry()
-        self._generation.restart()
-        self._choose_way()
+        self._ways.link()
 
     def link_around(self, uid: int | None) -> None:
         """Looks up again how one node is ticked, or all (None), after a hook came or went."""
-        if uid is None or not 0 < uid <= len(self.nodes):
-            self.link()
-            return
-        node = self.nodes[uid - 1]
-        if node.parent is None:
-            self._tick_root = node.entry()
-        else:
-            node.parent.link()
-        self._generation.drop(node)
-        self._choose_way()
+        self._ways.link_around(uid)
 
     def generated_source(self) -> str:
         """Returns the Python code that is generated for ticks, for inspection; "" if there is none.
 
         What is still to be generated is generated now. Call it between two ticks.
         """
-        self._generation.finish()
-        self._choose_way()
-        return self._generation.source()
+        return self._ways.source()
 
     def generate_code(self, *, on: bool) -> None:
         """Switches generated code on or off, from the next tick on; see `tree_gardener.generated`."""
-        self._generation.enabled = on
-        self.link()
-
-    def _choose_way(self) -> None:
-        """Chooses the shorter way to tick if nothing is to be done round the tick."""
-        self._is_plain = not (
-            self._recorder.observers
-            or self.depth > DEEP
-            or self._hooks.times_leaves
-            or self._generation.queue
-        )
+        self._ways.generate(on=on)

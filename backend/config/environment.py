@@ -79,6 +79,14 @@ class Environment(TeamSettings):
         default=False,
         description="Local mode in a container whose port is published on the host's loopback only.",
     )
+    max_evaluations: int = Field(
+        default=1, ge=1, description="How many evaluations may run at once; further ones wait."
+    )
+    evaluation_hours_a_day: float = Field(
+        default=0,
+        ge=0,
+        description="Processor hours that the evaluations of one user may take in 24 hours. 0: no limit.",
+    )
     session_start_timeout_s: float = Field(
         default=30.0, gt=0, description="How long an executor may take to report that it is ready."
     )

@@ -52,6 +52,7 @@ INSTALLED_APPS = [
     "backend.projects",
     "backend.sessions",
     "backend.runs",
+    "backend.evaluations",
 ]
 LOCAL_URLS, TEAM_URLS = "backend.config.urls", "backend.config.urls_team"
 LOCAL_MIDDLEWARE = [
@@ -235,6 +236,8 @@ SPECTACULAR_SETTINGS: dict[str, Any] = {
         "AccountRole": ["local", "administrator", "teacher", "user", "guest"],
         "ProjectRole": ["viewer", "editor", "owner"],
         "SharedRole": ["viewer", "editor"],
+        "EvaluationState": "backend.evaluations.choices.JobState",
+        "RunOutcome": "backend.evaluations.choices.Result",
     },
     "POSTPROCESSING_HOOKS": [
         "drf_spectacular.hooks.postprocess_schema_enums",

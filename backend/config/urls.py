@@ -13,6 +13,7 @@ api: list[URLPattern | URLResolver] = [
     path("", include("backend.catalog.urls")),
     path("", include("backend.sessions.urls")),
     path("", include("backend.runs.urls")),
+    path("", include("backend.evaluations.urls")),
     path("", include("backend.language.urls")),
     path("", include("backend.accounts.api.urls")),
     path("openapi.json", OpenApi.as_view()),

@@ -28,6 +28,7 @@ from backend.runs import queries, writes
 from backend.runs.facts import join_newest
 from backend.runs.length import DamagedError
 from backend.runs.pull import LAST
+from backend.sessions.choices import SessionKind
 from backend.sessions.launchers.process import RUNS
 from backend.sessions.models import LIVE_STATES, Session
 from backend.sessions.writes import launcher, manager_token
@@ -122,7 +123,9 @@ def _keep(folder: Path) -> None:
 
 def _project(session: Session) -> Project | None:
     """Returns the project of a session; None if its last run is not to be kept."""
-    if not environment().keep_last_runs or not session.user.is_active:
+    if not environment().keep_last_runs or session.kind != SessionKind.INTERACTIVE:
+        return None
+    if not session.user.is_active:
         return None
     with suppress(StudioError):
         return projects.project(session.project_id, user=session.user, need=Need.RUN)

@@ -203,7 +203,7 @@ def _store(file: IO[bytes], project: Project, keeper: User, values: dict[str, An
 
 
 def _lock(keeper: User) -> None:
-    """Serialises the writes of one user, so that the quota counts each of several at the same time."""
+    """Serialises the writes of one user, so that simultaneous ones cannot exceed the quota together."""
     transaction_lock(f"runs of {keeper.pk}")
 
 

@@ -5,6 +5,13 @@ from __future__ import annotations
 from django.db import models
 
 
+class SessionKind(models.TextChoices):
+    """The purpose of a session: a user works in it, or evaluations run in it without a page."""
+
+    INTERACTIVE = "interactive"
+    EVALUATION = "evaluation"
+
+
 class SessionState(models.TextChoices):
     """The state of a session: `queued` until a place is free, then `starting`, then `ready` or `failed`.
 

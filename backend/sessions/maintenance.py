@@ -26,7 +26,7 @@ from django.utils import timezone
 from backend.config.environment import environment
 from backend.projects.api.open_pages import pages
 from backend.sessions import drain, writes
-from backend.sessions.choices import SessionState
+from backend.sessions.choices import SessionKind, SessionState
 from backend.sessions.lease import CARE, holder, is_alone
 from backend.sessions.models import Session
 from backend.sessions.signals import sessions_maintained
@@ -212,5 +212,7 @@ def _unused() -> list[tuple[Session, timedelta]]:
     if not limit:
         return []
     now = timezone.now()
-    rows = Session.objects.filter(state=SessionState.READY, used_at__lt=now - limit + WARNING)
+    rows = Session.objects.filter(
+        state=SessionState.READY, kind=SessionKind.INTERACTIVE, used_at__lt=now - limit + WARNING
+    )
     return [(session, limit - (now - (session.used_at or now))) for session in rows]

@@ -8,7 +8,7 @@ from django.conf import settings
 from django.db import models
 from django.db.models import Q
 
-from backend.sessions.choices import SessionState
+from backend.sessions.choices import SessionKind, SessionState
 
 RUNNING_STATES = (SessionState.STARTING, SessionState.READY)
 LIVE_STATES = (SessionState.QUEUED, *RUNNING_STATES)
@@ -32,12 +32,13 @@ class Lease(models.Model):
 class Session(models.Model):
     """One executor: a manager with its world and its application.
 
-    A project has at most one live session for each user.
+    A project has at most one live session of each kind for each user.
     """
 
     id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
     project = models.ForeignKey("projects.Project", on_delete=models.CASCADE, related_name="sessions")
     user = models.ForeignKey(settings.AUTH_USER_MODEL, on_delete=models.CASCADE)
+    kind = models.CharField(max_length=16, choices=SessionKind.choices, default=SessionKind.INTERACTIVE)
     state = models.CharField(max_length=16, choices=SessionState.choices, default=SessionState.STARTING)
     launcher = models.CharField(max_length=32)
     launcher_state = models.JSONField(default=dict)
@@ -51,7 +52,9 @@ class Session(models.Model):
     class Meta:
         constraints = [
             models.UniqueConstraint(
-                fields=["project", "user"], condition=Q(state__in=LIVE_STATES), name="session_live_unique"
+                fields=["project", "user", "kind"],
+                condition=Q(state__in=LIVE_STATES),
+                name="session_live_unique",
             ),
             models.UniqueConstraint(
                 fields=["ros_domain_id"], condition=Q(state__in=LIVE_STATES), name="session_domain_unique"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from django.db.models import Count
 
 from backend.core.problems import NotFoundError
-from backend.sessions.choices import SessionState
+from backend.sessions.choices import SessionKind, SessionState
 from backend.sessions.models import LIVE_STATES, Session
 
 if TYPE_CHECKING:
@@ -17,16 +17,19 @@ if TYPE_CHECKING:
 
 
 def session(session_id: UUID, *, user: User) -> Session:
-    """Returns the session, if it belongs to this user."""
-    found = Session.objects.filter(id=session_id, user=user).first()
+    """Returns the session, if this user works in it."""
+    found = Session.objects.filter(id=session_id, user=user, kind=SessionKind.INTERACTIVE).first()
     if found is None:
         raise NotFoundError("There is no such session.")
     return found
 
 
-def live_session(project_id: UUID, *, user: User) -> Session | None:
+def live_session(
+    project_id: UUID, *, user: User, kind: SessionKind = SessionKind.INTERACTIVE
+) -> Session | None:
     """Returns the session that runs this project for this user, or None."""
-    return Session.objects.filter(project_id=project_id, user=user, state__in=LIVE_STATES).first()
+    rows = Session.objects.filter(project_id=project_id, user=user, kind=kind, state__in=LIVE_STATES)
+    return rows.first()
 
 
 def live_sessions() -> list[Session]:
@@ -38,7 +41,9 @@ def position(session: Session) -> int | None:
     """Returns the position of a session in the queue, from 1; None if it does not wait."""
     if session.state != SessionState.QUEUED:
         return None
-    earlier = Session.objects.filter(state=SessionState.QUEUED, created_at__lt=session.created_at)
+    earlier = Session.objects.filter(
+        state=SessionState.QUEUED, kind=SessionKind.INTERACTIVE, created_at__lt=session.created_at
+    )
     return earlier.count() + 1
 
 

@@ -23,7 +23,7 @@ from backend.core.problems import NotFoundError, StudioError
 from backend.projects.storage import queries as projects
 from backend.projects.storage.access import Need
 from backend.sessions import drain, queries
-from backend.sessions.choices import SessionState
+from backend.sessions.choices import SessionKind, SessionState
 from backend.sessions.errors import HostFullError, LaunchError
 from backend.sessions.launchers.base import Launcher, Spec
 from backend.sessions.launchers.docker import DockerLauncher
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from uuid import UUID
 
     from backend.accounts.models import User
+    from backend.projects.models import Project
 
 log = logging.getLogger(__name__)
 
@@ -44,6 +45,8 @@ ROS_DOMAINS: Final = range(1, 102)
 DOMAIN_ATTEMPTS: Final = 3
 # A hanging executor does not end on request.
 HUNG_STOP_TIMEOUT_S: Final = 1.0
+KEPT_PLACES: Final = 1
+"""Places that evaluations leave free for users who work."""
 PLACES: Final = "places of sessions"
 """The name of the lock for counting the places of sessions and taking one."""
 _launches: Final[dict[UUID, Future[None]]] = {}
@@ -84,14 +87,43 @@ def start_session(project_id: UUID, *, acting_user: User) -> Session:
     if running is not None and refresh(running).state in LIVE_STATES:
         return running
     drain.require_open()
+    return _start(project, SessionKind.INTERACTIVE, acting_user)
+
+
+def start_evaluation_session(project_id: UUID, *, acting_user: User) -> Session:
+    """Starts an executor for evaluations of the project, or returns the one that already runs or starts.
+
+    Raises:
+        HostFullError: no place is free beside the one that is kept for users who work.
+        DrainingError: the server is about to be upgraded.
+    """
+    project = projects.project(project_id, user=acting_user, need=Need.RUN)
+    running = queries.live_session(project_id, user=acting_user, kind=SessionKind.EVALUATION)
+    if running is not None and refresh(running).state in LIVE_STATES:
+        return running
+    drain.require_open()
+    return _start(project, SessionKind.EVALUATION, acting_user)
+
+
+def has_room_for_evaluations() -> bool:
+    """Returns whether this server has, when nobody works, a place for an evaluation."""
+    limit = environment().max_sessions
+    return not limit or limit > KEPT_PLACES
+
+
+def _start(project: Project, kind: SessionKind, acting_user: User) -> Session:
+    is_evaluation = kind == SessionKind.EVALUATION
     for attempt in range(DOMAIN_ATTEMPTS):
         try:
             with transaction.atomic():
                 transaction_lock(PLACES)
-                has_place = places_left(LIVE_STATES) > 0
+                has_place = places_left(LIVE_STATES) > (KEPT_PLACES if is_evaluation else 0)
+                if is_evaluation and not has_place:
+                    raise HostFullError("All places of this server are taken, or kept for users who work.")
                 session = Session.objects.create(
                     project=project,
                     user=acting_user,
+                    kind=kind,
                     launcher=launcher().name,
                     state=SessionState.STARTING if has_place else SessionState.QUEUED,
                     ros_domain_id=_free_domain() if has_place else None,
@@ -100,7 +132,7 @@ def start_session(project_id: UUID, *, acting_user: User) -> Session:
             break
         except IntegrityError:
             # Another request was faster: it has made this session, or has only taken the domain.
-            running = queries.live_session(project_id, user=acting_user)
+            running = queries.live_session(project.id, user=acting_user, kind=kind)
             if running is not None:
                 return running
             if attempt == DOMAIN_ATTEMPTS - 1:
@@ -120,11 +152,13 @@ def places_left(states: Iterable[SessionState] = RUNNING_STATES) -> int:
 def start_queued() -> int:
     """Starts waiting sessions, the oldest first, while there are places; returns their number.
 
+    Sessions of users who work go before those of evaluations.
+
     Several web servers may call it at the same time: each session is started by one of them.
     """
     if drain.current() is not None:
         return 0
-    waiting = Session.objects.filter(state=SessionState.QUEUED).order_by("created_at")
+    waiting = Session.objects.filter(state=SessionState.QUEUED).order_by("-kind", "created_at")
     started = 0
     for session in waiting[: max(0, places_left())]:
         if _takes_place(session):
@@ -140,7 +174,8 @@ def _takes_place(session: Session) -> bool:
     """
     with suppress(IntegrityError, HostFullError), transaction.atomic():
         transaction_lock(PLACES)
-        if places_left() > 0:
+        kept = KEPT_PLACES if session.kind == SessionKind.EVALUATION else 0
+        if places_left() > kept:
             place = {"state": SessionState.STARTING, "ros_domain_id": _free_domain()}
             return _moved(session, SessionState.QUEUED, **place)
     return False

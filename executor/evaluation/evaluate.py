@@ -17,6 +17,7 @@ from executor.ros.environment import use_lockstep_environment
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
+    from executor.evaluation.cluster.ray_pool import RayPool
     from executor.evaluation.outcome import Outcome
     from executor.evaluation.plan import Plan
     from executor.evaluation.pool.worker import Done
@@ -136,11 +137,12 @@ def load_libraries() -> None:
         raise ThreadsError(f"a library has started threads, {count} in all; workers cannot be forked")
 
 
-def evaluate(
+def evaluate(  # noqa: PLR0913 - an evaluation, where it runs, and who listens
     plan: Plan,
     seeds: Sequence[int],
     *,
     workers: int | None = None,
+    cluster: str | None = None,
     kept: Iterable[Outcome] = (),
     told: Callable[[Progress, Done | None], None] = lambda _p, _d: None,
 ) -> Progress:
@@ -153,14 +155,17 @@ def evaluate(
         plan: the evaluation.
         seeds: the seeds, in order.
         workers: the number of workers; without it, one a processor.
+        cluster: the address of a Ray cluster that runs them in place of this machine.
         kept: outcomes that are known already.
         told: called at the start, and with each run that has ended.
 
     Raises:
         ThreadsError: this process has several threads.
+        ClusterError: there is no such cluster, or it cannot run the evaluation.
         Interrupted: Ctrl+C ended it.
     """
-    load_libraries()
+    if cluster is None:
+        load_libraries()
     count = workers or len(os.sched_getaffinity(0))
     evaluation = plan.evaluation
     known = {outcome.seed: outcome for outcome in kept if outcome.seed in set(seeds)}
@@ -194,14 +199,33 @@ def evaluate(
         return not is_over
 
     if left and not end():
-        with Supervisor(
-            lambda seed: run_cell(plan, seed),
-            min(count, len(left)),
-            first_limit_s=max(FIRST_LIMIT_S, 2 * evaluation.duration_s),
-            scale=lambda outcome: max(1.0, evaluation.duration_s / max(outcome.end_s, 0.1)),
-        ) as supervisor:
+        pool = supervisor_of(plan, min(count, len(left))) if cluster is None else _cluster_of(plan, cluster)
+        with pool:
             try:
-                supervisor.run(left, hear)
+                pool.run(left, hear)
             except KeyboardInterrupt:
                 raise Interrupted(progress) from None
     return progress
+
+
+def supervisor_of(plan: Plan, workers: int) -> Supervisor:
+    """Returns the pool of this machine."""
+    return Supervisor(
+        lambda seed: run_cell(plan, seed), workers, first_limit_s=_first_limit_s(plan), scale=_scale_of(plan)
+    )
+
+
+def _cluster_of(plan: Plan, address: str) -> RayPool:
+    from executor.evaluation.cluster.parcel import pack  # noqa: PLC0415 - it needs this module
+    from executor.evaluation.cluster.ray_pool import RayPool  # noqa: PLC0415 - as above
+
+    return RayPool(pack(plan), address, first_limit_s=_first_limit_s(plan), scale=_scale_of(plan))
+
+
+def _first_limit_s(plan: Plan) -> float:
+    return max(FIRST_LIMIT_S, 2 * plan.evaluation.duration_s)
+
+
+def _scale_of(plan: Plan) -> Callable[[Outcome], float]:
+    """Returns by what the cost of a run is multiplied that ended early."""
+    return lambda outcome: max(1.0, plan.evaluation.duration_s / max(outcome.end_s, 0.1))

@@ -5,9 +5,13 @@ from __future__ import annotations
 import hashlib
 import json
 import platform
+import sys
 from importlib import metadata
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 PACKAGES: Final = ("bt-studio", "numpy", "pybullet", "py-trees", "opencv-python-headless")
 LIBRARIES: Final = ("libgallium", "libLLVM", "libEGL_mesa", "swrast_dri")
@@ -19,7 +23,7 @@ def fingerprint() -> dict[str, str]:
     found = {"processor": _digest(_processor_flags()), "machine": platform.machine()}
     found["python"] = platform.python_version()
     found["drawing"] = _digest(",".join(_libraries()))
-    found["packages"] = _digest("\n".join(sorted(f"{d.name}=={d.version}" for d in metadata.distributions())))
+    found["packages"] = _digest("\n".join(sorted(f"{d.name}=={d.version}" for d in _installed())))
     for name in PACKAGES:
         try:
             found[name] = metadata.version(name)
@@ -36,6 +40,11 @@ def differences(mine: dict[str, str], other: dict[str, str]) -> list[str]:
         for name in names
         if mine.get(name) != other.get(name)
     ]
+
+
+def _installed() -> Iterable[metadata.Distribution]:
+    """Returns the installed packages, without those that Ray carries along when it is loaded."""
+    return metadata.distributions(path=[path for path in sys.path if "thirdparty_files" not in path])
 
 
 def _digest(text: str) -> str:

@@ -40,7 +40,7 @@ class Plan:
     """An evaluation of a project, read and checked.
 
     `configs` are those of the universe's robots; `judged_by` names the project that the evaluation is of, if
-    it is another one.
+    it is another one, and `origin` is the project that it was read with.
     """
 
     project: Project
@@ -52,6 +52,7 @@ class Plan:
     to_the_end: bool = False
     sealed: bool = False
     judged_by: str | None = None
+    origin: Project | None = None
 
     @property
     def file(self) -> str:
@@ -68,7 +69,7 @@ class Plan:
         errors = errors_in(check(project))
         if errors:
             raise TranslatorError(errors)
-        other = replace(self, project=project)
+        other = replace(self, project=project, origin=self.origin or self.project)
         known = targets(self.universe, self.configs[0] if self.configs else None, project)
         found, problems = resolve(self.evaluation, known, self.universe, lambda _: (1, 1))
         if problems:

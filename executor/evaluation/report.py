@@ -66,7 +66,7 @@ def _hash(text: str) -> str:
 
 def report_data(  # noqa: PLR0913 - the parts of the report
     summary: Summary,
-    universe: Universe,
+    universe: Universe | None,
     *,
     project: str,
     path: str,
@@ -80,7 +80,8 @@ def report_data(  # noqa: PLR0913 - the parts of the report
 
     Args:
         summary: the results.
-        universe: the universe, as written; its still things are the plan of the world.
+        universe: the universe, as written; its still things are the plan of the world. Without it the
+            caller adds the plan.
         project: the name of the project.
         path: the project, as it was given on the command line.
         evaluation: the name of the evaluation.
@@ -128,7 +129,7 @@ def report_data(  # noqa: PLR0913 - the parts of the report
             }
             for outcome in summary.worst()
         ],
-        "plan": plan_of(universe),
+        "plan": {} if universe is None else plan_of(universe),
         "fingerprints": list(fingerprints),
     }
 

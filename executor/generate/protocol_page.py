@@ -159,6 +159,7 @@ def _type_name(kind: Any) -> str:
         "executor.messages.",
         "executor.command_messages.",
         "executor.stream_messages.",
+        "executor.evaluation_events.",
         "typing.",
         "msgspec.",
     ):

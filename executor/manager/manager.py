@@ -63,6 +63,14 @@ GOODBYE_S: Final = 1.0
 LAST_DOMAIN_ID: Final = 100
 LARGEST_DOMAIN_ID: Final = 232
 # Sharing a small picture between threads costs more than it gains, and sessions share one machine.
+SINGLE_THREADED: Final = {
+    "PYTHONHASHSEED": "0",
+    "OPENBLAS_NUM_THREADS": "1",
+    "OMP_NUM_THREADS": "1",
+    "MKL_NUM_THREADS": "1",
+    "LP_NUM_THREADS": "0",
+}
+"""Variables of the process of an evaluation: it forks its runs, and equal seeds are equal runs."""
 FEW_THREADS: Final = {"OPENCV_FOR_THREADS_NUM": "1", "LP_NUM_THREADS": "2"}
 
 
@@ -138,6 +146,11 @@ def session_programs(domain_id: int) -> dict[Kind, Program]:
         "world": Program((sys.executable, "-m", "executor.world.process"), environment),
         "application": Program((sys.executable, "-m", "executor.application.process"), environment, limits),
         "recorder": Program((sys.executable, "-m", "executor.recorder.process"), link),
+        "evaluation": Program(
+            (sys.executable, "-m", "executor.evaluation.served.process"),
+            dict(SINGLE_THREADED),
+            Limits(file_bytes=limits.file_bytes),
+        ),
     }
 
 

@@ -234,7 +234,7 @@ class RecorderProcess:
             self._lose(source)
 
     def _take_rest(self) -> list[_Early]:
-        """Takes what was sent before a run begins: of the one that ends, or already of that one."""
+        """Takes the messages that came before a run begins: of the previous run or of the new one."""
         taken: list[_Early] = []
         for source in list(self._sources.values()):
             number = source.connection.fileno()

@@ -26,6 +26,7 @@ from executor.recorder_messages import Recorded
 from executor.session.hangs.vitals import Vitals
 
 if TYPE_CHECKING:
+    from executor.evaluation_messages import FromEvaluation
     from executor.recorder_messages import FromRecorder
     from executor.session.events import Kind
 
@@ -61,7 +62,7 @@ class Child:
         self.vitals = Vitals(now_s)
         self.hang = ""
         self.was_inspected = False
-        self._said: dict[type[Struct], FromWorld | FromApplication | FromRecorder] = {}
+        self._said: dict[type[Struct], FromWorld | FromApplication | FromRecorder | FromEvaluation] = {}
         self._answers: dict[str, Answer | None] = {}
 
     @property
@@ -107,7 +108,7 @@ class Child:
         """Returns the answer to a request of the session itself; None if it has not arrived yet."""
         return self._answers.get(token)
 
-    def note(self, message: FromWorld | FromApplication | FromRecorder) -> None:
+    def note(self, message: FromWorld | FromApplication | FromRecorder | FromEvaluation) -> None:
         """Notes a message: updates the signs of life, and stores the last message of each type."""
         self.vitals.heard(from_main=not isinstance(message, Beat | Log))
         if isinstance(message, Beat):

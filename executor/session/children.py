@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from executor.child_messages import Request, ToApplication, ToWorld
+    from executor.evaluation_messages import ToEvaluation
     from executor.recorder_messages import ReadSegment, ToRecorder
     from executor.session.events import ChildExited, ChildLooked, ChildSaid, ChildTraced, Effect, Kind
 
@@ -85,6 +86,10 @@ class Children:
         """Sends a message to the recorder, if there is one."""
         self._tell("recorder", message)
 
+    def tell_evaluation(self, message: ToEvaluation) -> None:
+        """Sends a message to the process of an evaluation, if there is one."""
+        self._tell("evaluation", message)
+
     def ask(self, child: Child, message: Request | ReadSegment, token: str) -> None:
         """Sends a request to a child; its answer will have the same token."""
         message.request = token
@@ -121,6 +126,6 @@ class Children:
         else:
             self._effect(Kill(kind, child.number))
 
-    def _tell(self, kind: Kind, message: ToWorld | ToApplication | ToRecorder) -> None:
+    def _tell(self, kind: Kind, message: ToWorld | ToApplication | ToRecorder | ToEvaluation) -> None:
         if kind in self.living:
             self._effect(Tell(kind, self.living[kind].number, message))

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
         ToApplication,
         ToWorld,
     )
+    from executor.evaluation_messages import FromEvaluation, ToEvaluation
     from executor.launching.model import NodeSpec
     from executor.recorder_messages import FromRecorder, ToRecorder
     from executor.universes.document import Problem
@@ -51,7 +52,7 @@ __all__ = [
     "Unpacked",
 ]
 
-Kind = Literal["world", "application", "node", "recorder"]
+Kind = Literal["world", "application", "node", "recorder", "evaluation"]
 """Kind of a child process; `node` is an extra node of the launch files."""
 
 
@@ -110,7 +111,7 @@ class ChildSaid:
 
     kind: Kind
     number: int
-    message: FromWorld | FromApplication | FromRecorder
+    message: FromWorld | FromApplication | FromRecorder | FromEvaluation
 
 
 @dataclass(frozen=True)
@@ -231,7 +232,7 @@ class Tell:
 
     kind: Kind
     number: int
-    message: ToWorld | ToApplication | ToRecorder
+    message: ToWorld | ToApplication | ToRecorder | ToEvaluation
 
 
 @dataclass(frozen=True)

@@ -177,6 +177,10 @@ def _flag(stage: Stage, event: CommandCame, data: messages.Flag) -> None:
         stage.output.refuse(event, "not_recorded", "There is no recording to mark.", "Press Run first.")
 
 
+def _evaluate(stage: Stage, event: CommandCame, data: messages.Evaluate) -> None:
+    stage.evaluating.begin(event, data)
+
+
 def _take_over(stage: Stage, event: CommandCame, _: Struct) -> None:
     for client in stage.clients.take_over(event.client):
         stage.introspect(client)
@@ -214,6 +218,7 @@ IMMEDIATE: Final[dict[str, Callable[[Stage, CommandCame], None]]] = {
     "teleop": _typed(messages.Teleop, _teleop),
     "read_recording": _typed(messages.ReadRecording, _read_recording),
     "flag": _typed(messages.Flag, _flag),
+    "evaluate": _typed(messages.Evaluate, _evaluate),
     "take_over": _typed(messages.Empty, _take_over),
     "ping": _typed(messages.Empty, _ping),
 }
@@ -233,6 +238,7 @@ ANSWER_LATER: Final = frozenset(
         "restart_node",
         "read_recording",
         "flag",
+        "evaluate",
     }
 )
 """Commands that are not acknowledged immediately: the handler or a child answers later."""

@@ -129,6 +129,9 @@ TABLE: Final[dict[str, Row]] = {
         ANY, "Reads a part of a recording; it comes as a frame `recording`.", for_viewers=True
     ),
     "flag": _act(WORLD_UP, "Marks the present moment of the recording."),
+    "evaluate": _act(
+        ANY, "Runs seeds of an evaluation beside the ladder; answers with `evaluation_` events."
+    ),
     "take_over": _act(ANY, "Becomes the driver; the last driver becomes a viewer.", for_viewers=True),
     "ping": _act(
         ANY, "Is answered at once; no answer for 3 s means that the manager hangs.", for_viewers=True

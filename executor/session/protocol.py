@@ -18,6 +18,7 @@ from executor.child_messages import Fault, Finished
 from executor.session import child_events, child_exits, immediate, steps, streaming
 from executor.session.children import Children
 from executor.session.clients import Clients
+from executor.session.evaluation.evaluating import Evaluating
 from executor.session.events import (
     ChildExited,
     ChildLooked,
@@ -87,6 +88,7 @@ class Session:
         self.run = LastRun()
         self.recording = Recording(self)
         self.output.record = self.recording.tell
+        self.evaluating = Evaluating(self)
         self.sim_time_s = 0.0
         self._job: _Job | None = None
         self._archives = 0
@@ -218,6 +220,8 @@ class Session:
             self.nodes.exited(self, event)
         elif event.kind == "recorder":
             self.recording.exited(event)
+        elif event.kind == "evaluation":
+            self.evaluating.exited(event)
         else:
             child_exits.exited(self, event)
 
@@ -227,6 +231,9 @@ class Session:
             return
         if event.kind == "recorder":
             self.recording.said(event)
+            return
+        if event.kind == "evaluation":
+            self.evaluating.said(event)
             return
         child = self.children.of(event)
         if child is None:

@@ -52,6 +52,11 @@ class Recording:
         if self.run:
             self._begin_run()
 
+    @property
+    def folder(self) -> str:
+        """The folder of the recordings; "" if nothing is recorded."""
+        return self._folder
+
     def begin(self, *, resets: bool = False) -> None:
         """Begins the recording of another run; with `resets` in a world that was reset just now."""
         if not self._folder:

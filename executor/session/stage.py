@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from executor import messages
     from executor.session.children import Children
     from executor.session.clients import Clients
+    from executor.session.evaluation.evaluating import Evaluating
     from executor.session.events import Unpacked
     from executor.session.ladder import State
     from executor.session.launch_nodes import LaunchNodes
@@ -71,6 +72,7 @@ class Stage(Protocol):
     nodes: LaunchNodes
     output: Output
     recording: Recording
+    evaluating: Evaluating
     run: LastRun
     now_s: float
     sim_time_s: float

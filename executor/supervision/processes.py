@@ -20,6 +20,7 @@ from executor.child_messages import (
     ToApplication,
     ToWorld,
 )
+from executor.evaluation_messages import FromEvaluation, ToEvaluation
 from executor.recorder_messages import FromRecorder, ToRecorder
 from executor.supervision.channel import AsyncChannel, ChannelClosed, ChannelError, socket_pair
 from executor.supervision.confine import INTERRUPT_SIGNAL, PARENT_VARIABLE
@@ -33,8 +34,8 @@ if TYPE_CHECKING:
 
 __all__ = ["ChildProcess", "Limits", "Program"]
 
-Said = FromWorld | FromApplication | FromRecorder
-Told = ToWorld | ToApplication | ToRecorder
+Said = FromWorld | FromApplication | FromRecorder | FromEvaluation
+Told = ToWorld | ToApplication | ToRecorder | ToEvaluation
 Decode = Callable[[bytes], Said]
 
 MARK: Final = "BT_STUDIO_CHILD"

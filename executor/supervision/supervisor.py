@@ -13,6 +13,7 @@ import psutil
 
 from executor import child_messages
 from executor.child_messages import Frame, decode_from_application, decode_from_world
+from executor.evaluation_messages import decode_from_evaluation
 from executor.recorder_messages import decode_from_recorder
 from executor.session.events import (
     ChildExited,
@@ -46,6 +47,7 @@ _DECODE: Final[dict[Kind, Decode]] = {
     "world": decode_from_world,
     "application": decode_from_application,
     "recorder": decode_from_recorder,
+    "evaluation": decode_from_evaluation,
 }
 
 

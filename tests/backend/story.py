@@ -12,6 +12,10 @@ import zipfile
 
 from django.core.files.uploadedfile import SimpleUploadedFile
 
+from backend.evaluations import writes
+from backend.evaluations.choices import JobState
+from backend.evaluations.models import Evaluation
+from tests.backend.evaluations.conftest import ROOM, begin, done, store
 from tests.executor.recorder.outside.logs import SAMPLES
 
 FORWARD = '''"""Drives ahead."""
@@ -152,6 +156,7 @@ def play(story, teacher, student, stranger, guest):
     _history(story, teacher, one)
     _people(story, teacher, student, one, guest)
     _run(story, teacher, one)
+    _evaluate(story, teacher, one)
     _tools(story, teacher)
     _end(story, teacher, student, one)
 
@@ -264,6 +269,33 @@ def _run(story, teacher, one):
     opened = story.ask(teacher, "POST", "runs/logs?filename=patrol.btlog", data=log, status=201)
     story.ask(teacher, "DELETE", f"runs/{opened['id']}", status=204)
     story.ask(teacher, "DELETE", f"sessions/{session['id']}", status=204)
+
+
+def _evaluate(story, teacher, one):
+    """An evaluation of which one run is done."""
+    file = {"path": "evaluations/room.yaml", "base_revision": 0, "content": ROOM.decode()}
+    story.ask(teacher, "POST", f"{one}/changes", {"message": "Evaluate", "files": [file]})
+    of_room = f"{one}/evaluations"
+    made = story.ask(teacher, "POST", of_room, {"name": "room", "runs": 2}, status=201)
+    found = Evaluation.objects.select_related("project").get(id=made["id"])
+    begin(found, 2)
+    store(found, done(0, wanted=2))
+    own = f"{of_room}/{made['id']}"
+    story.ask(teacher, "GET", of_room)
+    story.ask(teacher, "GET", own)
+    story.ask(teacher, "GET", f"{own}/outcomes")
+    story.ask(teacher, "GET", f"{own}/outcomes/0")
+    story.ask(teacher, "GET", f"{own}/runs.jsonl")
+    story.ask(teacher, "GET", f"{own}/report.html")
+    replay = story.ask(teacher, "POST", f"{own}/replays", {"revision": found.revision, "seed": 0}, status=201)
+    story.ask(teacher, "GET", f"{own}/replays/{replay['id']}")
+    story.ask(teacher, "POST", f"{own}/cancel")
+    story.ask(teacher, "POST", f"{own}/compare", {"revision": found.revision - 1})
+    story.ask(teacher, "POST", f"{own}/resume", status=409)
+    writes.finish(Evaluation.objects.get(id=made["id"]), JobState.CANCELLED)
+    story.ask(teacher, "POST", f"{own}/resume")
+    story.ask(teacher, "GET", f"{own}/comparison")
+    story.ask(teacher, "DELETE", own, status=204)
 
 
 def _tools(story, teacher):

@@ -11,6 +11,7 @@ import pytest
 
 from backend.config import examples
 from backend.config.schema_view import document
+from backend.evaluations import views
 from backend.language import ruff
 from backend.language import views as language
 from backend.runs import logs, views_mine
@@ -34,6 +35,7 @@ def told(person, stranger, manager, monkeypatch):  # noqa: F811
     monkeypatch.setattr(session_writes, "workers", type("Idle", (), {"submit": lambda *_: None}))
     monkeypatch.setattr(run_writes, "live_session", lambda *_, **__: manager)
     monkeypatch.setattr(run_writes, "manager_token", lambda _: TOKEN)
+    monkeypatch.setattr(views, "round_soon", lambda: None)
     # A team's server reads logs and checks Python in containers.
     for module in (logs, views_mine):
         monkeypatch.setattr(module, "require_converter", lambda: None)

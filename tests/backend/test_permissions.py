@@ -14,6 +14,8 @@ from backend.accounts import groups, invitations
 from backend.accounts.models import GroupMember
 from backend.catalog import queries
 from backend.config.schema_view import document
+from backend.evaluations.choices import JobState
+from backend.evaluations.models import Evaluation, Outcome, Replay
 from backend.projects.choices import Role
 from backend.projects.models import GroupShare
 from backend.projects.sharing import memberships
@@ -51,6 +53,7 @@ BROKEN = (401, 422, 404, 422, 422, 422)  # the empty project has no root to tran
 TESTED = (401, 403, 404, 422, 422, 422)  # as above, but guests cannot post
 
 P = "/api/v1/projects/{project_id}"
+E = P + "/evaluations/{evaluation_id}"
 POLICY = {
     ("get", "/api/v1/projects"): PERSONAL,
     ("post", "/api/v1/projects"): NEW,
@@ -100,6 +103,20 @@ POLICY = {
     ("delete", f"{P}/runs/{{run_id}}"): RUN_GONE,
     ("get", f"{P}/runs/{{run_id}}/recording"): RUN_READ,
     ("get", f"{P}/runs/{{run_id}}/thumbnail"): RUN_READ,
+    ("get", f"{P}/evaluations"): READ,
+    ("post", f"{P}/evaluations"): (401, 403, 404, 403, 422, 422),  # the project has no such evaluation
+    ("get", E): READ,
+    ("delete", E): (401, 403, 404, 403, 204, 404),  # the editor has deleted it
+    ("post", f"{E}/cancel"): WRITE,
+    ("post", f"{E}/resume"): (401, 403, 404, 403, 200, 409),  # the editor has resumed it
+    ("post", f"{E}/compare"): (401, 403, 404, 403, 422, 422),  # no older revision
+    ("get", f"{E}/comparison"): (401, 409, 404, 409, 409, 409),  # it is not compared
+    ("get", f"{E}/outcomes"): READ,
+    ("get", f"{E}/outcomes/{{seed}}"): READ,
+    ("post", f"{E}/replays"): (401, 403, 404, 201, 201, 201),
+    ("get", f"{E}/replays/{{replay_id}}"): (401, 404, 404, 404, 404, 404),  # the teacher's
+    ("get", f"{E}/runs.jsonl"): READ,
+    ("get", f"{E}/report.html"): (401, 409, 404, 409, 409, 409),  # nothing is done
     ("get", "/api/v1/runs"): PERSONAL,
     ("delete", "/api/v1/runs/{run_id}"): NOT_OWNED,
     ("post", "/api/v1/runs/logs"): (401, 403, 503, 503, 503, 503),  # as above
@@ -150,6 +167,9 @@ BODIES = {
     ("post", f"{P}/transfer"): {"name": "editor"},
     ("put", f"{P}/shares/groups/{{group_id}}"): {"role": "viewer"},
     ("post", f"{P}/shares/links"): {},
+    ("post", f"{P}/evaluations"): {"name": "room"},
+    ("post", f"{E}/compare"): {"revision": 1},
+    ("post", f"{E}/replays"): {"revision": 1, "seed": 3},
     ("post", f"{P}/runs"): {"run": "a1", "name": "First"},
     ("patch", f"{P}/runs/{{run_id}}"): {"name": "Mine now"},
     ("patch", "/api/v1/groups/{group_id}"): {"name": "Mine now"},
@@ -204,6 +224,7 @@ def world(person, monkeypatch):  # noqa: F811
         thumbnail_type="image/svg+xml",
         created_at=project.created_at,
     )
+    evaluation = _evaluation(project, teacher)
     invitation = invitations.invite(acting_user=teacher, group=group, days=1, max_uses=1)
     values = {
         "project_id": project.id,
@@ -217,9 +238,23 @@ def world(person, monkeypatch):  # noqa: F811
         "link_id": link["id"],
         "session_id": session.id,
         "run_id": run.id,
+        "evaluation_id": evaluation.id,
+        "seed": 3,
+        "replay_id": evaluation.replays.get().id,
         "invitation_id": invitation.id,
     }
     return people, values
+
+
+def _evaluation(project, teacher):
+    """An evaluation with an outcome, and a replay that has failed."""
+    at = {"created_at": project.created_at}
+    own = {"name": "room", "revision": 1, "state": JobState.CANCELLED, "asked_at": project.created_at}
+    evaluation = Evaluation.objects.create(project=project, user=teacher, **own, **at)
+    cell = {"evaluation": evaluation, "revision": 1, "seed": 3}
+    Outcome.objects.create(**cell, outcome="success", end_s=1.0, cpu_s=1.0, line='{"seed":3}', **at)
+    Replay.objects.create(**cell, user=teacher, state=JobState.FAILED, **at)
+    return evaluation
 
 
 def ask(browser, method, path, values, body):

@@ -32,6 +32,7 @@ CALLS = {
     "get_me": ("GET", "me", None),
     "get_my_usage": ("GET", "me/usage", None),
     "list_runs": ("GET", "projects/{id}/runs", None),
+    "list_evaluations": ("GET", "projects/{id}/evaluations", None),
     "list_my_runs": ("GET", "runs", None),
 }
 

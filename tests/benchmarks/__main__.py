@@ -9,6 +9,7 @@ import sys
 
 BENCHMARKS = (
     "engine",
+    "debugger",
     "translator",
     "behaviours",
     "difference",

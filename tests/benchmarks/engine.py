@@ -10,6 +10,7 @@ import dataclasses
 import gc
 import html
 import itertools
+import mmap
 import sys
 import time
 import tracemalloc
@@ -184,11 +185,15 @@ class UseRow:
     observed: float
     runner: float
     session: float
+    application: float
     lockstep: float
     hooked: float
 
     def __str__(self) -> str:
-        others = (self.observed, self.runner, self.session, self.lockstep, self.hooked)
+        others = (
+            *(self.observed, self.runner, self.session, self.application),
+            *(self.lockstep, self.hooked),
+        )
         methods = f"{self.methods:9.2f} ({self.bare / self.methods:4.2f}x)"
         return f"{self.what:9} {methods} {self.bare:9.2f} | " + " ".join(
             f"{us:9.2f} ({us / self.bare:5.2f}x)" for us in others
@@ -209,16 +214,18 @@ def use_rows(size: int = 1_000, *, rounds: int = 7) -> list[UseRow]:
     }
     found = []
     for what, xml in trees.items():
-        methods, bare, observed, run, session, lockstep, hooked = (
-            Tree.from_xml(document(xml), NODES) for _ in range(7)
+        methods, bare, observed, run, session, application, lockstep, hooked = (
+            Tree.from_xml(document(xml), NODES) for _ in range(8)
         )
         methods.generate_code(on=False)
-        observed.observe(lambda changes: None)
-        session.observe(lambda changes: None)
+        for tree in (observed, session, application):
+            tree.observe(lambda changes: None)
+        # The manager reads from the memory of the application which action is in progress.
+        application.current = memoryview(mmap.mmap(-1, mmap.PAGESIZE)).cast("I")
         lockstep.count_results()
         hooked.add_hook(after=lambda node, status: None)
         ticks = [tree.tick_exactly_once for tree in (methods, bare, observed)]
-        calls = [*ticks, *(_under_runner(tree) for tree in (run, session, lockstep, hooked))]
+        calls = [*ticks, *(_under_runner(tree) for tree in (run, session, application, lockstep, hooked))]
         warm(*calls)
         found.append(UseRow(what, *race(*calls, rounds=rounds)))
     return found
@@ -332,7 +339,7 @@ def main() -> None:
         print(row, flush=True)
     print("\n1,000 nodes as they are run; in brackets the ratio to the bare tick")
     print("methods: bare, but by the nodes' own methods; in brackets the ratio of generated code to it")
-    heads = ("observed", "Runner", "session", "lock-step", "hook of all")
+    heads = ("observed", "Runner", "session", "application", "lock-step", "hook of all")
     print(f"{'tick':9} {'methods':>17} {'bare':>9} | " + " ".join(f"{head:>18}" for head in heads))
     for use_row in use_rows():
         print(use_row, flush=True)

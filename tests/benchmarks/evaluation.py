@@ -13,7 +13,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from backend.cli.evaluating.one_run import SINGLE
+from executor.evaluation.pool.environment import SINGLE
 
 if TYPE_CHECKING:
     from executor.evaluation.outcome import Outcome

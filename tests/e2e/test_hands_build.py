@@ -204,11 +204,15 @@ def test_by_mouse(shared_studio: Studio) -> None:
     studio.at("undo").click()
     studio.at("redo").click()
     studio.saved()
-    for scheme in ("dark", "light"):
-        expect_accessible(studio, scheme)
-        studio.picture(f"built-{scheme}")
-
+    expect_accessible(studio, "light")
+    studio.picture("built-light")
     the_tree_is_changed_by_hand(studio)
+
+
+@pytest.mark.long_walk
+def test_what_was_built_is_repaired_exported_and_reused(shared_studio: Studio) -> None:
+    studio = shared_studio
+    studio.new_from("laser_bump_and_go")
     fault_is_found_and_fixed(studio)
     package_is_exported(studio)
     behaviour_is_reused(studio)

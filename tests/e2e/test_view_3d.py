@@ -87,6 +87,7 @@ def slow_studio(server: Server, browser: Browser) -> Iterator[Studio]:
     assert studio.complaints == [], "the browser's console must stay empty"
 
 
+@pytest.mark.long_walk
 def test_3d_that_is_too_slow_gives_way_to_video(slow_studio: Studio) -> None:
     studio = slow_studio
     studio.new_from("laser_bump_and_go")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.benchmarks import engine
+from tests.benchmarks import debugger, engine
 from tree_gardener import Tree
 
 
@@ -34,3 +34,9 @@ def test_rows_of_scripts_can_be_printed() -> None:
     for row in engine.script_rows(4, rounds=1):
         assert row.what in str(row)
         assert row.ours > 0
+
+
+def test_rows_of_the_debugger_can_be_printed() -> None:
+    for row in debugger.rows(20, 5, rounds=1):
+        assert row.what in str(row)
+        assert row.step > row.breakpoints

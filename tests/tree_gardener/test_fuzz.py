@@ -16,7 +16,7 @@ BATCH = 100
 FIRST_SEED = int(os.environ.get("BT_STUDIO_FUZZ_SEED", "1"))
 
 
-@pytest.mark.timeout(600)
+@pytest.mark.timeout(7200)
 def test_random_trees_run_as_in_behaviortree_cpp(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -2,7 +2,7 @@
 
 from typing import ClassVar
 
-from tree_gardener.node import Control
+from tree_gardener.node import Control, Node
 from tree_gardener.status import IDLE, RUNNING, Status
 
 
@@ -53,9 +53,17 @@ class Ordered(Control):
             self.skips = 0
         self.start()
 
-    def end(self) -> Status:
-        """Ends an activation in which all children returned `GOES_ON` to generated code."""
-        return self.finish_all(self.GOES_ON)
+    def end(self, called: tuple[Node, ...]) -> Status:
+        """Ends an activation in which all children returned `GOES_ON` to generated code.
+
+        Only those in `called` can have resets that are not reported yet.
+        """
+        for child in self.children:
+            child.status = IDLE
+        journal = self.journal
+        if journal is not None:
+            journal.reset_done(called)
+        return self.complete(self.GOES_ON)
 
     def go_on(self, index: int, status: Status) -> Status:
         """Continues after the child at `index` returned `status`."""

@@ -1,5 +1,5 @@
 from tree_gardener.errors import TickError
-from tree_gardener.node import Control
+from tree_gardener.node import Control, Node
 from tree_gardener.status import FAILURE, RUNNING, SKIPPED, SUCCESS, Status
 
 
@@ -126,7 +126,7 @@ class ParallelAll(_Parallel):
         self.skips = 0
         self.ticked = self.done  # a halt of the tree within the tick replaces `done`
 
-    def end(self) -> None:
+    def end(self, _called: tuple[Node, ...]) -> None:
         """Ends the activation that generated code ticks."""
 
     def tally(self, index: int, status: Status) -> None:

@@ -1,6 +1,6 @@
 from typing import ClassVar
 
-from tree_gardener.node import Control
+from tree_gardener.node import Control, Node
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SUCCESS, Status
 
 
@@ -37,7 +37,7 @@ class _Reactive(Control):
         if self.status is not RUNNING:
             self.start()
 
-    def end(self) -> Status:
+    def end(self, _called: tuple[Node, ...]) -> Status:
         """Ends a tick in which all children returned `GOES_ON` to generated code."""
         return self.finish(self.GOES_ON)
 

@@ -101,6 +101,8 @@ class Generation:
         hooks = self.hooks
         if not self.enabled or self.tree.node_times_s is not None or hooks.log is not None:
             return False
+        if hooks.wiring is not None and hooks.wiring.asks_all:
+            return False
         return all(hook.uid is not None for hook in hooks.hooks)
 
     # -- making -----------------------------------------------------------------------------------------
@@ -141,11 +143,14 @@ class Generation:
         variant = Variant(
             bool(recorder.observers), hooks.marks_leaves, hooks.times_leaves, hooks.counts is not None
         )
-        return Planner(variant, hooks.counts, hooks.has_hook)
+        return Planner(variant, hooks.counts, lambda node: hooks.has_hook(node) or hooks.has_debugger(node))
 
     def make(self, planner: Planner, node: Node) -> None:
         """Generates the code of one node, and puts the nodes that it calls into the queue."""
         if isinstance(node, Control) and node.quick is not None:
+            return
+        if self.hooks.has_debugger(node):  # its own method ticks it, so that switching takes effect at once
+            self.queue += [child for child in node.children if child.children]
             return
         regions = planner.regions(node)
         self.queue += [called for called in planner.called if called.children]
@@ -154,8 +159,8 @@ class Generation:
         functions = [self.function(planner.variant, region) for region in regions]
         if None in functions:
             return
-        whole = _in_slices(node, functions) if regions[0].root.is_slice else functions[0]
-        node.quick = whole
+        is_sliced = regions[0].root.is_slice
+        node.quick = _in_slices(node, functions, planner.called) if is_sliced else functions[0]
 
     def function(self, variant: Variant, region: Region) -> Callable[[], Any] | None:
         """Returns the function of a region."""
@@ -189,8 +194,12 @@ class Generation:
         return "\n\n".join(found)
 
 
-def _in_slices(node: Any, functions: list[Any]) -> Callable[[], Status | None]:
-    """Returns the function of a node whose children are ticked by several functions."""
+def _in_slices(node: Any, functions: list[Any], outside: list[Node]) -> Callable[[], Status | None]:
+    """Returns the function of a node whose children are ticked by several functions.
+
+    `outside` are the nodes below it that these functions call.
+    """
+    called = tuple([child for child in outside if child.parent is node])
     slices = tuple(functions)
 
     def tick() -> Status | None:
@@ -199,7 +208,7 @@ def _in_slices(node: Any, functions: list[Any]) -> Callable[[], Status | None]:
             status: Status | None = ticked()
             if status is not None:
                 return status
-        ended: Status | None = node.end()
+        ended: Status | None = node.end(called)
         return ended
 
     return tick

@@ -18,11 +18,11 @@ from tree_gardener.hooks import ResultCount
 from tree_gardener.leaves.behaviour import BehaviourLeaf, ConditionLeaf, ImmediateLeaf, StatefulLeaf
 from tree_gardener.leaves.constant import AlwaysFailure, AlwaysSuccess
 from tree_gardener.leaves.scripts import Script, ScriptCondition
-from tree_gardener.node import Control, Node
-from tree_gardener.status import FAILURE, RUNNING, SUCCESS, Status
+from tree_gardener.node import Control, Flash, Mark, Node
+from tree_gardener.status import FAILURE, SUCCESS
 
-MAX_NODES: Final = 32
-"""The most nodes in one function. A composite with more children has several functions."""
+MAX_NODES: Final = 33
+"""The most nodes below the root of one function, which is made in 2 ms. A composite with more has several."""
 MAX_DEPTH: Final = 6
 """The most composites inside one another in one function."""
 
@@ -33,7 +33,7 @@ COMPOSITES: Final = frozenset((ORDERED, REACTIVE, PARALLEL, WRAPPER, SUBTREE))
 
 # The values that a part can bring; `Part.has` lists them in the order of their positions.
 NODE, UPDATE, BEHAVIOUR, INITIALISE, TERMINATE = "n", "u", "b", "i", "t"
-MARK_SUCCESS, MARK_FAILURE, UID, COUNT, FINISH, SLICE = "S", "F", "d", "k", "z", "o"
+UID, COUNT, FINISH, SLICE, END = "d", "k", "z", "o", "e"
 DECIDING: Final = ("0", "1", "2")
 WHILE, ON_SUCCESS, ON_FAILURE, POST = "w", "s", "f", "p"
 _CONDITIONS: Final = frozenset((*DECIDING, WHILE, ON_SUCCESS, ON_FAILURE, POST))
@@ -57,6 +57,7 @@ class Rule(NamedTuple):
 
 
 S, F = "SUCCESS", "FAILURE"
+_STATUS: Final = {S: SUCCESS, F: FAILURE}
 RULES: Final[Mapping[type, Rule]] = {
     cls: Rule(kind, results, cls.execute, getattr(cls, "go_on", None))
     for cls, kind, results in (
@@ -99,7 +100,8 @@ class Part(NamedTuple):
         first: the position of its first value, its node.
         has: the values that it brings, a letter for each.
         position: its position among its parent's children, or in the slice of them.
-        is_bundled: whether its mark is in the next bundle, if its parent continues after it.
+        is_bundled: whether its mark is in the next bundle, if its parent continues after it. That of a
+            composite has the marks of its children, too.
         is_slice: whether the function ticks a slice of the root's children, without its start and end.
         children: its children.
     """
@@ -167,7 +169,7 @@ class Planner:
         self.called: list[Node] = []
         self.values: list[Any] = []
         self.classes: list[type] = []
-        self.room = 0
+        self.flashes: list[Flash] = []
 
     def regions(self, node: Node) -> list[Region]:
         """Returns the regions of a node: one, one for each slice of its children, or none without a rule."""
@@ -175,21 +177,45 @@ class Planner:
         rule = rule_of(node)
         if rule is None or rule.kind not in COMPOSITES:
             return []
-        is_sliced = len(node.children) > MAX_NODES or rule.kind is PARALLEL
-        width = MAX_NODES if is_sliced else len(node.children)
         self.called = []
-        found = [
-            self.region(node, rule, start, width, is_slice=is_sliced)
-            for start in range(0, len(node.children), width)
-        ]
+        slices = self.slices(node, rule)
+        is_sliced = len(slices) > 1 or rule.kind is PARALLEL
+        found = [self.region(node, rule, start, width, is_slice=is_sliced) for start, width in slices]
         is_useful = any(part.kind is not CALL for region in found for part in region.root.children)
         return found if is_useful else []
 
+    def slices(self, node: Node, rule: Rule) -> list[tuple[int, int]]:
+        """Divides the children of a node among functions; returns the first and the number for each.
+
+        A child and all that is inlined below it are in one function. Fewer and larger functions are quicker.
+        """
+        found: list[tuple[int, int]] = []
+        start = used = 0
+        for index, child in enumerate(node.children):
+            size = 1 if rule.kind is PARALLEL else self.size(child, 1)
+            size = size if size <= MAX_NODES else 1  # it is called
+            if used + size > MAX_NODES:
+                found.append((start, index - start))
+                start, used = index, 0
+            used += size
+        return [*found, (start, len(node.children) - start)]
+
+    def size(self, node: Node, depth: int) -> int:
+        """Returns the number of nodes that are inlined with a node; a number beyond MAX_NODES if too many."""
+        rule = None if self.is_hooked(node) else rule_of(node)
+        if rule is None or rule.kind not in COMPOSITES or rule.kind is PARALLEL or depth >= MAX_DEPTH:
+            return 1
+        total = 1
+        for child in node.children:
+            total += self.size(child, depth + 1)
+            if total > MAX_NODES:
+                break
+        return total
+
     def region(self, node: Node, rule: Rule, base: int, width: int, *, is_slice: bool) -> Region:
         """Plans a node and its children from `base` on, `width` of them."""
-        self.values, self.classes = [node], []
-        self.room = MAX_NODES - width
-        has = NODE + (self.marks(node) if not is_slice else "")
+        self.values, self.classes, self.flashes = [node], [], []
+        has = NODE
         if is_slice:
             has += SLICE
             self.values.append(slice(base, base + width))
@@ -197,46 +223,57 @@ class Planner:
             assert isinstance(node, Control)
             has += FINISH
             self.values.append(node.finish)
+        if self.variant.is_observed and not is_slice and rule.results[0] != rule.results[1]:
+            has += END
+            self.values.append(None)
         children = self.children(rule, node.children[base : base + width], 1)
+        if END in has:
+            self.flashes.append((node.uid, _STATUS[rule.results[0]]))
+            self.values[has.index(END)] = self.report()
+        children += tuple(self.bundle())
         root = Part(rule.kind, rule.results, 0, has, 0, is_slice=is_slice, children=children)
         return Region(root, self.values, node, base, tuple(self.classes))
 
     def children(self, rule: Rule, nodes: tuple[Node, ...], depth: int) -> tuple[Part, ...]:
-        """Plans children, with the bundles of their marks."""
+        """Plans children, with bundles of their marks before what is not in one; the last ones wait."""
         found: list[Part] = []
-        marks: list[tuple[int, Status]] = []
-        goes = rule.results[0]
-        bundles = self.variant.is_observed and rule.kind in (ORDERED, REACTIVE)
+        goes = S if rule.kind in (WRAPPER, SUBTREE) else rule.results[0]
+        bundles = self.variant.is_observed and rule.kind is not PARALLEL
         for position, node in enumerate(nodes):
-            part = self.child(node, position, depth, in_parallel=rule.kind is PARALLEL)
-            if bundles and _can_be_bundled(part, goes):
-                marks.append((node.uid, SUCCESS if goes == S else FAILURE))
+            own = self.inlined(node, depth, in_parallel=rule.kind is PARALLEL)
+            is_bundled = bundles and own is not None and _is_bundled(node, own, goes)
+            if not is_bundled:
+                found += self.bundle()
+            part = self.child(node, own, position, depth)
+            if is_bundled:
+                self.flashes.append((node.uid, _STATUS[goes]))
                 part = part._replace(is_bundled=True)
-            elif marks:
-                found.append(self.bundle(marks))
+            elif self.flashes:
+                part = part._replace(children=(*part.children, *self.bundle()))
             found.append(part)
-        if marks:
-            found.append(self.bundle(marks))
         return tuple(found)
 
-    def bundle(self, marks: list[tuple[int, Status]]) -> Part:
-        """Plans the report of several results at once, and empties the list.
+    def bundle(self) -> list[Part]:
+        """Returns the part that reports the results that wait, or nothing if there are none."""
+        if not self.flashes:
+            return []
+        self.values.append(self.report())
+        return [Part(BUNDLE, ("", ""), len(self.values) - 1, NODE, -1)]
 
-        All nodes of a region are IDLE again when its root is not RUNNING.
-        """
-        self.values.append((self.values[0], RUNNING, tuple(marks)))
-        marks.clear()
-        return Part(BUNDLE, ("", ""), len(self.values) - 1, NODE, -1)
+    def report(self) -> Mark:
+        """Returns the report of the results that wait. All nodes of a region are IDLE when its root is."""
+        mark = (self.values[0], tuple(self.flashes))
+        self.flashes.clear()
+        return mark
 
-    def child(self, node: Node, position: int, depth: int, *, in_parallel: bool) -> Part:
-        """Plans a node below the root."""
+    def child(self, node: Node, rule: Rule | None, position: int, depth: int) -> Part:
+        """Plans a node below the root; without a rule it is called."""
         first = len(self.values)
         self.values.append(node)
-        rule = None if self.is_hooked(node) else rule_of(node)
-        if rule is None or not self.is_plain(node, rule, depth, in_parallel=in_parallel):
+        if rule is None:
             self.called.append(node)
             return Part(CALL, ("", ""), first, NODE, position)
-        has = NODE + self.own(node, rule) + self.marks(node) + self.conditions(node)
+        has = NODE + self.own(node, rule) + self.conditions(node)
         if self.counts is not None:
             has += COUNT
             self.values.append(self.counts[node.uid - 1])
@@ -245,17 +282,22 @@ class Planner:
             self.values.append(node.uid)
         children: tuple[Part, ...] = ()
         if rule.kind in COMPOSITES:
-            self.room -= len(node.children)
             children = self.children(rule, node.children, depth + 1)
         return Part(rule.kind, rule.results, first, has, position, children=children)
 
-    def is_plain(self, node: Node, rule: Rule, depth: int, *, in_parallel: bool) -> bool:
-        """Returns whether the rule of a node can be written into the function."""
+    def inlined(self, node: Node, depth: int, *, in_parallel: bool) -> Rule | None:
+        """Returns the rule of a node if it can be written into the function, else None."""
+        rule = None if self.is_hooked(node) else rule_of(node)
+        if rule is None:
+            return None
         if in_parallel:
-            return rule.kind is STATEFUL and node.guard is None
-        if rule.kind in COMPOSITES:
-            return rule.kind is not PARALLEL and depth < MAX_DEPTH and len(node.children) <= self.room
-        return not isinstance(node, (Script, ScriptCondition)) or node.script.fixed is not None
+            is_plain = rule.kind is STATEFUL and node.guard is None
+        elif rule.kind in COMPOSITES:
+            fits = depth < MAX_DEPTH and self.size(node, depth) <= MAX_NODES
+            is_plain = rule.kind is not PARALLEL and fits
+        else:
+            is_plain = not isinstance(node, (Script, ScriptCondition)) or node.script.fixed is not None
+        return rule if is_plain else None
 
     def own(self, node: Node, rule: Rule) -> str:
         """Adds the values of a leaf's rule; returns their letters."""
@@ -273,13 +315,6 @@ class Planner:
                 self.values.append(method)
         return has
 
-    def marks(self, node: Node) -> str:
-        """Adds the marks with which an observed node reports its results; returns their letters."""
-        if not self.variant.is_observed:
-            return ""
-        self.values += node.marks[:2]
-        return MARK_SUCCESS + MARK_FAILURE
-
     def conditions(self, node: Node) -> str:
         """Adds the scripts of a node's conditions, which are called; returns their letters."""
         guard = node.guard
@@ -296,9 +331,14 @@ class Planner:
         return "".join(letter for letter, condition in named if condition is not None)
 
 
-def _can_be_bundled(part: Part, goes: str) -> bool:
-    """Returns whether a leaf's result `goes` can be reported later, together with those of its siblings."""
-    if part.kind in (RUN, CONSTANT) and part.results[0] != goes:
+def _is_bundled(node: Node, rule: Rule, goes: str) -> bool:
+    """Returns whether a result `goes` of a node can be reported later, together with those of its siblings.
+
+    A composite must have this result only if no child left the usual way, which reports what waits.
+    """
+    guard = node.guard
+    if rule.kind in COMPOSITES:
+        return guard is None and rule.results[0] == goes != rule.results[1]
+    if rule.kind in (RUN, CONSTANT) and rule.results[0] != goes:
         return False
-    is_leaf = part.kind in (STATEFUL, IMMEDIATE, TEST, RUN, CONSTANT)
-    return is_leaf and not {ON_SUCCESS, ON_FAILURE, POST}.intersection(part.has)
+    return guard is None or (guard.on_success is None and guard.on_failure is None and guard.post is None)

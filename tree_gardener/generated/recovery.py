@@ -69,7 +69,19 @@ class Recovery:
     # -- from the code ----------------------------------------------------------------------------------
 
     def rest(self, line: int, returned: Any, start_s: float = 0.0) -> Status | None:
-        """Continues after the value on a line returned something unusual."""
+        """Continues after the value on a line returned something unusual.
+
+        Raises:
+            TickError: a node could not do its work.
+        """
+        try:
+            return self.continued(line, returned, start_s)
+        except BaseException:
+            self.unmark()
+            raise
+
+    def continued(self, line: int, returned: Any, start_s: float) -> Status | None:
+        """Finishes the tick of the node of a line, and continues in those above."""
         part, letter, _ = self.lines[line]
         node: Any = self.values[part.first]
         self.report(line, node)
@@ -91,6 +103,14 @@ class Recovery:
         Raises:
             TickError: the exception ends the tick.
         """
+        try:
+            return self.handled(error, start_s)
+        except BaseException:
+            self.unmark()
+            raise
+
+    def handled(self, error: BaseException, start_s: float) -> Status | None:
+        """Fails the node of an exception, or raises the exception with its place."""
         trace = error.__traceback__
         assert trace is not None
         line = trace.tb_lineno
@@ -116,7 +136,7 @@ class Recovery:
         """Reports the results of children before a line that were to be reported together."""
         meaning = self.lines.get(line)
         if meaning is not None and meaning.pending:
-            self.recorder.results += [self.values[place] for place in meaning.pending]
+            self.recorder.results += [self.values[place].marks[index] for place, index in meaning.pending]
 
     def report(self, line: int, node: Node) -> None:
         """Sends observers the reports that were still missing when the function was left at a line."""
@@ -139,11 +159,7 @@ class Recovery:
         """Returns the result that a pre-condition decided."""
         guard = node.guard
         assert guard is not None
-        forced = SKIPPED if letter == WHILE else guard.deciding[DECIDING.index(letter)][1]
-        if forced is SKIPPED:
-            return node.skipped()
-        guard.after(node, forced)
-        return node.complete(forced)
+        return node.decided(SKIPPED if letter == WHILE else guard.deciding[DECIDING.index(letter)][1])
 
     def conditioned(self, node: Node, status: Status) -> Status:
         """Runs the post-conditions of a node after its result."""

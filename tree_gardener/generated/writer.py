@@ -18,11 +18,10 @@ from tree_gardener.generated.parts import (
     CONSTANT,
     COUNT,
     DECIDING,
+    END,
     FINISH,
     IMMEDIATE,
     INITIALISE,
-    MARK_FAILURE,
-    MARK_SUCCESS,
     NODE,
     ON_FAILURE,
     ON_SUCCESS,
@@ -55,12 +54,14 @@ FIXED: Final = (
 FIRST_LINE: Final = 2
 """The line of the first value. Line 1 is that of the function."""
 ATTRIBUTES: Final = frozenset(
-    ("failure", "reported", "running", "skips", "slowest", "status", "success", "ticks"),
+    ("failure", "marks", "reported", "running", "skips", "slowest", "status", "success", "ticks"),
 )
 VARIABLES: Final = frozenset(("duration", "error", "kept", "result", "returned", "start"))
 """The variables, except ``ticks0``, ``ticks1`` … for the nodes whose children are called."""
 
 OTHER: Final = {S: F, F: S}
+MARK_OF: Final = {S: 0, F: 1}
+"""The index of a result's mark in `Node.marks`."""
 
 
 class Meaning(NamedTuple):
@@ -69,12 +70,13 @@ class Meaning(NamedTuple):
     Attributes:
         part: the part whose value is called there.
         letter: which of its values.
-        pending: the positions of the marks of children before it that are not reported yet.
+        pending: the results of nodes before it that are not reported yet, each as the position of the node
+            and the index of the mark.
     """
 
     part: Part
     letter: str
-    pending: tuple[int, ...]
+    pending: tuple[tuple[int, int], ...]
 
 
 class Writer:
@@ -186,7 +188,6 @@ class Writer:
         """Returns a loop that ticks the children once; it is left early at a child that ends the node."""
         goes, _ = results
         body: Statements = []
-        self.is_pending = False
         for child in part.children:
             body += self.child(child, goes, level, is_careful=part.kind is REACTIVE)
             self.is_pending = child.is_bundled
@@ -325,11 +326,16 @@ class Writer:
         return [syntax.count(self.value(part, COUNT), result)] if COUNT in part.has else []
 
     def mark(self, part: Part, status: str) -> Statements:
-        """Returns the report of a result to the observers."""
-        letter = MARK_SUCCESS if status == S else MARK_FAILURE
-        if letter not in part.has:
+        """Returns the report of a result to the observers, unless it is in a bundle."""
+        if not self.variant.is_observed:
             return []
-        return [do(call(self.fixed("RESULTS"), self.value(part, letter)))]
+        if part.kind in COMPOSITES and status == part.results[0]:
+            if part.is_bundled:
+                return []
+            if END in part.has:
+                return [do(call(self.fixed("RESULTS"), self.value(part, END)))]
+        mark = syntax.item(self.attribute(part, "marks"), number(MARK_OF[status]))
+        return [do(call(self.fixed("RESULTS"), mark))]
 
     def by_result(self, succeeded: Statements, failed: Statements) -> Statements:
         """Returns a choice between two groups of statements by `result`."""
@@ -374,12 +380,19 @@ class Writer:
         ]
 
 
-def meanings(part: Part, pending: tuple[int, ...] = ()) -> Iterator[tuple[int, Meaning]]:
+def meanings(root: Part) -> Iterator[tuple[int, Meaning]]:
     """Yields each line of a shape with its meaning."""
+    yield from _meanings(root, [])
+
+
+def _meanings(part: Part, pending: list[tuple[int, int]]) -> Iterator[tuple[int, Meaning]]:
+    """Yields the lines of a part; `pending` is what waits before it, and afterwards what waits behind it."""
     for offset, letter in enumerate(part.has):
-        yield FIRST_LINE + part.first + offset, Meaning(part, letter, pending)
-    mark = MARK_SUCCESS if part.results[0] == S else MARK_FAILURE
-    own: tuple[int, ...] = ()
+        yield FIRST_LINE + part.first + offset, Meaning(part, letter, tuple(pending))
+    goes = S if part.kind in (WRAPPER, SUBTREE) else part.results[0]
     for child in part.children:
-        yield from meanings(child, own)
-        own = (*own, child.place(mark)) if child.is_bundled else ()
+        yield from _meanings(child, pending)
+        if child.is_bundled:
+            pending.append((child.first, MARK_OF[goes]))
+        else:
+            pending.clear()

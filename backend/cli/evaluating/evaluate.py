@@ -6,7 +6,7 @@ import dataclasses
 import shlex
 import sys
 from pathlib import Path  # noqa: TC003 - typer reads the annotations
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
 
@@ -25,6 +25,13 @@ ONLY_FAILED = "only-failed"
 AGAINST = "against"
 
 
+class _Where(NamedTuple):
+    """Where runs run: on so many processors of this machine, or on a cluster."""
+
+    workers: int | None
+    cluster: str | None
+
+
 def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     project: Annotated[str, typer.Argument(help="A project folder, zip or name.")],
     name: Annotated[str | None, typer.Argument(help="The evaluation; needed if there are several.")] = None,
@@ -36,6 +43,10 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     ] = False,
     workers: Annotated[
         int | None, typer.Option(min=1, max=1024, help="Runs at a time; one a processor without it.")
+    ] = None,
+    cluster: Annotated[
+        str | None,
+        typer.Option(help="Run on a Ray cluster: its address, or auto for this machine's own."),
     ] = None,
     against: Annotated[
         str | None,
@@ -70,9 +81,10 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     Exit status: 0 if all gates pass (without gates: if the evaluation is complete), 1 if not, 2 for bad
     arguments.
     """
-    from backend.cli.evaluating.one_run import SINGLE, evaluations_of
+    from backend.cli.evaluating.one_run import evaluations_of
     from backend.cli.run import fix_hashes
     from backend.cli.shared.errors import CliError
+    from executor.evaluation.pool.environment import SINGLE
     from executor.evaluation.summary import pair
 
     fix_hashes(SINGLE)
@@ -99,13 +111,14 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
         raise typer.BadParameter("name the older version with --against", param_hint="--gate no-worse")
     _warn(gates, plan, len(chosen))
     results, kept = _open_results(plan, report, chosen, resume=resume, strict=strict)
-    progress, is_interrupted = _run(plan, chosen, workers, kept, results)
+    where = _Where(workers, cluster)
+    progress, is_interrupted = _run(plan, chosen, where, kept, results)
     summary = progress.summary(chosen, sequential=plan.evaluation.until is not None)
     pairs: Pairs | None = None
     if older is not None and not is_interrupted:
         folder = None if report is None else report / AGAINST
         seeds_run = [outcome.seed for outcome in summary.outcomes]
-        before, is_interrupted = _run_older(older, seeds_run, workers, folder, resume=resume, strict=strict)
+        before, is_interrupted = _run_older(older, seeds_run, where, folder, resume=resume, strict=strict)
         pairs = pair(before, summary.outcomes)
     verdicts = _finish(plan, project, summary, gates, results, pairs)
     if junit is not None:
@@ -183,13 +196,13 @@ def _older_plan(plan: Plan, project: str, against: str) -> Plan:
 
 
 def _run_older(  # noqa: PLR0913 - as the options say
-    plan: Plan, seeds: Sequence[int], workers: int | None, folder: Path | None, *, resume: bool, strict: bool
+    plan: Plan, seeds: Sequence[int], where: _Where, folder: Path | None, *, resume: bool, strict: bool
 ) -> tuple[list[Outcome], bool]:
     """Runs the older version on the same seeds; returns its outcomes, and whether Ctrl+C ended it."""
     is_begun = folder is not None and (folder / "evaluation.json").exists()
     results, kept = _open_results(plan, folder, seeds, resume=resume and is_begun, strict=strict)
     print("the older version:", flush=True)
-    progress, is_interrupted = _run(plan, seeds, workers, kept, results)
+    progress, is_interrupted = _run(plan, seeds, where, kept, results)
     outcomes = list(progress.summary(seeds, sequential=False).outcomes)
     if results is not None:
         results.finish(outcomes)
@@ -280,10 +293,11 @@ def _open_results(
 
 
 def _run(
-    plan: Plan, seeds: Sequence[int], workers: int | None, kept: Sequence[Outcome], results: Results | None
+    plan: Plan, seeds: Sequence[int], where: _Where, kept: Sequence[Outcome], results: Results | None
 ) -> tuple[Progress, bool]:
     """Runs the remaining seeds; returns all outcomes, and whether Ctrl+C ended it."""
-    from backend.cli.shared.errors import CliError
+    from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
+    from executor.evaluation.cluster.ray_pool import ClusterError
     from executor.evaluation.evaluate import Interrupted, ThreadsError, evaluate
 
     def told(progress: Progress, done: Done | None) -> None:
@@ -297,11 +311,13 @@ def _run(
         _say(progress.line(sequential=plan.evaluation.until is not None))
 
     try:
-        return evaluate(plan, seeds, workers=workers, kept=kept, told=told), False
+        return evaluate(
+            plan, seeds, workers=where.workers, cluster=where.cluster, kept=kept, told=told
+        ), False
     except Interrupted as interrupted:
         return interrupted.progress, True
-    except ThreadsError as error:
-        raise CliError(f"bt-studio: {error}") from error
+    except (ThreadsError, ClusterError) as error:
+        raise CliError(f"bt-studio: {error}", status=BAD_ARGUMENTS) from error
     finally:
         _say("")
 

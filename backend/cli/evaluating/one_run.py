@@ -5,7 +5,9 @@ from __future__ import annotations
 import dataclasses
 import json
 import sys
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
+
+from executor.evaluation.pool.environment import SINGLE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -14,14 +16,6 @@ if TYPE_CHECKING:
 
     from executor.evaluation.outcome import Outcome
     from executor.evaluation.plan import Plan
-
-SINGLE: Final = {
-    "OPENBLAS_NUM_THREADS": "1",
-    "OMP_NUM_THREADS": "1",
-    "MKL_NUM_THREADS": "1",
-    "LP_NUM_THREADS": "0",
-}
-"""Variables that keep libraries from starting threads, which a fork would lose."""
 
 
 def run_one(  # noqa: PLR0913 - one an option

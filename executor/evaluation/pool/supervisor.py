@@ -87,16 +87,24 @@ class Supervisor:
         """The limits of the next run."""
         return self._limits
 
-    def run(self, seeds: Iterable[int], told: Callable[[Done], bool]) -> None:
+    def run(
+        self, seeds: Iterable[int], told: Callable[[Done], bool], *, limits: Limits | None = None
+    ) -> None:
         """Runs seeds, in their order as far as several workers keep it.
 
-        The first one runs alone: its cost gives the limit of all others.
+        The first one runs alone: its cost gives the limit of all others, unless it is known.
 
         Args:
             seeds: the seeds.
             told: called with each run that has ended; returns whether the others are still wanted.
+            limits: the limits of each run, if they are known.
         """
         left = list(seeds)
+        if limits is not None:
+            self._limits = limits
+            if not self._run_some(left, self._count, told):
+                self.close()
+            return
         wanted = self._run_some(left[:1], 1, self._first(told)) and self._run_some(
             left[1:], self._count, told
         )

@@ -45,7 +45,7 @@ def looked(stage: Stage, event: ChildLooked, now_s: float) -> None:
     if event.kind == "recorder":
         stage.recording.looked(event, now_s)
         return
-    if child is None:
+    if child is None or event.kind == "evaluation":  # it forks its runs, and bounds each of them
         return
     vitals = child.vitals
     counted_s = vitals.look(event, now_s)

@@ -96,7 +96,7 @@ function Figures() {
   return past ? <MomentStatus moment={past} /> : <SimStatus />;
 }
 
-/** What is known of a past moment. */
+/** The figures of a past moment. */
 function MomentStatus({ moment }: { readonly moment: Moment }) {
   const { t } = useTranslation('frame');
   return (

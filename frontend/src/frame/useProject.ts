@@ -10,7 +10,7 @@ import { showServerNotice } from './showServerNotice';
 import { notifyRemoteSave } from './notifyRemoteSave';
 import { leave, reattach } from '@/store/session/connection';
 
-/** An open project has `joined`, which resolves when its session was joined, or there is none. */
+/** Of an open project, `joined` resolves when the page has joined its session, or knows that there is none. */
 type Opening =
   { kind: 'loading' } | { kind: 'open'; joined: Promise<void> } | { kind: 'failed'; error: Error };
 

@@ -568,6 +568,212 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/evaluations": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Lists the evaluations of a project, the newest first; the last 50 are kept. */
+        get: operations["list_evaluations"];
+        put?: never;
+        /** @description Puts an evaluation of the current revision into the queue. */
+        post: operations["start_evaluation"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/evaluations/{evaluation_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Returns one evaluation. */
+        get: operations["get_evaluation"];
+        put?: never;
+        post?: never;
+        /** @description Deletes an evaluation with its outcomes; one that runs ends. */
+        delete: operations["delete_evaluation"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/evaluations/{evaluation_id}/cancel": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** @description Ends an evaluation; what is done is kept, and it can be resumed. */
+        post: operations["cancel_evaluation"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/evaluations/{evaluation_id}/compare": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** @description Runs the same seeds with an older revision, in the same worlds. */
+        post: operations["compare_evaluation"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/evaluations/{evaluation_id}/comparison": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Returns what differs between the two revisions on the seeds that both have run. */
+        get: operations["get_comparison"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/evaluations/{evaluation_id}/outcomes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Lists the outcomes that came after a cursor, in the order in which they came; at most 2,000. */
+        get: operations["list_outcomes"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/evaluations/{evaluation_id}/outcomes/{seed}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Returns all that is known of one run. */
+        get: operations["get_outcome"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/evaluations/{evaluation_id}/replays": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** @description Runs a seed again, records it and keeps it as a stored run of yours. */
+        post: operations["ask_replay"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/evaluations/{evaluation_id}/replays/{replay_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Returns what became of a replay. */
+        get: operations["get_replay"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/evaluations/{evaluation_id}/report.html": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Returns the report: one page that needs nothing else. */
+        get: operations["download_report"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/evaluations/{evaluation_id}/resume": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** @description Runs what an evaluation lacks. Runs that said nothing of the project are run again. */
+        post: operations["resume_evaluation"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/evaluations/{evaluation_id}/runs.jsonl": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Returns `runs.jsonl`: a line for each outcome, in the order of the seeds. */
+        get: operations["download_outcomes"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/export": {
         parameters: {
             query?: never;
@@ -1173,7 +1379,7 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * @description Stores a log of a robot as a run of a new project, which has the tree of the log if it tells one.
+         * @description Stores a log of a robot as a run of a new project, with the tree of the log if it has one.
          *
          *     The body is the file. Known are MCAP, one file of a bag of ROS 2, and the `.btlog` and SQLite logs of
          *     BehaviorTree.CPP.
@@ -1275,6 +1481,12 @@ export interface components {
             };
             robot: string | null;
         };
+        /** @description A run that is to be played. */
+        AskReplayRequest: {
+            revision: number;
+            /** Format: int64 */
+            seed: number;
+        };
         /** @description A behaviour to reuse: a subtree with ports. `summary` and `doc` hold a text for each language. */
         Behaviour: {
             /** @description Also the name of its tree. */
@@ -1345,6 +1557,28 @@ export interface components {
         Children: {
             min: number;
             max: number | null;
+        };
+        /** @description The revision with which an evaluation is to be compared. */
+        CompareRequest: {
+            revision: number;
+        };
+        /** @description Two revisions on the same seeds. */
+        Comparison: {
+            /** @description Of the rates, newer minus older, and Newcombe's paired 95 % interval. */
+            difference: number[];
+            /**
+             * Format: double
+             * @description McNemar's exact test, two-sided.
+             */
+            p: number;
+            /** @description Seeds on which both succeed. */
+            both: number;
+            neither: number;
+            /** @description Seeds. */
+            only_older: number[];
+            /** @description Seeds. */
+            only_newer: number[];
+            measures: components["schemas"]["MeasureDifference"][];
         };
         /** @description Both versions of a file; `theirs` is null if the file was removed. */
         Conflict: {
@@ -1463,6 +1697,57 @@ export interface components {
         EntryList: {
             items: components["schemas"]["Entry"][];
         };
+        /** @description An evaluation of a revision of the project. */
+        Evaluation: {
+            /** Format: uuid */
+            id: string;
+            /** @description The evaluation is evaluations/<name>.yaml. */
+            name: string;
+            revision: number;
+            /** @description The revision with which it is compared. */
+            older: number | null;
+            /** @description The first seed, once it is known. */
+            seed: number | null;
+            /** @description Whether the outcomes decide the number of runs. */
+            sequential: boolean;
+            /**
+             * Format: double
+             * @description The longest time of a run, in simulated s.
+             */
+            duration_s: number;
+            /** @description Runs at a time. */
+            workers: number;
+            state: components["schemas"]["EvaluationState"];
+            /** @description Why it failed, a line for each problem; else empty. */
+            error: string;
+            /** @description Changes when it is begun again; outcomes may have gone. */
+            attempt: number;
+            /**
+             * Format: double
+             * @description The time that is probably left, in s.
+             */
+            left_s: number | null;
+            /** @description The user who started it last. */
+            author: string;
+            /** Format: date-time */
+            created_at: string;
+            /** Format: date-time */
+            ended_at: string | null;
+            /** @description The revision, and then the older one, if there is one. */
+            sides: components["schemas"]["Side"][];
+        };
+        /** @description The evaluations of a project, the newest first. */
+        EvaluationList: {
+            items: components["schemas"]["Evaluation"][];
+            /** @description Whether you may start evaluations of this project. */
+            may_start: boolean;
+            /** @description Whether you may play a run again. */
+            may_replay: boolean;
+            /** @description Why this server runs none; else empty. */
+            why_not: string;
+        };
+        /** @enum {string} */
+        EvaluationState: "waiting" | "running" | "done" | "cancelled" | "failed";
         /** @description A field of an interface, as a port. */
         Field: {
             /** @description Its path, such as `goal__pose__pose__position__x`. */
@@ -1661,6 +1946,13 @@ export interface components {
             role: components["schemas"]["AccountRole"];
             version: string;
         };
+        /** @description The difference of a measure. */
+        MeasureDifference: {
+            name: string;
+            pairs: number;
+            /** @description Mean, low and high. */
+            difference: number[];
+        };
         /** @description The version of the file in the request. */
         Mine: {
             content: string | null;
@@ -1778,8 +2070,33 @@ export interface components {
         OnErrorEnum: "stop" | "failure";
         /** @enum {string} */
         OnFinishEnum: "stop" | "repeat";
-        /** @enum {string} */
-        OutcomeEnum: "passed" | "failed" | "needs_python" | "not_run";
+        /** @description The outcome of one run. */
+        Outcome: {
+            seed: number;
+            outcome: components["schemas"]["RunOutcome"];
+            why: string;
+            /**
+             * Format: double
+             * @description The simulated time at which it was decided, in s.
+             */
+            end_s: number;
+            /**
+             * Format: double
+             * @description By how much the nearest item held; negative if it failed.
+             */
+            margin: number | null;
+            /** @description The unit of the margin. */
+            unit: string;
+            measures: {
+                [key: string]: number;
+            };
+        };
+        /** @description Outcomes in the order in which they came. */
+        OutcomeList: {
+            items: components["schemas"]["Outcome"][];
+            /** @description `after` of the next request. */
+            cursor: number;
+        };
         /** @description A file with the content of the editor. */
         OverlayFileRequest: {
             path: string;
@@ -1798,7 +2115,7 @@ export interface components {
             manifest: string;
             diagnostics: components["schemas"]["Diagnostic"][];
         };
-        /** @description New values of a stored run; what is missing stays. */
+        /** @description New values of a stored run; fields that are missing stay unchanged. */
         PatchedChangeRunRequest: {
             name?: string;
             note?: string;
@@ -1949,6 +2266,20 @@ export interface components {
             /** @description The diagram before the text was edited. */
             diagram: string;
         };
+        /** @description A run that is run again and recorded. */
+        Replay: {
+            /** Format: uuid */
+            id: string;
+            seed: number;
+            revision: number;
+            state: components["schemas"]["EvaluationState"];
+            error: string;
+            /**
+             * Format: uuid
+             * @description The stored run, once it is there.
+             */
+            run: string | null;
+        };
         /** @description The findings of the translator about a project. */
         Report: {
             diagnostics: components["schemas"]["Diagnostic"][];
@@ -2026,6 +2357,8 @@ export interface components {
         RunList: {
             items: components["schemas"]["Run"][];
         };
+        /** @enum {string} */
+        RunOutcome: "success" | "failure" | "error" | "crashed" | "timeout" | "invalid" | "lost" | "cancelled";
         /** @description A draft to store. */
         SaveDraftRequest: {
             base_revision: number;
@@ -2037,7 +2370,7 @@ export interface components {
             id: string;
             /** Format: uuid */
             project_id: string;
-            state: components["schemas"]["StateEnum"];
+            state: components["schemas"]["SessionStateEnum"];
             control_url: string;
             stream_url: string;
             /** @description Why it failed; else empty. */
@@ -2047,6 +2380,8 @@ export interface components {
             /** Format: date-time */
             created_at: string;
         };
+        /** @enum {string} */
+        SessionStateEnum: "queued" | "starting" | "ready" | "failed" | "ended";
         /** @description A person, and their new role. */
         SharePersonRequest: {
             role: components["schemas"]["SharedRole"];
@@ -2079,14 +2414,48 @@ export interface components {
             groups: components["schemas"]["SharedGroup"][];
             links: components["schemas"]["Link"][];
         };
+        /** @description The results of one revision. */
+        Side: {
+            revision: number;
+            /** @description Runs that have an outcome. */
+            done: number;
+            /** @description Of so many; null while it is not known. */
+            wanted: number | null;
+            /**
+             * Format: double
+             * @description The share of successes among the outcomes that count.
+             */
+            rate: number;
+            /**
+             * Format: double
+             * @description The lower end of its 95 % interval.
+             */
+            low: number;
+            /**
+             * Format: double
+             * @description The upper end.
+             */
+            high: number;
+            /** @description Runs by outcome. */
+            counts: {
+                [key: string]: number;
+            };
+        };
         /** @description A source with the name of its file. */
         SourceRequest: {
             source: string;
             /** @default action.py */
             filename?: string;
         };
-        /** @enum {string} */
-        StateEnum: "queued" | "starting" | "ready" | "failed" | "ended";
+        /** @description An evaluation that is to be run. */
+        StartEvaluationRequest: {
+            name: string;
+            /**
+             * @description So many runs; 0 is as the file says.
+             * @default 0
+             */
+            runs?: number;
+        };
         /** @description A node on the path of a finding's reason. */
         Step: {
             tree: string;
@@ -2140,7 +2509,7 @@ export interface components {
             line: number;
             /** @description Empty for the main tree. */
             tree: string;
-            outcome: components["schemas"]["OutcomeEnum"];
+            outcome: components["schemas"]["TestOutcomeOutcomeEnum"];
             ticks: number;
             failures: components["schemas"]["TestFailure"][];
             /** @description What the test reached: items by tree and node. */
@@ -2150,6 +2519,8 @@ export interface components {
                 };
             };
         };
+        /** @enum {string} */
+        TestOutcomeOutcomeEnum: "passed" | "failed" | "needs_python" | "not_run";
         /** @description A node on the way from the root, with its status after the tick. */
         TestPath: {
             name: string;
@@ -2194,6 +2565,13 @@ export interface components {
             runs: number;
             run_bytes: number;
             max_run_bytes: number;
+        };
+        /** @description All that is known of one run. */
+        WholeOutcome: {
+            /** @description Its line of runs.jsonl. */
+            outcome: {
+                [key: string]: unknown;
+            };
         };
         /** @description A diagram that is to be converted to XML. */
         WriteTreeRequest: {
@@ -3531,6 +3909,476 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ProjectDetail"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_evaluations: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["EvaluationList"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    start_evaluation: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StartEvaluationRequest"];
+            };
+        };
+        responses: {
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Evaluation"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_evaluation: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                evaluation_id: string;
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Evaluation"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    delete_evaluation: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                evaluation_id: string;
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No response body */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    cancel_evaluation: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                evaluation_id: string;
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Evaluation"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    compare_evaluation: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                evaluation_id: string;
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CompareRequest"];
+            };
+        };
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Evaluation"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_comparison: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                evaluation_id: string;
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Comparison"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_outcomes: {
+        parameters: {
+            query?: {
+                /** @description The `cursor` of the answer before. */
+                after?: number;
+                /** @description Of the two, if it is compared; else its own. */
+                revision?: number;
+            };
+            header?: never;
+            path: {
+                evaluation_id: string;
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OutcomeList"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_outcome: {
+        parameters: {
+            query?: {
+                /** @description Of the two, if it is compared; else its own. */
+                revision?: number;
+            };
+            header?: never;
+            path: {
+                evaluation_id: string;
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+                seed: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WholeOutcome"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    ask_replay: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                evaluation_id: string;
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AskReplayRequest"];
+            };
+        };
+        responses: {
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Replay"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_replay: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                evaluation_id: string;
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+                replay_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Replay"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    download_report: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                evaluation_id: string;
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": Blob;
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    resume_evaluation: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                evaluation_id: string;
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Evaluation"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    download_outcomes: {
+        parameters: {
+            query?: {
+                /** @description Of the two, if it is compared; else its own. */
+                revision?: number;
+            };
+            header?: never;
+            path: {
+                evaluation_id: string;
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/x-ndjson": Blob;
                 };
             };
             /** @description A problem document. */

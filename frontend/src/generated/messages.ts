@@ -9,6 +9,8 @@ export type OnFinish = "stop" | "repeat";
 
 export type OnError = "stop" | "failure";
 
+export type EvaluationEnd = "complete" | "refused" | "failed" | "replaced";
+
 export type State = "idle" | "connected" | "universe_ready" | "visualization_ready" | "application_running" | "paused";
 
 export type Rung = "connect" | "launch_universe" | "prepare_visualization" | "run_application";
@@ -207,6 +209,84 @@ export interface ClientMessage {
   id: string;
   command: string;
   data?: unknown;
+}
+
+/**
+ * Runs seeds of an evaluation of a project, beside the ladder.
+ *
+ * A job that already runs continues, and its outcomes so far are sent again; another job ends it.
+ *
+ * Attributes:
+ *     job: a name of the job, chosen by the client.
+ *     app_zip_base64: the files of the project.
+ *     evaluation: the name of the evaluation.
+ *     seeds: the seeds to run; without any, those that the evaluation says.
+ *     runs: how many, if not as the evaluation says; 0 is as it says.
+ *     known: [seed, outcome] of seeds that are part of the evaluation and need not be run.
+ *     record: whether the first of the seeds alone is run, and recorded.
+ */
+export interface Evaluate {
+  job: string;
+  app_zip_base64: string;
+  evaluation: string;
+  seeds?: number[];
+  known?: [number, string][];
+  runs?: number;
+  record?: boolean;
+}
+
+/**
+ * The evaluation was read and checked, and its first run begins.
+ *
+ * `seed` is the first, and `wanted` the largest number of runs. `plan` has outlines of the world for its
+ * report, in m. `duration_s` is how long a run takes at most, in simulated s.
+ */
+export interface EvaluationStarted {
+  job: string;
+  workers: number;
+  seed: number;
+  wanted: number;
+  sequential: boolean;
+  duration_s: number;
+  plan: Record<string, unknown>;
+}
+
+/**
+ * The outcome of one run.
+ *
+ * Attributes:
+ *     line: the line of `runs.jsonl`.
+ *     cpu_s: its processor time in s.
+ *     rate, low, high: of all outcomes so far, with the 95 % interval.
+ *     left_s: the real time that is probably left, in s.
+ */
+export interface EvaluationOutcome {
+  job: string;
+  seed: number;
+  line: string;
+  cpu_s: number;
+  done: number;
+  wanted: number;
+  rate: number;
+  low: number;
+  high: number;
+  left_s: number;
+}
+
+/**
+ * A job has ended.
+ *
+ * Attributes:
+ *     wanted: how many of the seeds belong to the evaluation; with `until` these may be fewer than asked.
+ *     message: why it was refused or failed, a line for each problem.
+ *     run: the name of the recording; "" without one.
+ */
+export interface EvaluationEnded {
+  job: string;
+  end: EvaluationEnd;
+  wanted: number;
+  message: string;
+  run: string;
 }
 
 /** The command was done. */
@@ -683,6 +763,7 @@ export interface Commands {
   restart_node: RestartNode;
   read_recording: ReadRecording;
   flag: Flag;
+  evaluate: Evaluate;
   take_over: Empty;
   ping: Empty;
 }
@@ -709,6 +790,9 @@ export interface Events {
   topic_mismatch: TopicMismatch;
   launch_nodes: LaunchNodes;
   segment: Segment;
+  evaluation_started: EvaluationStarted;
+  evaluation_outcome: EvaluationOutcome;
+  evaluation_ended: EvaluationEnded;
 }
 
 /** What the stream socket sends, told by `type`. */

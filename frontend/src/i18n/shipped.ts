@@ -21,7 +21,7 @@ function shipped(type: string, text: string, pick: (described: Described) => str
 
 export const shippedDoc = (type: string, text: string): string => shipped(type, text, ({ doc }) => doc);
 
-/** Returns what a choice of the palette is for: a tree's own description, or that of its type. */
+/** Returns the description of a choice of the palette: the tree's own, or that of its type. */
 export const shippedChoice = ({ kind, spec }: Choice): string =>
   shippedDoc(kind.tree ?? spec.type, spec.summary);
 

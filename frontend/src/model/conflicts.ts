@@ -59,7 +59,7 @@ export function conflictsOf(diagram: Listed): readonly Conflict[] {
   });
 }
 
-/** What one side of a decision has: a text, a place, nodes, or nothing. */
+/** One side of a decision: a text, a place, nodes, or nothing. */
 export type Shown =
   | { readonly is: 'text'; readonly text: string }
   | { readonly is: 'place'; readonly parent: string | null; readonly place: number }
@@ -70,7 +70,7 @@ const nameOf = (diagram: Diagram, id: string): string => {
   return node ? displayName(node) : id;
 };
 
-/** Returns one side of a decision, as it is shown. */
+/** Returns the text of one side of a decision. */
 export function shownSide(diagram: Diagram, conflict: Conflict, side: Side | 'base'): Shown {
   const value = conflict[side];
   if (conflict.op === 'delete') return { is: value === null ? 'deleted' : 'kept' };
@@ -118,7 +118,7 @@ function placeOf(value: unknown): Placement | null {
   return { at: 'child', parent: text(parent), index: Number(index) };
 }
 
-/** Moves a node to its place on their side; what it would then hang below takes its place before. */
+/** Moves a node to its place on their side; a descendant that becomes its ancestor takes its old place first. */
 function move(draft: Draft<Diagram>, id: NodeId, place: Placement): void {
   if (place.at === 'child') {
     const { parent } = place;

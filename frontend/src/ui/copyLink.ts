@@ -1,7 +1,7 @@
 import { notifications } from '@mantine/notifications';
 import { t } from '@/i18n';
 
-/** Copies an address, and says what it opens; where the browser denies the clipboard, the address is shown. */
+/** Copies an address, and confirms with a text; if the browser denies the clipboard, the address is shown. */
 export async function copyLink(address: string, note: string): Promise<void> {
   try {
     await navigator.clipboard.writeText(address);

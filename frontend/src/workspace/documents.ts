@@ -6,5 +6,5 @@ export type DocumentTab =
   | { kind: 'source'; path: string }
   /** The comparison of two revisions; there is only one such tab. */
   | { kind: 'compare' }
-  /** The tree as it ran at the moment at which the user looks back; there is only one such tab. */
+  /** The tree as it ran at the shown past moment; there is only one such tab. */
   | { kind: 'past' };

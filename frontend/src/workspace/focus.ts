@@ -42,7 +42,7 @@ export function focusDocument(tab: DocumentTab): void {
     const target = focusableOf(tab);
     if (target?.checkVisibility() && !document.querySelector('[role="dialog"][aria-modal="true"]')) {
       firstSeen ??= now;
-      // What got the focus inside the document meanwhile keeps it: a search, or a field chosen by a screen reader.
+      // An element of the document that has the focus by now keeps it: a search, or a field of a screen reader.
       const panel = target.closest('[role="tabpanel"]') ?? target;
       if (!panel.contains(document.activeElement)) target.focus({ preventScroll: true });
     }

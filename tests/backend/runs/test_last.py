@@ -189,4 +189,4 @@ def test_the_app_listens_to_the_end_of_sessions():
     heard = [
         receiver[0][0] for signal in (session_ends, sessions_maintained) for receiver in signal.receivers
     ]
-    assert heard == ["fetch_last", "sweep_soon"]
+    assert heard == ["fetch_last", "sweep_soon", "round_of_evaluations"]

@@ -50,6 +50,7 @@ DATA: dict[str, dict[str, Any]] = {
     "describe_type": {"type": "std_msgs/msg/String"},
     "read_recording": {"run": "abc", "segment": 0, "version": 0, "offset": 0, "length": 100},
     "flag": {"text": "here"},
+    "evaluate": {"job": "a1", "app_zip_base64": "eA==", "evaluation": "room"},
     "restart_node": {"id": "launch/extra.launch.yaml:talker"},
 }
 

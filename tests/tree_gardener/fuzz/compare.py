@@ -14,19 +14,21 @@ from tests.tree_gardener.fuzz.trace import Line, run_ours
 from tree_gardener import LoadError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from tests.tree_gardener.fuzz.generate import Case, Spec
 
 ROOT = Path(__file__).parents[3]
 
 
-def reference_traces(cases: list[Case]) -> list[list[Line] | None]:
-    """The traces of BehaviorTree.CPP; None where it crashed or did not end."""
+def reference_traces(
+    cases: Sequence[object], child: str = "tests.tree_gardener.fuzz.child"
+) -> list[list[Line] | None]:
+    """The traces of BehaviorTree.CPP, run by the module `child`; None where it crashed or did not end."""
     traces: list[list[Line] | None] = []
     while len(traces) < len(cases):
         process = subprocess.run(
-            [sys.executable, "-m", "tests.tree_gardener.fuzz.child"],
+            [sys.executable, "-m", child],
             input=pickle.dumps(cases[len(traces) :]),
             capture_output=True,
             cwd=ROOT,
@@ -39,7 +41,7 @@ def reference_traces(cases: list[Case]) -> list[list[Line] | None]:
             if process.returncode > 0:
                 raise RuntimeError(process.stderr.decode()[-2000:])
             traces.append(None)  # killed by a signal of its own
-    return traces
+    return traces[: len(cases)]  # one that is killed at its end has written all
 
 
 def our_trace(case: Case) -> list[Line]:

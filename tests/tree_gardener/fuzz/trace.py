@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import py_trees
 from py_trees.common import Status as PyTreesStatus
@@ -13,6 +13,9 @@ from tree_gardener import Status, TickError, Tree
 from tree_gardener.blackboard import EMPTY, Blackboard
 from tree_gardener.ports import node_of
 from tree_gardener.values import INT, ConversionError, parse_double
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 Line = dict[str, Any]
 
@@ -47,8 +50,11 @@ class Scripts:
         return events
 
 
-def run_reference(case: Case) -> list[Line]:
-    """Runs a case in BehaviorTree.CPP; call it in a process that may crash."""
+def run_reference(case: Case, prepare: Callable[[Any], object] = id) -> list[Line]:
+    """Runs a case in BehaviorTree.CPP; call it in a process that may crash.
+
+    `prepare` is called with the tree, and what it returns is kept until the end of the run.
+    """
     import behaviortreepy as cpp
 
     results = {
@@ -76,6 +82,7 @@ def run_reference(case: Case) -> list[Line]:
         tree = factory.create_tree_from_text(case.xml(), board)
     except RuntimeError:
         return [{"load": "refused"}]
+    kept = prepare(tree)
     lines: list[Line] = []
     for tick in range(case.ticks):
         if tick in case.halts:
@@ -91,6 +98,7 @@ def run_reference(case: Case) -> list[Line]:
         lines.append({"root": root.name, "events": scripts.take(), "board": _read_cpp(board)})
     tree.halt_tree()
     lines.append({"root": "halt", "events": scripts.take(), "board": _read_cpp(board)})
+    del kept
     return lines
 
 
@@ -107,8 +115,8 @@ def _read_cpp(board: Any) -> dict[str, Any]:
     return found
 
 
-def run_ours(case: Case) -> list[Line]:
-    """Runs a case in our engine."""
+def run_ours(case: Case, prepare: Callable[[Tree], object] = id) -> list[Line]:
+    """Runs a case in our engine; `prepare` is called with the tree."""
     scripts = Scripts()
     results = {
         "S": PyTreesStatus.SUCCESS,
@@ -145,6 +153,7 @@ def run_ours(case: Case) -> list[Line]:
         board.set(key, 1, INT)
     nodes = {"Leaf": Leaf, "SyncLeaf": SyncLeaf, "Cond": Cond}
     tree = Tree.from_xml(case.xml(), nodes, blackboard=board)
+    prepare(tree)
     lines: list[Line] = []
     for tick in range(case.ticks):
         if tick in case.halts:

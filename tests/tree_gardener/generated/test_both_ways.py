@@ -15,7 +15,7 @@ from tree_gardener.generated.writer import Writer
 CASES = Path(__file__).parents[2] / "conformance"
 
 
-@pytest.mark.timeout(1800)
+@pytest.mark.timeout(7200)
 @pytest.mark.parametrize("letters", [USUAL, RARE])
 @pytest.mark.parametrize("changes", [False, True])
 def test_random_trees_show_the_same(letters: str, *, changes: bool) -> None:

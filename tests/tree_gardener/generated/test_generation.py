@@ -20,7 +20,7 @@ from tree_gardener.node import Control
 from tree_gardener.runner import Runner
 
 R, S, F = PyTreesStatus.RUNNING, PyTreesStatus.SUCCESS, PyTreesStatus.FAILURE
-TWO = "<Sequence><Sequence><A/><B/></Sequence>" + "<A/>" * 31 + "</Sequence>"
+TWO = f"<Sequence><Repeat num_cycles='1'><Sequence><A/><B/></Sequence></Repeat>{'<A/>' * 9}</Sequence>"
 
 
 def coded(tree: Tree) -> list[int]:
@@ -101,7 +101,7 @@ def test_hooks_that_come_and_go_without_a_tick_leave_nothing_behind() -> None:
     tree = load("<Sequence><Succeeding/><Succeeding/></Sequence>")
     for _ in range(200):
         tree.add_hook(before=lambda node: None, node=2)()
-    assert len(tree._generation.queue) <= len(tree.nodes) + 2
+    assert len(tree._ways.generation.queue) <= len(tree.nodes) + 2
     assert tree.tick_exactly_once() is Status.SUCCESS
     assert coded(tree) == [1]
 
@@ -267,7 +267,7 @@ def test_the_source_shows_every_function() -> None:
     source = tree.generated_source()
     assert source.count("def tick(") == len(coded(tree)) == 2
     assert source.startswith("# node 1\n")
-    assert isinstance(tree._generation, Generation)
+    assert isinstance(tree._ways.generation, Generation)
     assert load("<Sleep msec='1'/>").generated_source() == ""
 
 

@@ -22,7 +22,7 @@ from tree_gardener.generated.parts import (
     rule_of,
 )
 from tree_gardener.node import Control, Node
-from tree_gardener.status import RUNNING, Status
+from tree_gardener.status import Status
 
 if TYPE_CHECKING:
     from tree_gardener import Tree
@@ -99,11 +99,20 @@ def test_size_is_bounded(children: int) -> None:
 
 def test_size_counts_nodes_at_all_levels() -> None:
     inner = f"<Sequence>{'<Succeeding/>' * 9}</Sequence>"
-    tree = load(f"<Sequence>{inner * 10}</Sequence>")
+    found = regions(load(f"<Sequence>{inner * 10}</Sequence>"))
+    # Whole children share a function, as many as there is room for.
+    assert [len(region.root.children) for region in found] == [3, 3, 3, 1]
+    assert [region.base for region in found] == [0, 3, 6, 9]
+    assert max(size(region.root) for region in found) <= MAX_NODES + 1
+    assert not any(CALL in kinds(region.root) for region in found)
+
+
+def test_a_child_that_is_too_large_is_called() -> None:
+    tree = load(f"<Sequence><Fallback>{'<Failing/>' * MAX_NODES}</Fallback><Succeeding/></Sequence>")
     (region,) = regions(tree)
-    assert size(region.root) <= MAX_NODES + 1
-    assert CALL in kinds(region.root)
-    assert "stateful" in kinds(region.root)
+    assert [part.kind for part in region.root.children] == [CALL, "stateful"]
+    (below,) = regions(tree, 2)
+    assert size(below.root) == MAX_NODES + 1
 
 
 def test_depth_is_bounded() -> None:
@@ -124,18 +133,57 @@ def test_a_shape_has_nothing_of_the_document() -> None:
     assert shape("a", "x") == shape("__import__('os')", "secret")
 
 
+def observed(body: str) -> Region:
+    tree = load(body)
+    tree.observe(lambda changes: None)
+    (region,) = regions(tree, 1, BARE._replace(is_observed=True))
+    return region
+
+
+def reports(region: Region) -> list[tuple[int, list[int]]]:
+    """The node of each bundle, and the nodes whose results are in it."""
+    marks = [value for value in region.values if isinstance(value, tuple) and isinstance(value[0], Node)]
+    return [(node.uid, [uid for uid, _ in flashes]) for node, flashes in marks]
+
+
 def test_marks_of_leaves_are_bundled_between_calls() -> None:
-    tree = load(
+    region = observed(
         '<Sequence><Succeeding/><Succeeding/><Sleep msec="0"/><Succeeding/><Succeeding _post="a := 1"/>'
         "</Sequence>"
     )
-    tree.observe(lambda changes: None)
-    (region,) = regions(tree, 1, BARE._replace(is_observed=True))
     assert [part.kind for part in region.root.children] == [
         *("stateful", "stateful", BUNDLE, CALL, "stateful", BUNDLE, "stateful"),
     ]
     bundle = region.values[region.root.children[2].first]
-    assert bundle == (tree.nodes[0], RUNNING, ((2, Status.SUCCESS), (3, Status.SUCCESS)))
+    assert bundle == (region.node, ((2, Status.SUCCESS), (3, Status.SUCCESS)))
+
+
+def test_the_last_bundle_is_reported_with_the_result_of_the_root() -> None:
+    region = observed("<Fallback><Failing/><Failing/></Fallback>")
+    assert BUNDLE not in kinds(region.root)
+    flashes = tuple((uid, Status.FAILURE) for uid in (2, 3, 1))
+    assert region.values[region.root.place("e")] == (region.node, flashes)
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        # The result that lets the node above continue shows that all below went the usual way.
+        ("<Sequence><A/><Sequence><A/><A/></Sequence><A/></Sequence>", [[2, 4, 5, 3, 6, 1]]),
+        ("<Fallback><A/><Inverter><A/></Inverter><A/></Fallback>", [[2, 4, 3, 5, 1]]),
+        # A Fallback succeeds at any of its children, and ForceSuccess after any result.
+        ("<Sequence><A/><Fallback><A/><A/></Fallback><A/></Sequence>", [[2], [4, 5], [6, 1]]),
+        ("<Sequence><A/><ForceSuccess><A/></ForceSuccess><A/></Sequence>", [[2], [4], [5, 1]]),
+        ("<ForceSuccess><Sequence><A/></Sequence></ForceSuccess>", [[3, 2]]),
+        ("<Sequence><A/><Sequence _post='a := 1'><A/></Sequence></Sequence>", [[2], [4], [1]]),
+    ],
+)
+def test_marks_of_composites_are_bundled_where_the_result_tells_the_course(
+    body: str, expected: list[list[int]]
+) -> None:
+    assert sorted(reports(observed(body.replace("<A/>", "<Succeeding/>")))) == sorted(
+        (1, uids) for uids in expected
+    )
 
 
 def test_letters_stand_for_the_values_at_their_places() -> None:

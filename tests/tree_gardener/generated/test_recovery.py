@@ -152,3 +152,19 @@ def test_a_recovery_is_made_for_each_region() -> None:
     assert UNTICKED in function.__defaults__
     assert generation.WARM_TICKS == 0
     assert tree.tick_exactly_once() is Status.SUCCESS
+
+
+@pytest.mark.parametrize("on", [True, False])
+@pytest.mark.parametrize("result", [None, "raises"])
+@pytest.mark.parametrize("mark", ["mark_leaves", "time_leaves"])
+def test_no_action_is_marked_after_a_tick_that_raised(on: bool, result: Any, mark: str) -> None:
+    tree = load(
+        "<Sequence><Succeeding/><A name='a'/></Sequence>",
+        nodes={"A": Raising if result == "raises" else recording(result)},
+    )
+    tree.generate_code(on=on)
+    getattr(tree, mark)()
+    with pytest.raises(TickError):
+        tree.tick_exactly_once()
+    assert has_code(tree) is on
+    assert tree.current_uid == 0

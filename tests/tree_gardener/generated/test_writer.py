@@ -140,12 +140,20 @@ def test_every_variant_is_harmless_and_each_value_has_its_line(variant: Variant)
 
 
 def test_marks_that_wait_for_their_bundle_are_known_by_line() -> None:
-    tree = load("<Sequence><Succeeding/><Succeeding/><Inverter><Succeeding/></Inverter></Sequence>")
+    tree = load(
+        "<Sequence><Succeeding/><Sequence><Succeeding/><Succeeding/></Sequence><Inverter><Succeeding/>"
+        "</Inverter></Sequence>"
+    )
     tree.observe(lambda changes: None)
     variant = Variant(is_observed=True, marks=False, times=False, counts=False)
     (region,) = Planner(variant, None, lambda node: False).regions(tree.nodes[0])
-    second = region.root.children[1]
-    pending: Any = dict(meanings(region.root))[FIRST_LINE + second.place("u")].pending
-    assert [region.values[place] for place in pending] == [tree.nodes[1].marks[0]]
-    inverter = region.root.children[3]
-    assert dict(meanings(region.root))[FIRST_LINE + inverter.first].pending == ()
+    lines = dict(meanings(region.root))
+
+    def waiting(line: int) -> list[Any]:
+        return [(region.values[place].uid, index) for place, index in lines[line].pending]
+
+    inner = region.root.children[1]
+    assert waiting(FIRST_LINE + inner.children[1].place("u")) == [(2, 0), (4, 0)]
+    bundle, inverter = region.root.children[2:4]
+    assert waiting(FIRST_LINE + bundle.first) == [(2, 0), (4, 0), (5, 0), (3, 0)]
+    assert waiting(FIRST_LINE + inverter.first) == []

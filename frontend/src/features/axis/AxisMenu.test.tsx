@@ -4,25 +4,16 @@ import { registerCommands } from '@/commands/registry';
 import { noRange, useRange } from '@/store/moment/range';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
+import { segmentOf } from '../../../harness/runs';
 import { show, user } from '../../../harness/testing';
 import { AXIS_MENU, AxisMenu } from './AxisMenu';
 import { rangeCommands } from './rangeCommands';
 
-const segment = {
-  run: 'a',
-  branch: 0,
-  number: 0,
-  version: 0,
-  from_t: 0,
-  to_t: 100,
-  bytes: 1,
-  complete: true,
-};
 let stop = () => {};
 
 beforeEach(() => {
   stop = registerCommands(rangeCommands);
-  useSessionStore.setState({ segments: [segment] });
+  useSessionStore.setState({ segments: [segmentOf()] });
 });
 afterEach(() => {
   stop();

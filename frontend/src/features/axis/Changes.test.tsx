@@ -8,6 +8,7 @@ import type { Changes as Found } from '@/store/recording/types';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import { openDiagram } from '../../../harness/canvas';
+import { segmentOf } from '../../../harness/runs';
 import { show, user } from '../../../harness/testing';
 import { treeNode } from '../../../harness/running';
 import { Changes } from './Changes';
@@ -18,10 +19,7 @@ const found: Found = {
   poses: [{ id: 7, metres: 0.25, degrees: 10 }],
 };
 const between = vi.fn<(from: number, to: number) => Promise<Found | null>>();
-const segment = {
-  ...{ run: 'a', branch: 0, number: 0, version: 0 },
-  ...{ from_t: 0, to_t: 9, bytes: 0, complete: true },
-};
+const segment = segmentOf({ to_t: 9, bytes: 0 });
 
 beforeEach(() => {
   between.mockResolvedValue(found);

@@ -5,12 +5,10 @@ import { extent, lookNow, setEngineLink } from '@/store/moment/looking';
 import { useMoment } from '@/store/moment/store';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
+import { segmentOf } from '../../../harness/runs';
 import { RunSelect } from './RunSelect';
 
-const segment = (run: string) => ({
-  ...{ run, branch: 0, number: 0, version: 0 },
-  ...{ from_t: 0, to_t: 1, bytes: 1, complete: true },
-});
+const segment = (run: string) => segmentOf({ run, to_t: 1 });
 
 it('offers the runs of the session, and the last one as the present', async () => {
   setEngineLink(() => ({ post: vi.fn(), onMessage: () => undefined }));

@@ -1,5 +1,6 @@
 import { act, fireEvent, screen } from '@testing-library/react';
 import { afterEach, beforeEach, expect, it, vi } from 'vitest';
+import { segmentOf } from '../../../harness/runs';
 import { show } from '../../../harness/testing';
 import { atPresent, useMoment } from '@/store/moment/store';
 import type { Overview } from '@/store/recording/types';
@@ -45,7 +46,7 @@ it('has the marks of its own run, and none of another', () => {
 
 it('zooms by the wheel round the pointer, and shows only the marks of that part', () => {
   useSessionStore.setState({
-    segments: [{ run: 'a', branch: 0, number: 0, version: 0, from_t: 0, to_t: 10, bytes: 1, complete: true }],
+    segments: [segmentOf({ to_t: 10 })],
   });
   useMoment.setState({ overview });
   show(<Strip extent={{ run: 'a', from: 0, to: 10 }} />);

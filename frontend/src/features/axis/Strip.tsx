@@ -44,7 +44,7 @@ export function Strip({ extent }: { readonly extent: Extent }) {
   const moment = useMoment((state) => state.t);
   const overview = useMoment((state) => (state.overview?.run === extent.run ? state.overview : null));
   const logs = useSessionStore((state) => state.logs);
-  // What the page has seen is of the present run.
+  // The page's own data are those of the present run.
   const isPresent = useSource(isPresentRun);
   const width = useWidth(strip);
   const a = useRange((state) => state.a);
@@ -217,7 +217,7 @@ function EndButton({
   );
 }
 
-/** Zooms by the wheel round the pointer; with Shift, or sideways, the part is moved. */
+/** The wheel zooms around the pointer; with Shift, or a sideways wheel, it moves the visible part. */
 function useZoomByWheel(ref: { readonly current: HTMLElement | null }, extent: Extent): void {
   useEffect(() => {
     const element = ref.current;

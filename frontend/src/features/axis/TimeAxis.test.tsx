@@ -9,19 +9,11 @@ import { followPresent, setEngineLink } from '@/store/moment/looking';
 import { useMoment } from '@/store/moment/store';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
+import { segmentOf } from '../../../harness/runs';
 import { TimeAxis } from './TimeAxis';
 
 const file = new Uint8Array(readFileSync('../tests/executor/recorder/samples/v1.mcap'));
-const segment = {
-  run: 'a',
-  branch: 0,
-  number: 0,
-  version: 0,
-  from_t: 0,
-  to_t: 1,
-  bytes: file.length,
-  complete: true,
-};
+const segment = segmentOf({ to_t: 1, bytes: file.length });
 
 let stop = () => {};
 

@@ -101,7 +101,7 @@ const rows: readonly UserCommand[] = [
   },
 ];
 
-/** Copies the link to the shown moment, and says who can open it. */
+/** Copies the link to the shown moment, and shows who can open it. */
 export function copyShownLink(): void {
   const shown = shownAddress();
   const { projectId } = useProjectStore.getState();

@@ -3,21 +3,12 @@ import { noRange, useRange } from '@/store/moment/range';
 import { atPresent, useMoment } from '@/store/moment/store';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
+import { segmentOf } from '../../../harness/runs';
 import { rangeCommands, zoom } from './rangeCommands';
 
 const command = (id: string) => rangeCommands.find((each) => each.id === `time.${id}`)!;
-const segment = {
-  run: 'a',
-  branch: 0,
-  number: 0,
-  version: 0,
-  from_t: 0,
-  to_t: 100,
-  bytes: 1,
-  complete: true,
-};
 
-beforeEach(() => useSessionStore.setState({ segments: [segment] }));
+beforeEach(() => useSessionStore.setState({ segments: [segmentOf()] }));
 afterEach(() => {
   useSessionStore.setState(initialSession, true);
   useMoment.setState(atPresent, true);
@@ -57,4 +48,14 @@ it('zooms round the moment, or a given time, and back to all', () => {
   command('fit').run();
   expect(useRange.getState().view).toBeNull();
   expect(command('zoomOut').enabled?.()).toBe(false);
+});
+
+it('clears a range of which only one end is marked', () => {
+  for (const end of ['a', 'b'] as const) {
+    useRange.setState({ ...noRange, [end]: 20 });
+    expect(command('clearRange').enabled?.()).toBe(true);
+    expect(command('loop').enabled?.()).toBe(false);
+  }
+  command('clearRange').run();
+  expect(useRange.getState()).toMatchObject({ a: null, b: null });
 });

@@ -2,7 +2,7 @@ import { notifications } from '@mantine/notifications';
 import { t } from '@/i18n';
 import type { Missing } from '@/store/moment/address';
 
-/** Says why the run of an address is not shown, and what can be done. */
+/** Shows the reason why the run of an address is not shown, and the next step. */
 export function showMissingRun(missing: Missing): void {
   notifications.show({
     color: missing.what === 'failed' ? 'red' : 'yellow',

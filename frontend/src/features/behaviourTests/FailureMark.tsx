@@ -5,7 +5,7 @@ import { openFile } from '@/store/project/navigation';
 import type { FailureAt } from '@/store/behaviourTests/failures';
 import classes from './coverage.module.css';
 
-/** The mark of a block that a test failed at, with what was wanted and got; it leads to the test's line. */
+/** The mark of a block at which a test failed, with the expected and the actual value; it leads to the test's line. */
 export function FailureMark({ failures }: { readonly failures: readonly FailureAt[] }) {
   const { t } = useTranslation('behaviourTests');
   const [first] = failures;

@@ -30,7 +30,7 @@ interface MomentFormProps {
   readonly story: Story;
 }
 
-/** The form of a test of a moment: its name, its file, how far it goes back, and what it expects. */
+/** The form of a test of a moment: its name, file, first tick and expectations. */
 export function MomentForm({ story }: MomentFormProps) {
   const { t } = useTranslation('behaviourTests');
   const files = useProjectStore((state) => state.files);

@@ -12,7 +12,7 @@ interface NodeCoverageProps {
   readonly node: string;
 }
 
-/** What tests say about a block: the failures at it, and while the coverage is shown what they do not reach. */
+/** The results of tests for a block: its failures and, while the coverage is shown, its items that no test reaches. */
 export function NodeCoverage({ tree, node }: NodeCoverageProps) {
   const { t } = useTranslation('behaviourTests');
   const key = liveKey(tree, node);

@@ -13,7 +13,7 @@ const PATTERNS = [
 
 const STATUSES = ['SUCCESS', 'FAILURE', 'RUNNING', 'SKIPPED'];
 
-/** Returns in words what of a block was not reached, for an item as the engine names it. */
+/** Returns the description of an item of a block that no test reached, from the engine's name of the item. */
 export function itemText(t: TFunction<'behaviourTests'>, item: string): string {
   if (item === 'ticked') return t('item.ticked');
   if (item === 'halted while RUNNING') return t('item.halted');

@@ -1,8 +1,7 @@
-import { Modal } from '@mantine/core';
-import { Suspense } from 'react';
 import { useTranslation } from 'react-i18next';
-import { lazyPart } from '@/ui/parts';
 import { closeExportDialog, useExportDialog } from '@/store/dialogs/export';
+import { PartDialog } from '@/ui/PartDialog';
+import { lazyPart } from '@/ui/parts';
 
 const Contents = lazyPart(async () => (await import('./ExportContents')).ExportContents);
 
@@ -11,18 +10,8 @@ export function ExportDialog() {
   const { t } = useTranslation('export');
   const isOpen = useExportDialog((state) => state.isOpen);
   return (
-    <Modal
-      opened={isOpen}
-      onClose={closeExportDialog}
-      title={t('title')}
-      size="xl"
-      closeButtonProps={{ 'aria-label': t('close') }}
-    >
-      {isOpen ? (
-        <Suspense fallback={null}>
-          <Contents />
-        </Suspense>
-      ) : null}
-    </Modal>
+    <PartDialog isOpen={isOpen} onClose={closeExportDialog} title={t('title')} closeLabel={t('close')}>
+      <Contents />
+    </PartDialog>
   );
 }

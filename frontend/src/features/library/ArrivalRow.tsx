@@ -24,7 +24,7 @@ interface ArrivalRowProps {
   readonly onChoose: (choice: Choice) => void;
 }
 
-/** The row of an incoming file: what it is, what happens to it, and its content on demand. */
+/** The row of an incoming file: its kind, the planned change, and its content on demand. */
 export function ArrivalRow({ arrival, source, onChoose }: ArrivalRowProps) {
   const { t } = useTranslation('library');
   const [isOpen, setOpen] = useState(false);

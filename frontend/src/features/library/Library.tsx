@@ -55,7 +55,7 @@ interface RowsProps {
   readonly record: string | null;
 }
 
-/** A list of behaviours; a list with a title says from which project each comes. */
+/** A list of behaviours; a list with a title also shows the project of each. */
 function Rows({ title, offers, record }: RowsProps) {
   const taken = useMemo(() => takenIn(record), [record]);
   return (

@@ -29,13 +29,13 @@ function likeness(a: Diagram, b: Diagram): number {
   return equal / Math.max(left.length, right.length, 1);
 }
 
-/** Returns the two states to compare: without an attached file, only what a recorded node has counts. */
+/** Returns the two states to compare; without an attached file, only the fields that a recorded node has count. */
 export function sidesOf({ diagram, isAttached }: RecordedTree, now: Diagram | null): [Diagram, Diagram] {
   const present = now ?? emptyDiagram(diagram.id);
   return isAttached ? [diagram, present] : [diagram, asRecorded(present)];
 }
 
-/** Returns a tree as a recording has it: what is enabled, with type, name, tree and ports. */
+/** Returns a tree in the form of a recording: enabled nodes, with type, name, tree and ports. */
 function asRecorded(diagram: Diagram): Diagram {
   const off = new Set(
     preorder(diagram).flatMap((id) => (diagram.nodes[id]?.disabled ? subtreeOf(diagram, id) : [])),

@@ -97,7 +97,7 @@ export class RobotScene extends ThingScene<Part> {
   }
 }
 
-/** Returns the lines of a sensor's field of view in its own frame: a ring or a pyramid. */
+/** Returns the lines of a sensor's field of view in the sensor's frame: a ring or a pyramid. */
 function sightOf({ sensor }: Part): THREE.BufferGeometry | null {
   if (sensor?.kind === 'camera') {
     return pyramidOf({ fov: number(sensor.raw['fov'], 1.047), range: FARTHEST_M / 2 });

@@ -1,21 +1,11 @@
 import { screen } from '@testing-library/react';
 import { expect, it, vi } from 'vitest';
 import type { MyRun } from '@/api/runs';
+import { myRun } from '../../../harness/runs';
 import { show, user } from '../../../harness/testing';
 import { MyRunCard } from './MyRunCard';
 
-const run = {
-  id: '00000001-0000-0000-0000-000000000000',
-  name: 'First',
-  note: '',
-  result: 'failure',
-  length_s: 5,
-  has_thumbnail: true,
-  created_at: '2026-01-01T00:00:00Z',
-  project: 'p1',
-  project_name: 'Robot',
-  may_open: true,
-} as MyRun;
+const run = myRun(1, { name: 'First', result: 'failure', length_s: 5 });
 
 function open(more: Partial<MyRun> = {}) {
   const onRemove = vi.fn().mockResolvedValue(true);

@@ -1,33 +1,11 @@
 import { screen, within } from '@testing-library/react';
 import { beforeEach, expect, it } from 'vitest';
-import type { MyRun } from '@/api/runs';
 import { refusal } from '../../../harness/requests';
+import { myRun as run } from '../../../harness/runs';
 import { fakeServer, show, user } from '../../../harness/testing';
 import { MyRuns } from './MyRuns';
 
 const LIST = 'GET /runs';
-const run = (number: number, more: Partial<MyRun> = {}): MyRun => ({
-  id: `0000000${number}-0000-0000-0000-000000000000`,
-  name: `Run ${number}`,
-  note: '',
-  result: 'success',
-  start_s: 0,
-  length_s: 65,
-  size: 100,
-  is_pinned: false,
-  is_shared: false,
-  is_last: false,
-  has_thumbnail: true,
-  may_manage: true,
-  may_share: true,
-  keeper: 'tina',
-  recorded_as: 'a1',
-  created_at: new Date().toISOString(),
-  project: 'p1',
-  project_name: 'Robot',
-  may_open: true,
-  ...more,
-});
 
 beforeEach(() => window.history.pushState(null, '', '/'));
 

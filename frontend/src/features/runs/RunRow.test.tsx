@@ -1,27 +1,11 @@
 import { screen } from '@testing-library/react';
 import { expect, it, vi } from 'vitest';
 import type { StoredRun } from '@/api/runs';
+import { storedRun } from '../../../harness/runs';
 import { show, user } from '../../../harness/testing';
 import { RunRow } from './RunRow';
 
-const run: StoredRun = {
-  id: 'r1',
-  name: 'First',
-  note: '',
-  result: 'success',
-  start_s: 0,
-  length_s: 5,
-  size: 100,
-  is_pinned: true,
-  is_shared: true,
-  is_last: false,
-  has_thumbnail: true,
-  may_manage: true,
-  may_share: true,
-  keeper: 'tina',
-  recorded_as: 'a1',
-  created_at: '2026-01-01T00:00:00Z',
-};
+const run = storedRun({ name: 'First', result: 'success', is_pinned: true, is_shared: true });
 
 function open(more: Partial<StoredRun> = {}) {
   const onChange = vi.fn().mockResolvedValue(true);

@@ -20,7 +20,7 @@ interface Props {
   readonly onRemove: () => Promise<boolean>;
 }
 
-/** A kept run: its name, length, result and note, and what can be done with it. */
+/** A kept run: its name, length, result, note, and its commands. */
 export function RunRow({ projectId, run, onOpen, onChange, onRemove }: Props) {
   const { t, i18n } = useTranslation('runs');
   const [mode, setMode] = useState<'shown' | 'renamed' | 'removed' | 'shared'>('shown');

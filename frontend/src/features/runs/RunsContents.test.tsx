@@ -1,33 +1,14 @@
 import { act, screen, within } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
-import type { StoredRun } from '@/api/runs';
 import type { Segment } from '@/generated/messages';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import { refusal } from '../../../harness/requests';
+import { storedRun as run } from '../../../harness/runs';
 import { fakeServer, openProject, show, user } from '../../../harness/testing';
 import { RunsContents } from './RunsContents';
 
 const LIST = 'GET /projects/p1/runs';
-const run = (more: Partial<StoredRun> = {}): StoredRun => ({
-  id: 'r1',
-  name: 'Into the crate',
-  note: '',
-  result: 'failure',
-  start_s: 0,
-  length_s: 125,
-  size: 2_500_000,
-  is_pinned: false,
-  is_shared: false,
-  is_last: false,
-  has_thumbnail: true,
-  may_manage: true,
-  may_share: true,
-  keeper: 'tina',
-  recorded_as: 'a1',
-  created_at: new Date().toISOString(),
-  ...more,
-});
 
 function open(answers: Record<string, unknown>) {
   const { requests } = fakeServer(answers);

@@ -1,7 +1,6 @@
-import { Modal } from '@mantine/core';
-import { Suspense } from 'react';
 import { useTranslation } from 'react-i18next';
 import { closeRunsDialog, useRunsDialog } from '@/store/dialogs/runs';
+import { PartDialog } from '@/ui/PartDialog';
 import { lazyPart } from '@/ui/parts';
 import { LogDrop } from './LogDrop';
 
@@ -14,19 +13,9 @@ export function RunsDialog() {
   return (
     <>
       <LogDrop />
-      <Modal
-        opened={isOpen}
-        onClose={closeRunsDialog}
-        title={t('title')}
-        size="xl"
-        closeButtonProps={{ 'aria-label': t('close') }}
-      >
-        {isOpen ? (
-          <Suspense fallback={null}>
-            <Contents />
-          </Suspense>
-        ) : null}
-      </Modal>
+      <PartDialog isOpen={isOpen} onClose={closeRunsDialog} title={t('title')} closeLabel={t('close')}>
+        <Contents />
+      </PartDialog>
     </>
   );
 }

@@ -4,7 +4,7 @@ import { useTranslation } from 'react-i18next';
 import { runs, type RunChange, type RunToKeep } from '@/api/runs';
 import { useProjectStore } from '@/store/project';
 
-/** Returns the kept runs of the open project, and what can be done with them; errors are shown. */
+/** Returns the kept runs of the open project, and functions that change them; errors are shown. */
 export function useRuns() {
   const { t } = useTranslation('runs');
   const projectId = useProjectStore((state) => state.projectId) ?? '';

@@ -31,7 +31,7 @@ export class TimelineView {
     }, REDRAW_MS);
     const resized = new ResizeObserver(this.redraw);
     resized.observe(canvas);
-    // The colours depend on the theme, so a new theme is drawn at once.
+    // The colours depend on the theme, so a change of the theme redraws.
     const themed = new MutationObserver(this.redraw);
     themed.observe(document.documentElement, { attributeFilter: ['data-mantine-color-scheme'] });
     const unfollow = useMoment.subscribe((state, before) => {

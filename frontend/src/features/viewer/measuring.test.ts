@@ -1,9 +1,13 @@
-import { beforeEach, describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it } from 'vitest';
 import { addMeasured, distances, setMeasuring, useMeasuring } from './measuring';
 
-beforeEach(() => setMeasuring(false));
+afterEach(() => setMeasuring(false));
 
 describe('measuring', () => {
+  it('is off at first', () => {
+    expect(useMeasuring.getState()).toEqual({ isOn: false, points: [] });
+  });
+
   it('has two points at most; a third starts again', () => {
     setMeasuring(true);
     expect(useMeasuring.getState()).toEqual({ isOn: true, points: [] });

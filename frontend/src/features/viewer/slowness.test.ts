@@ -48,4 +48,16 @@ describe('the verdict on a slow view', () => {
     slowness.forget();
     expect(watch(2.5, 400, slowness, 2500)).toEqual([]);
   });
+
+  it('counts each period from zero', () => {
+    const slowness = new Slowness();
+    const hz: (number | null)[] = [];
+    for (let now = 0; now <= 6000; now += 500) {
+      slowness.request(now);
+      slowness.draw(now);
+      const rate = slowness.tooSlow(now);
+      if (rate !== null) hz.push(rate);
+    }
+    expect(hz).toEqual([2, 2]);
+  });
 });

@@ -69,7 +69,7 @@ function checkUndeclared(
   return isPortName(name) ? checkBraces(id, name, text) : [atPort('bad-port-name', id, name)];
 }
 
-/** Reports a type of a ROS node that is not the name of one; what is installed is known to the server. */
+/** Reports a type of a ROS node that is not a valid name of a type; only the server knows the installed ones. */
 function checkInterface(id: NodeId, node: DiagramNode): Problem[] {
   const typePort = typePortOf(node.type);
   const text = typePort ? node.ports?.[typePort.port] : undefined;

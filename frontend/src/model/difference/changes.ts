@@ -11,7 +11,7 @@ export interface FieldChange {
   readonly after: string | null;
 }
 
-/** What was done to a node, except changes of its fields. */
+/** The changes of a node, except those of its fields. */
 export type Deed = 'wrapped' | 'unwrapped' | 'moved' | 'reordered' | null;
 
 export interface NodeDifference {

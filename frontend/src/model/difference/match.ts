@@ -8,7 +8,7 @@ const CLIMBED = 8;
 type Numbers = Map<NodeId, number>;
 type Kind = 'branches' | 'names' | 'types' | 'paths';
 
-/** Numbers of what is equal in both versions. */
+/** Numbers equal things of both versions. */
 interface Kinds extends Readonly<Record<Kind, Numbers>> {
   readonly heights: Numbers;
 }

@@ -75,7 +75,7 @@ function addMap(found: Map<string, string>, part: string, values: Readonly<Recor
   for (const key of Object.keys(values).sort(byCode)) found.set(`${part}.${key}`, textOf(values[key]));
 }
 
-/** Returns what a node says, by field (a port is `ports.<name>`), without defaults. */
+/** Returns the fields of a node that differ from their defaults, by name (a port is `ports.<name>`). */
 export function fieldsOf(node: DiagramNode, withLayout = false): Map<string, string> {
   const found = new Map<string, string>();
   for (const key of TEXTS) if (node[key]) found.set(key, textOf(node[key]));
@@ -87,7 +87,7 @@ export function fieldsOf(node: DiagramNode, withLayout = false): Map<string, str
   return found;
 }
 
-/** Returns what a diagram says, except its nodes, by field. */
+/** Returns the fields of a diagram, except its nodes, by name. */
 export function treeFieldsOf(diagram: Diagram, withLayout = false): Map<string, string> {
   const found = new Map([['id', diagram.id]]);
   const ports = Array.isArray(diagram.ports) ? (diagram.ports as { readonly name: string }[]) : [];

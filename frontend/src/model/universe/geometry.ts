@@ -40,7 +40,7 @@ export function stretched(
   const by = (value: number | undefined, factor: number | undefined) =>
     Math.max(snapped((value ?? 1) * Math.abs(factor ?? 1), step), step || 0.01);
   const [a, b, c] = size;
-  // Round things are stretched by a single factor across: the one that changed most.
+  // Round things stay round: both factors across the axis become the one that changed most.
   const round = (factors: (number | undefined)[]) =>
     factors.reduce<number>((most, f = 1) => (Math.abs(f - 1) > Math.abs(most - 1) ? f : most), 1);
   switch (shape) {

@@ -24,8 +24,8 @@ export interface Explanation {
 const ROOT: Reason = { code: 'root' };
 
 /**
- * How far the recording tells what happened below a node: all; only what left a trace, since the node may have been
- * ticked again after it; or not in which order, since the node was ticked several times.
+ * How complete the recording is below a node: all results; only results that no later tick replaced; or no order
+ * of results, since the node was ticked several times.
  */
 type Trust = 'all' | 'traces' | 'none';
 

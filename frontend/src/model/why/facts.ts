@@ -2,7 +2,7 @@ import type { NodeStatus, TreeNode } from '@/generated/messages';
 
 type Pair = readonly [uid: number, status: NodeStatus];
 
-/** What was recorded of one tick. */
+/** The recorded data of one tick. */
 export interface TickFacts {
   /** The nodes in pre-order. */
   readonly nodes: readonly Pick<TreeNode, 'uid' | 'parent' | 'type' | 'kind'>[];

@@ -63,7 +63,7 @@ export interface Reason {
 }
 
 /**
- * Whether a node was ticked, what it returned (null if that was not recorded), and why. The result is the last
+ * Whether a node was ticked, its result (null if that was not recorded), and the reason. The result is the last
  * one, except below own controls and nodes that were ticked several times, where a later RUNNING leaves no trace.
  */
 export interface Verdict {

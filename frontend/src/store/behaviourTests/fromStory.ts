@@ -8,7 +8,7 @@ import type { Write } from '@/store/recording/steps';
 import type { Entry } from '@/store/recording/types';
 import { enclosing } from '@/store/session/values/live';
 
-/** What the test cannot repeat, or may not. */
+/** Parts of the run that the test cannot repeat, or might not. */
 export type Note =
   | { readonly kind: 'gap'; readonly tick: number }
   | { readonly kind: 'midway' | 'irregular' | 'changed' }
@@ -24,7 +24,7 @@ export interface Result {
   readonly outputs: Readonly<Record<string, unknown>>;
 }
 
-/** A behaviour test that repeats what a tree did, with everything that can be expected at its end. */
+/** A behaviour test that repeats a run of a tree, with all expectations that hold at its end. */
 export interface Draft {
   readonly tree: string;
   readonly tickHz: number;
@@ -139,7 +139,7 @@ class Maker {
     }
   }
 
-  /** Adds what the leaves returned in a tick: what did not stay in its order, then what stayed. */
+  /** Adds the results of the leaves in a tick: first those that did not stay, in their order, then those that stayed. */
   private take(tick: StoryTick, at: number): void {
     for (const leaf of this.leaves) {
       const results = tick.flashed.filter(([uid]) => uid === leaf.uid).map(([, status]) => status);
@@ -159,7 +159,7 @@ class Maker {
     }
   }
 
-  /** Returns what a leaf wrote to its output ports. */
+  /** Returns the values that a leaf wrote to its output ports. */
   private outputs(leaf: TreeNode, writes: readonly Write[]): Record<string, unknown> {
     const found: Record<string, unknown> = {};
     for (const write of writes) {

@@ -1,7 +1,7 @@
 import { isMap, isSeq, parseDocument } from 'yaml';
 import type { Draft, Result } from './fromStory';
 
-/** What the user chose of a draft. */
+/** The user's choices for a draft. */
 export interface Chosen {
   readonly name: string;
   readonly root: boolean;
@@ -66,7 +66,7 @@ function doubleLines(node: string, results: readonly Result[] | 'real'): string[
   ];
 }
 
-/** Returns what a test expects at its end. */
+/** Returns the expectations of a test at its end. */
 export function expectations(draft: Draft, { root, statuses, idle, keys }: Chosen): object[] {
   const values = Object.fromEntries(
     keys.filter((key) => key in draft.values).map((key) => [key, draft.values[key]]),

@@ -3,6 +3,7 @@ import type { StoredRun } from '@/api/runs';
 import { useProjectStore } from '@/store/project';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
+import { segmentOf } from '../../../harness/runs';
 import { fakeServer } from '../../../harness/testing';
 import { followAddress, linkTo, momentOf, queryOf, shownAddress, type Missing } from './address';
 import { lookNow, setEngineLink } from './looking';
@@ -10,16 +11,7 @@ import { useSource } from './source';
 import { useMoment } from './store';
 
 const KEPT = '0f6a1d2e-0000-4000-8000-000000000001';
-const segment = {
-  run: '0a',
-  branch: 0,
-  number: 0,
-  version: 0,
-  from_t: 0,
-  to_t: 9,
-  bytes: 10,
-  complete: true,
-};
+const segment = segmentOf({ run: '0a', to_t: 9, bytes: 10 });
 const stored = {
   id: KEPT,
   name: 'First',

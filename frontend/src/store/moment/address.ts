@@ -21,7 +21,7 @@ export interface Address {
   readonly t: number | null;
 }
 
-/** Why the run of an address is not shown: it is not there for this user, or it could not be asked for. */
+/** The reason why the run of an address is not shown: it does not exist for this user, or the request failed. */
 export type Missing =
   { readonly what: 'kept' | 'session' } | { readonly what: 'failed'; readonly reason: string };
 

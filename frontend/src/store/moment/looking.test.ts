@@ -1,6 +1,5 @@
 import { readFileSync } from 'node:fs';
 import { afterEach, beforeEach, expect, it, vi } from 'vitest';
-import type { Segment } from '@/generated/messages';
 import { useLiveStore, usePastLive } from '@/store/project/live';
 import { useProjectStore } from '@/store/project';
 import { Engine } from '@/store/recording/engine';
@@ -9,6 +8,7 @@ import type { EngineLink } from '@/store/recording/recordedRun';
 import { shownFrames } from '@/store/session/frames';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
+import { segmentOf } from '../../../harness/runs';
 import {
   extent,
   followPresent,
@@ -26,16 +26,7 @@ import { useSource } from './source';
 import { isLookingBack, useMoment } from './store';
 
 const file = new Uint8Array(readFileSync('../tests/executor/recorder/samples/v1.mcap'));
-const segment = (run = 'a'): Segment => ({
-  run,
-  branch: 0,
-  number: 0,
-  version: 0,
-  from_t: 0,
-  to_t: 1,
-  bytes: file.length,
-  complete: true,
-});
+const segment = (run = 'a') => segmentOf({ run, to_t: 1, bytes: file.length });
 
 let stop = () => {};
 

@@ -41,7 +41,7 @@ function workerLink(): EngineLink {
 
 let makeLink = workerLink;
 
-/** Replaces the worker, for tests in which there is none. */
+/** Replaces the worker, for tests without workers. */
 export function setEngineLink(make: () => EngineLink): void {
   makeLink = make;
   recorded?.end();
@@ -159,7 +159,7 @@ export async function changesBetween(from: number, to: number): Promise<Changes 
 }
 
 /**
- * Returns what the tree did until the shown moment, or until now; null if no tree ran.
+ * Returns the story of the tree until the shown moment, or until now; null if no tree ran.
  *
  * @throws Error: the recording cannot be read.
  */
@@ -238,7 +238,7 @@ async function refresh(): Promise<void> {
       const asked = theRun();
       const moment = await asked.ask({ what: 'moment', t, tick, known, scene });
       if (asked !== recorded) {
-        // It is of a run that was left meanwhile.
+        // It belongs to a run that is not shown any more.
         isOutdated = true;
         continue;
       }

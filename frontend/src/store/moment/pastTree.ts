@@ -15,7 +15,7 @@ interface PastTree {
 
 const atFirst: PastTree = { tree: null, node: null, view: 'canvas', isCompared: false };
 
-/** What the user sees of the tree as it ran. No edit depends on it. */
+/** The view state of the tree as it ran. No edit depends on it. */
 export const usePastTree = create<PastTree>(() => atFirst);
 
 useMoment.subscribe((now, before) => {

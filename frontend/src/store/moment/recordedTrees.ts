@@ -35,7 +35,7 @@ export function recordedTrees(
   const made = new Map<string, Maker>();
   const seen = new Map<number, RecordedNode>();
   for (const node of nodes) {
-    // What names a parent that does not precede it is hostile, and begins a piece of its own.
+    // A node whose parent does not precede it is hostile data; it becomes a separate draft.
     const parent = seen.get(node.parent);
     seen.set(node.uid, node);
     if (parent && parent.tree_id !== node.tree_id) made.get(parent.tree_id)?.call(parent, node.tree_id);

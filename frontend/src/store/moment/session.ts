@@ -16,7 +16,7 @@ import type { TreeNode } from '@/generated/messages';
 /** The session as it was at the shown moment. */
 export const usePastSession = create<SessionData>(() => initialSession);
 
-/** Returns tree, blackboard, console and faults of the shown moment; everything else is of the present. */
+/** Returns tree, blackboard, console and faults of the shown moment, and everything else of the present. */
 export function useShownSession<T>(selector: (state: SessionData) => T): T {
   const isBack = useMoment((state) => state.shown !== null);
   return useStore(isBack ? usePastSession : useSessionStore, selector);

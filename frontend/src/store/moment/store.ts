@@ -10,7 +10,7 @@ interface MomentData {
   readonly t: number | null;
   /** Of several ticks of that time, the one that is shown; null: the last. */
   readonly tick: number | null;
-  /** What is shown of it; it lags behind `t` while the recording is read. Null: the present. */
+  /** The shown moment; it lags behind `t` while the recording is read. Null: the present. */
   readonly shown: Moment | null;
   /** The nodes that ran at the shown moment. */
   readonly tree: readonly RecordedNode[];
@@ -18,7 +18,7 @@ interface MomentData {
   readonly trees: Readonly<Record<string, RecordedTree>>;
   /** The recorded world of the shown moment. */
   readonly scene: Scene | null;
-  /** The recording as far as it was read. */
+  /** The part of the recording that was read. */
   readonly overview: Overview | null;
   /** Why a part of the recording cannot be read; empty if nothing is wrong. */
   readonly failure: string;

@@ -9,7 +9,7 @@ import { useLastTick, type LastTick } from '@/store/session/trace/lastTick';
 import { useSource } from './source';
 import { useMoment } from './store';
 
-/** Whether the question why a block was ticked is open; `asked` increases each time that it is asked. */
+/** Whether *Why?* is open; `asked` increases with each request. */
 export const useWhy = create<{ readonly isOpen: boolean; readonly asked: number }>(() => ({
   isOpen: false,
   asked: 0,
@@ -28,7 +28,7 @@ export interface ShownTick {
 
 const PRE_CONDITIONS = ['_failureIf', '_successIf', '_skipIf', '_while'];
 
-/** Returns what is known of a tick; the pre-conditions are known while the tree is as it ran. */
+/** Returns the known data of a tick; the pre-conditions are known only for the tree as it ran. */
 export function tickFacts(
   nodes: readonly TreeNode[],
   { statuses, was, flashes }: Pick<LastTick, 'statuses' | 'was' | 'flashes'>,

@@ -73,7 +73,7 @@ function portsOf(text: string | undefined): readonly PortSpec[] {
   return text === undefined ? [] : treeFacts(parseDiagram(text)).ports;
 }
 
-/** Returns what a behaviour brings to a project. */
+/** Returns the files that a behaviour adds to a project. */
 export const deliveryOf = ({ id, files }: Reusable): Delivery => ({ needs: [treePath(id)], sources: files });
 
 /**

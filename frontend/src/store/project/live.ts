@@ -48,7 +48,7 @@ const busiest = (statuses: readonly NodeStatus[]): NodeStatus =>
 /** The statuses of the running tree; they are neither saved nor undone. */
 export const useLiveStore = liveStore();
 
-/** The statuses of the tree at the moment at which the user looks back. */
+/** The statuses of the tree at the shown past moment. */
 export const usePastLive = liveStore();
 
 function liveStore() {

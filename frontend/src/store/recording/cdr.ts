@@ -178,7 +178,7 @@ class Reader {
 
 const TEXT = new TextDecoder();
 
-/** Returns a function that decodes messages of a type. It throws an `Error` that says what is wrong. */
+/** Returns a function that decodes messages of a type. It throws an `Error` with the reason. */
 export function decoderOf(name: string, definition: string): (bytes: Uint8Array) => Fields {
   const definitions = definitionsOf(name, definition);
   return (bytes) => new Reader(bytes, definitions).message(plain(name));

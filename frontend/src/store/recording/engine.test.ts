@@ -1,20 +1,11 @@
 import { readFileSync } from 'node:fs';
 import { expect, it } from 'vitest';
 import type { Segment } from '@/generated/messages';
+import { segmentOf } from '../../../harness/runs';
 import { Engine, type FromEngine } from './engine';
 
 const bytes = () => new Uint8Array(readFileSync('../tests/executor/recorder/samples/v1.mcap'));
-const segment = (more: Partial<Segment> = {}): Segment => ({
-  run: 'a',
-  branch: 0,
-  number: 0,
-  version: 0,
-  from_t: 0,
-  to_t: 1,
-  bytes: bytes().length,
-  complete: true,
-  ...more,
-});
+const segment = (more: Partial<Segment> = {}) => segmentOf({ to_t: 1, bytes: bytes().length, ...more });
 
 /** Returns the place of the n-th chunk of a file. */
 function chunkAt(data: Uint8Array, n: number): number {

@@ -42,7 +42,7 @@ export type FromEngine =
   | { readonly kind: 'answer'; readonly id: number; readonly answer: Answers[keyof Answers] }
   | { readonly kind: 'failed'; readonly number: number; readonly message: string };
 
-/** Reads the parts of a recording, and answers what was at a moment. It runs in a worker. */
+/** Reads the parts of a recording, and returns the state at any moment. It runs in a worker. */
 export class Engine {
   private index = new RunIndex('');
   private readers = new Map<number, SegmentReader>();

@@ -1,21 +1,13 @@
 import { afterEach, expect, it, vi } from 'vitest';
-import type { RecordingPart, Segment } from '@/generated/messages';
+import type { RecordingPart } from '@/generated/messages';
 import * as connection from '@/store/session/connection';
 import { frames } from '@/store/session/frames';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
+import { segmentOf } from '../../../harness/runs';
 import { earlierSource, liveSource, runsOf } from './liveSource';
 
-const segment = (run: string, number: number): Segment => ({
-  run,
-  branch: 0,
-  number,
-  version: 2,
-  from_t: 0,
-  to_t: 20,
-  bytes: 10,
-  complete: true,
-});
+const segment = (run: string, number: number) => segmentOf({ run, number, version: 2, to_t: 20, bytes: 10 });
 const part = (more: Partial<RecordingPart> = {}): RecordingPart => ({
   type: 'recording',
   run: 'a',

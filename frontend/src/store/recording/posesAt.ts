@@ -70,7 +70,7 @@ export function between(a: Pose, b: Pose, share: number): Pose {
   return [x, y, z, qx / size, qy / size, qz / size, qw / size];
 }
 
-/** Returns the poses of all objects at a time, from the frames of a segment, whose first has them all. */
+/** Returns the poses of all objects at a time, from the frames of a segment; its first frame has all poses. */
 export function posesAt(frames: readonly PosesFrame[], t: number): PosesAt | null {
   const before = new Map<number, { frame: PosesFrame; at: number }>();
   let next = 0;

@@ -3,7 +3,7 @@ import type { Answers, Ask, FromEngine, ToEngine } from './engine';
 import type { Overview, RecordingSource } from './types';
 
 const PART_BYTES = 1 << 20;
-/** A part may be refused while the page connects: it is asked for again, for some seconds. */
+/** A part may be refused while the page connects, so the request is repeated for some seconds. */
 const MOST_TRIES = 12;
 const TRY_AGAIN_MS = 500;
 
@@ -21,8 +21,8 @@ interface Held {
 }
 
 /**
- * Follows the recording of a run while somebody looks back: it fetches the part that is wanted first, then the
- * others, and asks the engine. Nothing is read for a page that shows the present.
+ * Reads the recording of a run while the page shows the past: first the part with the shown moment, then the others.
+ * The worker with the engine answers the queries. Nothing is read while the page shows the present.
  */
 export class RecordedRun {
   overview: Overview | null = null;
@@ -48,7 +48,7 @@ export class RecordedRun {
     this.stop = source.subscribe(() => this.follow());
   }
 
-  /** Reads what is needed for a moment, and continues with the rest; null: no more. */
+  /** Reads the parts that a moment needs, then the others; null: reads no more. */
   want(t: number | null): void {
     this.wanted = t;
     this.follow();
@@ -121,7 +121,7 @@ export class RecordedRun {
     } catch (error) {
       if (run !== this.run) return;
       const current = this.source.segments().find(({ number }) => number === segment.number);
-      // It was thinned or went meanwhile: the next turn reads what there is.
+      // The segment was thinned or removed in the meantime; the next round reads the present ones.
       if (!current || current.version !== segment.version) return;
       const tries = (this.tries.get(segment.number) ?? 0) + 1;
       this.tries.set(segment.number, tries);
@@ -150,7 +150,7 @@ export class RecordedRun {
     const held = this.held.get(segment.number);
     if (!held) return segment.bytes > 0;
     if (held.version === segment.version) return segment.bytes > held.bytes;
-    // A thinned segment holds less than what was read.
+    // A thinned segment is shorter than the part that was read.
     if (held.isWhole) return false;
     this.held.delete(segment.number);
     this.link.post({ kind: 'drop', number: segment.number });

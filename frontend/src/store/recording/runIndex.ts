@@ -12,7 +12,7 @@ const MOST_PICTURE_BYTES = 128 << 20;
 const MOST_LINES = 20_000;
 const MOST_MARKS = 1000;
 
-/** A whole recording, as far as it was read: what was at each moment. */
+/** All parts of a recording that were read, with the state at each moment. */
 export class RunIndex {
   private readonly segments = new Map<number, SegmentIndex>();
   private readonly scenes = new Scenes();
@@ -88,7 +88,7 @@ export class RunIndex {
     };
   }
 
-  /** Returns the n-th tick after a moment, or before it if n is negative; null beyond what is read. */
+  /** Returns the n-th tick after a moment, or before it if n is negative; null outside of the parts that were read. */
   tickFrom(t: number, n: number, tick: number | null = null): TickAt | null {
     const all = this.ticks();
     return placed(all[lastUntil(all, t, tick) + n]);
@@ -129,7 +129,7 @@ export class RunIndex {
     return { statuses, entries, poses: moved(posesAt(before.poses, from), posesAt(after.poses, to)) };
   }
 
-  /** Returns what the tree of a moment did until then, as far as it was read without a gap. */
+  /** Returns the story of a moment's tree until then, from the parts that were read without a gap. */
   storyUntil(t: number, tick: number | null = null): Story | null {
     return storyUntil(this.inOrder(), t, tick);
   }

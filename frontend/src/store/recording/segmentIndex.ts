@@ -52,7 +52,7 @@ export interface State {
   isHalted: boolean;
 }
 
-/** What a segment holds, sorted by what it is asked for. */
+/** The content of a segment, sorted by the queries for it. */
 export class SegmentIndex {
   readonly steps: Step[] = [];
   readonly lines: RecordedLine[] = [];
@@ -201,7 +201,7 @@ export class SegmentIndex {
   }
 }
 
-/** Whether a line of the world tells of a collision. */
+/** Whether a line of the world reports a collision. */
 export const isCollision = ({ source, text }: { readonly source: string; readonly text: string }) =>
   source === 'world' && /bumped into/.test(text);
 

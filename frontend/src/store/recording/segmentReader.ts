@@ -27,8 +27,8 @@ interface Channel {
 }
 
 /**
- * Reads a segment as its bytes arrive. What the file claims is checked before it is used, and counted while it is
- * unpacked.
+ * Reads a segment as its bytes arrive. Sizes in the file are checked before use, and unpacked bytes are
+ * counted.
  */
 export class SegmentReader {
   private readonly schemas = new Map<number, McapTypes.TypedMcapRecords['Schema']>();

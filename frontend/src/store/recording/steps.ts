@@ -134,7 +134,7 @@ function shownValue(value: unknown): Pick<Entry, 'value' | 'isPreview'> {
     : { value, isPreview: false };
 }
 
-/** Parses JSON; a text that is none is the value itself. */
+/** Parses JSON; other text is the value itself. */
 function parsed(text: string): unknown {
   try {
     return JSON.parse(text) as unknown;

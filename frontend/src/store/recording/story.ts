@@ -102,7 +102,7 @@ class Teller {
   }
 
   tick(tick: StoryTick): void {
-    // A halt after the last tick has the number of that tick, and is none.
+    // A halt after the last tick has that tick's number, but is not part of it.
     if (tick.number === this.last && this.ticks.length > 0) return;
     if (this.ticks.length > 0 && tick.number !== this.last + 1) this.restart(false);
     if (this.ticks.length === 0) {

@@ -12,7 +12,7 @@ import { beginProgram } from './livePorts';
 import { useRunStore, type LaunchFailure, type LaunchStage } from './store';
 import { chosenUniverse, useUniverseChoice } from './universeChoice';
 
-/** Saves, checks, starts what is missing, and runs; resolves to true if the application runs. */
+/** Saves, checks, starts the missing processes, and runs; resolves to true if the application runs. */
 export const runProject = () => launch((app) => send('run', runCommand(app)));
 
 /** Saves, checks, and restarts the application with the new program; the world continues. */

@@ -29,7 +29,7 @@ export class SilenceWatch {
     const asked = this.heartbeat;
     if (!asked) return;
     const now = performance.now();
-    // While the page is still sending (such as a large program), it cannot expect an answer.
+    // While the page is sending, for example a large program, it cannot expect an answer.
     if (!this.isPinging || socket.isSending) asked.heard(now);
     showSilence(asked.beat(now));
     if (this.isPinging) return;

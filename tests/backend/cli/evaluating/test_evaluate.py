@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from backend.cli.evaluating.evaluate import ONLY_FAILED
-from backend.cli.evaluating.one_run import SINGLE
+from executor.evaluation.pool.environment import SINGLE
 from tests.executor.evaluation.projects import DRIVE, write
 
 ROOT = Path(__file__).parents[4]

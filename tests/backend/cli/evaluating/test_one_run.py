@@ -10,8 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from backend.cli.evaluating.one_run import SINGLE, outcome_lines
+from backend.cli.evaluating.one_run import outcome_lines
 from executor.evaluation.outcome import Outcome
+from executor.evaluation.pool.environment import SINGLE
 from tests.executor.evaluation.projects import write
 
 ROOT = Path(__file__).parents[4]

@@ -11,7 +11,7 @@ from tests.translator.check.results.engine import leaf_class
 from translator.check.results.controls import LEAST, RULES, of_control, rested, threshold
 from translator.check.results.sets import ALL, F, K, S, names_of, set_of
 from translator.tree import Node
-from tree_gardener import TickError, Tree
+from tree_gardener import TickError, Tree, catalog
 
 LETTERS = {"S": "SUCCESS", "F": "FAILURE", "R": "RUNNING", "K": "SKIPPED"}
 SETS = ("S", "F", "SF", "RS", "FR", "SK", "K")
@@ -94,3 +94,7 @@ def test_thresholds_and_rests():
     assert [threshold(value, 3) for value in (2, 0, -1, -9)] == [2, 0, 3, 0]
     assert rested([S | K, S | F], S, F) == S | K
     assert rested([S, S | F], S, F) == 0
+
+
+def test_each_control_node_of_the_catalogue_has_a_rule():
+    assert set(RULES) == {type_ for type_, node in catalog.load().items() if node.kind == "control"}

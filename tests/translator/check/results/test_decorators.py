@@ -5,9 +5,10 @@ from __future__ import annotations
 import pytest
 
 from tests.translator.check.results.test_controls import LETTERS, SETS, observed
-from translator.check.results.decorators import of_decorator
+from translator.check.results.decorators import RULES, of_decorator
 from translator.check.results.sets import ALL, YIELDS, F, R, S, names_of, set_of
 from translator.tree import Node
+from tree_gardener import catalog
 
 
 def predicted(type_, letters, ports):
@@ -63,3 +64,7 @@ def test_rules_of_time_and_entries(type_, ports, child, result):
 
 def test_other_nodes_are_unknown():
     assert of_decorator(Node("n", "Sequence"), S) is None
+
+
+def test_each_decorator_of_the_catalogue_has_a_rule():
+    assert set(RULES) == {type_ for type_, node in catalog.load().items() if node.kind == "decorator"}

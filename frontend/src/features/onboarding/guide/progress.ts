@@ -25,7 +25,7 @@ export function hasAddedBlock(now: ProjectState, before: ProjectState): boolean 
   return editBetween(now, before) !== null && blocksOf(now.diagrams) > blocksOf(before.diagrams);
 }
 
-/** Returns what the selected block needs next: values for its ports, or blocks below it. */
+/** Returns the next need of the selected block: values for its ports, or blocks below it. */
 export function needOf({ diagrams, activeTree, selection, vocabulary }: ProjectState): 'port' | 'child' {
   const node = diagrams[activeTree ?? '']?.nodes[selection[0] ?? ''];
   const ports = node ? (specOf(vocabulary, node)?.ports ?? []) : [];

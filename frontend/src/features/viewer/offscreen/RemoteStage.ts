@@ -82,7 +82,7 @@ export class RemoteStage {
     // are sent too.
     const sendPast = () => this.post({ kind: 'past', poses: [...currentPoses], trail: trail.keep() });
     sendPast();
-    // What was shown of the past is no part of the present trail.
+    // Poses of the past are not part of the present trail.
     this.stops.push(
       useMoment.subscribe((now, before) => {
         if (before.shown && !now.shown) sendPast();

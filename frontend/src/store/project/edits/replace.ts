@@ -60,8 +60,8 @@ function replaceInText(path: string, { passage, hits }: Replacement): () => void
 }
 
 /**
- * Replaces hits in trees and texts. A text that has changed since the search stays as it is; in a read-only
- * project nothing changes.
+ * Replaces hits in trees and texts. A text that has changed since the search is not replaced; in a read-only
+ * project nothing is.
  */
 export function replaceHits(list: readonly Replacement[]): Replaced {
   const valid = store().role === 'viewer' ? [] : list.filter(isValid);

@@ -3,7 +3,7 @@ import type { NodeStatus, ServerMessage, Snapshot, Tick } from '@/generated/mess
 
 type Pair = readonly [uid: number, status: NodeStatus];
 
-/** What a session has told of the last tick. */
+/** The session's report of the last tick. */
 export interface LastTick {
   /** The number of the tick; 0 before the first. */
   readonly number: number;

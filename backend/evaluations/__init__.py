@@ -1,0 +1,1 @@
+"""Evaluations: jobs that run a project in many seeded worlds, their outcomes, and replays of single runs."""

@@ -1,0 +1,37 @@
+"""Enumerations of evaluations."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from django.db.models import TextChoices
+
+
+class JobState(TextChoices):
+    """The state of an evaluation: `waiting` for its turn, `running`, and then one of the others.
+
+    A cancelled or failed one waits again when it is resumed.
+    """
+
+    WAITING = "waiting"
+    RUNNING = "running"
+    DONE = "done"
+    CANCELLED = "cancelled"
+    FAILED = "failed"
+
+
+class Result(TextChoices):
+    """The outcome of a run; the last three say nothing of the project and are not counted."""
+
+    SUCCESS = "success"
+    FAILURE = "failure"
+    ERROR = "error"
+    CRASHED = "crashed"
+    TIMEOUT = "timeout"
+    INVALID = "invalid"
+    LOST = "lost"
+    CANCELLED = "cancelled"
+
+
+LIVE: Final = (JobState.WAITING, JobState.RUNNING)
+NOT_COUNTED: Final = (Result.INVALID, Result.LOST, Result.CANCELLED)

@@ -1,0 +1,108 @@
+"""Reads of evaluations. All who may read a project see its evaluations."""
+
+from __future__ import annotations
+
+from datetime import timedelta
+from typing import TYPE_CHECKING, Final
+
+from django.db.models import Count, Max, Sum
+from django.utils import timezone
+
+from backend.core.problems import NotFoundError
+from backend.evaluations.models import Evaluation, Outcome, Replay
+from backend.projects.storage import queries as projects
+from backend.projects.storage.access import Need
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from uuid import UUID
+
+    from backend.accounts.models import User
+    from backend.projects.models import Project
+
+FOLDER: Final = "evaluations/"
+ENDING: Final = ".yaml"
+OUTCOMES_AT_A_TIME: Final = 2000
+_DAY: Final = timedelta(hours=24)
+
+
+def evaluations(project_id: UUID, *, user: User) -> tuple[Project, list[Evaluation]]:
+    """Returns a project, and its evaluations, the newest first."""
+    project = projects.project(project_id, user=user, need=Need.READ)
+    rows = Evaluation.objects.filter(project=project).select_related("user").defer("plan")
+    return project, list(rows.order_by("-created_at", "id"))
+
+
+def evaluation(
+    project_id: UUID, evaluation_id: UUID, *, user: User, need: Need = Need.READ, has_plan: bool = False
+) -> Evaluation:
+    """Returns one evaluation.
+
+    Raises:
+        NotFoundError: the project or the evaluation does not exist, or the user may not know of it.
+        RoleTooLowError: the user's role in the project does not suffice.
+    """
+    project = projects.project(project_id, user=user, need=need)
+    rows = Evaluation.objects.filter(project=project, id=evaluation_id).select_related("user")
+    found = (rows if has_plan else rows.defer("plan")).first()
+    if found is None:
+        raise NotFoundError("There is no such evaluation.")
+    found.project = project
+    return found
+
+
+def counts(found: list[Evaluation]) -> dict[tuple[UUID, int], dict[str, int]]:
+    """Returns how often each outcome occurs, by evaluation and revision."""
+    rows = Outcome.objects.filter(evaluation__in=found).values_list("evaluation", "revision", "outcome")
+    by: dict[tuple[UUID, int], dict[str, int]] = {}
+    for evaluation_id, revision, outcome, number in rows.annotate(number=Count("id")):
+        by.setdefault((evaluation_id, revision), {})[outcome] = number
+    return by
+
+
+def outcomes(found: Evaluation, revision: int, after: int) -> list[Outcome]:
+    """Returns the outcomes that came after a row, in the order in which they came; at most 2,000."""
+    rows = Outcome.objects.filter(evaluation=found, revision=revision, id__gt=after)
+    return list(rows.defer("line").order_by("id")[:OUTCOMES_AT_A_TIME])
+
+
+def outcome(found: Evaluation, revision: int, seed: int) -> Outcome:
+    """Returns the outcome of a seed."""
+    row = Outcome.objects.filter(evaluation=found, revision=revision, seed=seed).first()
+    if row is None:
+        raise NotFoundError(f"The evaluation has no outcome of the seed {seed}.")
+    return row
+
+
+def known(found: Evaluation, revision: int) -> list[tuple[int, str]]:
+    """Returns the seeds that have an outcome, each with it."""
+    rows = Outcome.objects.filter(evaluation=found, revision=revision)
+    return list(rows.order_by("seed").values_list("seed", "outcome"))
+
+
+def lines(found: Evaluation, revision: int) -> Iterator[str]:
+    """Yields the lines of `runs.jsonl`, in the order of the seeds."""
+    rows = Outcome.objects.filter(evaluation=found, revision=revision).order_by("seed")
+    return rows.values_list("line", flat=True).iterator(chunk_size=200)
+
+
+def replay(found: Evaluation, replay_id: UUID, *, user: User) -> Replay:
+    """Returns a replay that the user has asked for."""
+    rows = Replay.objects.filter(id=replay_id, evaluation=found)
+    row = None if user.is_guest else rows.filter(user=user).first()
+    if row is None:
+        raise NotFoundError("There is no such replay.")
+    return row
+
+
+def used_hours(user: User) -> float:
+    """Returns the processor hours that evaluations of a user took in the last 24 hours."""
+    rows = Outcome.objects.filter(evaluation__user=user, created_at__gt=timezone.now() - _DAY)
+    return float(rows.aggregate(used=Sum("cpu_s"))["used"] or 0) / 3600
+
+
+def last_seed(found: Evaluation, revision: int) -> int | None:
+    """Returns the largest seed that has an outcome."""
+    rows = Outcome.objects.filter(evaluation=found, revision=revision)
+    last: int | None = rows.aggregate(last=Max("seed"))["last"]
+    return last

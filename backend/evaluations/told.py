@@ -1,0 +1,133 @@
+"""Reads an executor's messages about an evaluation. They are not trusted, but decoded with bounds. Pure."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, Final, Literal
+
+import msgspec
+from msgspec import Meta
+
+from backend.evaluations.choices import Result  # noqa: TC001 - msgspec reads the annotations
+
+MOST_LINE: Final = 64 << 10
+MOST_PLAN: Final = 1 << 20
+_Count = Annotated[int, Meta(ge=0, le=100_000)]
+_Number = Annotated[float, Meta(ge=-1e12, le=1e12)]
+_Share = Annotated[float, Meta(ge=0, le=1)]
+_Seed = Annotated[int, Meta(ge=0, le=(1 << 63) - 1)]
+
+
+class Begun(msgspec.Struct):
+    """The event `evaluation_started`."""
+
+    job: str
+    workers: Annotated[int, Meta(ge=1, le=1024)]
+    seed: _Seed
+    wanted: _Count
+    sequential: bool
+    duration_s: Annotated[float, Meta(ge=0, le=1e6)]
+    plan: dict[str, Any]
+
+
+class Done(msgspec.Struct):
+    """The event `evaluation_outcome`."""
+
+    job: str
+    seed: _Seed
+    line: Annotated[str, Meta(max_length=MOST_LINE)]
+    cpu_s: Annotated[float, Meta(ge=0, le=1e6)]
+    done: _Count
+    wanted: _Count
+    rate: _Share
+    low: _Share
+    high: _Share
+    left_s: Annotated[float, Meta(ge=0, le=1e9)]
+
+
+class Ended(msgspec.Struct):
+    """The event `evaluation_ended`."""
+
+    job: str
+    end: Literal["complete", "refused", "failed", "replaced"]
+    wanted: _Count = 0
+    message: Annotated[str, Meta(max_length=100_000)] = ""
+    run: Annotated[str, Meta(pattern=r"^[0-9a-f]{0,32}$")] = ""
+
+
+class Refusal(msgspec.Struct):
+    """The event `error`."""
+
+    code: str = ""
+    message: str = ""
+
+
+class Item(msgspec.Struct):
+    """An item of the judge in an outcome."""
+
+    item: str
+    holds: bool
+    margin: _Number | None = None
+    unit: Annotated[str, Meta(max_length=10)] = ""
+
+
+class Line(msgspec.Struct):
+    """A line of `runs.jsonl`, as far as the server reads it."""
+
+    seed: _Seed
+    outcome: Result
+    why: str = ""
+    end_s: Annotated[float, Meta(ge=0, le=1e6)] = 0.0
+    items: Annotated[list[Item], Meta(max_length=1000)] = []
+    measures: Annotated[dict[Annotated[str, Meta(max_length=200)], _Number], Meta(max_length=200)] = {}
+
+    @property
+    def nearest(self) -> Item | None:
+        """The item that decided by least: of those that fail, or of all if none fails."""
+        failed = [item for item in self.items if not item.holds]
+        with_margin = [item for item in failed or self.items if item.margin is not None]
+        return min(with_margin, key=lambda item: item.margin or 0.0, default=None)
+
+
+class _Envelope(msgspec.Struct):
+    id: str
+    command: str
+    data: msgspec.Raw = msgspec.Raw(b"null")
+
+
+_KINDS: Final[dict[str, type[msgspec.Struct]]] = {
+    "evaluation_started": Begun,
+    "evaluation_outcome": Done,
+    "evaluation_ended": Ended,
+    "error": Refusal,
+}
+
+
+def read(message: str | bytes) -> msgspec.Struct | None:
+    """Returns what a message says of an evaluation; None if it is about something else.
+
+    Raises:
+        ValueError: it cannot be what it should be.
+    """
+    envelope = msgspec.json.decode(message, type=_Envelope)
+    kind = _KINDS.get(envelope.command)
+    if kind is None or (kind is Refusal and envelope.id == ""):
+        return None
+    found = msgspec.json.decode(envelope.data, type=kind)
+    if isinstance(found, Begun) and len(msgspec.json.encode(found.plan)) > MOST_PLAN:
+        found.plan = {}
+    return found
+
+
+def read_line(done: Done) -> Line:
+    """Returns the outcome of a run.
+
+    Raises:
+        ValueError: it is no outcome, or of another seed.
+    """
+    line = msgspec.json.decode(done.line, type=Line)
+    if line.seed != done.seed or "\n" in done.line:
+        raise ValueError("the line is of another seed")
+    if not all(math.isfinite(value) for value in line.measures.values()):
+        raise ValueError("a measure is no number")
+    return line

@@ -1,0 +1,83 @@
+"""Chooses the next work: of which evaluation, in which order, and for which user. It writes nothing."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from backend.evaluations import queries
+from backend.evaluations.choices import LIVE, NOT_COUNTED
+from backend.evaluations.models import Evaluation, Replay
+from backend.evaluations.writes import hours_left
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+    from datetime import datetime
+    from uuid import UUID
+
+
+class Place(NamedTuple):
+    """A project and a user; a session for evaluations belongs to one of each."""
+
+    project: UUID
+    user: int
+
+
+class Side(NamedTuple):
+    """A revision of an evaluation, and the seeds that are known; `seeds` is empty if all are to be run."""
+
+    revision: int
+    known: list[tuple[int, str]]
+    seeds: list[int]
+
+
+def next_of(place: Place) -> Replay | Evaluation | None:
+    """Returns what a session does next: a replay first, since somebody waits for it."""
+    replays = Replay.objects.filter(user=place.user, evaluation__project=place.project, state__in=LIVE)
+    replay = replays.select_related("evaluation__project", "user").order_by("created_at").first()
+    if replay is not None:
+        return replay
+    rows = Evaluation.objects.filter(project=place.project, user=place.user, state__in=LIVE)
+    found = rows.select_related("project", "user").order_by("state", "asked_at").first()  # running first
+    return found if found is not None and hours_left(found.user) else None
+
+
+def has_replay(place: Place) -> bool:
+    """Returns whether somebody waits for a replay."""
+    rows = Replay.objects.filter(user=place.user, evaluation__project=place.project, state__in=LIVE)
+    return rows.exists()
+
+
+def next_side(found: Evaluation) -> Side | None:
+    """Returns the revision of an evaluation that is to be run next; None if all is done."""
+    known = queries.known(found, found.revision)
+    about = found.results.get(str(found.revision), {})
+    counted = [seed for seed, outcome in known if outcome not in NOT_COUNTED]
+    if found.wanted is None or len(known) < about.get("wanted", found.wanted) or not about:
+        return Side(found.revision, known, [])
+    if found.older is None:
+        return None
+    older = queries.known(found, found.older)
+    there = {seed for seed, _ in older}
+    missing = [seed for seed in counted if seed not in there]
+    return Side(found.older, older, missing) if missing else None
+
+
+def waiting_places() -> dict[Place, datetime]:
+    """Returns the places with something to do, each with the time of the oldest wish."""
+    found: dict[Place, datetime] = {}
+    replays = Replay.objects.filter(state__in=LIVE).values_list("evaluation__project", "user", "created_at")
+    rows = Evaluation.objects.filter(state__in=LIVE).values_list("project", "user", "asked_at")
+    for project, user, at in [*replays, *rows]:
+        place = Place(project, user)
+        found[place] = min(at, found.get(place, at))
+    return found
+
+
+def in_turn(waiting: Mapping[Place, datetime], running: Iterable[Place]) -> list[Place]:
+    """Returns the places that wait, those of users with the fewest running ones first, then the oldest."""
+    there = list(running)
+    by_user: dict[int, int] = {}
+    for place in there:
+        by_user[place.user] = by_user.get(place.user, 0) + 1
+    left = [place for place in waiting if place not in there]
+    return sorted(left, key=lambda place: (by_user.get(place.user, 0), waiting[place], place))

@@ -1,0 +1,277 @@
+"""All writes to evaluations."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from django.db import transaction
+from django.utils import timezone
+
+from backend.config.environment import environment
+from backend.core.locks import transaction_lock
+from backend.evaluations import queries
+from backend.evaluations.choices import LIVE, NOT_COUNTED, JobState
+from backend.evaluations.errors import NoEvaluationError, WrongStateError
+from backend.evaluations.models import Evaluation, Outcome, Replay
+from backend.evaluations.queries import ENDING, FOLDER
+from backend.projects.storage import queries as projects
+from backend.projects.storage.access import Need
+from backend.sessions.writes import has_room_for_evaluations
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from uuid import UUID
+
+    from backend.accounts.models import User
+    from backend.evaluations.told import Begun, Done, Line
+    from backend.projects.models import Project
+    from backend.runs.models import Run
+
+MOST_KEPT: Final = 50
+MOST_WAITING: Final = 20
+MOST_ERROR: Final = 20_000
+MOST_WHY: Final = 2000
+MOST_TRIES: Final = 3
+_TURN: Final = "evaluations of {}"
+
+
+def why_not(project: Project) -> str:
+    """Returns why nobody can start an evaluation on this server; "" if one can."""
+    if not has_room_for_evaluations():
+        return "This server has one place for robots, and that is kept for users who work."
+    return "The project is archived." if project.archived_at else ""
+
+
+def start(project_id: UUID, name: str, runs: int, *, acting_user: User) -> Evaluation:
+    """Puts an evaluation of the current revision of a project into the queue.
+
+    Raises:
+        RoleTooLowError: the user may not change the project.
+        NoEvaluationError: there is no such evaluation, or this server runs none.
+        WrongStateError: too many evaluations of the project wait.
+    """
+    with transaction.atomic():
+        project = projects.project(project_id, user=acting_user, need=Need.WRITE)
+        transaction_lock(_TURN.format(project.id))
+        _require_possible(project)
+        if f"{FOLDER}{name}{ENDING}" not in projects.existing_files(project):
+            raise NoEvaluationError(
+                f"The project has no evaluation “{name}”.", hint=f"Save it as {FOLDER}{name}{ENDING}."
+            )
+        if Evaluation.objects.filter(project=project, state__in=LIVE).count() >= MOST_WAITING:
+            raise WrongStateError(
+                f"{MOST_WAITING} evaluations of this project wait or run.", hint="Cancel one of them first."
+            )
+        now = timezone.now()
+        made = Evaluation.objects.create(
+            project=project,
+            user=acting_user,
+            name=name,
+            revision=project.revision,
+            runs=runs,
+            created_at=now,
+            asked_at=now,
+        )
+        rows = Evaluation.objects.filter(project=project).order_by("-created_at", "id")
+        for old in rows.exclude(state__in=LIVE).defer("plan")[MOST_KEPT - 1 :]:
+            if old.pk != made.pk:
+                old.delete()
+    return made
+
+
+def cancel(project_id: UUID, evaluation_id: UUID, *, acting_user: User) -> Evaluation:
+    """Ends an evaluation; what is done is kept."""
+    found = queries.evaluation(project_id, evaluation_id, user=acting_user, need=Need.WRITE)
+    rows = Evaluation.objects.filter(id=found.id, state__in=LIVE)
+    rows.update(state=JobState.CANCELLED, left_s=None, ended_at=timezone.now())
+    return queries.evaluation(project_id, evaluation_id, user=acting_user)
+
+
+def resume(project_id: UUID, evaluation_id: UUID, *, acting_user: User) -> Evaluation:
+    """Runs what an evaluation lacks. Runs that said nothing of the project are run again.
+
+    Raises:
+        WrongStateError: it runs already.
+    """
+    return _begin_again(project_id, evaluation_id, {}, acting_user)
+
+
+def compare(project_id: UUID, evaluation_id: UUID, older: int, *, acting_user: User) -> Evaluation:
+    """Runs the same seeds with an older revision, in the same worlds.
+
+    Raises:
+        WrongStateError: the evaluation itself is not done.
+        NoEvaluationError: the revision is not older.
+    """
+    found = queries.evaluation(project_id, evaluation_id, user=acting_user, need=Need.WRITE)
+    projects.change_set(found.project, older)
+    if older >= found.revision:
+        raise NoEvaluationError(
+            f"Revision {older} is not older than {found.revision}, which was evaluated.",
+            hint="Choose an older revision.",
+        )
+    if not found.results.get(str(found.revision), {}).get("done"):
+        raise WrongStateError("Nothing was evaluated yet.", hint="Evaluate first, then compare.")
+    return _begin_again(project_id, evaluation_id, {"older": older}, acting_user)
+
+
+@transaction.atomic
+def _begin_again(
+    project_id: UUID, evaluation_id: UUID, changes: dict[str, Any], acting_user: User
+) -> Evaluation:
+    found = queries.evaluation(project_id, evaluation_id, user=acting_user, need=Need.WRITE)
+    transaction_lock(_TURN.format(found.project_id))
+    _require_possible(found.project)
+    values = {
+        "state": JobState.WAITING,
+        "error": "",
+        "ended_at": None,
+        "attempt": found.attempt + 1,
+        "tries": 0,
+        "asked_at": timezone.now(),
+        "user": acting_user,
+    }
+    rows = Evaluation.objects.filter(id=found.id, attempt=found.attempt).exclude(state__in=LIVE)
+    if not rows.update(**values, **changes):
+        raise WrongStateError("The evaluation runs already.", hint="Wait for its end, or cancel it.")
+    Outcome.objects.filter(evaluation=found, outcome__in=NOT_COUNTED).delete()
+    if "older" in changes and found.older not in (None, changes["older"]):
+        Outcome.objects.filter(evaluation=found, revision=found.older).delete()
+    return queries.evaluation(project_id, evaluation_id, user=acting_user)
+
+
+def delete(project_id: UUID, evaluation_id: UUID, *, acting_user: User) -> None:
+    """Deletes an evaluation with its outcomes; one that runs ends."""
+    queries.evaluation(project_id, evaluation_id, user=acting_user, need=Need.WRITE).delete()
+
+
+@transaction.atomic
+def ask_replay(
+    project_id: UUID, evaluation_id: UUID, revision: int, seed: int, *, acting_user: User
+) -> Replay:
+    """Asks for a run to be run again and recorded; an earlier replay of it that still exists is returned."""
+    found = queries.evaluation(project_id, evaluation_id, user=acting_user, need=Need.RUN)
+    _require_possible(found.project)
+    queries.outcome(found, revision, seed)
+    transaction_lock(_TURN.format(found.project_id))
+    mine = Replay.objects.filter(evaluation=found, user=acting_user, revision=revision, seed=seed)
+    same = mine.filter(state__in=LIVE).first() or mine.filter(state=JobState.DONE).exclude(run=None).first()
+    if same is not None:
+        return same
+    Replay.objects.filter(user=acting_user, state=JobState.WAITING).delete()  # the last click counts
+    return Replay.objects.create(
+        evaluation=found, user=acting_user, revision=revision, seed=seed, created_at=timezone.now()
+    )
+
+
+# --- what the collector writes --------------------------------------------------------------------
+
+
+def begun(found: Evaluation, told: Begun) -> None:
+    """Stores what is known of an evaluation once it has begun."""
+    values: dict[str, Any] = {"state": JobState.RUNNING, "workers": told.workers}
+    if found.seed is None:
+        values |= {"seed": told.seed, "wanted": told.wanted, "sequential": told.sequential}
+        values |= {"duration_s": told.duration_s, "plan": told.plan}
+    if Evaluation.objects.filter(id=found.id, state__in=LIVE).update(**values):
+        for name, value in values.items():
+            setattr(found, name, value)
+
+
+def continues(found: Evaluation) -> None:
+    """Stores that an evaluation that has begun before runs again."""
+    Evaluation.objects.filter(id=found.id, state__in=LIVE).update(state=JobState.RUNNING)
+
+
+@transaction.atomic
+def store(found: Evaluation, revision: int, told: Sequence[tuple[Done, Line]]) -> bool:
+    """Stores outcomes; those that are stored already stay. Returns whether the evaluation is still wanted."""
+    locked = Evaluation.objects.select_for_update().filter(id=found.id).defer("plan").first()
+    if locked is None:
+        return False
+    now = timezone.now()
+    Outcome.objects.bulk_create(
+        [Outcome(**_outcome(locked, revision, done, line), created_at=now) for done, line in told],
+        ignore_conflicts=True,
+    )
+    if told:
+        last = told[-1][0]
+        about = {name: getattr(last, name) for name in ("done", "wanted", "rate", "low", "high")}
+        locked.results = {**locked.results, str(revision): about}
+        locked.left_s, locked.tries = last.left_s, 0
+        locked.save(update_fields=["results", "left_s", "tries"])
+    return locked.state in LIVE and locked.attempt == found.attempt
+
+
+def _outcome(found: Evaluation, revision: int, done: Done, line: Line) -> dict[str, Any]:
+    nearest = line.nearest
+    return {
+        "evaluation": found,
+        "revision": revision,
+        "seed": line.seed,
+        "outcome": line.outcome,
+        "why": line.why[:MOST_WHY].replace("\0", ""),
+        "end_s": line.end_s,
+        "margin": nearest.margin if nearest is not None else None,
+        "unit": nearest.unit if nearest is not None else "",
+        "measures": line.measures,
+        "cpu_s": done.cpu_s,
+        "line": done.line.replace("\0", ""),
+    }
+
+
+@transaction.atomic
+def side_done(found: Evaluation, revision: int, wanted: int) -> None:
+    """Stores that all runs of a revision are done: what was run beyond the end that `until` chose goes."""
+    locked = Evaluation.objects.select_for_update().filter(id=found.id).defer("plan").first()
+    if locked is None:
+        return
+    known = queries.known(locked, revision)
+    if revision == locked.revision and locked.sequential and wanted < len(known):
+        kept = [seed for seed, _ in known][:wanted]
+        Outcome.objects.filter(evaluation=locked, revision=revision, seed__gt=kept[-1]).delete()
+    about = locked.results.get(str(revision), {}) | {"done": min(wanted, len(known)), "wanted": wanted}
+    locked.results = {**locked.results, str(revision): about}
+    locked.save(update_fields=["results"])
+
+
+def finish(found: Evaluation, state: JobState, error: str = "") -> None:
+    """Stores the end of an evaluation, unless somebody has ended or resumed it meanwhile."""
+    rows = Evaluation.objects.filter(id=found.id, attempt=found.attempt, state__in=LIVE)
+    error = error[:MOST_ERROR].replace("\0", "")
+    rows.update(state=state, error=error, left_s=None, ended_at=timezone.now())
+
+
+def lost(found: Evaluation | Replay, why: str) -> None:
+    """Notes that an executor was lost at it; after three times it has failed."""
+    tries = found.tries + 1
+    state = JobState.FAILED if tries >= MOST_TRIES else JobState.WAITING
+    rows = type(found)._default_manager.filter(id=found.id, state__in=LIVE)
+    values: dict[str, Any] = {"state": state, "tries": tries}
+    if state == JobState.FAILED:
+        values["error"] = why[:MOST_ERROR]
+    rows.update(**values)
+
+
+def wait_again(found: Evaluation) -> None:
+    """Puts a running evaluation back into the queue, since others go first."""
+    Evaluation.objects.filter(id=found.id, state=JobState.RUNNING).update(
+        state=JobState.WAITING, left_s=None, asked_at=timezone.now()
+    )
+
+
+def replayed(found: Replay, state: JobState, error: str = "", run: Run | None = None) -> None:
+    """Stores what became of a replay."""
+    rows = Replay.objects.filter(id=found.id)
+    rows.update(state=state, error=error[:MOST_ERROR].replace("\0", ""), run=run)
+
+
+def _require_possible(project: Project) -> None:
+    if reason := why_not(project):
+        raise NoEvaluationError(reason, hint="Use `bt-studio evaluate` on the command line.")
+
+
+def hours_left(user: User) -> bool:
+    """Returns whether a user has processor hours left today."""
+    limit = environment().evaluation_hours_a_day
+    return not limit or queries.used_hours(user) < limit

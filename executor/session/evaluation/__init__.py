@@ -1,0 +1,1 @@
+"""The evaluation beside the ladder of a session."""

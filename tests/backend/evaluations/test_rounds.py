@@ -1,0 +1,109 @@
+"""Rounds: who gets a session, and who gives one up."""
+
+from __future__ import annotations
+
+from datetime import timedelta
+
+import pytest
+from django.utils import timezone
+
+from backend.evaluations import rounds, writes
+from backend.evaluations.choices import JobState
+from backend.evaluations.models import Evaluation
+from backend.projects.sharing import memberships
+from backend.sessions import writes as sessions
+from backend.sessions.models import Drain, Session
+from backend.workers.aside import sweeps
+from tests.backend.evaluations.conftest import begin, session_for, wish
+
+
+@pytest.fixture(autouse=True)
+def _nothing_starts(monkeypatch):
+    """Sessions stay in the state in which they are made, and nobody reads them."""
+    monkeypatch.setattr(sessions, "workers", type("Idle", (), {"submit": lambda *_: None}))
+    monkeypatch.setattr(rounds, "collect", lambda *_: None)
+
+
+def live():
+    return list(Session.objects.filter(kind="evaluation", state__in=["starting", "ready"]))
+
+
+def test_one_at_a_time_gets_a_session_and_the_others_wait(people):
+    wish(people)
+    wish(people, "editor")
+    rounds.one_round()
+    rounds.one_round()
+    [session] = live()
+    assert session.user == people.owner.user
+
+
+def test_more_at_a_time_where_the_server_has_room(people, settings_of):
+    settings_of(max_evaluations=2)
+    wish(people)
+    wish(people, "editor")
+    rounds.one_round()
+    assert len(live()) == 2
+
+
+def test_a_place_is_kept_for_users_who_work(people, settings_of):
+    settings_of(max_sessions=2, max_evaluations=5)
+    wish(people)
+    session_for(people, kind="interactive")
+    rounds.one_round()
+    assert live() == []
+    Session.objects.update(state="ended")
+    rounds.one_round()
+    assert len(live()) == 1
+
+
+def test_an_evaluation_ends_its_session_for_a_user_who_waits_and_continues_later(people):
+    found = wish(people)
+    begin(found)
+    session_for(people)
+    session_for(people, "editor", kind="interactive", state="queued")
+    rounds.one_round()
+    session = Session.objects.get(kind="evaluation")
+    assert (session.state, session.error) == ("ended", "It gave its place to others.")
+    assert Evaluation.objects.get().state == JobState.WAITING
+
+
+def test_after_its_turn_an_evaluation_gives_its_place_to_another_user(people):
+    first = wish(people)
+    begin(first)
+    mine = session_for(people)
+    wish(people, "editor")
+    rounds.one_round()
+    assert live() == [mine]
+    Session.objects.filter(id=mine.id).update(created_at=timezone.now() - rounds.TURN - timedelta(seconds=1))
+    rounds.one_round()
+    [session] = live()
+    assert session.user == people.editor.user
+
+
+def test_who_lost_the_right_loses_the_evaluation(people):
+    found = wish(people, "editor")
+    memberships.unshare_with_person(people.project.id, "editor", acting_user=people.owner.user)
+    rounds.one_round()
+    found.refresh_from_db()
+    assert found.state == JobState.FAILED
+    assert found.error
+
+
+def test_nothing_starts_before_an_upgrade(people, monkeypatch):
+    wish(people)
+    monkeypatch.setattr(rounds, "current_drain", Drain)
+    rounds.one_round()
+    assert live() == []
+
+
+def test_a_round_is_asked_for_only_if_there_is_something_to_do(people, monkeypatch):
+    asked = []
+    monkeypatch.setattr(sweeps, "ask", lambda *work: asked.append(work))
+    rounds.round_soon()
+    assert asked == []
+    found = wish(people)
+    rounds.round_soon()
+    assert asked == [("evaluations", rounds.one_round)]
+    writes.finish(found, JobState.DONE)
+    rounds.round_soon()
+    assert len(asked) == 1

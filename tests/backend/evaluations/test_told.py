@@ -1,0 +1,74 @@
+"""Messages of an executor are bounded before they are believed."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from backend.evaluations.told import MOST_LINE, Begun, Done, Ended, Refusal, read, read_line
+from tests.backend.evaluations.conftest import done, line
+
+DONE = {
+    "job": "a",
+    "seed": 1,
+    "cpu_s": 1,
+    "done": 1,
+    "wanted": 2,
+    "rate": 1,
+    "low": 0,
+    "high": 1,
+    "left_s": 0,
+}
+
+
+def sent(command: str, data: object, name: str = "a") -> str:
+    return json.dumps({"id": name, "command": command, "data": data, "seq": 1, "t": 0})
+
+
+def test_only_messages_of_evaluations_are_read():
+    assert read(sent("tick", {"whatever": 1})) is None
+    assert read(sent("error", {"message": "for all"}, "")) is None
+    assert isinstance(read(sent("error", {"code": "x", "message": "no"})), Refusal)
+    assert isinstance(read(sent("evaluation_ended", {"job": "a", "end": "complete", "wanted": 3})), Ended)
+    assert isinstance(read(sent("evaluation_outcome", DONE | {"line": line(1)})), Done)
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        DONE | {"line": "x" * (MOST_LINE + 1)},
+        DONE | {"line": "{}", "rate": 2},
+        DONE | {"line": "{}", "seed": -1},
+        DONE | {"line": "{}", "cpu_s": 1e300},
+        DONE,
+    ],
+)
+def test_an_outcome_beyond_its_bounds_is_refused(bad):
+    with pytest.raises(ValueError, match=r"."):
+        read(sent("evaluation_outcome", bad))
+
+
+def test_a_plan_that_is_too_large_is_left_out():
+    data = {"job": "a", "workers": 2, "seed": 0, "wanted": 3, "sequential": False, "duration_s": 5}
+    found = read(sent("evaluation_started", data | {"plan": {"outlines": ["x" * (2 << 20)]}}))
+    assert isinstance(found, Begun)
+    assert found.plan == {}
+
+
+def test_the_nearest_item_is_that_which_decided_by_least():
+    items = [{"item": "a", "holds": True, "margin": 0.1}, {"item": "b", "holds": False, "margin": -0.2}]
+    found = read_line(done(3, "failure"))
+    assert found.nearest is not None
+    assert (found.nearest.margin, found.nearest.unit) == (0.5, "m")
+    both = read_line(Done("a", 3, line(3, items=items), 1, 1, 1, 1, 0, 1, 0))
+    assert both.nearest is not None
+    assert both.nearest.item == "b"
+    none = read_line(Done("a", 3, line(3, items=[]), 1, 1, 1, 1, 0, 1, 0))
+    assert none.nearest is None
+
+
+@pytest.mark.parametrize("text", [line(4), line(3) + "\n", line(3, "nonsense"), "[]", "\ud800"])
+def test_a_line_of_another_seed_or_no_outcome_is_refused(text):
+    with pytest.raises(ValueError, match=r"."):
+        read_line(Done("a", 3, text, 1, 1, 1, 1, 0, 1, 0))

@@ -1,0 +1,60 @@
+"""Evaluations over HTTP."""
+
+from __future__ import annotations
+
+import json
+
+from backend.evaluations import views
+from backend.evaluations.models import Evaluation
+from tests.backend.evaluations.conftest import begin, done, line, store
+
+
+def address(people):
+    return f"projects/{people.project.id}/evaluations"
+
+
+def test_an_evaluation_is_started_looked_at_cancelled_and_deleted(people, monkeypatch):
+    rounds = []
+    monkeypatch.setattr(views, "round_soon", lambda: rounds.append(1))
+    by, at = people.owner, address(people)
+    made = by.post(at, {"name": "room", "runs": 3}, expect=201)
+    assert (made["state"], made["revision"], Evaluation.objects.get().runs) == ("waiting", 1, 3)
+    listed = people.viewer.get(at)
+    assert [row["id"] for row in listed["items"]] == [made["id"]]
+    assert (listed["may_start"], listed["may_replay"], listed["why_not"]) == (False, True, "")
+    assert by.get(at)["may_start"]
+    assert by.post(f"{at}/{made['id']}/cancel")["state"] == "cancelled"
+    assert by.post(f"{at}/{made['id']}/resume")["state"] == "waiting"
+    by.delete(f"{at}/{made['id']}")
+    assert by.get(at)["items"] == []
+
+
+def test_outcomes_are_read_on_from_a_cursor(people):
+    at = address(people)
+    made = people.owner.post(at, {"name": "room"}, expect=201)
+    found = Evaluation.objects.get()
+    begin(found)
+    store(found, done(0), done(1, "failure"))
+    own = f"{at}/{made['id']}"
+    first = people.viewer.get(f"{own}/outcomes")
+    assert [row["outcome"] for row in first["items"]] == ["success", "failure"]
+    store(found, done(2))
+    second = people.viewer.get(f"{own}/outcomes?after={first['cursor']}")
+    assert [row["seed"] for row in second["items"]] == [2]
+    assert people.viewer.get(f"{own}/outcomes?after=x%27")["items"]
+    assert people.viewer.get(f"{own}/outcomes/1")["outcome"] == json.loads(line(1, "failure"))
+    people.viewer.get(f"{own}/outcomes/7", expect=404)
+    people.viewer.get(f"{own}/outcomes?revision=2", expect=404)
+    answer = people.viewer.client.get(f"/api/v1/{own}/runs.jsonl")
+    assert answer.getvalue().decode().splitlines() == [line(0), line(1, "failure"), line(2)]
+    headers = answer.headers
+    assert headers["Content-Disposition"].startswith("attachment")
+    assert headers["X-Content-Type-Options"] == "nosniff"
+
+
+def test_a_wish_that_is_no_wish_is_refused(people):
+    at = address(people)
+    for bad in ({}, {"name": "room", "runs": -1}, {"name": "room", "runs": "3"}, {"name": "room", "x": 1}):
+        people.owner.post(at, bad, expect=422)
+    people.owner.post(at, {"name": "rom"}, expect=422)
+    people.viewer.post(at, {"name": "room"}, expect=403)

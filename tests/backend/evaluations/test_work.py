@@ -1,0 +1,63 @@
+"""The next work, and its user."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from uuid import UUID
+
+from backend.evaluations import work, writes
+from backend.evaluations.choices import JobState
+from backend.evaluations.models import Evaluation
+from backend.evaluations.told import read_line
+from backend.evaluations.work import Place, in_turn
+from tests.backend.evaluations.conftest import begin, done, store, wish
+
+A, B = UUID(int=1), UUID(int=2)
+
+
+def at(minute: int) -> datetime:
+    return datetime(2026, 1, 1, 0, minute, tzinfo=UTC)
+
+
+def test_the_next_turn_is_for_the_user_with_the_fewest_running_ones_and_then_for_the_oldest_wish():
+    waiting = {Place(A, 1): at(1), Place(B, 1): at(2), Place(A, 2): at(5), Place(A, 3): at(4)}
+    assert in_turn(waiting, [Place(B, 1)]) == [Place(A, 3), Place(A, 2), Place(A, 1)]
+    assert in_turn(waiting, []) == [Place(A, 1), Place(B, 1), Place(A, 3), Place(A, 2)]
+
+
+def test_a_replay_goes_first_then_what_runs_then_the_oldest(people):
+    first, second = wish(people), wish(people)
+    place = Place(people.project.id, people.owner.user.pk)
+    assert work.next_of(place) == first
+    begin(second)
+    assert work.next_of(place) == second
+    store(first, done(0))
+    replay = writes.ask_replay(people.project.id, first.id, 1, 0, acting_user=people.owner.user)
+    assert work.next_of(place) == replay
+    assert work.has_replay(place)
+    assert set(work.waiting_places()) == {place}
+    assert work.next_of(Place(people.project.id, people.editor.user.pk)) is None
+
+
+def test_a_user_without_processor_hours_waits(people, settings_of):
+    found = wish(people)
+    store(found, done(0))
+    settings_of(evaluation_hours_a_day=0.0001)
+    assert work.next_of(Place(people.project.id, people.owner.user.pk)) is None
+
+
+def test_the_older_revision_runs_the_seeds_that_counted_after_the_newer_one(people):
+    found = wish(people)
+    assert work.next_side(found) == work.Side(1, [], [])
+    begin(found, 3)
+    store(found, done(0, wanted=3), done(1, "invalid", 2, 3))
+    found.refresh_from_db()
+    assert work.next_side(found) == work.Side(1, [(0, "success"), (1, "invalid")], [])
+    store(found, done(2, "failure", 3, 3))
+    found.refresh_from_db()
+    assert work.next_side(found) is None
+    Evaluation.objects.filter(id=found.id).update(older=0, state=JobState.WAITING)
+    found.refresh_from_db()
+    assert work.next_side(found) == work.Side(0, [], [0, 2])
+    writes.store(found, 0, [(done(seed), read_line(done(seed))) for seed in (0, 2)])
+    assert work.next_side(found) is None

@@ -1,0 +1,66 @@
+"""A Ray cluster has the outcomes of this machine's pool, also when a supervisor and a node are killed."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from executor.evaluation.cluster import ray_pool
+from executor.evaluation.cluster.ray_pool import ClusterError, RayPool, has_cluster, import_ray
+from executor.evaluation.pool.environment import SINGLE
+from tests.budget import count
+from tests.executor.evaluation.projects import write
+
+ROOT = Path(__file__).parents[4]
+MAIN = "from backend.cli.main import main; main()"
+ENVIRONMENT = {**os.environ, **SINGLE, "PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "0"}
+NODES = count("ray_nodes")
+SEEDS = 3 if NODES < 2 else 24
+TEXT = f"""duration_s: {2 if NODES < 2 else 8}
+runs: {SEEDS}
+vary: {{robot.pose: {{area: start, yaw: [-0.4, 0.4]}}}}
+judge: {{success: [{{reach: {{area: ahead}}}}, {{never: collision}}]}}
+"""
+
+
+@pytest.mark.simulation
+@pytest.mark.timeout(900)
+def test_a_cluster_has_the_outcomes_of_one_machine(tmp_path):
+    folder, report = write(tmp_path / "p", TEXT), tmp_path / "r"
+    command = [sys.executable, "-c", MAIN, "evaluate", folder, "--workers", "1", "--report", report]
+    subprocess.run(command, cwd=ROOT, env=ENVIRONMENT, check=True, capture_output=True, timeout=400)
+    done = subprocess.run(
+        [sys.executable, "-m", "tests.executor.evaluation.cluster.nodes", folder, str(SEEDS), str(NODES)],
+        cwd=ROOT,
+        env=ENVIRONMENT,
+        check=False,
+        capture_output=True,
+        text=True,
+        timeout=800,
+    )
+    assert done.returncode == 0, done.stderr[-3000:]
+    assert done.stdout == (report / "runs.jsonl").read_text()
+
+
+def test_a_missing_extra_is_one_sentence_with_the_command(monkeypatch):
+    monkeypatch.setitem(sys.modules, "ray", None)  # as if it were not installed
+    with pytest.raises(
+        ClusterError, match=r"needs Ray, which is not installed: .* -m pip install 'ray~="
+    ) as found:
+        import_ray(is_own=False)
+    assert "\n" not in str(found.value)
+    with pytest.raises(ClusterError, match="needs Ray"):
+        RayPool(b"", "127.0.0.1:1", first_limit_s=1.0, scale=lambda _: 1.0)
+
+
+def test_a_cluster_is_known_by_what_ray_notes(monkeypatch, tmp_path):
+    monkeypatch.delenv("RAY_ADDRESS", raising=False)
+    monkeypatch.setattr(ray_pool, "NOTED", tmp_path / "ray_current_cluster")
+    assert not has_cluster()
+    (tmp_path / "ray_current_cluster").touch()
+    assert has_cluster()
+    monkeypatch.setattr(ray_pool, "NOTED", tmp_path / "nothing")
+    monkeypatch.setenv("RAY_ADDRESS", "10.0.0.1:6379")
+    assert has_cluster()

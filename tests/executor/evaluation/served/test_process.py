@@ -1,0 +1,127 @@
+"""The process of an evaluation: what it says of a job, and what it refuses."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import os
+import socket
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from executor.evaluation.outcome import Outcome
+from executor.evaluation.served.process import MOST_LINE_BYTES, processors, run_job, shortened
+from executor.evaluation_messages import (
+    EvaluationDone,
+    Refused,
+    RunDone,
+    Started,
+    StartEvaluation,
+    decode_from_evaluation,
+)
+from executor.manager.manager import SINGLE_THREADED
+from executor.supervision.channel import encode
+
+EXAMPLE = Path(__file__).parents[4] / "examples" / "laser_bump_and_go"
+QUICK = b"""format: bt-studio/evaluation
+version: 1
+universe: walled_room
+duration_s: 1
+runs: 3
+seed: 5
+judge: {success: [{never: collision}]}
+"""
+
+
+def archive(evaluation: bytes = QUICK) -> str:
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as made:
+        for path in sorted(EXAMPLE.rglob("*")):
+            if path.is_file():
+                made.writestr(str(path.relative_to(EXAMPLE)), path.read_bytes())
+        made.writestr("evaluations/quick.yaml", evaluation)
+    return base64.b64encode(out.getvalue()).decode()
+
+
+def said(job: StartEvaluation) -> list:
+    """Runs the process with a job, as the manager does; returns its messages."""
+    ours, theirs = socket.socketpair()
+    command = [
+        sys.executable,
+        "-m",
+        "executor.evaluation.served.process",
+        "--channel-fd",
+        str(theirs.fileno()),
+    ]
+    with subprocess.Popen(
+        command, pass_fds=[theirs.fileno()], env={**os.environ, **SINGLE_THREADED}
+    ) as process:
+        theirs.close()
+        ours.sendall(encode(job))
+        found = []
+        with ours, ours.makefile("rb") as stream:
+            while prefix := stream.read(4):
+                found.append(decode_from_evaluation(stream.read(int.from_bytes(prefix, "little"))))
+    assert process.returncode == 0
+    return found
+
+
+@pytest.mark.simulation
+def test_it_runs_what_is_not_known_and_records_a_seed(tmp_path):
+    job = StartEvaluation(archive(), "quick", [], [(5, "success")])
+    begun, *runs, ended = said(job)
+    assert isinstance(begun, Started)
+    assert (begun.seed, begun.wanted, begun.duration_s) == (5, 3, 1.0)
+    assert sorted(run.seed for run in runs) == [6, 7]
+    assert [(run.done, run.wanted, run.rate) for run in runs] == [(2, 3, 1.0), (3, 3, 1.0)]
+    assert ended == EvaluationDone(3)
+    file = tmp_path / "run" / "0.0.mcap"
+    job = StartEvaluation(archive(), "quick", [6], [], record_to=str(file))
+    _, again, ended = said(job)
+    assert isinstance(again, RunDone)
+    assert again.line == next(run.line for run in runs if run.seed == 6)
+    assert file.read_bytes().startswith(b"\x89MCAP")
+
+
+@pytest.mark.parametrize(
+    ("job", "text"),
+    [
+        (StartEvaluation("x", "quick", [], []), "no base64"),
+        (StartEvaluation("eA==", "quick", [], []), "BT0920"),
+        (StartEvaluation(archive(), "quikc", [], []), "did you mean 'quick'?"),
+        (StartEvaluation(archive(QUICK.replace(b"walled_room", b"nowhere")), "quick", [], []), "nowhere"),
+        (StartEvaluation(archive(b"runs: ["), "quick", [], []), "evaluations/quick.yaml:2:1"),
+    ],
+)
+def test_what_cannot_be_run_is_refused_with_its_place(job, text):
+    found: list = []
+    run_job(job, found.append)
+    [refused] = found
+    assert isinstance(refused, Refused)
+    assert text in refused.message
+
+
+def test_a_container_has_the_processors_of_its_quota(tmp_path):
+    quota = tmp_path / "cpu.max"
+    there = len(os.sched_getaffinity(0))
+    assert processors(quota) == there
+    quota.write_text("max 100000\n")
+    assert processors(quota) == there
+    quota.write_text("100000 100000\n")
+    assert processors(quota) == 1
+    quota.write_text("5000 100000\n")
+    assert processors(quota) == 1
+
+
+def test_a_line_that_is_too_long_loses_what_code_of_the_user_made_long():
+    plain = Outcome(3, "success", "fine", drawn={"a": 1})
+    assert shortened(plain) == plain.to_line()
+    long = Outcome(3, "success", "fine", measures={"a": 1.0}, drawn={"a": "x" * MOST_LINE_BYTES})
+    assert json.loads(shortened(long))["measures"] == {"a": 1.0}
+    huge = Outcome(3, "failure", "x" * 10_000_000, measures={"m" * MOST_LINE_BYTES: 1.0})
+    assert len(shortened(huge)) <= MOST_LINE_BYTES

@@ -9,9 +9,9 @@ from msgspec import Struct
 from executor import child_messages, messages, recorder_messages
 from executor.session import streaming
 from executor.session.clients import MOST_ECHOED_BY_VIEWER, MOST_STREAMS
-from executor.session.flags import FlagRefused
 from executor.session.ladder import State
 from executor.session.questions import ANSWER_S
+from executor.session.recording import FlagRefused
 from executor.session.steps import RESET_TIMEOUT_S
 from executor.session.waits import NOT_ANSWERING
 

@@ -1,6 +1,7 @@
 import react from '@vitejs/plugin-react';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitest/config';
+import { bounds } from './bounds.ts';
 import { compressed } from './compressed.ts';
 import { fontNotices, NOTICES } from './notices.ts';
 import { validators } from './validators.ts';
@@ -9,7 +10,7 @@ const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 const backend = process.env.BT_STUDIO_BACKEND ?? 'http://127.0.0.1:8000';
 
 export default defineConfig({
-  plugins: [react(), validators(), fontNotices(), compressed()],
+  plugins: [react(), validators(), fontNotices(), bounds(), compressed()],
   resolve: {
     alias: { '@': here('./src'), '@catalog': here('../tree_gardener/catalog.json') },
   },

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from translator import Project
 
 
 def check(
@@ -22,21 +25,44 @@ def check(
     from translator import check as check_project
     from translator.archive import read_file
 
+    opened: Project | None = None
     try:
         if project.endswith(".py"):
             source = read_file(Path(project)).decode("utf-8", "replace")
             found = inspect_action(source, project).diagnostics
         else:
-            found = check_project(cli.open_project(project, actions=actions))
+            opened = cli.open_project(project, actions=actions)
+            found = check_project(opened)
     except TranslatorError as error:
         found = error.diagnostics
-    if as_json:
-        cli.print_json({"diagnostics": [item.to_json() for item in found]})
     errors = sum(item.is_error for item in found)
+    wrong = [] if opened is None or errors else _wrong_evaluations(opened)
+    if as_json:
+        cli.print_json({"diagnostics": [item.to_json() for item in found], "evaluations": wrong})
     if not as_json:
         cli.tell(item for item in found if not item.is_error)
-    if errors:
-        raise CliError(*([] if as_json else [str(item) for item in found if item.is_error]))
+    if errors or wrong:
+        lines = [*(str(item) for item in found if item.is_error), *wrong]
+        raise CliError(*([] if as_json else lines))
     if not as_json:
         warnings = sum(item.severity.value == "warning" for item in found)
         print(f"{project}: no errors" + (f", {warnings} warnings" if warnings else ""))
+
+
+def _wrong_evaluations(project: Project) -> list[str]:
+    """Returns the errors of a project's evaluations, each with its file and line."""
+    if not any(path.startswith("evaluations/") for path in project.files):
+        return []
+    from executor.evaluation.plan import EvaluationError, evaluation_names, make_plan
+    from executor.universes.document import DocumentError
+    from translator import TranslatorError
+
+    found: list[str] = []
+    for name in evaluation_names(project):
+        try:
+            make_plan(project, name)
+        except (DocumentError, EvaluationError) as error:
+            found += str(error).splitlines()
+        except TranslatorError as error:
+            found += map(str, error.diagnostics)
+    return found

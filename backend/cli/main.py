@@ -33,6 +33,7 @@ VERBS: Final[dict[str, Verb]] = {
     "check": Verb("check", "check"),
     "test": Verb("behaviour_tests", "run_tests"),
     "evaluate": Verb("evaluating.evaluate", "evaluate"),
+    "tune": Verb("evaluating.tune", "tune"),
     "diff": Verb("comparing.diff", "diff"),
     "merge": Verb("comparing.merge", "merge"),
     "git": Verb("comparing.git", "git"),

@@ -195,12 +195,13 @@ class Faults:
         for each in [each for each in self._waiting if now_s >= each.at_s - 1e-9]:
             self._waiting.remove(each)
             self._active.append(each)
-            self._switch(each, on=True)
-            self.happened.append(each.to_json())
+            if self._switch(each, on=True):
+                self.happened.append(each.to_json())
 
     # --- inside ---
 
-    def _switch(self, each: Scheduled, *, on: bool) -> None:
+    def _switch(self, each: Scheduled, *, on: bool) -> bool:
+        """Begins or ends a fault; returns whether it could."""
         fault = each.fault
         if fault.sensor is not None:
             self._switch_sensor(each, on=on)
@@ -217,8 +218,11 @@ class Faults:
             self._run.sensors.load_scene()
         elif fault.kind == "action_raises":
             self._switch_action(fault, on=on)
+        elif on and fault.kind == "kidnap":
+            return self._kidnap(each)
         elif on:
-            (self._kidnap if fault.kind == "kidnap" else self._push)(each)
+            self._push(each)
+        return True
 
     def _index(self, fault: Fault) -> int:
         ids = [robot.id for robot in self._run.world.robots]
@@ -263,11 +267,12 @@ class Faults:
         [(tree_id, node_id)] = nodes_named(self._plan.project, fault.node or "")
         self._run.switch_action(tree_id, node_id, on=on)
 
-    def _kidnap(self, each: Scheduled) -> None:
+    def _kidnap(self, each: Scheduled) -> bool:
+        """Puts the robot elsewhere; returns whether there was a free place."""
         fault, robot, world = each.fault, self._robot(each.fault), self._run.world
         if fault.pose is not None:
             world.move_body(robot.id, fault.pose)
-            return
+            return True
         start = world.universe.robots[self._index(fault)].pose
         generator = generator_of(self._seed, f"{each.address}.pose")
         corners = self._plan.universe.areas[fault.area or ""].corners
@@ -276,7 +281,8 @@ class Faults:
             yaw = float(generator.uniform(0, math.tau))
             if self._is_free(robot, x, y):
                 world.move_body(robot.id, (x, y, *start[2:5], yaw))
-                return
+                return True
+        return False
 
     def _is_free(self, robot: Any, x: float, y: float) -> bool:
         """Returns whether a ball round a place, as large as the robot, touches nothing else."""

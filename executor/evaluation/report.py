@@ -45,8 +45,13 @@ _PAGE_HTML: Final = """<!doctype html>
 
 def report_html(document: dict[str, Any]) -> str:
     """Returns the page that shows a document of `report_data`."""
+    return page_html(document, "report")
+
+
+def page_html(document: dict[str, Any], kind: str) -> str:
+    """Returns a self-contained page that shows a document: `report`, or `tuning` for a study."""
     style = (_PAGE / "report.css").read_text(encoding="utf-8")
-    script = (_PAGE / "report.js").read_text(encoding="utf-8")
+    script = (_PAGE / f"{kind}.js").read_text(encoding="utf-8")
     policy = (
         f"default-src 'none'; script-src '{_hash(script)}'; style-src '{_hash(style)}'; img-src data:; "
         "base-uri 'none'; form-action 'none'"

@@ -63,7 +63,7 @@ SERVICES: Final[dict[str, str]] = {
     f"/{map_}_costmap/{verb}_{map_}_costmap": kind
     for map_ in ("local", "global")
     for verb, kind in CLEARING.items()
-} | {"/is_path_valid": "IsPathValid"}
+} | {"/is_path_valid": "IsPathValid", "/global_costmap/get_cost_global_costmap": "GetCost"}
 MAP_TOPIC: Final = "/map"
 _MAP_QOS: Final = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _TF_QOS: Final = QoSProfile(depth=100)
@@ -181,7 +181,7 @@ class Navigation:
         for name, (kind, _) in ACTIONS.items():
             self._servers.append(StepServer(self._node, getattr(action, kind), name, self._begin))
         for name, kind in SERVICES.items():
-            handler = self._validate if kind == "IsPathValid" else self._clear
+            handler = {"IsPathValid": self._validate, "GetCost": self._cost}.get(kind, self._clear)
             self._node.create_service(getattr(srv, kind), name, handler)
         self._executor = DrainingExecutor(context=self._context)
         self._executor.add_node(self._node)
@@ -232,6 +232,11 @@ class Navigation:
             if not space.allows(*pose_of(pose, at.pose, at.odometry)[:2])
         ]
         response.is_valid = not response.invalid_pose_indices
+        return response
+
+    def _cost(self, request: Any, response: Any) -> Any:
+        space = self._space_now()
+        response.cost = space.nav2_cost(request.x, request.y, is_footprint=request.use_footprint)
         return response
 
     # --- goals ---

@@ -18,6 +18,9 @@ INFLATION_M: Final = 0.35
 """The width of the zone beside the robot's radius that costs more, so that paths keep away from walls."""
 FREE_M: Final = 1.0
 """Beyond this distance from the robot's body it does not matter how far an obstacle is."""
+OCCUPIED: Final = 254.0
+INSCRIBED: Final = 253.0
+"""Nav2's costs of a cell that is occupied, and of one that is too near for the robot."""
 MOST_COST: Final = 6.0
 """How many times as much a cell costs that just lets the robot through."""
 
@@ -42,6 +45,26 @@ class Map:
         """Returns the distance to the next obstacle; 0 outside of the map."""
         cell = self.grid.cell(x, y)
         return float(self.clearance[cell]) if cell is not None else 0.0
+
+    def nav2_cost(self, x: float, y: float, *, is_footprint: bool) -> float:
+        """Returns the cost of a point as Nav2's costmap has it.
+
+        254 is occupied, 253 is nearer to it than the robot's radius, and further away the cost falls to 0. It
+        is -1 outside of the map.
+
+        Args:
+            x: in m, in the map.
+            y: in m, in the map.
+            is_footprint: whether the robot's circle there counts, which is occupied if any of it is.
+        """
+        cell = self.grid.cell(x, y)
+        if cell is None:
+            return -1.0
+        if self.grid.occupied[cell]:
+            return OCCUPIED
+        if not self.is_free[cell]:
+            return OCCUPIED if is_footprint else INSCRIBED
+        return float(round((INSCRIBED - 1) * (self.cost[cell] - 1.0) / (MOST_COST - 1.0)))
 
     def nearest_free(self, cell: Cell, within_m: float) -> Cell | None:
         """Returns the free cell that is nearest to a cell; None if none is as near as `within_m`."""

@@ -18,7 +18,6 @@ BENCHMARKS = (
     "stream",
     "session",
     "recording",
-    "axis",
     "flood",
     "opening",
     "browser",

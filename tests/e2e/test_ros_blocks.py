@@ -150,7 +150,7 @@ def add_field(studio: Studio, label: str, port: str) -> None:
 def the_robot_drives_to_the_goal(studio: Studio) -> None:
     studio.run()
     observer = studio.observe()
-    wait_until(lambda: bool(observer.of("finished")), "the goal is reached")
+    wait_until(lambda: bool(observer.of("finished")), "the goal is reached", deadline_s=200)
     assert observer.of("finished")[0]["data"]["status"] == "SUCCESS"
     _, *place = observer.track("robot")[-1]  # the robot started at the origin
     assert math.hypot(*place[:2]) == pytest.approx(GOAL_M, abs=0.15)

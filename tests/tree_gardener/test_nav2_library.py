@@ -9,7 +9,7 @@ def test_a_node_has_its_source_and_others_have_none() -> None:
     source = source_of("WouldAControllerRecoveryHelp")
     assert source is not None
     assert "class WouldAControllerRecoveryHelp(" in source
-    assert source_of("CheckPoseOccupancy") is None
+    assert source_of("Sequence") is None
     assert source_of("../catalog") is None
 
 

@@ -23,6 +23,7 @@ from tree_gardener.nav2.cancel_drive_on_heading import CancelDriveOnHeading
 from tree_gardener.nav2.cancel_follow_object import CancelFollowObject
 from tree_gardener.nav2.cancel_spin import CancelSpin
 from tree_gardener.nav2.cancel_wait import CancelWait
+from tree_gardener.nav2.check_pose_occupancy import CheckPoseOccupancy
 from tree_gardener.nav2.check_stop_status import CheckStopStatus
 from tree_gardener.nav2.clear_costmap_around_pose import ClearCostmapAroundPose
 from tree_gardener.nav2.clear_costmap_around_robot import ClearCostmapAroundRobot
@@ -70,6 +71,7 @@ from tree_gardener.nav2.progress_checker_selector import ProgressCheckerSelector
 from tree_gardener.nav2.rate_controller import RateController
 from tree_gardener.nav2.recovery_node import RecoveryNode
 from tree_gardener.nav2.reinitialize_global_localization import ReinitializeGlobalLocalization
+from tree_gardener.nav2.remove_in_collision_goals import RemoveInCollisionGoals
 from tree_gardener.nav2.remove_passed_goals import RemovePassedGoals
 from tree_gardener.nav2.round_robin import RoundRobin
 from tree_gardener.nav2.single_trigger import SingleTrigger
@@ -106,6 +108,7 @@ NODES: Final[Mapping[str, type]] = {
         CancelFollowObject,
         CancelSpin,
         CancelWait,
+        CheckPoseOccupancy,
         CheckStopStatus,
         ClearCostmapAroundPose,
         ClearCostmapAroundRobot,
@@ -153,6 +156,7 @@ NODES: Final[Mapping[str, type]] = {
         RateController,
         RecoveryNode,
         ReinitializeGlobalLocalization,
+        RemoveInCollisionGoals,
         RemovePassedGoals,
         RoundRobin,
         SingleTrigger,

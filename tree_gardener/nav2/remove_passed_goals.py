@@ -55,10 +55,10 @@ class RemovePassedGoals(Behaviour):
         return Status.SUCCESS
 
 
-def complete(statuses: list[Any], goal: Any) -> bool:
-    """Marks the first pending waypoint at a goal as completed; returns whether there is one."""
+def complete(statuses: list[Any], goal: Any, outcome: str = "COMPLETED") -> bool:
+    """Marks the first pending waypoint at a goal with an outcome; returns whether there is one."""
     for index, status in enumerate(statuses):
         if status.waypoint_pose == goal and status.waypoint_status == status.PENDING:
-            statuses[index] = copied(status, waypoint_status=status.COMPLETED)
+            statuses[index] = copied(status, waypoint_status=getattr(status, outcome))
             return True
     return False

@@ -247,6 +247,8 @@ class BulletWorld:
         state = load_state(
             data, self.name, [robot.id for robot in content.robots], [actor.id for actor in content.actors]
         )
+        # Bullet restores contacts of the pairs that it knows, and a world that was never stepped knows none.
+        self._bullet.performCollisionDetection()
         for body in self._placed.keys() - state["placed"].keys():
             self.move_body(body, next(m.pose for m in self._universe.models if m.id == body))
         for body, pose in state["placed"].items():

@@ -277,6 +277,7 @@ const PANELS: readonly PanelId[] = [
   'video',
   'camera',
   'tests',
+  'evaluate',
   'timeline',
   'topics',
 ];

@@ -29,6 +29,7 @@ import { Waiting } from './Waiting';
 const Viewer3d = lazyPart(async () => (await import('@/features/viewer/Viewer3d')).Viewer3d);
 const XmlPanel = lazyPart(async () => (await import('@/features/xml/XmlPanel')).XmlPanel);
 const SearchPanel = lazyPart(async () => (await import('@/features/search/SearchPanel')).SearchPanel);
+const EvaluatePanel = lazyPart(async () => (await import('@/features/evaluate/EvaluatePanel')).EvaluatePanel);
 const RevisionsPanel = lazyPart(
   async () => (await import('@/features/revisions/RevisionsPanel')).RevisionsPanel,
 );
@@ -67,6 +68,11 @@ const panels: Record<PanelId, (node: TabNode) => ReactNode> = {
   console: () => <ConsolePanel />,
   problems: () => <ProblemsPanel />,
   tests: () => <TestsPanel />,
+  evaluate: () => (
+    <Suspense fallback={<Waiting reason="loadingEditor" />}>
+      <EvaluatePanel />
+    </Suspense>
+  ),
   timeline: () => <TimelinePanel />,
   topics: () => <TopicsPanel />,
   history: () => (

@@ -22,6 +22,7 @@ export type PanelId =
   | 'console'
   | 'problems'
   | 'tests'
+  | 'evaluate'
   | 'timeline'
   | 'topics'
   | 'history'
@@ -32,6 +33,7 @@ export type PanelId =
 const NEW_PANELS: readonly (readonly [PanelId, PanelId])[] = [
   ['timeline', 'console'],
   ['tests', 'problems'],
+  ['evaluate', 'tests'],
   ['topics', 'console'],
   ['library', 'palette'],
   ['history', 'explorer'],
@@ -153,6 +155,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
               'console',
               'problems',
               'tests',
+              'evaluate',
               'timeline',
               'topics',
               'blackboard',
@@ -185,7 +188,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
           weight: 53,
           children: [
             tabset(EDITORS, 74, []),
-            tabset('output', 26, ['console', 'problems', 'tests', 'timeline', 'topics']),
+            tabset('output', 26, ['console', 'problems', 'tests', 'evaluate', 'timeline', 'topics']),
           ],
         },
         {

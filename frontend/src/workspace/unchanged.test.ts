@@ -27,6 +27,7 @@ const PANELS = [
   'blackboard',
   'camera',
   'console',
+  'evaluate',
   'explorer',
   'history',
   'inspector',

@@ -15,7 +15,7 @@ from executor.evaluation.faults import nodes_named, schedule, topics_of
 from executor.evaluation.plan import make_plan
 from executor.robots.config import load_robot
 from executor.universes.document import DocumentError
-from tests.executor.evaluation.projects import DRIVE, project, write
+from tests.executor.evaluation.projects import DRIVE, WORLD, project, write
 
 ROOT = Path(__file__).parents[3]
 HEAD = """duration_s: 4
@@ -97,10 +97,10 @@ def record(tmp_path_factory):
         text=True,
     )
 
-    def ask(faults, action=SEES, evaluation=HEAD):
+    def ask(faults, action=SEES, evaluation=HEAD, **others):
         folder = tmp_path_factory.mktemp("faults")
         listed = "".join(f"  - {each}\n" for each in faults) or "  []\n"
-        write(folder / "p", evaluation + listed, action=action)
+        write(folder / "p", evaluation + listed, action=action, **others)
         target = folder / "run.mcap"
         job = {"folder": str(folder / "p"), "seed": 1, "recording": str(target)}
         process.stdin.write(json.dumps(job) + "\n")
@@ -172,6 +172,18 @@ def test_wheels_pushes_and_kidnaps(record):
     x, y = somewhere["path"][-1][1:]
     assert -3.2 < x < -1.3
     assert -1.2 < y < 1.2
+
+
+@pytest.mark.simulation
+@pytest.mark.timeout(300)
+def test_a_kidnap_without_a_free_place_has_not_happened(record):
+    world = WORLD.replace("areas:\n", "areas:\n  full: {box: [2.95, -1, 3.05, 1]}\n")
+    fault = ["{kind: kidnap, area: full, at_s: 0.5}"]
+    found, _ = record(
+        fault, evaluation=HEAD.replace("duration_s: 4", "duration_s: 1"), **{"universes/yard.yaml": world}
+    )
+    assert (found["outcome"], found["faults"]) == ("success", [])
+    assert found["path"][-1][1] < 1
 
 
 @pytest.mark.simulation

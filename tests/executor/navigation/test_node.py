@@ -15,7 +15,7 @@ from nav2_msgs.action import (
     NavigateToPose,
     Spin,
 )
-from nav2_msgs.srv import ClearEntireCostmap, IsPathValid
+from nav2_msgs.srv import ClearEntireCostmap, GetCost, IsPathValid
 from nav_msgs.msg import OccupancyGrid, Path
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
@@ -119,6 +119,16 @@ def test_a_new_goal_replaces_the_last_one(drive: Drive) -> None:
     turning = drive.send(spin, turn)
     assert drive.result(third).status == ABORTED
     assert drive.result(turning).status == SUCCEEDED
+
+
+def test_a_place_has_the_cost_of_nav2(drive: Drive) -> None:
+    def cost(x: float, y: float) -> float:
+        request = GetCost.Request(x=x, y=y, use_footprint=True)
+        return float(drive.call(GetCost, "/global_costmap/get_cost_global_costmap", request).cost)
+
+    assert cost(-3.0, 1.2) < 253
+    assert cost(-3.9, 1.9) == 254
+    assert cost(500.0, 0.0) == -1
 
 
 def test_a_path_is_found_checked_and_followed(drive: Drive) -> None:

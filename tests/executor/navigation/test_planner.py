@@ -103,3 +103,20 @@ def test_the_nearest_free_cell_is_within_reach_or_none() -> None:
     found = space.nearest_free((5, 8), 1.0)
     assert found == (5, 11)
     assert space.nearest_free((5, 0), 0.2) is None
+
+
+def test_costs_are_those_of_nav2s_costmap() -> None:
+    occupied = np.zeros((3, 40), dtype=bool)
+    occupied[:, 0] = True
+    space = Map(Grid(occupied, 0.1, (0.0, 0.0)), 0.25)
+
+    def cost(x: float, *, is_footprint: bool) -> float:
+        return space.nav2_cost(x, 0.15, is_footprint=is_footprint)
+
+    assert [cost(0.05, is_footprint=each) for each in (True, False)] == [254.0, 254.0]
+    assert [cost(0.15, is_footprint=each) for each in (True, False)] == [254.0, 253.0]
+    falling = [cost(x, is_footprint=True) for x in (0.35, 0.45, 0.55, 0.65, 0.75)]
+    assert falling == sorted(falling, reverse=True)
+    assert 0 < falling[2] < falling[0] <= 252
+    assert cost(3.0, is_footprint=True) == 0.0
+    assert cost(9.0, is_footprint=True) == -1.0

@@ -71,7 +71,10 @@ def test_rosbags_reads_each_field(version: int) -> None:
 
 @pytest.mark.parametrize("version", VERSIONS)
 def test_the_page_reads_each_field(version: int) -> None:
-    """By `@mcap/core` and the definitions in the file; its numbers have 53 bits."""
+    """By `@mcap/core` and the definitions in the file, in Node with the modules of the page's worker.
+
+    In Chromium the same modules are tested by `tests/e2e/test_axis.py`. Their numbers have 53 bits.
+    """
     path = SAMPLES / f"v{version}.mcap"
     was = json.loads(json.dumps(messages_of(path)))
     found = decoded_by_page(path)

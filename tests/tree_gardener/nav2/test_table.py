@@ -1,4 +1,4 @@
-"""The table of Nav2's nodes: each is there, or its interface is not in the set-up, and has Nav2's ports."""
+"""The table of Nav2's nodes: each is there, and has Nav2's ports."""
 
 from __future__ import annotations
 
@@ -8,8 +8,6 @@ from translator import inspect_action
 from tree_gardener.nav2 import NODES
 from tree_gardener.nav2_library import source_of, table
 
-NOT_WRITTEN = {"RemoveInCollisionGoals", "CheckPoseOccupancy"}
-"""They use the service GetCosts, which the interfaces of the set-up do not have; an import makes stubs."""
 TYPES = {
     "double": "double",
     "float": "double",
@@ -20,9 +18,8 @@ TYPES = {
 }
 
 
-def test_each_node_is_there_or_known_to_be_missing() -> None:
-    assert NODES.keys() | NOT_WRITTEN == table().keys()
-    assert NODES.keys().isdisjoint(NOT_WRITTEN)
+def test_each_node_is_there() -> None:
+    assert NODES.keys() == table().keys()
 
 
 @pytest.mark.parametrize("name", NODES)

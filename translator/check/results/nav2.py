@@ -71,7 +71,7 @@ ADDED: Final = {
     "SpeedController": R,
 }
 """What a decorator can return apart from the results of its child."""
-_SERVED: Final = ("(Nav2Action)", "(Nav2Service)", "(Nav2Cancel)")
+_SERVED: Final = ("(Nav2Action)", "(Nav2Service)", "(Nav2Cancel)", "(Nav2Costs)")
 
 
 @cache

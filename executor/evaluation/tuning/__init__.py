@@ -1,0 +1,1 @@
+"""Tuning: looks for the values of ports with which a project succeeds most often."""

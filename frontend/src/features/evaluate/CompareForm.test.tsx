@@ -1,0 +1,24 @@
+import { screen } from '@testing-library/react';
+import { expect, it, vi } from 'vitest';
+import '@/i18n/editorTexts';
+import { fakeServer, show, user } from '../../../harness/testing';
+import { CompareForm } from './CompareForm';
+
+it('offers the older revisions, the last one first', async () => {
+  const revision = (number: number) => ({
+    number,
+    label: '',
+    message: `m${number}`,
+    created_at: '2026-01-01',
+  });
+  fakeServer({
+    'GET /projects/p1/revisions?limit=100&before=7': { items: [revision(6), revision(5)], next_before: null },
+  });
+  const compare = vi.fn();
+  show(<CompareForm projectId="p1" before={7} onCompare={compare} onCancel={vi.fn()} />);
+  const choice = screen.getByLabelText('With an older revision');
+  expect(await screen.findByRole('option', { name: /Revision 6 · m6/ })).toBeInTheDocument();
+  await user.selectOptions(choice, '5');
+  await user.click(screen.getByRole('button', { name: 'Compare' }));
+  expect(compare).toHaveBeenCalledWith(5);
+});

@@ -1,0 +1,170 @@
+import { Button, Group, Loader, NativeSelect, NumberInput, Text } from '@mantine/core';
+import { IconPlayerPlay } from '@tabler/icons-react';
+import { useRef, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { evaluationNames, evaluationPath } from '@/model/evaluation/files';
+import { useProjectStore } from '@/store/project';
+import { openFile } from '@/store/project/navigation';
+import { useVisible } from '@/ui/hooks/useVisible';
+import classes from './evaluate.module.css';
+import { EvaluationActions } from './EvaluationActions';
+import { EvaluationForm } from './EvaluationForm';
+import { History } from './History';
+import { NewEvaluation } from './NewEvaluation';
+import { Results } from './Results';
+import { isLive, useEvaluations } from './useEvaluations';
+
+/** The evaluations of the project: chosen or made, run, looked at, compared and played again. */
+export function EvaluatePanel() {
+  const { t } = useTranslation('evaluate');
+  const panel = useRef<HTMLDivElement>(null);
+  const isVisible = useVisible(panel);
+  const files = useProjectStore((state) => state.files);
+  const names = evaluationNames(Object.keys(files));
+  const all = useEvaluations(isVisible);
+  const [wanted, setWanted] = useState<string | null>(null);
+  const [id, setId] = useState<string | null>(null);
+  const [mode, setMode] = useState<'results' | 'form' | 'new'>('results');
+  const [runs, setRuns] = useState<number | null>(null);
+  const [isStarting, setStarting] = useState(false);
+  const name = wanted !== null && names.includes(wanted) ? wanted : (names[0] ?? null);
+  const list = all.found.data;
+  const shown = list?.items.find((item) => item.id === id) ?? list?.items[0] ?? null;
+  const mayStart = list?.may_start === true;
+  const canStart = mayStart && list.why_not === '';
+  const start = async () => {
+    if (name === null) return;
+    setStarting(true);
+    const made = await all.start(name, runs ?? 0);
+    setStarting(false);
+    if (!made) return;
+    setId(made.id);
+    setMode('results');
+  };
+  return (
+    <div ref={panel} className={classes['panel']} data-testid="evaluate">
+      <div className={classes['columns']}>
+        <div className={classes['side']}>
+          {name !== null ? (
+            <>
+              <NativeSelect
+                size="xs"
+                label={t('choose')}
+                value={name}
+                data={names}
+                onChange={({ currentTarget: { value } }) => setWanted(value)}
+              />
+              {canStart ? (
+                <Group gap={6} align="flex-end" wrap="nowrap">
+                  <NumberInput
+                    size="xs"
+                    style={{ minWidth: 0 }}
+                    label={t('runs')}
+                    placeholder={t('runsAsFile')}
+                    min={1}
+                    max={10_000}
+                    allowDecimal={false}
+                    value={runs ?? ''}
+                    onChange={(value) => setRuns(typeof value === 'number' && value > 0 ? value : null)}
+                  />
+                  <Button
+                    size="xs"
+                    style={{ flexShrink: 0 }}
+                    loading={isStarting}
+                    leftSection={<IconPlayerPlay size={14} aria-hidden="true" />}
+                    onClick={() => void start()}
+                  >
+                    {t('start')}
+                  </Button>
+                </Group>
+              ) : null}
+              <Group gap={6}>
+                {mayStart ? (
+                  <Button
+                    size="compact-xs"
+                    variant="default"
+                    aria-pressed={mode === 'form'}
+                    onClick={() => setMode(mode === 'form' ? 'results' : 'form')}
+                  >
+                    {t('edit')}
+                  </Button>
+                ) : null}
+                <Button size="compact-xs" variant="default" onClick={() => openFile(evaluationPath(name))}>
+                  {t('yaml')}
+                </Button>
+                {mayStart ? (
+                  <Button size="compact-xs" variant="default" onClick={() => setMode('new')}>
+                    {t('new.open')}
+                  </Button>
+                ) : null}
+              </Group>
+            </>
+          ) : null}
+          {list?.why_not ? (
+            <Text size="xs" c="dimmed" role="note">
+              {list.why_not}
+            </Text>
+          ) : null}
+          {list && list.items.length > 0 ? (
+            <History
+              items={list.items}
+              shown={mode === 'results' ? (shown?.id ?? null) : null}
+              onShow={(next) => {
+                setId(next);
+                setMode('results');
+              }}
+            />
+          ) : null}
+        </div>
+        <div className={classes['main']}>
+          {all.found.isPending && isVisible ? <Loader size={16} aria-label={t('loading')} /> : null}
+          {all.found.isError ? <p role="alert">{all.found.error.message}</p> : null}
+          {mode === 'new' || (name === null && list) ? (
+            <NewEvaluation
+              names={names}
+              mayMake={mayStart}
+              onCancel={name === null ? null : () => setMode('results')}
+              onMade={(made) => {
+                setWanted(made);
+                setMode('form');
+              }}
+            />
+          ) : mode === 'form' && name !== null ? (
+            <EvaluationForm key={name} name={name} onClose={() => setMode('results')} />
+          ) : shown ? (
+            <>
+              <div className={classes['head']}>
+                <h2 className={classes['title']}>
+                  {shown.name}{' '}
+                  <span className={classes['muted']}>
+                    {t('revision', { revision: shown.revision })} · {t(`state.${shown.state}`)}
+                  </span>
+                </h2>
+                <EvaluationActions
+                  key={`${shown.id} ${isLive(shown)}`}
+                  projectId={all.projectId}
+                  evaluation={shown}
+                  mayStart={canStart}
+                  onCancel={() => void all.cancel(shown.id)}
+                  onResume={() => void all.resume(shown.id)}
+                  onCompare={(revision) => void all.compare(shown.id, revision)}
+                  onRemove={() => void all.remove(shown.id)}
+                />
+              </div>
+              <Results
+                key={shown.id}
+                projectId={all.projectId}
+                evaluation={shown}
+                mayReplay={list?.may_replay === true && list.why_not === ''}
+              />
+            </>
+          ) : list ? (
+            <Text size="sm" c="dimmed">
+              {t('none')}
+            </Text>
+          ) : null}
+        </div>
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,23 @@
+import { screen } from '@testing-library/react';
+import { expect, it } from 'vitest';
+import '@/i18n/editorTexts';
+import { evaluation } from '../../../harness/evaluations';
+import { show } from '../../../harness/testing';
+import { RateBar } from './RateBar';
+
+const side = evaluation().sides[0]!;
+
+it('shows the rate with its interval, and the time that is left', () => {
+  show(<RateBar evaluation={evaluation()} side={side} />);
+  expect(screen.getByTestId('evaluation-rate')).toHaveTextContent(
+    '50 % success (95 % interval 10 % to 90 %)',
+  );
+  expect(screen.getByRole('status')).toHaveTextContent('2 of 4 runs · about 1 min 15 s left · 1 failure');
+  expect(screen.getByRole('progressbar')).toHaveAttribute('aria-valuenow', '50');
+});
+
+it('shows no rate without runs, and no progress at the end', () => {
+  show(<RateBar evaluation={evaluation({ state: 'done' })} side={{ ...side, done: 0, counts: {} }} />);
+  expect(screen.queryByTestId('evaluation-rate')).toBeNull();
+  expect(screen.queryByRole('progressbar')).toBeNull();
+});

@@ -1,0 +1,54 @@
+import { Progress } from '@mantine/core';
+import { useTranslation } from 'react-i18next';
+import type { Evaluation, EvaluationSide } from '@/api/evaluations';
+import classes from './evaluate.module.css';
+import { duration, percent } from './outcomeText';
+import { isLive } from './useEvaluations';
+
+interface Props {
+  readonly evaluation: Evaluation;
+  readonly side: EvaluationSide;
+}
+
+/** The rate of success with its interval, how far the evaluation is, and how often each outcome occurs. */
+export function RateBar({ evaluation, side }: Props) {
+  const { t } = useTranslation('evaluate');
+  const { done, wanted, rate, low, high, counts } = side;
+  const others = Object.entries(counts).filter(([outcome]) => outcome !== 'success');
+  return (
+    <div className={classes['rate']}>
+      {done > 0 ? (
+        <p className={classes['number']} data-testid="evaluation-rate">
+          <strong>{percent(rate)}</strong>{' '}
+          <span className={classes['muted']}>
+            {t(evaluation.sequential ? 'rate.sequence' : 'rate.interval', {
+              low: percent(low),
+              high: percent(high),
+            })}
+          </span>
+        </p>
+      ) : null}
+      {done > 0 ? (
+        <div className={classes['interval']} aria-hidden="true">
+          <span style={{ left: `${low * 100}%`, width: `${Math.max((high - low) * 100, 0.5)}%` }} />
+          <i style={{ left: `${rate * 100}%` }} />
+        </div>
+      ) : null}
+      {isLive(evaluation) ? (
+        <Progress
+          size="sm"
+          value={wanted ? (done / wanted) * 100 : 0}
+          aria-label={t('progress.label')}
+          animated
+        />
+      ) : null}
+      <p className={classes['muted']} role="status">
+        {t('progress.done', { done, wanted: wanted ?? '…' })}
+        {isLive(evaluation) && evaluation.left_s !== null
+          ? ` · ${t('progress.left', { left: duration(evaluation.left_s) })}`
+          : ''}
+        {others.map(([outcome, count]) => ` · ${count} ${t(`outcome.${outcome}` as 'outcome.failure')}`)}
+      </p>
+    </div>
+  );
+}

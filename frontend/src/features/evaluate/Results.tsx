@@ -1,0 +1,136 @@
+import { Alert, Button, Group, SegmentedControl } from '@mantine/core';
+import { IconPlayerPlay } from '@tabler/icons-react';
+import { useMemo, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import type { Evaluation, Outcome } from '@/api/evaluations';
+import { Comparison } from './Comparison';
+import classes from './evaluate.module.css';
+import { Measures } from './Measures';
+import { OutcomeGrid } from './OutcomeGrid';
+import { outcomeText } from './outcomeText';
+import { RateBar } from './RateBar';
+import { useComparison } from './useComparison';
+import { useOutcomes } from './useOutcomes';
+import { useReplay } from './useReplay';
+import { worst } from './worst';
+
+interface Props {
+  readonly projectId: string;
+  readonly evaluation: Evaluation;
+  readonly mayReplay: boolean;
+}
+
+/** The results of an evaluation: its rate, a cell for each run, measures, and the worst runs. */
+export function Results({ projectId, evaluation, mayReplay }: Props) {
+  const { t } = useTranslation('evaluate');
+  const [shown, setShown] = useState<number | null>(null);
+  const [chosen, setChosen] = useState<number | null>(null);
+  const revision = shown !== null && shown === evaluation.older ? shown : evaluation.revision;
+  const side = evaluation.sides.find((each) => each.revision === revision);
+  const { rows, error } = useOutcomes(projectId, evaluation, revision);
+  const compared = useComparison(projectId, evaluation).data;
+  const marked = useMemo(
+    () => new Set([...(compared?.only_older ?? []), ...(compared?.only_newer ?? [])]),
+    [compared],
+  );
+  const replay = useReplay(projectId, evaluation.id);
+  const bad = useMemo(() => worst(rows), [rows]);
+  const first = evaluation.seed ?? 0;
+  const last = Math.max(-1, ...[...rows.keys()].map((seed) => seed - first));
+  const cells = Math.max(side?.wanted ?? 0, last + 1);
+  const row = chosen === null ? undefined : rows.get(chosen);
+  const play = (seed: number) => {
+    const found = rows.get(seed);
+    if (found && mayReplay) void replay.play(revision, found);
+  };
+  if (!side) return null;
+  return (
+    <div className={classes['results']}>
+      {evaluation.error ? (
+        <Alert color="red" title={t('state.failed')} className={classes['error'] ?? ''}>
+          <pre>{evaluation.error}</pre>
+        </Alert>
+      ) : null}
+      {evaluation.older !== null ? (
+        <SegmentedControl
+          size="xs"
+          aria-label={t('compare.side')}
+          value={String(revision)}
+          onChange={(value) => setShown(Number(value))}
+          data={evaluation.sides.map((each) => ({
+            value: String(each.revision),
+            label: t('revision', { revision: each.revision }),
+          }))}
+        />
+      ) : null}
+      <RateBar evaluation={evaluation} side={side} />
+      {error ? <p role="alert">{error.message}</p> : null}
+      {cells > 0 ? (
+        <>
+          <OutcomeGrid
+            first={first}
+            cells={cells}
+            rows={rows}
+            chosen={chosen}
+            marked={marked}
+            onChoose={setChosen}
+            onPlay={play}
+          />
+          <Group gap="xs" className={classes['cell'] ?? ''}>
+            <p role="status" data-testid="evaluation-cell">
+              {chosen === null ? t('grid.hint') : outcomeText(t, chosen, row)}
+              {row ? <span className={classes['muted']}> {row.why}</span> : null}
+            </p>
+            {row && mayReplay ? (
+              <PlayButton row={row} waits={replay.seed === row.seed} onPlay={play} />
+            ) : null}
+          </Group>
+        </>
+      ) : null}
+      {evaluation.older !== null && evaluation.state === 'done' ? (
+        <Comparison projectId={projectId} evaluation={evaluation} onChoose={setChosen} />
+      ) : null}
+      {bad.length > 0 ? (
+        <section aria-label={t('worst.title')}>
+          <h3 className={classes['title']}>{t('worst.title')}</h3>
+          <ul className={classes['plain']}>
+            {bad.map((each) => (
+              <li key={each.seed} className={classes['worst']}>
+                <button type="button" className={classes['link']} onClick={() => setChosen(each.seed)}>
+                  {outcomeText(t, each.seed, each)}
+                </button>
+                <span className={classes['muted']}>{each.why}</span>
+                {mayReplay ? <PlayButton row={each} waits={replay.seed === each.seed} onPlay={play} /> : null}
+              </li>
+            ))}
+          </ul>
+        </section>
+      ) : null}
+      <Measures rows={rows} />
+    </div>
+  );
+}
+
+function PlayButton({
+  row,
+  waits,
+  onPlay,
+}: {
+  readonly row: Outcome;
+  readonly waits: boolean;
+  readonly onPlay: (seed: number) => void;
+}) {
+  const { t } = useTranslation('evaluate');
+  return (
+    <Button
+      size="compact-xs"
+      variant="light"
+      loading={waits}
+      leftSection={<IconPlayerPlay size={13} aria-hidden="true" />}
+      aria-label={t(waits ? 'replay.waits' : 'replay.playSeed', { seed: row.seed })}
+      onClick={() => onPlay(row.seed)}
+    >
+      {t('replay.play')}
+    </Button>
+  );
+}

@@ -1,0 +1,37 @@
+import { screen } from '@testing-library/react';
+import { expect, it } from 'vitest';
+import '@/i18n/editorTexts';
+import { useProjectStore } from '@/store/project';
+import { evaluation } from '../../../harness/evaluations';
+import { fakeServer, openProject, show, user } from '../../../harness/testing';
+import { isLive, useEvaluations } from './useEvaluations';
+
+function P() {
+  const { found, start } = useEvaluations(true);
+  return (
+    <button type="button" onClick={() => void start('room', 3)}>
+      {found.data?.items.length ?? 'none'}
+    </button>
+  );
+}
+
+it('lists the evaluations of the project, and starts one', async () => {
+  openProject({ trees: { Main: { r: { type: 'Sequence' } } } });
+  const at = `/projects/${useProjectStore.getState().projectId}/evaluations`;
+  const { requests } = fakeServer({
+    [`GET ${at}`]: { items: [evaluation()], may_start: true, may_replay: true, why_not: '' },
+    [`POST ${at}`]: evaluation(),
+  });
+  show(<P />);
+  await user.click(await screen.findByRole('button', { name: '1' }));
+  expect(requests.find(({ method }) => method === 'POST')?.body).toEqual({ name: 'room', runs: 3 });
+});
+
+it('tells a refusal, and what is live', async () => {
+  openProject({ trees: { Main: { r: { type: 'Sequence' } } } });
+  fakeServer({});
+  show(<P />);
+  await user.click(screen.getByRole('button'));
+  expect(await screen.findByText('The evaluation was not started')).toBeInTheDocument();
+  expect([isLive(evaluation()), isLive(evaluation({ state: 'done' }))]).toEqual([true, false]);
+});

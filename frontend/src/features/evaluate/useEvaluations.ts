@@ -1,0 +1,52 @@
+import { notifications } from '@mantine/notifications';
+import { useQuery, useQueryClient } from '@tanstack/react-query';
+import { useTranslation } from 'react-i18next';
+import { evaluations, type Evaluation } from '@/api/evaluations';
+import { useProjectStore } from '@/store/project';
+import { saveNow } from '@/store/saving/autosave';
+
+const LIVE_MS = 1000;
+const IDLE_MS = 20_000;
+
+export const isLive = ({ state }: Pick<Evaluation, 'state'>): boolean =>
+  state === 'waiting' || state === 'running';
+
+type Act = 'start' | 'cancel' | 'resume' | 'compare' | 'remove';
+
+/** Returns the evaluations of the open project, and what can be done with them; errors are shown. */
+export function useEvaluations(isVisible: boolean) {
+  const { t } = useTranslation('evaluate');
+  const projectId = useProjectStore((state) => state.projectId) ?? '';
+  const client = useQueryClient();
+  const queryKey = ['evaluations', projectId];
+  const found = useQuery({
+    queryKey,
+    queryFn: ({ signal }) => evaluations.list(projectId, signal),
+    enabled: isVisible && projectId !== '',
+    refetchInterval: ({ state }) => (state.data?.items.some(isLive) ? LIVE_MS : IDLE_MS),
+  });
+  const did = async <T>(what: Act, call: () => Promise<T>): Promise<T | null> => {
+    try {
+      return await call();
+    } catch (error) {
+      notifications.show({ color: 'red', title: t(`failed.${what}`), message: (error as Error).message });
+      return null;
+    } finally {
+      await client.invalidateQueries({ queryKey });
+    }
+  };
+  return {
+    projectId,
+    found,
+    start: (name: string, runs: number) =>
+      did('start', async () => {
+        await saveNow(); // what is evaluated is the last revision
+        return evaluations.start(projectId, name, runs);
+      }),
+    cancel: (id: string) => did('cancel', () => evaluations.cancel(projectId, id)),
+    resume: (id: string) => did('resume', () => evaluations.resume(projectId, id)),
+    compare: (id: string, revision: number) =>
+      did('compare', () => evaluations.compare(projectId, id, revision)),
+    remove: (id: string) => did('remove', () => evaluations.remove(projectId, id)),
+  };
+}

@@ -23,14 +23,12 @@ def debug(
     """Debugs a project: breakpoints, steps and forced results; the simulated world waits while it is held."""
     from backend.cli.run import fix_hashes, summary
     from backend.cli.shared import translation as cli
-    from executor.ros.environment import use_lockstep_environment
     from translator import TranslatorError
 
     if universe == "none":
         text = "the debugger holds a simulated world; a robot outside would keep moving"
         raise typer.BadParameter(text, param_hint="--universe")
     fix_hashes()
-    use_lockstep_environment()
     from executor.headless.lockstep import LockstepOptions
 
     try:
@@ -45,7 +43,9 @@ def _play(project: Project, options: LockstepOptions) -> Report | None:
     from backend.cli.run import reported
     from executor.headless.debug.run import DebugRun
     from executor.headless.guard import Guard
+    from executor.ros.environment import use_lockstep_environment
 
+    use_lockstep_environment()
     commands = None if sys.stdin.isatty() else sys.stdin
     with reported(), Guard() as guard:
         return DebugRun(project, options, guard, commands).play()

@@ -15,5 +15,5 @@ def test_a_world_outside_is_refused() -> None:
 
 
 def test_a_project_that_does_not_exist_is_refused_with_its_name() -> None:
-    with pytest.raises(CliError, match="no_such_project.zip:1:1: there is no such file"):
+    with pytest.raises(CliError, match=r"no_such_project\.zip:1:1: there is no such file"):
         debug("no_such_project.zip")

@@ -29,6 +29,7 @@ VERBS: Final[dict[str, Verb]] = {
     "serve": Verb("serve", "serve"),
     "open": Verb("open_log", "open_log"),
     "run": Verb("run", "run"),
+    "debug": Verb("debug", "debug"),
     "check": Verb("check", "check"),
     "test": Verb("behaviour_tests", "run_tests"),
     "evaluate": Verb("evaluating.evaluate", "evaluate"),

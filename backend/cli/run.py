@@ -5,13 +5,14 @@ from __future__ import annotations
 import json
 import os
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
     from executor.headless.live import HeadlessOptions
     from executor.headless.lockstep import LockstepOptions
@@ -96,7 +97,7 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     if as_json:
         sys.stdout.write(document)
     else:
-        print(_summary(done))
+        print(summary(done))
     if lockstep and not done.random and not as_json:
         print("Nothing in this run was random: every seed gives the same.")
     faults = [_fault_line(fault) for fault in done.errors]
@@ -143,20 +144,17 @@ def fix_hashes(others: Mapping[str, str] | None = None) -> None:
         os.execve(sys.executable, [sys.executable, *sys.orig_argv[1:]], environment)  # noqa: S606 - itself
 
 
-def _in_lockstep(project: Project, options: LockstepOptions) -> Report:
+@contextmanager
+def reported() -> Iterator[None]:
+    """Turns the errors of a run in lock-step into errors of the command line."""
     from backend.cli.shared.errors import CliError
     from executor.headless.errors import HeadlessError
-    from executor.headless.guard import Guard, Hung
-    from executor.headless.lockstep import run_lockstep
+    from executor.headless.guard import Hung
     from executor.universes.document import DocumentError
     from tree_gardener import LoadError, TickError
 
-    def progress(time_s: float) -> None:
-        _progress(f"{time_s:6.1f} s of {options.duration_s:g} s")
-
     try:
-        with Guard() as guard:
-            return run_lockstep(project, options, progress=progress, moved=guard.moved)
+        yield
     except Hung as hung:
         raise CliError(str(hung)) from None
     except (DocumentError, HeadlessError) as error:
@@ -165,6 +163,18 @@ def _in_lockstep(project: Project, options: LockstepOptions) -> Report:
         raise CliError(*map(str, error.diagnostics)) from error
     except TickError as error:
         raise CliError(f"{error.file or 'tree'}:{error.line or 1}:1: {error}") from error
+
+
+def _in_lockstep(project: Project, options: LockstepOptions) -> Report:
+    from executor.headless.guard import Guard
+    from executor.headless.lockstep import run_lockstep
+
+    def progress(time_s: float) -> None:
+        _progress(f"{time_s:6.1f} s of {options.duration_s:g} s")
+
+    try:
+        with reported(), Guard() as guard:
+            return run_lockstep(project, options, progress=progress, moved=guard.moved)
     finally:
         _progress("")
 
@@ -197,7 +207,8 @@ def _progress(text: str) -> None:
         sys.stderr.flush()
 
 
-def _summary(done: Report) -> str:
+def summary(done: Report) -> str:
+    """Returns the result of a run in one line."""
     nearest = "" if done.min_range_m is None else f", nearest {done.min_range_m:.2f} m"
     return (
         f"{done.root_status} after {done.ticks} ticks, {done.sim_time_s:.1f} s simulated in "

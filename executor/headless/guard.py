@@ -16,7 +16,7 @@ import subprocess
 import sys
 import threading
 import time
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.session.hangs.vitals import (
@@ -34,6 +34,7 @@ from executor.supervision.pulse import NOTES_BYTES
 from executor.supervision.signs import Notes, look_at
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from types import FrameType
 
 __all__ = ["Guard", "Hung"]
@@ -65,6 +66,7 @@ class Guard:
     def __init__(self) -> None:
         self._main = threading.main_thread().ident or 0
         self._moves = 0
+        self._is_suspended = False
         self._text = ""
         self._is_over = threading.Event()
         self._thread = threading.Thread(target=self._watch, name="guard", daemon=True)
@@ -101,6 +103,16 @@ class Guard:
         """Notes that the run made progress."""
         self._moves += 1
 
+    @contextmanager
+    def suspended(self) -> Iterator[None]:
+        """Does not count the time meanwhile: the main thread waits for a user, not for users' code."""
+        self._is_suspended = True
+        try:
+            yield
+        finally:
+            self._moves += 1
+            self._is_suspended = False
+
     def _break(self, _number: int, frame: FrameType | None) -> None:
         if self._text and not self._is_over.is_set() and _user_frame(frame) is not None:
             text, self._text = self._text, ""
@@ -117,7 +129,7 @@ class Guard:
             gap_s = min(now_s - before_s, LONGEST_GAP_S)
             is_at_work = cpu_s - ran_s >= BUSY_SHARE * gap_s
             before_s, ran_s = now_s, cpu_s
-            if self._moves != moves:
+            if self._moves != moves or self._is_suspended:
                 moves, idle_s, stuck_s = self._moves, 0.0, 0.0
                 continue
             stuck_s += gap_s

@@ -14,7 +14,7 @@ from tree_gardener.controls.reactive import ReactiveFallback, ReactiveSequence
 from tree_gardener.controls.switch import Switch
 from tree_gardener.controls.try_catch import TryCatch
 from tree_gardener.controls.while_do_else import WhileDoElse
-from tree_gardener.debugging.stepper import Shape
+from tree_gardener.debugging.stepper import Event, Shape
 from tree_gardener.decorators.loop import Loop
 from tree_gardener.decorators.precondition import Precondition
 from tree_gardener.decorators.result import ForceFailure, ForceSuccess, Inverter, KeepRunningUntilFailure
@@ -36,21 +36,23 @@ ONCE: Final = (
 """Nodes that tick one child once in a tick."""
 
 
-def ahead(nodes: Sequence[Node], shape: Shape, uid: int, *, is_before: bool) -> tuple[int, ...]:
+def ahead(nodes: Sequence[Node], shape: Shape, uid: int, event: Event) -> tuple[int, ...]:
     """Returns the uids of the nodes that may still be ticked in this tick, in pre-order.
 
     Args:
         nodes: all nodes, in pre-order.
         shape: their shape.
         uid: the node at which the tree is held.
-        is_before: whether this node and those below it are still to be ticked.
+        event: the event there. Before its tick, the node and those below it are ahead, too. A node that halts
+            one child may tick another one afterwards.
     """
     found: set[int] = set()
-    if is_before:
+    if event is Event.BEFORE:
         found.update(range(uid, shape.last[uid] + 1))
     node = nodes[uid - 1]
     while node.parent is not None:
-        for child in _children_ahead(node.parent, node.parent.children.index(node)):
+        position = node.parent.children.index(node)
+        for child in _children_ahead(node.parent, position, is_halt=event is Event.HALTED):
             found.update(range(child.uid, shape.last[child.uid] + 1))
         node = node.parent
     for catching in nodes:
@@ -64,9 +66,11 @@ def ahead(nodes: Sequence[Node], shape: Shape, uid: int, *, is_before: bool) -> 
     return tuple(sorted(found))
 
 
-def _children_ahead(parent: Node, position: int) -> Iterable[Node]:
+def _children_ahead(parent: Node, position: int, *, is_halt: bool) -> Iterable[Node]:
     """Returns the children that a node may tick in this tick after the one at a position."""
     children = parent.children
+    if is_halt and isinstance(parent, (Switch, *CHOOSING)):
+        return children
     if isinstance(parent, ONCE):
         return ()
     if isinstance(parent, LATER):

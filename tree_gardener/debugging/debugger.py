@@ -187,7 +187,7 @@ class Debugger:
             return False
         self._stepper.end()
         lead = _lead(node)
-        rest = ahead(self._tree.nodes, self._shape, node.uid, is_before=event is Event.BEFORE)
+        rest = ahead(self._tree.nodes, self._shape, node.uid, event)
         stop = Stop(event, node.uid, node.path, self._tree.tick_number, status, decided, why, lead, rest)
         self.held = stop
         self._wiring.choose(self._wanted(), everything=True)

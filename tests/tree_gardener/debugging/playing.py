@@ -72,7 +72,7 @@ class Everything:
     def note(self, event: Event, node: Node) -> None:
         tree = self.run.tree
         self.seen.append((event, node.uid, tree.tick_number, self.run.state()))
-        rest = ahead(tree.nodes, self.shape, node.uid, is_before=event is Event.BEFORE)
+        rest = ahead(tree.nodes, self.shape, node.uid, event)
         self.foreseen.append(frozenset(rest))
 
 

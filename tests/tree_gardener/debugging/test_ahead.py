@@ -3,7 +3,7 @@ import pytest
 from tests.tree_gardener.debugging.trees import named, tree_of
 from tree_gardener import ControlNode, Status
 from tree_gardener.debugging.ahead import ahead
-from tree_gardener.debugging.stepper import Shape
+from tree_gardener.debugging.stepper import Event, Shape
 
 ABC = '<Leaf name="a.S"/><Leaf name="b.R"/><Leaf name="c.S"/>'
 
@@ -13,10 +13,10 @@ class Own(ControlNode):
         return Status.SUCCESS
 
 
-def names(parent: str, children: str, at: str, *, is_before: bool = False) -> str:
+def names(parent: str, children: str, at: str, *, event: Event = Event.AFTER) -> str:
     """The names of the nodes ahead, in order."""
     tree = tree_of(f"<{parent}>{children}</{parent.partition(' ')[0]}>", Own=Own)
-    uids = ahead(tree.nodes, Shape.of(tree.nodes), named(tree, at).uid, is_before=is_before)
+    uids = ahead(tree.nodes, Shape.of(tree.nodes), named(tree, at).uid, event)
     return "".join(tree.nodes[uid - 1].name.partition(".")[0] for uid in uids)
 
 
@@ -44,7 +44,7 @@ def test_what_a_rule_may_tick_after_a_child(parent: str, at: str, expected: str)
 
 def test_before_its_tick_the_node_and_those_below_it_are_ahead() -> None:
     children = '<Leaf name="a.S"/><Inverter name="i"><Leaf name="b.S"/></Inverter><Leaf name="c.S"/>'
-    assert names("Sequence", children, "i", is_before=True) == "ibc"
+    assert names("Sequence", children, "i", event=Event.BEFORE) == "ibc"
     assert names("Sequence", children, "i") == "c"
     assert names("Sequence", children, "b") == "c"
 
@@ -57,8 +57,8 @@ def test_a_node_that_repeats_its_child_may_tick_it_again() -> None:
 def test_children_of_a_parallel_that_are_done_are_not_ahead() -> None:
     tree = tree_of(f"<ParallelAll>{ABC}</ParallelAll>")
     tree.tick_exactly_once()
-    assert ahead(tree.nodes, Shape.of(tree.nodes), 1, is_before=False) == ()
-    assert ahead(tree.nodes, Shape.of(tree.nodes), named(tree, "a").uid, is_before=False) == (
+    assert ahead(tree.nodes, Shape.of(tree.nodes), 1, Event.AFTER) == ()
+    assert ahead(tree.nodes, Shape.of(tree.nodes), named(tree, "a").uid, Event.AFTER) == (
         named(tree, "b").uid,
     )
 
@@ -69,6 +69,11 @@ def test_a_halt_may_tick_the_last_child_of_try_catch() -> None:
         '<Leaf name="c.S"/></Parallel>'
     )
     tree.tick_exactly_once()
-    assert ahead(tree.nodes, Shape.of(tree.nodes), named(tree, "c").uid, is_before=False) == (
+    assert ahead(tree.nodes, Shape.of(tree.nodes), named(tree, "c").uid, Event.AFTER) == (
         named(tree, "b").uid,
     )
+
+
+def test_a_node_that_halts_a_child_may_tick_another_one() -> None:
+    assert names("WhileDoElse", ABC, "c", event=Event.HALTED) == "abc"
+    assert names("Sequence", ABC, "c", event=Event.HALTED) == ""

@@ -70,13 +70,17 @@ export function between(a: Pose, b: Pose, share: number): Pose {
   return [x, y, z, qx / size, qy / size, qz / size, qw / size];
 }
 
-/** Returns the poses of all objects at a time, from the frames of a segment; its first frame has all poses. */
-export function posesAt(frames: readonly PosesFrame[], t: number): PosesAt | null {
+/**
+ * Returns the poses of all objects at a time, from the frames of a segment.
+ *
+ * @param begin the place of a frame up to that time that has all poses, as the first one has.
+ */
+export function posesAt(frames: readonly PosesFrame[], t: number, begin = 0): PosesAt | null {
   const before = new Map<number, { frame: PosesFrame; at: number }>();
-  let next = 0;
+  let next = begin;
   for (; next < frames.length; next += 1) {
     const frame = frames[next];
-    if (!frame || (frame.t > t && next > 0)) break;
+    if (!frame || (frame.t > t && next > begin)) break;
     frame.ids.forEach((id, index) => before.set(id, { frame, at: index * POSE_BYTES }));
   }
   if (before.size === 0) return null;

@@ -1,5 +1,5 @@
 import type { NodeStatus, Scene } from '@/generated/messages';
-import { moved, posesAt } from './posesAt';
+import { moved } from './posesAt';
 import { sceneOf } from './sceneOf';
 import type { Read } from './segmentReader';
 import { SegmentIndex, type State } from './segmentIndex';
@@ -85,11 +85,11 @@ export class RunIndex {
       isHalted: state.isHalted,
       entries: [...state.entries].map(([id, entry]): EntryAt => ({
         ...entry,
-        ...this.since(segment, state, id, t),
+        ...this.since(segment, state, id),
       })),
       scene: sceneId === knownScene ? null : this.scenes.of(sceneId),
       sceneId,
-      poses: posesAt(segment.poses, t),
+      poses: segment.posesAt(t),
       scan: scanOf(lastOf(segment.scans, t)),
       pictures: [...segment.pictures.values()].flatMap((list) => pictureOf(lastOf(list, t)) ?? []),
     };
@@ -130,10 +130,10 @@ export class RunIndex {
       const [old, now] = [a.entries.get(id), b.entries.get(id)];
       const { scope = '', key = '' } = old ?? now ?? {};
       if (JSON.stringify(old?.value) === JSON.stringify(now?.value)) return [];
-      const { since } = this.since(after, b, id, to);
+      const { since } = this.since(after, b, id);
       return [{ scope, key, from: old?.value, to: now?.value, since }];
     });
-    return { statuses, entries, poses: moved(posesAt(before.poses, from), posesAt(after.poses, to)) };
+    return { statuses, entries, poses: moved(before.posesAt(from), after.posesAt(to)) };
   }
 
   /** Returns the path of the first robot, as far as it was read. */
@@ -181,16 +181,11 @@ export class RunIndex {
   }
 
   /** Returns since when an entry has its value, and who wrote it, also from earlier segments. */
-  private since(
-    segment: SegmentIndex,
-    state: State,
-    id: string,
-    t: number,
-  ): Pick<EntryAt, 'since' | 'writer'> {
+  private since(segment: SegmentIndex, state: State, id: string): Pick<EntryAt, 'since' | 'writer'> {
     const own = state.written.get(id);
     if (own) return { since: own.t, writer: own.writer };
     for (let earlier: SegmentIndex | undefined = segment; earlier;) {
-      const found = earlier.lastWrite(id, t);
+      const found = earlier.lastWrite(id, earlier === segment ? state.last : Infinity);
       if (found)
         return found.isRemoved ? { since: null, writer: null } : { since: found.t, writer: found.writer };
       earlier = this.segments.get(earlier.number - 1);

@@ -1,7 +1,9 @@
+import { encode } from '@msgpack/msgpack';
 import { expect, it } from 'vitest';
 import type { Fields } from './cdr';
 import { entryId, isCollision, SegmentIndex } from './segmentIndex';
 import type { Read } from './segmentReader';
+import { STATUSES } from './types';
 
 const read = (topic: string, t: number, fields: Fields, type = ''): Read => ({
   topic,
@@ -79,7 +81,7 @@ it('refuses times that run backwards', () => {
   expect(() => index.add(read('/scan', 1, {}))).toThrow('time runs backwards');
 });
 
-it('knows the last write of a key up to a time', () => {
+it('knows the last write of a key up to a step', () => {
   const index = new SegmentIndex(0, 0);
   const write = (key: string, removed = false) => ({
     scope: [''],
@@ -93,7 +95,95 @@ it('knows the last write of a key up to a time', () => {
   index.add(read('/bt/blackboard', 2, write('other')));
   index.add(read('/bt/blackboard', 3, write('k', true)));
   const id = entryId({ scope: '', key: 'k' });
-  expect(index.lastWrite(id, 0.9)).toBeNull();
-  expect(index.lastWrite(id, 2.5)).toEqual({ t: 1, writer: 4, isRemoved: false });
-  expect(index.lastWrite(id, 3)).toEqual({ t: 3, writer: 4, isRemoved: true });
+  expect(index.lastWrite(id, 0)).toEqual({ t: 1, writer: 4, isRemoved: false, at: 0 });
+  expect(index.lastWrite(id, 1)).toEqual({ t: 1, writer: 4, isRemoved: false, at: 0 });
+  expect(index.lastWrite(id)).toEqual({ t: 3, writer: 4, isRemoved: true, at: 2 });
+  expect(index.lastWrite('other')).toBeNull();
+});
+
+/** A run of two nodes with keyframes, halts and several ticks of one time, and what an observer saw of it. */
+function randomRun(seed: number) {
+  let state = seed;
+  const chance = (below: number) => {
+    state = (state * 1103515245 + 12345) & 0x7fffffff;
+    return Math.floor((state / 0x7fffffff) * below);
+  };
+  const index = new SegmentIndex(0, 0);
+  const statuses = new Map<number, number>();
+  const values = new Map<string, number>();
+  const seen: { t: number; tick: number; shown: unknown }[] = [];
+  let [t, number] = [0, 0];
+  const keyframe = () =>
+    index.add(
+      read('/bt/keyframe', t, {
+        tick: number,
+        status: [1, 2].map((uid) => statuses.get(uid) ?? 0),
+        blackboard_json: JSON.stringify([...values].map(([key, value]) => ['', key, 'int', value])),
+      }),
+    );
+  index.add(read('/bt/tree', 0, tree));
+  keyframe();
+  for (let round = 0; round < 60; round += 1) {
+    t += chance(3) * 0.5;
+    if (chance(4) === 0) keyframe();
+    const isHalt = number > 0 && chance(5) === 0;
+    if (!isHalt) number += 1;
+    if (chance(2) === 0) {
+      const key = 'ab'[chance(2)]!;
+      values.set(key, round);
+      const write = { scope: [''], key: [key], type: ['int'], value_json: [String(round)] };
+      index.add(read('/bt/blackboard', t, { ...write, removed: [0], writer_uid: [2] }));
+    }
+    const uid = 1 + chance(2);
+    const was = STATUSES[statuses.get(uid) ?? 0];
+    const code = isHalt ? 0 : chance(4);
+    statuses.set(uid, code);
+    index.add(read('/bt/tick', t, { number, changed_uid: [uid], changed_status: [code] }));
+    const names = [...statuses].map(([each, status]) => [each, STATUSES[status]]);
+    const shown = {
+      number,
+      isHalted: isHalt,
+      was: [[uid, was]],
+      statuses: new Map(names.filter(([, name]) => name !== 'IDLE') as [number, string][]),
+      values: new Map(values),
+    };
+    // A halt has the number of its tick, so the two are told apart by their time alone.
+    if (seen.at(-1)?.t === t) seen.pop();
+    seen.push({ t, tick: number, shown });
+  }
+  return { index, seen };
+}
+
+it.each([1, 2, 3, 4, 5, 6, 7, 8])('shows the same from a keyframe as from the begin (run %i)', (seed) => {
+  const { index, seen } = randomRun(seed);
+  for (const { t, shown } of seen) {
+    const { number, isHalted, was, statuses, entries } = index.stateAt(t);
+    const values = new Map([...entries.values()].map(({ key, value }) => [key, value]));
+    expect({ number, isHalted, was, statuses, values }).toEqual(shown);
+  }
+});
+
+it('takes poses from the last frame that has all of them', () => {
+  const index = new SegmentIndex(0, 0);
+  const frame = (t: number, ids: number[]) =>
+    index.add(
+      read('/world/poses', t, {
+        data: encode({
+          ids: new Uint8Array(Uint16Array.from(ids).buffer),
+          poses: Uint8Array.from({ length: ids.length * 16 }, () => Math.round(t)),
+        }),
+      }),
+    );
+  frame(0, [3, 5]);
+  frame(10, [5]);
+  frame(20, [3, 5]);
+  frame(30, [3]);
+  const firstBytes = (t: number) => {
+    const { ids, poses } = index.posesAt(t)!;
+    const list = Array.from(new Uint16Array(ids.slice().buffer));
+    return Object.fromEntries(list.map((id, at) => [id, poses[at * 16]]));
+  };
+  expect(firstBytes(15)).toEqual({ 3: 0, 5: 10 });
+  expect(firstBytes(25)).toEqual({ 3: 20, 5: 20 });
+  expect(firstBytes(35)).toEqual({ 3: 30, 5: 20 });
 });

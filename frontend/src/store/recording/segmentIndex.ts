@@ -1,7 +1,7 @@
 import { decode } from '@msgpack/msgpack';
 import type { LogLevel, NodeStatus, Poses } from '@/generated/messages';
 import type { Fields } from './cdr';
-import type { PosesFrame } from './posesAt';
+import { posesAt, type PosesFrame } from './posesAt';
 import type { Read } from './segmentReader';
 import {
   keyframeStep,
@@ -18,6 +18,7 @@ import {
   type Entry,
   type FlagMark,
   type Mark,
+  type PosesAt,
   type RecordedFault,
   type RecordedLine,
   type RecordedNode,
@@ -36,7 +37,18 @@ interface Written {
 
 interface LastWrite extends Written {
   readonly isRemoved: boolean;
+  /** Its place among the steps. */
+  readonly at: number;
 }
+
+/** A step from which the state can be put together: a tree, or a keyframe of it. */
+interface Begin {
+  readonly at: number;
+  readonly tree: number;
+}
+
+/** What a moment says of its last tick depends on the tick before it, too. */
+const LEAST_TICKS = 2;
 
 /** The state of tree and blackboard after some steps. */
 export interface State {
@@ -52,6 +64,8 @@ export interface State {
   was: readonly StatusOf[];
   /** Whether the tree was halted after the last tick: that has the number of the tick. */
   isHalted: boolean;
+  /** The place of the last step. */
+  last: number;
 }
 
 /** The content of a segment, sorted by the queries for it. */
@@ -76,6 +90,10 @@ export class SegmentIndex {
   private files: Readonly<Record<string, string>> = {};
   /** The writes of each key, in order. */
   private readonly writes = new Map<string, LastWrite[]>();
+  private readonly begins: Begin[] = [];
+  private readonly bodies = new Set<number>();
+  /** The places of the frames that have the poses of all bodies. */
+  private readonly wholeFrames: number[] = [];
 
   constructor(
     readonly number: number,
@@ -94,12 +112,12 @@ export class SegmentIndex {
       case '/bt/tree': {
         const step = treeStep(t, read.decode(), this.files);
         this.paths = new Map(step.nodes.map(({ uid, path }) => [uid, path]));
-        return void this.steps.push(step);
+        return this.push(step);
       }
       case '/bt/keyframe':
-        return void this.steps.push(keyframeStep(t, read.decode()));
+        return this.push(keyframeStep(t, read.decode()));
       case '/bt/tick':
-        return void this.steps.push(tickStep(t, read.decode()));
+        return this.push(tickStep(t, read.decode()));
       case '/bt/blackboard':
         return this.addWrites(writesStep(t, read.decode()));
       case '/bt/log':
@@ -130,13 +148,8 @@ export class SegmentIndex {
    * of that time, the last is `tick`.
    */
   stateAt(t: number, tick: number | null = null): State {
-    let last = -1;
-    let begin = -1;
-    for (const [index, step] of this.steps.entries()) {
-      if (step.t > t && begin >= 0) break;
-      last = index;
-      if (step.kind === 'tree') begin = index;
-    }
+    const last = this.lastStep(t, tick);
+    const begin = this.beginOf(last);
     const state: State = {
       generation: 0,
       nodes: [],
@@ -148,25 +161,61 @@ export class SegmentIndex {
       number: 0,
       was: [],
       isHalted: false,
+      last,
     };
-    for (const step of this.steps.slice(Math.max(begin, 0), last + 1)) {
-      apply(state, step);
-      if (step.kind === 'tick' && step.t === t && step.number === tick) break;
-    }
+    const tree = begin && begin.tree < begin.at ? this.steps[begin.tree] : undefined;
+    if (tree) apply(state, tree);
+    for (const step of this.steps.slice(begin?.at ?? 0, last + 1)) apply(state, step);
     return state;
   }
 
-  /** Returns the last write of a key up to a time, also of a tree that is written again since. */
-  lastWrite(id: string, until: number): LastWrite | null {
-    return this.writes.get(id)?.findLast(({ t }) => t <= until) ?? null;
+  /** Returns the last write of a key up to a step, also of a tree that is written again since. */
+  lastWrite(id: string, last = Infinity): LastWrite | null {
+    return this.writes.get(id)?.findLast(({ at }) => at <= last) ?? null;
+  }
+
+  /** Returns the poses of all bodies at a time; null without any. */
+  posesAt(t: number): PosesAt | null {
+    return posesAt(this.poses, t, this.wholeFrames.findLast((at) => (this.poses[at]?.t ?? 0) <= t) ?? 0);
+  }
+
+  /** Returns the place of the last step of a moment; before the first tree, that of this tree. */
+  private lastStep(t: number, tick: number | null): number {
+    const until = countUntil(this.steps, t);
+    for (let at = until - 1; tick !== null && this.steps[at]?.t === t; at -= 1) {
+      const step = this.steps[at];
+      if (step?.kind === 'tick' && step.number === tick) return at;
+    }
+    return Math.max(until - 1, this.begins[0]?.tree ?? -1);
+  }
+
+  /** Returns the last begin up to a step that has enough ticks after it; null without any. */
+  private beginOf(last: number): Begin | null {
+    let place = this.begins.findLastIndex(({ at }) => at <= last);
+    let ticks = 0;
+    let from = last + 1;
+    for (; place > 0; place -= 1) {
+      const { at, tree } = this.begins[place] as Begin;
+      ticks += this.steps.slice(at, from).filter(({ kind }) => kind === 'tick').length;
+      from = at;
+      if (at === tree || ticks >= LEAST_TICKS) break;
+    }
+    return this.begins[place] ?? null;
+  }
+
+  private push(step: Step): void {
+    const at = this.steps.push(step) - 1;
+    if (step.kind === 'tree') this.begins.push({ at, tree: at });
+    else if (step.kind === 'keyframe') this.begins.push({ at, tree: this.begins.at(-1)?.tree ?? at });
   }
 
   private addWrites(step: WritesStep): void {
-    this.steps.push(step);
+    this.push(step);
+    const at = this.steps.length - 1;
     for (const { writer, isRemoved, ...entry } of step.writes) {
       const id = entryId(entry);
       const all = this.writes.get(id);
-      const write = { t: step.t, writer, isRemoved };
+      const write = { t: step.t, writer, isRemoved, at };
       if (all) all.push(write);
       else this.writes.set(id, [write]);
     }
@@ -201,7 +250,10 @@ export class SegmentIndex {
     const { ids, poses } = decode(told()['data'] as Uint8Array) as Poses;
     if (!(ids instanceof Uint8Array) || !(poses instanceof Uint8Array) || poses.length !== ids.length * 8)
       throw new RecordingError('wrong_type', '/world/poses: a frame is no frame of poses.', `at ${t} s`);
-    this.poses.push({ t, ids: new Uint16Array(ids.slice().buffer), poses: poses.slice() });
+    const frame = { t, ids: new Uint16Array(ids.slice().buffer), poses: poses.slice() };
+    const at = this.poses.push(frame) - 1;
+    for (const id of frame.ids) this.bodies.add(id);
+    if (frame.ids.length >= this.bodies.size) this.wholeFrames.push(at);
   }
 
   private addPicture(read: Read): void {
@@ -213,6 +265,17 @@ export class SegmentIndex {
   private mark(t: number, kind: Mark['kind'], text: string): void {
     this.marks.push({ t, kind, text });
   }
+}
+
+/** Returns how many of some steps, which are in the order of time, are not later than a time. */
+function countUntil(steps: readonly Step[], t: number): number {
+  let [low, high] = [0, steps.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if ((steps[middle]?.t ?? Infinity) <= t) low = middle + 1;
+    else high = middle;
+  }
+  return low;
 }
 
 /** Returns a `builtin_interfaces/Time` in s. */

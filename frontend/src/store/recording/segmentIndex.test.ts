@@ -147,7 +147,7 @@ function randomRun(seed: number) {
       statuses: new Map(names.filter(([, name]) => name !== 'IDLE') as [number, string][]),
       values: new Map(values),
     };
-    // A halt has the number of its tick, so the two are told apart by their time alone.
+    // A halt has the number of its tick, so only their times distinguish the two.
     if (seen.at(-1)?.t === t) seen.pop();
     seen.push({ t, tick: number, shown });
   }

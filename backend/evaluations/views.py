@@ -35,7 +35,10 @@ _REVISION = OpenApiParameter("revision", int, description="Of the two, if it is 
 
 
 class Evaluations(ResourceViewSet):
-    """The evaluations of a project."""
+    """The evaluations of a project.
+
+    What writes also reads for its answer within the transaction: nothing after it can hide that it was done.
+    """
 
     lookup_url_kwarg = "evaluation_id"
     lookup_value_converter = "uuid"
@@ -63,6 +66,7 @@ class Evaluations(ResourceViewSet):
         responses={201: s.EvaluationSerializer},
         tags=["evaluations"],
     )
+    @transaction.atomic
     def create(self, request: Request, project_id: UUID) -> Response:
         """Puts an evaluation of the current revision into the queue."""
         asked, user = parsed(s.StartEvaluationSerializer, request.data), user_of(request)
@@ -87,6 +91,7 @@ class Evaluations(ResourceViewSet):
         tags=["evaluations"],
     )
     @action(detail=True, methods=["post"], expensive=())
+    @transaction.atomic
     def cancel(self, request: Request, project_id: UUID, evaluation_id: UUID) -> Response:
         """Ends an evaluation; what is done is kept, and it can be resumed."""
         return _answer(writes.cancel(project_id, evaluation_id, acting_user=user_of(request)))
@@ -98,6 +103,7 @@ class Evaluations(ResourceViewSet):
         tags=["evaluations"],
     )
     @action(detail=True, methods=["post"], expensive=("POST",))
+    @transaction.atomic
     def resume(self, request: Request, project_id: UUID, evaluation_id: UUID) -> Response:
         """Runs what an evaluation lacks. Runs that said nothing of the project are run again."""
         return _begun(writes.resume(project_id, evaluation_id, acting_user=user_of(request)))
@@ -109,6 +115,7 @@ class Evaluations(ResourceViewSet):
         tags=["evaluations"],
     )
     @action(detail=True, methods=["post"], expensive=("POST",))
+    @transaction.atomic
     def compare(self, request: Request, project_id: UUID, evaluation_id: UUID) -> Response:
         """Runs the same seeds with an older revision, in the same worlds."""
         asked, user = parsed(s.CompareSerializer, request.data), user_of(request)
@@ -164,11 +171,12 @@ class Evaluations(ResourceViewSet):
         tags=["evaluations"],
     )
     @action(detail=True, methods=["post"], expensive=("POST",))
+    @transaction.atomic
     def replays(self, request: Request, project_id: UUID, evaluation_id: UUID) -> Response:
         """Runs a seed again, records it and keeps it as a stored run of yours."""
         asked, user = parsed(s.AskReplaySerializer, request.data), user_of(request)
         row = writes.ask_replay(project_id, evaluation_id, asked["revision"], asked["seed"], acting_user=user)
-        transaction.on_commit(round_soon)
+        transaction.on_commit(round_soon, robust=True)
         return Response(s.presented_replay(row), status=201)
 
     @extend_schema(operation_id="get_replay", responses=s.ReplaySerializer, tags=["evaluations"])
@@ -232,7 +240,7 @@ def _answer(found: Evaluation, status: int = 200) -> Response:
 
 
 def _begun(found: Evaluation, status: int = 200) -> Response:
-    transaction.on_commit(round_soon)
+    transaction.on_commit(round_soon, robust=True)
     return _answer(found, status)
 
 

@@ -20,6 +20,7 @@ from django.utils import timezone
 
 from backend.accounts.models import Group, GroupMember, User
 from backend.core import notify
+from backend.evaluations.models import Evaluation
 from backend.projects.models import ChangeSet, Draft, Membership, Project, ShareLink
 from backend.workers.priorities import Pools
 from tests.backend.accounts.conftest import person, stranger, team  # noqa: F401 - fixtures
@@ -178,6 +179,25 @@ def test_what_is_taken_back_is_said_to_be_taken_back(owner, one, monkeypatch):
     assert not Group.objects.exists()
 
 
+def test_an_evaluation_that_was_started_or_cancelled_is_said_to_be(owner, one, monkeypatch):
+    yaml = "format: bt-studio/evaluation\nversion: 1\nduration_s: 5\nruns: 4\n"
+    owner.save(one, {"path": "evaluations/room.yaml", "base_revision": 0, "content": yaml})
+    with dead_after_commit(monkeypatch) as dead:
+        started = owner.client.post(
+            f"/api/v1/projects/{one}/evaluations", {"name": "room", "runs": 3}, "application/json"
+        )
+    assert dead[0]
+    assert started.status_code == 201, started.content[:1000]
+    found = Evaluation.objects.get(project=one)
+    assert started.json()["id"] == str(found.id)
+    with dead_after_commit(monkeypatch) as dead:
+        cancelled = owner.client.post(f"/api/v1/projects/{one}/evaluations/{found.id}/cancel")
+    assert dead[0]
+    assert cancelled.status_code == 200, cancelled.content[:1000]
+    found.refresh_from_db()
+    assert found.state == cancelled.json()["state"] == "cancelled"
+
+
 def test_every_route_that_writes_is_here_or_named():
     """A new route fails this test until it is either tested above or listed here."""
     elsewhere = {
@@ -201,6 +221,12 @@ def test_every_route_that_writes_is_here_or_named():
         "change_run",
         "delete_run",
         "delete_my_run",
+        "start_evaluation",  # below; so is the next one, and the next three are as it
+        "cancel_evaluation",
+        "resume_evaluation",
+        "compare_evaluation",
+        "ask_replay",
+        "delete_evaluation",  # one transaction, and nothing is read for the answer
         # These store nothing.
         "check_project",
         "test_project",

@@ -38,6 +38,8 @@ RESULTS: dict[str, Any] = {
     "N": None,
 }
 USUAL, RARE = "SSSSFFFRRK", "SSSSFFFRRKEXVsINH"
+MOST_REPLACED = 100
+"""The most results that one hook replaces."""
 WIDE = ("Sequence", "Fallback", "ReactiveSequence", "ReactiveFallback", "ParallelAll")
 
 
@@ -186,14 +188,16 @@ class Run:
             (None, None, Status.SUCCESS, Status.FAILURE, Status.RUNNING, Status.SKIPPED)
         )
         is_before = self.chance.random() < 0.5
+        # A node that wakes the tree up and is RUNNING for ever would keep `tick_once` for ever.
+        left = iter(range(MOST_REPLACED))
 
         def before(node: Any) -> Status | None:
             self.seen.append(("before", node.uid, self.state(), self.tree.current_uid))
-            return replaced if is_before else None
+            return replaced if is_before and next(left, None) is not None else None
 
         def after(node: Any, status: Status) -> Status | None:
             self.seen.append(("after", node.uid, status, self.state(), self.tree.current_uid))
-            return None if is_before else replaced
+            return None if is_before or next(left, None) is None else replaced
 
         return self.tree.add_hook(before=before, after=after, node=node)
 

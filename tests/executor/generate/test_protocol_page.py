@@ -18,7 +18,7 @@ def test_the_page_in_the_docs_is_up_to_date():
 
 
 def test_every_error_code_is_explained():
-    modules = ("steps", "running", "waits", "watch", "immediate", "protocol")
+    modules = ("steps", "running", "waits", "hangs/watch", "immediate", "protocol")
     paths = [*(f"session/{name}" for name in modules), "manager/server"]
     sources = "".join((EXECUTOR / f"{name}.py").read_text() for name in paths)
     codes = set(re.findall(r'(?:StepFailed\(|_?refuse\(\w+, (?:\w+, )?)\s*"(\w+)"', sources))

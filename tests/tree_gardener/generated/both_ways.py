@@ -188,7 +188,7 @@ class Run:
             (None, None, Status.SUCCESS, Status.FAILURE, Status.RUNNING, Status.SKIPPED)
         )
         is_before = self.chance.random() < 0.5
-        # A node that wakes the tree up and is RUNNING for ever would keep `tick_once` for ever.
+        # A node that wakes the tree up and is RUNNING forever would keep `tick_once` forever.
         left = iter(range(MOST_REPLACED))
 
         def before(node: Any) -> Status | None:

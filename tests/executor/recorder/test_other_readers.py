@@ -44,8 +44,8 @@ def expected(kind: str, data: bytes) -> Any:
     """Returns the fields of a message: of our types as our reader decodes them, of others as ROS does."""
     if kind.startswith(OURS):
         fields = decode(kind, data)
-        seconds, nanoseconds = divmod(fields["stamp"], 1_000_000_000)
-        return plain(fields | {"stamp": {"sec": seconds, "nanosec": nanoseconds}})
+        times = {name: divmod(fields[name], 1_000_000_000) for name in ("stamp", "moment") if name in fields}
+        return plain(fields | {name: {"sec": sec, "nanosec": ns} for name, (sec, ns) in times.items()})
     package, _, name = kind.split("/")
     return plain(deserialize_message(data, getattr(importlib.import_module(f"{package}.msg"), name)))
 

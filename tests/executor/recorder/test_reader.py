@@ -43,7 +43,7 @@ def chunk(data, size=None, compression="", packed=None):
 
 def test_a_whole_file_is_not_cut():
     records, reader = read(whole())
-    assert sum(isinstance(record, Message) for record in records) == 9
+    assert sum(isinstance(record, Message) for record in records) == 11
     assert not reader.is_cut
 
 

@@ -378,4 +378,4 @@ def test_own_control_nodes_travel_and_run_with_the_engine_of_the_package(make_pr
         check=False,
     )
     assert done.stderr == ""
-    assert done.stdout.splitlines() == ["SUCCESS 1 ['IDLE', 'IDLE', 'SUCCESS']", "79"]
+    assert done.stdout.splitlines() == ["SUCCESS 1 ['IDLE', 'IDLE', 'SUCCESS']", "81"]

@@ -23,6 +23,8 @@ PART = (
     "tests/backend/accounts/test_sharing.py",
     "tests/backend/test_query_budgets.py",
     "tests/backend/runs/test_parallel.py",
+    "tests/backend/evaluations/test_writes.py",
+    "tests/backend/evaluations/test_queries.py",
 )
 # All of storage, permissions, concurrency and accounts. The kill storm starts its own servers, on SQLite.
 WHOLE = (
@@ -31,6 +33,8 @@ WHOLE = (
     "tests/backend/test_permissions.py",
     "tests/backend/test_query_budgets.py",
     "tests/backend/runs/test_parallel.py",
+    "tests/backend/evaluations/test_writes.py",
+    "tests/backend/evaluations/test_queries.py",
     "--ignore=tests/backend/projects/test_durability.py",
 )
 

@@ -72,18 +72,18 @@ def _pull(  # noqa: PLR0913, PLR0917 - as `pull`, and the deadline
         try:
             headers = {"Authorization": f"Bearer {token}", "Range": f"bytes={size}-"}
             connection.request("GET", f"/recordings/{recorded_as}/0", headers=headers)
-            answer = connection.getresponse()
-            length, total = _described(answer, size, recorded_as)
-            if total > most:
-                raise RunQuotaError(
-                    f"The run has {total:,} bytes, and you have room for {max(0, most):,}.",
-                    hint="Delete runs that you no longer need.",
-                )
-            if tag not in (None, answer.headers.get("ETag")):
-                raise _ChangedError
-            tag = answer.headers.get("ETag")
-            for chunk in _chunks(answer, length):
-                out.write(chunk)
+            with connection.getresponse() as answer:  # an answer that is not read to its end holds the socket
+                length, total = _described(answer, size, recorded_as)
+                if total > most:
+                    raise RunQuotaError(
+                        f"The run has {total:,} bytes, and you have room for {max(0, most):,}.",
+                        hint="Delete runs that you no longer need.",
+                    )
+                if tag not in (None, answer.headers.get("ETag")):
+                    raise _ChangedError
+                tag = answer.headers.get("ETag")
+                for chunk in _chunks(answer, length):
+                    out.write(chunk)
             size += length
         finally:
             connection.close()

@@ -6,19 +6,17 @@ import threading
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 
-from tree_gardener import tree_tools
+from tree_gardener import tree_tools, users_nodes
 from tree_gardener.actions import load_actions
 from tree_gardener.blackboard import Blackboard, Entry
 from tree_gardener.clock import Clock, SystemClock, Timers
-from tree_gardener.controls.custom import CustomControl
 from tree_gardener.debugging.agent import Agent
 from tree_gardener.debugging.wiring import Wiring
 from tree_gardener.deep import DEEP, DEEP_ASKING, call_deep
 from tree_gardener.enums import Enums, constants, types
-from tree_gardener.errors import LoadError, TickError, describe
+from tree_gardener.errors import LoadError, TickError
 from tree_gardener.forest import Forest
 from tree_gardener.hooks import After, Before, Hook, Hooks, ResultCount
-from tree_gardener.leaves.behaviour import BehaviourLeaf
 from tree_gardener.loader import Builder
 from tree_gardener.node import Execute, Node
 from tree_gardener.observe import Observer, Recorder
@@ -208,12 +206,7 @@ class Tree:
         Raises:
             TickError: a behaviour raised an exception.
         """
-        for own in self._users_nodes():
-            try:
-                own.instance_behaviour.setup(node=node, **kwargs)
-            except (Exception, SystemExit) as error:
-                raise TickError(own, describe(error), error) from error
-            own.note_early_reads()
+        users_nodes.setup(self.nodes, node, kwargs)
 
     def halt(self) -> None:
         """Halts the whole tree, as BT.CPP's ``haltTree``: the root, and then every node once more."""
@@ -241,27 +234,11 @@ class Tree:
             self.halt()
         except TickError as error:
             first = error
-            self._halt_one_by_one()
-        for own in self._users_nodes():
-            try:
-                own.instance_behaviour.shutdown()
-            except (Exception, SystemExit) as error:
-                first = first or TickError(own, describe(error), error)
+            users_nodes.halt_one_by_one(self.nodes)
+        failed = users_nodes.shutdown(self.nodes)
+        first = first or failed
         if first is not None:
             raise first
-
-    def _halt_one_by_one(self) -> None:
-        """Halts every node of the user, after halting the tree failed in one of them."""
-        for own in self._users_nodes():
-            try:
-                own.halt()
-            except TickError:
-                continue
-        for node in self.nodes:
-            node.status = IDLE
-
-    def _users_nodes(self) -> list[BehaviourLeaf | CustomControl]:
-        return [node for node in self.nodes if isinstance(node, (BehaviourLeaf, CustomControl))]
 
     # -- ticking ------------------------------------------------------------------------------------
 

@@ -26,6 +26,8 @@ class Nav2Costs(Nav2Service):
     _poses: list[Any]
     _costs: list[float]
 
+    # The next two are abstract: each of Nav2's two nodes has its own.
+
     def poses(self) -> list[Any]:
         """Returns the stamped poses, as the ports say now."""
         raise NotImplementedError

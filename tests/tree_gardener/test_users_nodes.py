@@ -1,4 +1,4 @@
-"""What is called once of the nodes whose code is the user's."""
+"""The calls that each of the user's nodes gets once."""
 
 from __future__ import annotations
 

@@ -68,6 +68,19 @@ def changes(studio: Studio, gesture: Callable[[], None], what: str) -> None:
     wait_until(lambda: drawn(studio) != before, what)
 
 
+def at_rest(studio: Studio) -> bytes:
+    """Returns the drawing once it has stayed the same for 2 s."""
+    found = [drawn(studio)]
+
+    def stays() -> bool:
+        studio.page.wait_for_timeout(2000)  # the time is the test: a late frame would come in it
+        found.append(drawn(studio))
+        return found[-1] == found[-2]
+
+    wait_until(stays, "the view is at rest")
+    return found[-1]
+
+
 def the_view_is_turned(studio: Studio) -> None:
     """By the three gestures; *Default view* reverts each, to the pixel."""
     mouse, box = studio.page.mouse, area(studio)
@@ -92,8 +105,7 @@ def the_view_is_turned(studio: Studio) -> None:
     changes(studio, tool(studio, "Top view").click, "the view from above")
     changes(studio, tool(studio, "Default view").click, "the default view")
     mouse.move(x, y)
-    wait_until(lambda: drawn(studio) == drawn(studio), "the view is at rest")
-    home = drawn(studio)
+    home = at_rest(studio)
     for what, gesture in gestures.items():
         changes(studio, gesture, what)
         tool(studio, "Default view").click()

@@ -12,7 +12,7 @@ import { EvaluationForm } from './EvaluationForm';
 import { History } from './History';
 import { NewEvaluation } from './NewEvaluation';
 import { Results } from './Results';
-import { isLive, useEvaluations } from './useEvaluations';
+import { earlierOf, isLive, useEvaluations } from './useEvaluations';
 
 /** The evaluations of the project: chosen or made, run, looked at, compared and played again. */
 export function EvaluatePanel() {
@@ -144,6 +144,7 @@ export function EvaluatePanel() {
                   key={`${shown.id} ${isLive(shown)}`}
                   projectId={all.projectId}
                   evaluation={shown}
+                  earlier={earlierOf(shown, list?.items ?? [])}
                   mayStart={canStart}
                   onCancel={() => void all.cancel(shown.id)}
                   onResume={() => void all.resume(shown.id)}

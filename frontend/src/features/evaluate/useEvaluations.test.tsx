@@ -4,7 +4,7 @@ import '@/i18n/editorTexts';
 import { useProjectStore } from '@/store/project';
 import { evaluation } from '../../../harness/evaluations';
 import { fakeServer, openProject, show, user } from '../../../harness/testing';
-import { isLive, useEvaluations } from './useEvaluations';
+import { earlierOf, isLive, useEvaluations } from './useEvaluations';
 
 function P() {
   const { found, start } = useEvaluations(true);
@@ -34,4 +34,13 @@ it('tells a refusal, and what is live', async () => {
   await user.click(screen.getByRole('button'));
   expect(await screen.findByText('The evaluation was not started')).toBeInTheDocument();
   expect([isLive(evaluation()), isLive(evaluation({ state: 'done' }))]).toEqual([true, false]);
+});
+
+it('knows the revision that was evaluated before', () => {
+  const shown = evaluation({ revision: 7 });
+  const older = evaluation({ revision: 5 });
+  const empty = evaluation({ revision: 6, sides: [] });
+  const other = evaluation({ name: 'other', revision: 6 });
+  expect(earlierOf(shown, [shown, empty, other, older])).toBe(5);
+  expect(earlierOf(older, [shown, older])).toBeNull();
 });

@@ -11,6 +11,13 @@ const IDLE_MS = 20_000;
 export const isLive = ({ state }: Pick<Evaluation, 'state'>): boolean =>
   state === 'waiting' || state === 'running';
 
+/** Returns the newest older revision of which the same evaluation has outcomes. */
+export const earlierOf = (shown: Evaluation, items: readonly Evaluation[]): number | null =>
+  items.find(
+    ({ name, revision, sides }) =>
+      name === shown.name && revision < shown.revision && (sides[0]?.done ?? 0) > 0,
+  )?.revision ?? null;
+
 type Act = 'start' | 'cancel' | 'resume' | 'compare' | 'remove';
 
 /** Returns the evaluations of the open project, and what can be done with them; errors are shown. */

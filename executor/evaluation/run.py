@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 JUDGE_EVERY: Final = 12  # steps: 20 times a simulated second
 BEYOND_S: Final = 0.1  # the judge ends the run, at its first sample that is not before the end
-AFTER_S: Final = 1.0  # a recorded run goes on for so long, so that the moment of its decision is within it
+AFTER_S: Final = 1.0  # a recorded run continues for so long, so that the moment of its decision is within it
 MOST_BUMPS: Final = 50
 PATH_POINTS: Final = 200
 PATH_PERIOD_S: Final = 0.5

@@ -1,7 +1,7 @@
-"""The user of a client. The web server, which knows them, names them in a header of the socket it opens.
+"""The user of a client: the web server, which knows them, names them in a header of the socket that it opens.
 
-A page cannot set headers of a websocket, and a program that can has the token of the manager. The other end is
-`backend.sessions.manager_socket`.
+A page cannot set headers of a websocket, and a program that can has the token of the manager. The other end
+is `backend.sessions.manager_socket`.
 """
 
 from __future__ import annotations

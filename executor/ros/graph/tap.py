@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from rclpy.context import Context
 
-__all__ = ["GraphTap"]
+__all__ = ["GraphTap", "share_after"]
 
 LOOK_S: Final = 0.5
 POLL_S: Final = 0.1
@@ -94,14 +94,13 @@ class GraphTap:
     def _take(self, topic: str, subscribed: tuple[str, Any], before_ns: int) -> int:
         """Takes the messages of a topic; returns how many there were."""
         kind, subscription = subscribed
-        passed_ns = max(1, self._polled_ns - before_ns)
         for count in range(DEPTH):
             taken = take_with_info(subscription)
             if taken is None:
                 return count
             data, info = taken
-            late = (self._polled_ns - info["source_timestamp"]) / passed_ns
-            self._write(topic, kind, data, min(1.0, max(0.0, late)))
+            share = share_after(info["source_timestamp"], before_ns, self._polled_ns)
+            self._write(topic, kind, data, share)
         return DEPTH
 
     def _look(self) -> None:
@@ -136,3 +135,8 @@ class GraphTap:
         except DefinitionError as error:
             return str(error)
         return ""
+
+
+def share_after(sent_ns: int, before_ns: int, now_ns: int) -> float:
+    """Returns the share of the time between two looks that has passed after a message was sent, 0 to 1."""
+    return min(1.0, max(0.0, (now_ns - sent_ns) / max(1, now_ns - before_ns)))

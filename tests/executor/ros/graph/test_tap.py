@@ -13,7 +13,7 @@ from sensor_msgs.msg import Image
 from std_msgs.msg import Int32, String
 
 from executor.ros.graph import tap as graph_tap
-from executor.ros.graph.tap import GraphTap
+from executor.ros.graph.tap import GraphTap, share_after
 from executor.ros.raw_subscription import DEPTH
 
 if TYPE_CHECKING:
@@ -114,17 +114,20 @@ def test_what_cannot_be_recorded_is_noted_once(
     ]
 
 
-def test_a_message_comes_with_the_share_of_time_that_has_passed_after_it(taken: Taken, talker: Node) -> None:
+@pytest.mark.parametrize(("sent_ns", "share"), [(100, 1.0), (150, 0.75), (300, 0.0), (90, 1.0), (310, 0.0)])
+def test_when_a_message_was_sent_is_a_share_of_the_time_between_two_looks(sent_ns: int, share: float) -> None:
+    assert share_after(sent_ns, 100, 300) == share
+    assert share_after(sent_ns, 300, 300) in {0.0, 1.0}
+
+
+def test_a_message_comes_with_when_it_was_sent(taken: Taken, talker: Node) -> None:
     publisher = talker.create_publisher(String, "/chatter", 10)
     taken.poll_until(publisher.get_subscription_count)
-    taken.poll()
     for text in "ab":
-        time.sleep(0.2)  # the messages are sent at different times between two looks
         publisher.publish(String(data=text))
-    time.sleep(0.2)  # as above
     taken.poll_until(lambda: len(taken.texts("/chatter")) == 2)
-    (_, _, _, first), (_, _, _, second) = taken.messages
-    assert 1.0 > first > second > 0.0
+    shares = [share for *_, share in taken.messages]
+    assert all(0.0 < share <= 1.0 for share in shares)
 
 
 def test_many_messages_are_looked_for_at_every_turn(taken: Taken, talker: Node) -> None:

@@ -109,7 +109,7 @@ class Player:
 
     @property
     def seen(self) -> tuple[list[Seen], list[str], list[int]]:
-        """What the user has seen: stops, lines, and hits of each breakpoint."""
+        """The stops, the lines, and the hits of each breakpoint that the user has seen."""
         breakpoints = self.debugger.breakpoints
         return self.stops, self.said, [breakpoints.hits(each) for each in breakpoints.all]
 
@@ -151,7 +151,7 @@ class Player:
             debugger.resume(step, chance.choice(tree.nodes).uid)
 
     def step(self) -> Step:
-        """How to continue."""
+        """The way to continue."""
         return self.chance.choice((*Step, Step.INTO, Step.CONTINUE))
 
     def command(self, stop: Stop) -> None:

@@ -12,8 +12,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final
 
 from tree_gardener.generated.code import code_of, source_of
-from tree_gardener.generated.parts import COMPOSITES, PARALLEL, UNTICKED, Planner, Region, Variant, rule_of
-from tree_gardener.generated.recovery import Recovery
+from tree_gardener.generated.parts import COMPOSITES, PARALLEL, UNCHANGED, Planner, Region, Variant, rule_of
+from tree_gardener.generated.recovery import UNTICKED, Recovery
 from tree_gardener.hooks import Hooks
 from tree_gardener.leaves.behaviour import PY_FAILURE, PY_RUNNING, PY_SUCCESS
 from tree_gardener.node import Control, Node
@@ -41,6 +41,7 @@ _STATUSES: Final = {
     "PY_RUNNING": PY_RUNNING,
     "RAISED": (Exception, SystemExit),
     "UNTICKED": UNTICKED,
+    "UNCHANGED": UNCHANGED,
     "CLOCK": time.perf_counter,
 }
 

@@ -44,9 +44,8 @@ WHILE, ON_SUCCESS, ON_FAILURE, POST = "w", "s", "f", "p"
 _CONDITIONS: Final = frozenset((*DECIDING, WHILE, ON_SUCCESS, ON_FAILURE, POST))
 
 
-UNTICKED: Final = object()
-"""Stands for a result: a node was not ticked by the code (it was not IDLE, or a condition decided), or a
-debugger left its result as it was."""
+UNCHANGED: Final = object()
+"""Stands for the result of a node that a debugger left as it was."""
 
 
 class Rule(NamedTuple):
@@ -370,7 +369,7 @@ class Planner:
             found.append((IF_AFTER, test))
         for letter, status in ((AFTER_SUCCESS, SUCCESS), (AFTER_FAILURE, FAILURE)):
             if status in wanted.results:
-                found.append((letter, wiring.asking_after(node, status, UNTICKED)))
+                found.append((letter, wiring.asking_after(node, status, UNCHANGED)))
         found = [each for each in found if each[1] is not None]
         self.values += [value for _, value in found]
         return "".join(letter for letter, _ in found)

@@ -28,7 +28,6 @@ from tree_gardener.generated.parts import (
     RUN,
     TERMINATE,
     TEST,
-    UNTICKED,
     UPDATE,
     WHILE,
     Part,
@@ -45,6 +44,8 @@ if TYPE_CHECKING:
     from tree_gardener.hooks import ResultCount
     from tree_gardener.tree import Tree
 
+UNTICKED: Final = object()
+"""Stands for a result where a node was not ticked by the code: it was not IDLE, or a condition decided."""
 _QUESTIONS: Final = frozenset((ASK_BEFORE, AFTER_SUCCESS, AFTER_FAILURE))
 _OF_BEHAVIOURS: Final = frozenset((UPDATE, INITIALISE, TERMINATE))
 

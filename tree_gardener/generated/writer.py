@@ -54,7 +54,7 @@ from tree_gardener.generated.syntax import Statements, call, do, give, leave, le
 FIXED: Final = (
     *("IDLE", "RUNNING", "SUCCESS", "FAILURE", "PY_SUCCESS", "PY_FAILURE", "PY_RUNNING", "RAISED"),
     *("UNTICKED", "REST", "RECOVER", "FLUSH", "TOUCHED", "RESULTS", "CURRENT", "CLOCK", "TREE"),
-    "EPOCH",
+    *("UNCHANGED", "EPOCH"),
 )
 """The parameters that regions share; those that a region does not use are left out."""
 FIRST_LINE: Final = 2
@@ -355,7 +355,7 @@ class Writer:
         if letter not in part.has:
             return []
         asked = let("returned", self.called(part, letter))
-        changed = syntax.other(load("returned"), self.fixed("UNTICKED"))
+        changed = syntax.other(load("returned"), self.fixed("UNCHANGED"))
         rest = give(self.rest(part, letter, load("returned")))
         return self.tested(part, IF_AFTER, [asked, when(changed, [rest])])
 

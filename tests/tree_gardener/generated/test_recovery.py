@@ -11,8 +11,7 @@ from py_trees.common import Status as PyTreesStatus
 from tests.tree_gardener.trees import Raising, leaf, load, recording
 from tree_gardener import Status, TickError, Tree
 from tree_gardener.generated import generation
-from tree_gardener.generated.parts import UNTICKED
-from tree_gardener.generated.recovery import Recovery
+from tree_gardener.generated.recovery import UNTICKED, Recovery
 
 R, S, F = PyTreesStatus.RUNNING, PyTreesStatus.SUCCESS, PyTreesStatus.FAILURE
 

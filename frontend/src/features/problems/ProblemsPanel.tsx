@@ -90,7 +90,9 @@ function Row({ item }: { readonly item: ListedProblem }) {
           <ReasonPath path={path} />
           <div className={classes['actions']}>
             <QuickFixes tree={item.tree ?? ''} fixes={fixes} />
-            {hasMoment ? <MomentButton message={item.problem.source === 'server' ? item.problem.message : ''} /> : null}
+            {hasMoment ? (
+              <MomentButton message={item.problem.source === 'server' ? item.problem.message : ''} />
+            ) : null}
             {canSilence ? (
               <FindingMenu tree={item.tree ?? ''} node={item.node ?? ''} code={item.code} message={message} />
             ) : null}

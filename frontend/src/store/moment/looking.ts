@@ -5,14 +5,7 @@ import { earlierSource, runsOf } from '@/store/recording/liveSource';
 import { RecordedRun, type EngineLink } from '@/store/recording/recordedRun';
 import type { FromEngine } from '@/store/recording/engine';
 import type { Story } from '@/store/recording/story';
-import type {
-  Changes,
-  EntryName,
-  Moment,
-  Overview,
-  RecordingSource,
-  WriteAt,
-} from '@/store/recording/types';
+import type { Changes, EntryName, Moment, Overview, RecordingSource, WriteAt } from '@/store/recording/types';
 import { useSessionStore } from '@/store/session/store';
 import type { LogLine } from '@/store/session/types';
 import { identified, recordedTrees } from './recordedTrees';

@@ -29,7 +29,9 @@ describe('useExtent', () => {
   it('is null without a recording, and follows the segments of the session', () => {
     const { result } = renderHook(useExtent);
     expect(result.current).toBeNull();
-    act(() => useSessionStore.setState({ segments: [segment({}), segment({ number: 1, from_t: 20, to_t: 31 })] }));
+    act(() =>
+      useSessionStore.setState({ segments: [segment({}), segment({ number: 1, from_t: 20, to_t: 31 })] }),
+    );
     expect(result.current).toEqual({ run: 'r1', from: 0, to: 31 });
   });
 

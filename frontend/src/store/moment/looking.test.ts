@@ -194,3 +194,16 @@ it('says that a fault is not recorded, and stays at the present', async () => {
   expect(await goToFault('Something else')).toBe(false);
   expect(isLookingBack()).toBe(false);
 });
+
+it('keeps lists that are as before, so that their views are not drawn again', async () => {
+  lookAt(0.5);
+  await shown(0.5);
+  const { tree, logs } = usePastSession.getState();
+  const { faults } = usePastLive.getState();
+  lookAt(0.52);
+  await shown(0.52);
+  expect(tree.length).toBeGreaterThan(0);
+  expect(usePastSession.getState().tree).toBe(tree);
+  expect(usePastSession.getState().logs).toBe(logs);
+  expect(usePastLive.getState().faults).toBe(faults);
+});

@@ -321,7 +321,8 @@ function show(moment: Moment): void {
   live.setPast(moment.flashes.filter(([uid]) => !statuses.has(uid)));
   if (moment.tickT !== before.shown?.tickT) live.flash(moment.flashes);
   const faults = (before.overview?.faults ?? []).filter((fault) => fault.t <= moment.t);
-  usePastLive.setState({ faults: new Map() });
+  // Every block listens to the map: it is replaced only where there is a fault.
+  if (usePastLive.getState().faults.size > 0) usePastLive.setState({ faults: new Map() });
   for (const { uid, message } of faults) {
     const node = tree.find((each) => each.uid === uid);
     if (node?.node_id) live.setFault(node.node_id, node.tree_id, message);
@@ -329,9 +330,10 @@ function show(moment: Moment): void {
   usePastSession.setState(
     {
       ...useSessionStore.getState(),
-      tree: [...tree],
+      // Lists that are as before stay the same objects, so that views of them are not drawn again.
+      tree: same(usePastSession.getState().tree, tree),
       blackboard: rowsOf(moment, tree),
-      logs: linesUntil(lines, moment.t),
+      logs: same(usePastSession.getState().logs, linesUntil(lines, moment.t)),
       simTime: moment.t,
       tick: moment.tick,
       faults: [],
@@ -346,6 +348,12 @@ function show(moment: Moment): void {
   showWorld(moment, isPresent ? null : scene);
   const run = theRun();
   void showTrail(moment.t, before.overview, isPresent, () => run.ask({ what: 'trail' }));
+}
+
+/** Returns the list from before if it has the same items, else a copy of the new one. */
+function same<T>(before: T[], now: readonly T[]): T[] {
+  const isSame = before.length === now.length && before.every((item, at) => item === now[at]);
+  return isSame ? before : [...now];
 }
 
 /** Returns to the present when the run is gone, and when the user edits, since edits belong to the present. */

@@ -9,6 +9,8 @@ export type StatusOf = readonly [uid: number, status: NodeStatus];
 export interface RecordingSource {
   segments(): readonly Segment[];
   read(segment: Segment, offset: number, length: number): Promise<Uint8Array>;
+  /** The most bytes of a read after the first of a segment; without it, 1 MiB, as of a session. */
+  readonly partBytes?: number;
   /** Calls back when segments came, grew or went; returns a function that stops it. */
   subscribe(changed: () => void): () => void;
 }

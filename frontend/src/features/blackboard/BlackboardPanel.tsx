@@ -19,7 +19,8 @@ export function BlackboardPanel() {
   const { t } = useTranslation('blackboard');
   const blackboard = useShownSession((state) => state.blackboard);
   const isOpen = useShownSession(
-    ({ executor, introspection }) => (executor === 'paused' || executor === 'held') && introspection?.role !== 'viewer',
+    ({ executor, introspection }) =>
+      (executor === 'paused' || executor === 'held') && introspection?.role !== 'viewer',
   );
   const isRunning = useShownSession(
     ({ executor, tree }) => ['application_running', 'paused', 'held'].includes(executor) && tree.length > 0,

@@ -335,6 +335,9 @@ def end_orphans() -> None:
             continue
         if session.state == SessionState.STARTING and survives and not _is_overdue(session):
             continue
+        if session.state == SessionState.READY and survives and session.launcher_state:
+            refresh(session)  # an executor that has ended meanwhile says why
+            continue
         if not survives or not session.launcher_state or launcher().poll(session.launcher_state) is not None:
             state = session.launcher_state or launcher().state_of(str(session.id))
             if state:

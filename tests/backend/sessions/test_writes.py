@@ -149,6 +149,26 @@ def test_what_a_killed_server_left_is_ended_at_the_next_start(api, project, user
     assert launcher.poll(started.state) is not None
 
 
+def test_an_executor_that_outlived_its_server_and_died_says_why(
+    api, project, user, fake_manager, monkeypatch
+):
+    launcher = fake_manager("echo")
+    monkeypatch.setattr(launcher, "survives_server", True, raising=False)
+    monkeypatch.setattr(launcher, "running", tuple, raising=False)
+    started = launcher.start(spec())
+    Session.objects.create(
+        project=Project.objects.get(), user=user, launcher="process", launcher_state=started.state,
+        state=SessionState.READY, ros_domain_id=5, created_at=timezone.now(),
+    )  # fmt: skip
+    writes.end_orphans()
+    assert Session.objects.get().state == "ready", "what runs continues"
+    launcher.stop(started.state, timeout_s=5)
+    monkeypatch.setattr(launcher, "poll", lambda _state: 3)
+    writes.end_orphans()
+    session = Session.objects.get()
+    assert (session.state, session.error) == ("failed", "The executor ended by itself (status 3).")
+
+
 def test_the_token_between_relay_and_manager_is_stored_nowhere(api, project, fake_manager):
     fake_manager("echo")
     started = api.post(f"projects/{project['id']}/session")

@@ -70,7 +70,7 @@ def go(stage: Stage, application: Child) -> Step:
 
 
 def pause(stage: Stage, _: Struct) -> Step:
-    """Pauses ticks and simulated time together; a held tree stands still already."""
+    """Pauses ticks and simulated time together; a held tree is stopped already."""
     if stage.state is State.HELD:
         return
     application = stage.children.ensure("application")

@@ -114,6 +114,6 @@ def expire(stage: Stage) -> None:
         f"The driver was away for {HOLD_DRIVER_GRACE_S:g} s while the tree was held: "
         "all breakpoints are off, and the run is paused."
         if is_away
-        else f"The tree was held for {limit_s / 60.0:g} min: all breakpoints are off, and the run goes on."
+        else f"The tree was held for {limit_s / 60.0:g} min: all breakpoints are off, and the run continues."
     )
     stage.output.emit(messages.Log("manager", "warning", text, time=stage.sim_time_s))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 from executor import child_messages, messages
 from executor.application.debugging import ApplicationDebugger
@@ -41,7 +42,7 @@ def lines(client):
     return [log["text"] for log in client.named("log") if log["source"] == "action"]
 
 
-async def test_a_breakpoint_holds_the_first_tick_and_a_step_goes_on_within_it():
+async def test_a_breakpoint_holds_the_first_tick_and_a_step_continues_within_it():
     async with session() as client:
         await begin(client, at("a"))
         held = await held_at(client, "a")
@@ -167,7 +168,7 @@ async def test_a_step_of_a_paused_run_is_held_and_conditions_count():
 
 
 class Host:
-    """What the debugger needs; continues at each stop."""
+    """A process for the debugger, which continues at each stop."""
 
     def __init__(self):
         self.inputs = []
@@ -192,7 +193,8 @@ def small():
         "<AlwaysSuccess name='y'/></Sequence></BehaviorTree></root>"
     )
     tree.setup()
-    host, sent = Host(), []
+    sent: list[Any] = []
+    host = Host()
     debugger = host.debugger = ApplicationDebugger(Runner(tree, tick_hz=10), sent.append, host)
     return tree, host, sent, debugger
 

@@ -29,7 +29,7 @@ def messages_of(play: Play, kind: type) -> list:
     return [e.message for e in play.effects if isinstance(e, Tell) and isinstance(e.message, kind)]
 
 
-def test_a_hold_stops_the_world_and_a_release_lets_it_go_on() -> None:
+def test_a_hold_stops_the_world_and_a_release_lets_it_continue() -> None:
     play = held()
     assert play.told("world")[-1] == "pause"
     assert [e.uid for e in play.sent("held")] == [2]
@@ -48,7 +48,7 @@ def test_a_pause_of_a_held_run_has_no_effect() -> None:
     assert len(play.told("application")) == told
 
 
-def test_the_world_stands_still_between_the_steps_of_a_tick() -> None:
+def test_the_world_is_stopped_between_the_steps_of_a_tick() -> None:
     play = held()
     told = len(play.told("world"))
     for command in STEPS:
@@ -72,7 +72,7 @@ def test_a_hold_meets_a_pause_that_is_under_way() -> None:
 
 def messages_of_world(play: Play) -> list[str]:
     return [
-        e.message.request
+        getattr(e.message, "request", "")
         for e in play.effects
         if isinstance(e, Tell) and e.kind == "world" and getattr(e.message, "request", None)
     ]
@@ -88,7 +88,7 @@ def test_a_step_of_a_paused_run_that_is_held_ends_with_the_hold() -> None:
     assert play.state is State.HELD
 
 
-def test_a_tree_that_is_held_before_the_run_is_told_stays_held() -> None:
+def test_a_tree_that_is_held_before_the_run_is_reported_stays_held() -> None:
     play = Play()
     play.command("set_breakpoints")
     play.obedient = False
@@ -160,7 +160,7 @@ def test_viewers_see_the_stop_and_control_nothing() -> None:
     assert play.state is State.HELD
 
 
-def test_the_user_of_an_outside_robot_is_told_that_it_keeps_moving() -> None:
+def test_the_user_of_an_outside_robot_learns_that_it_keeps_moving() -> None:
     play = Play()
     play.command("run", **(DATA["run"] | {"universe": {"universe": "none"}}))
     play.child_says("application", "held", **HELD)

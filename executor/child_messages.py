@@ -225,7 +225,7 @@ class SetBreakpoints(Asked, tag="set_breakpoints"):
 
 
 class Continue(Asked, tag="continue"):
-    """Lets a held tree go on; `step` ends at a later event, at the node `uid` for `to`.
+    """Continues a held tree; `step` ends at a later event, at the node `uid` for `to`.
 
     With `off` all breakpoints are switched off. With `pauses` ticks are paused after the one in progress.
     """

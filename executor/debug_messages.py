@@ -110,7 +110,7 @@ class Released(Struct):
 
 
 class ForcedNode(Struct):
-    """What is forced on a node; `skips_to` is the node to which the skips lead, or 0."""
+    """A result that is forced on a node; `skips_to` is the node to which the skips lead, or 0."""
 
     uid: int
     status: ResultName

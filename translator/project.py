@@ -27,6 +27,10 @@ if TYPE_CHECKING:
     from translator.tree import Tree
 
 
+WORLD_FOLDERS = ("evaluations/", "universes/", "robots/", "assets/")
+"""Folders that decide in which worlds a project is evaluated, and by which judge."""
+
+
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
 class Project:
     """A project, the input of a translation. `diagnostics` are those of reading; `check` adds others."""
@@ -102,6 +106,12 @@ def load(files: Mapping[str, bytes]) -> Project:
     enums = _load_enums(files, found)
     actions = _load_actions(files, used_types(trees.values()), enums, found)
     return Project(settings, trees, actions, dict(files), tuple(found), enums)
+
+
+def in_worlds_of(judge: Mapping[str, bytes], files: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Returns files of a project, with the evaluations, universes, robots and assets of another version."""
+    kept = {path: data for path, data in files.items() if not path.startswith(WORLD_FOLDERS)}
+    return kept | {path: data for path, data in judge.items() if path.startswith(WORLD_FOLDERS)}
 
 
 def assemble(settings: Settings, trees: Iterable[Tree], files: Mapping[str, bytes]) -> Project:

@@ -166,30 +166,32 @@ def reported() -> Iterator[None]:
 
 
 def _in_lockstep(project: Project, options: LockstepOptions) -> Report:
+    from backend.cli.shared.progress import show_progress
     from executor.headless.guard import Guard
     from executor.headless.lockstep import run_lockstep
 
     def progress(time_s: float) -> None:
-        _progress(f"{time_s:6.1f} s of {options.duration_s:g} s")
+        show_progress(f"{time_s:6.1f} s of {options.duration_s:g} s")
 
     try:
         with reported(), Guard() as guard:
             return run_lockstep(project, options, progress=progress, moved=guard.moved)
     finally:
-        _progress("")
+        show_progress("")
 
 
 def _in_real_time(project: Project, options: HeadlessOptions) -> Report:
     from backend.cli.shared.errors import CliError
+    from backend.cli.shared.progress import show_progress
     from executor.headless.errors import HeadlessError
     from executor.headless.live import run_headless
     from translator import to_app_zip
 
     def progress(so_far: Report) -> None:
-        _progress(f"{so_far.sim_time_s:6.1f} s, {so_far.ticks} ticks, {so_far.distance_m:.2f} m")
+        show_progress(f"{so_far.sim_time_s:6.1f} s, {so_far.ticks} ticks, {so_far.distance_m:.2f} m")
 
     def say(line: str) -> None:
-        _progress("")
+        show_progress("")
         print(line, flush=True)
 
     try:
@@ -197,14 +199,7 @@ def _in_real_time(project: Project, options: HeadlessOptions) -> Report:
     except HeadlessError as error:
         raise CliError(str(error)) from error
     finally:
-        _progress("")
-
-
-def _progress(text: str) -> None:
-    """Rewrites the progress line, if the output is a terminal."""
-    if sys.stderr.isatty():
-        sys.stderr.write(f"\r\x1b[K{text}")
-        sys.stderr.flush()
+        show_progress("")
 
 
 def summary(done: Report) -> str:

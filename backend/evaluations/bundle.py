@@ -5,17 +5,15 @@ from __future__ import annotations
 import base64
 import io
 import zipfile
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from backend.projects.storage.queries import files_at
+from translator.project import in_worlds_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from backend.evaluations.models import Evaluation
-
-OF_THE_WORLD: Final = ("evaluations/", "universes/", "robots/", "assets/")
-"""Folders that an older revision takes from the evaluated one, so that both run in the same worlds."""
 
 
 def archive_of(found: Evaluation, revision: int) -> str:
@@ -23,14 +21,8 @@ def archive_of(found: Evaluation, revision: int) -> str:
     files = {path: file.data for path, file in files_at(found.project, revision).items()}
     if revision != found.revision:
         newer = {path: file.data for path, file in files_at(found.project, found.revision).items()}
-        files = in_the_worlds_of(newer, files)
+        files = in_worlds_of(newer, files)
     return zipped(files)
-
-
-def in_the_worlds_of(newer: Mapping[str, bytes], older: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Returns the older files, with the evaluations, universes, robots and assets of the newer ones."""
-    kept = {path: data for path, data in older.items() if not path.startswith(OF_THE_WORLD)}
-    return kept | {path: data for path, data in newer.items() if path.startswith(OF_THE_WORLD)}
 
 
 def zipped(files: Mapping[str, bytes]) -> str:

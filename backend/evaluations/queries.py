@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import timedelta
 from typing import TYPE_CHECKING, Final
 
-from django.db.models import Count, Max, Sum
+from django.db.models import Count, Sum
 from django.utils import timezone
 
 from backend.core.problems import NotFoundError
@@ -99,10 +99,3 @@ def used_hours(user: User) -> float:
     """Returns the processor hours that evaluations of a user took in the last 24 hours."""
     rows = Outcome.objects.filter(evaluation__user=user, created_at__gt=timezone.now() - _DAY)
     return float(rows.aggregate(used=Sum("cpu_s"))["used"] or 0) / 3600
-
-
-def last_seed(found: Evaluation, revision: int) -> int | None:
-    """Returns the largest seed that has an outcome."""
-    rows = Outcome.objects.filter(evaluation=found, revision=revision)
-    last: int | None = rows.aggregate(last=Max("seed"))["last"]
-    return last

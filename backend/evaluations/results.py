@@ -116,7 +116,8 @@ def _ask(what: str, found: Evaluation, document: dict[str, Any]) -> IO[bytes]:
                 check=False,
             )
         if done.returncode:
-            log.warning("the %s of evaluation %s: %s", what, found.id, done.stderr.decode()[-500:])
+            why = done.stderr[-500:].decode(errors="replace")
+            log.warning("the %s of evaluation %s: %s", what, found.id, why)
             raise ReportError("The outcomes are too many or too large.", hint="Download runs.jsonl instead.")
     except subprocess.TimeoutExpired as error:
         out.close()

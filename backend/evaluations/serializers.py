@@ -86,6 +86,29 @@ class AskReplaySerializer(StrictSerializer):
     seed = StrictIntegerField(min_value=0, max_value=2**63 - 1)
 
 
+class RevisionQuerySerializer(serializers.Serializer[Any]):
+    """The query for one of the two revisions."""
+
+    revision = serializers.IntegerField(
+        required=False,
+        min_value=1,
+        max_value=2**31 - 1,
+        help_text="Of the two, if it is compared; else its own.",
+    )
+
+
+class OutcomeListQuerySerializer(RevisionQuerySerializer):
+    """The query of a part of the outcomes."""
+
+    after = serializers.IntegerField(
+        required=False,
+        default=0,
+        min_value=0,
+        max_value=2**63 - 1,
+        help_text="The `cursor` of the answer before.",
+    )
+
+
 class OutcomeSerializer(serializers.Serializer[Any]):
     """The outcome of one run."""
 

@@ -1,21 +1,25 @@
-"""Reads an executor's messages about an evaluation. They are not trusted, but decoded with bounds. Pure."""
+"""Reads an executor's messages about an evaluation. They are not trusted, but decoded with bounds. Pure.
+
+PostgreSQL stores no NUL, neither in text nor in JSON: none passes.
+"""
 
 from __future__ import annotations
 
-import math
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Any, Final, Literal, TypeVar
 
 import msgspec
 from msgspec import Meta
 
 from backend.evaluations.choices import Result  # noqa: TC001 - msgspec reads the annotations
 
+_Kind = TypeVar("_Kind", bound=msgspec.Struct)
 MOST_LINE: Final = 64 << 10
 MOST_PLAN: Final = 1 << 20
 _Count = Annotated[int, Meta(ge=0, le=100_000)]
 _Number = Annotated[float, Meta(ge=-1e12, le=1e12)]
 _Share = Annotated[float, Meta(ge=0, le=1)]
 _Seed = Annotated[int, Meta(ge=0, le=(1 << 63) - 1)]
+_Measure = Annotated[str, Meta(max_length=200, pattern=r"^[^\x00]*$")]
 
 
 class Begun(msgspec.Struct):
@@ -28,6 +32,11 @@ class Begun(msgspec.Struct):
     sequential: bool
     duration_s: Annotated[float, Meta(ge=0, le=1e6)]
     plan: dict[str, Any]
+
+    def __post_init__(self) -> None:
+        encoded = msgspec.json.encode(self.plan)
+        if len(encoded) > MOST_PLAN or rb"\u0000" in encoded:
+            self.plan = {}
 
 
 class Done(msgspec.Struct):
@@ -54,12 +63,18 @@ class Ended(msgspec.Struct):
     message: Annotated[str, Meta(max_length=100_000)] = ""
     run: Annotated[str, Meta(pattern=r"^[0-9a-f]{0,32}$")] = ""
 
+    def __post_init__(self) -> None:
+        self.message = self.message.replace("\0", "")
+
 
 class Refusal(msgspec.Struct):
     """The event `error`."""
 
     code: str = ""
     message: str = ""
+
+    def __post_init__(self) -> None:
+        self.message = self.message.replace("\0", "")
 
 
 class Item(msgspec.Struct):
@@ -68,7 +83,7 @@ class Item(msgspec.Struct):
     item: str
     holds: bool
     margin: _Number | None = None
-    unit: Annotated[str, Meta(max_length=10)] = ""
+    unit: Annotated[str, Meta(max_length=10, pattern=r"^[^\x00]*$")] = ""
 
 
 class Line(msgspec.Struct):
@@ -79,7 +94,10 @@ class Line(msgspec.Struct):
     why: str = ""
     end_s: Annotated[float, Meta(ge=0, le=1e6)] = 0.0
     items: Annotated[list[Item], Meta(max_length=1000)] = []
-    measures: Annotated[dict[Annotated[str, Meta(max_length=200)], _Number], Meta(max_length=200)] = {}
+    measures: Annotated[dict[_Measure, _Number], Meta(max_length=200)] = {}
+
+    def __post_init__(self) -> None:
+        self.why = self.why.replace("\0", "")
 
     @property
     def nearest(self) -> Item | None:
@@ -109,14 +127,11 @@ def read(message: str | bytes) -> msgspec.Struct | None:
     Raises:
         ValueError: it cannot be what it should be.
     """
-    envelope = msgspec.json.decode(message, type=_Envelope)
+    envelope = _decode(message, _Envelope)
     kind = _KINDS.get(envelope.command)
     if kind is None or (kind is Refusal and envelope.id == ""):
         return None
-    found = msgspec.json.decode(envelope.data, type=kind)
-    if isinstance(found, Begun) and len(msgspec.json.encode(found.plan)) > MOST_PLAN:
-        found.plan = {}
-    return found
+    return _decode(envelope.data, kind)
 
 
 def read_line(done: Done) -> Line:
@@ -125,9 +140,14 @@ def read_line(done: Done) -> Line:
     Raises:
         ValueError: it is no outcome, or of another seed.
     """
-    line = msgspec.json.decode(done.line, type=Line)
+    line = _decode(done.line, Line)
     if line.seed != done.seed or "\n" in done.line:
         raise ValueError("the line is of another seed")
-    if not all(math.isfinite(value) for value in line.measures.values()):
-        raise ValueError("a measure is no number")
     return line
+
+
+def _decode(data: str | bytes | msgspec.Raw, kind: type[_Kind]) -> _Kind:
+    try:
+        return msgspec.json.decode(data, type=kind)
+    except RecursionError as error:
+        raise ValueError("it is nested too deeply") from error

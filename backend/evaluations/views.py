@@ -7,7 +7,7 @@ from typing import IO, TYPE_CHECKING
 
 from django.db import transaction
 from drf_spectacular.types import OpenApiTypes
-from drf_spectacular.utils import OpenApiParameter, extend_schema
+from drf_spectacular.utils import extend_schema
 from rest_framework.decorators import action
 from rest_framework.response import Response
 
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from rest_framework.request import Request
 
     from backend.evaluations.models import Evaluation
-
-_REVISION = OpenApiParameter("revision", int, description="Of the two, if it is compared; else its own.")
 
 
 class Evaluations(ResourceViewSet):
@@ -136,25 +134,22 @@ class Evaluations(ResourceViewSet):
 
     @extend_schema(
         operation_id="list_outcomes",
-        parameters=[
-            OpenApiParameter("after", int, description="The `cursor` of the answer before."),
-            _REVISION,
-        ],
+        parameters=[s.OutcomeListQuerySerializer],
         responses=s.OutcomeListSerializer,
         tags=["evaluations"],
     )
     @action(detail=True)
     def outcomes(self, request: Request, project_id: UUID, evaluation_id: UUID) -> Response:
         """Lists the outcomes that came after a cursor, in the order in which they came; at most 2,000."""
+        asked = parsed(s.OutcomeListQuerySerializer, request.query_params.dict())
         found = queries.evaluation(project_id, evaluation_id, user=user_of(request))
-        after = _number(request, "after", 0)
-        rows = queries.outcomes(found, _revision(request, found), after)
-        cursor = rows[-1].pk if rows else after
+        rows = queries.outcomes(found, _revision_of(found, asked.get("revision")), asked["after"])
+        cursor = rows[-1].pk if rows else asked["after"]
         return Response({"items": [s.presented_outcome(row) for row in rows], "cursor": cursor})
 
     @extend_schema(
         operation_id="get_outcome",
-        parameters=[_REVISION],
+        parameters=[s.RevisionQuerySerializer],
         responses=s.WholeOutcomeSerializer,
         tags=["evaluations"],
     )
@@ -189,7 +184,7 @@ class Evaluations(ResourceViewSet):
 
     @extend_schema(
         operation_id="download_outcomes",
-        parameters=[_REVISION],
+        parameters=[s.RevisionQuerySerializer],
         responses={(200, "application/x-ndjson"): OpenApiTypes.BINARY},
         tags=["evaluations"],
     )
@@ -245,13 +240,13 @@ def _begun(found: Evaluation, status: int = 200) -> Response:
 
 
 def _revision(request: Request, found: Evaluation) -> int:
-    """Returns the revision that a request names: that of the evaluation, or the older one."""
-    named = _number(request, "revision", found.revision)
-    if named not in {found.revision, found.older}:
+    """Returns the revision that a request names."""
+    asked = parsed(s.RevisionQuerySerializer, request.query_params.dict())
+    return _revision_of(found, asked.get("revision"))
+
+
+def _revision_of(found: Evaluation, named: int | None) -> int:
+    """Returns one of the two revisions of an evaluation: the named one, else its own."""
+    if named not in {None, found.revision, found.older}:
         raise NotFoundError(f"The evaluation is not of revision {named}.")
-    return named
-
-
-def _number(request: Request, name: str, default: int) -> int:
-    text = request.query_params.get(name, "")
-    return int(text) if text.isascii() and text.isdecimal() and len(text) < 19 else default
+    return found.revision if named is None else named

@@ -210,7 +210,7 @@ def _outcome(found: Evaluation, revision: int, done: Done, line: Line) -> dict[s
         "revision": revision,
         "seed": line.seed,
         "outcome": line.outcome,
-        "why": line.why[:MOST_WHY].replace("\0", ""),
+        "why": line.why[:MOST_WHY],
         "end_s": line.end_s,
         "margin": nearest.margin if nearest is not None else None,
         "unit": nearest.unit if nearest is not None else "",
@@ -238,8 +238,7 @@ def side_done(found: Evaluation, revision: int, wanted: int) -> None:
 def finish(found: Evaluation, state: JobState, error: str = "") -> None:
     """Stores the end of an evaluation, unless somebody has ended or resumed it meanwhile."""
     rows = Evaluation.objects.filter(id=found.id, attempt=found.attempt, state__in=LIVE)
-    error = error[:MOST_ERROR].replace("\0", "")
-    rows.update(state=state, error=error, left_s=None, ended_at=timezone.now())
+    rows.update(state=state, error=error[:MOST_ERROR], left_s=None, ended_at=timezone.now())
 
 
 def lost(found: Evaluation | Replay, why: str) -> None:
@@ -250,6 +249,8 @@ def lost(found: Evaluation | Replay, why: str) -> None:
     values: dict[str, Any] = {"state": state, "tries": tries}
     if state == JobState.FAILED:
         values["error"] = why[:MOST_ERROR]
+    if isinstance(found, Evaluation):
+        values |= {"left_s": None, "ended_at": timezone.now() if state == JobState.FAILED else None}
     rows.update(**values)
 
 
@@ -263,7 +264,7 @@ def wait_again(found: Evaluation) -> None:
 def replayed(found: Replay, state: JobState, error: str = "", run: Run | None = None) -> None:
     """Stores what became of a replay."""
     rows = Replay.objects.filter(id=found.id)
-    rows.update(state=state, error=error[:MOST_ERROR].replace("\0", ""), run=run)
+    rows.update(state=state, error=error[:MOST_ERROR], run=run)
 
 
 def _require_possible(project: Project) -> None:

@@ -51,7 +51,7 @@ Said = child_messages.Held | child_messages.Released | child_messages.Forced | c
 
 
 class Host(Protocol):
-    """What the debugger needs of its process."""
+    """The process of the debugger, as it uses it."""
 
     def serve_held(self) -> None:
         """Waits a moment for a message of the session, and obeys it."""
@@ -230,7 +230,7 @@ class ApplicationDebugger:
     # --- holding ----------------------------------------------------------------------------------
 
     def _hold(self, stop: Stop) -> None:
-        """Holds the tree until a command lets it go on."""
+        """Holds the tree until a command lets it continue."""
         self._hook = self._hook + 1 if stop.tick == self._tick else 0
         self._tick = stop.tick
         self._is_going, self._is_told = False, True

@@ -178,7 +178,7 @@ class Application:
                 runner.stop()
                 raise _Stop
             case child_messages.Pause() if debugger.is_holding:
-                self._channel.send(child_messages.Paused())  # a held tree stands still already
+                self._channel.send(child_messages.Paused())  # a held tree is stopped already
             case child_messages.BeginRecording():
                 self._recorder.begin(message.run, resets=message.resets)
             case child_messages.Pause():

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 import shutil
 import subprocess
-import sys
 import time
-from pathlib import Path
 from typing import Any
 
 import cv2
@@ -22,22 +19,9 @@ from websockets.typing import Origin
 
 from executor.recorder.joining import join_newest
 from tests.budget import count
+from tests.cli.typed import ROOT, STUDIO, studio
 
-ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "laser_bump_and_go"
-MAIN = "from backend.cli.main import main; main()"
-
-
-def studio(*arguments):
-    return subprocess.run(
-        [sys.executable, "-c", MAIN, *map(str, arguments)],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        timeout=100,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        check=False,
-    )
 
 
 @pytest.mark.simulation
@@ -58,7 +42,7 @@ def test_a_run_writes_its_report(tmp_path, how):
 
 @pytest.mark.simulation
 def test_a_run_can_be_looked_at_in_a_browser():
-    command = [sys.executable, "-c", MAIN, "run", str(EXAMPLE), "--serve-viewer", "--duration", "4"]
+    command = [*STUDIO, "run", str(EXAMPLE), "--serve-viewer", "--duration", "4"]
     run = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)
     with run:
         link = re.search(r"http://\S+", run.stdout.readline())[0]
@@ -79,7 +63,7 @@ def test_a_run_can_be_looked_at_in_a_browser():
 
 @pytest.mark.simulation
 def test_a_run_ends_when_nobody_reads_what_it_prints():
-    command = [sys.executable, "-c", MAIN, "run", str(EXAMPLE)]
+    command = [*STUDIO, "run", str(EXAMPLE)]
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as run:
         assert b"Traceback" not in run.stdout.readline()
         run.stdout.close()
@@ -157,7 +141,7 @@ def test_a_run_is_recorded(tmp_path):
 def test_the_recording_of_a_killed_run_is_completed_by_convert(tmp_path):
     path = tmp_path / "run.mcap"
     parts = tmp_path / "run.mcap.parts"
-    command = [sys.executable, "-c", MAIN, "run", str(EXAMPLE), "--record", str(path)]
+    command = [*STUDIO, "run", str(EXAMPLE), "--record", str(path)]
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL) as run:
         end_s = time.monotonic() + 60
         so_far = tmp_path / "so far.mcap"

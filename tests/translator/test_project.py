@@ -12,6 +12,7 @@ from tests.fakes.react_diagrams import chain
 from tests.translator.conftest import EXAMPLES, ROOT, codes, example_files
 from translator import Node, Settings, TranslatorError, Tree, check, inspect_action, load, open_path, to_xml
 from translator.package.zip import write_zip
+from translator.project import in_worlds_of
 from translator.settings import read_settings
 from translator.stub import stub_source
 
@@ -30,6 +31,13 @@ def test_public_names_are_there():
     assert sorted(translator.__all__) == translator.__all__ or sorted(translator.__all__, key=str.swapcase)
     for name in translator.__all__:
         assert hasattr(translator, name)
+
+
+def test_the_worlds_and_judges_are_those_of_the_other_version_alone():
+    files = {"universes/gone.yaml": b"x", "actions/A.py": b"1", "evaluations/room.yaml": b"old"}
+    judge = {"assets/a.png": b"p", "evaluations/room.yaml": b"new", "actions/A.py": b"2"}
+    worlds = {"assets/a.png": b"p", "evaluations/room.yaml": b"new"}
+    assert in_worlds_of(judge, files) == {"actions/A.py": b"1"} | worlds
 
 
 def test_nothing_to_load_is_refused():

@@ -14,8 +14,6 @@ class CheckPoseOccupancy(Nav2Costs):
     Rule: Nav2's plugins/action/check_pose_occupancy_action.cpp.
     """
 
-    SERVICE_TYPE = "nav2_msgs/srv/GetCost"
-    SERVICE_NAME = "/global_costmap/get_cost_global_costmap"
     INPUT_PORTS = {
         "pose": Port(description="The pose; a text is x;y;yaw in the map."),
         "cost_threshold": Port(float, default=254.0, description="The least cost that counts as occupied."),

@@ -19,8 +19,6 @@ class RemoveInCollisionGoals(Nav2Costs):
     Rule: Nav2's plugins/action/remove_in_collision_goals_action.cpp.
     """
 
-    SERVICE_TYPE = "nav2_msgs/srv/GetCost"
-    SERVICE_NAME = "/global_costmap/get_cost_global_costmap"
     INPUT_PORTS = {
         "input_goals": Port(description="The goals."),
         "cost_threshold": Port(float, default=254.0, description="The least cost that counts as occupied."),

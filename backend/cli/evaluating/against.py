@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
     from translator import Project
 
-OF_THE_WORLD = ("evaluations/", "universes/", "robots/", "assets/")
-"""Folders that come from the newer version for both, so that both run in the same worlds."""
 _STORED = re.compile(r"(.+)@(\d+)")
 
 
@@ -34,20 +32,19 @@ def open_older(newer: Project, project: str, against: str) -> Project:
         CliError: there is nothing of this name.
         TranslatorError: it cannot be read.
     """
-    return in_worlds_of(newer, _files(project, against))
+    return load_in_worlds_of(newer, _files(project, against))
 
 
-def in_worlds_of(judge: Project, files: Mapping[str, bytes]) -> Project:
+def load_in_worlds_of(judge: Project, files: Mapping[str, bytes]) -> Project:
     """Returns the trees and actions of some files, with the worlds and judges of another project.
 
     Raises:
         TranslatorError: it cannot be read.
     """
     from translator import load
+    from translator.project import in_worlds_of
 
-    kept = {path: data for path, data in files.items() if not path.startswith(OF_THE_WORLD)}
-    world = {path: data for path, data in judge.files.items() if path.startswith(OF_THE_WORLD)}
-    return load({**kept, **world})
+    return load(in_worlds_of(judge.files, files))
 
 
 def _files(project: str, against: str) -> Mapping[str, bytes]:

@@ -297,6 +297,7 @@ def _run(
 ) -> tuple[Progress, bool]:
     """Runs the remaining seeds; returns all outcomes, and whether Ctrl+C ended it."""
     from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
+    from backend.cli.shared.progress import show_progress
     from executor.evaluation.cluster.ray_pool import ClusterError
     from executor.evaluation.evaluate import Interrupted, ThreadsError, evaluate
 
@@ -306,9 +307,9 @@ def _run(
         if results is not None:
             results.add(done.outcome)
         if len(progress.cpu_s) == 1:
-            _say("")
+            show_progress("")
             print(progress.estimate(), flush=True)
-        _say(progress.line(sequential=plan.evaluation.until is not None))
+        show_progress(progress.line(sequential=plan.evaluation.until is not None))
 
     try:
         return evaluate(
@@ -319,14 +320,7 @@ def _run(
     except (ThreadsError, ClusterError) as error:
         raise CliError(f"bt-studio: {error}", status=BAD_ARGUMENTS) from error
     finally:
-        _say("")
-
-
-def _say(text: str) -> None:
-    """Rewrites the progress line, if the output is a terminal."""
-    if sys.stderr.isatty():
-        sys.stderr.write(f"\r\x1b[K{text}")
-        sys.stderr.flush()
+        show_progress("")
 
 
 def _finish(  # noqa: PLR0913, PLR0917 - all that the results are of

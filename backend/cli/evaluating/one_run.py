@@ -82,10 +82,10 @@ def open_plan(project: str, name: str, *, judged_by: str | None = None, as_json:
         opened = cli.open_project(project)
         if judged_by is None:
             return make_plan(opened, name)
-        from backend.cli.evaluating.against import in_worlds_of
+        from backend.cli.evaluating.against import load_in_worlds_of
 
         plan = make_plan(cli.open_project(judged_by), name)
-        judged = plan.with_project(in_worlds_of(plan.project, opened.files))
+        judged = plan.with_project(load_in_worlds_of(plan.project, opened.files))
         return dataclasses.replace(judged, judged_by=judged_by)
 
 
@@ -116,13 +116,12 @@ def explained(*, as_json: bool = False) -> AbstractContextManager[None]:
 
 def _run(plan: Plan, seed: int, record: Path | None) -> Outcome:
     from backend.cli.shared.errors import CliError
+    from backend.cli.shared.progress import show_progress
     from executor.evaluation.run import run_cell
     from executor.headless.guard import Guard, Hung
 
     def progress(time_s: float) -> None:
-        if sys.stderr.isatty():
-            sys.stderr.write(f"\r\x1b[K{time_s:6.1f} s of {plan.evaluation.duration_s:g} s")
-            sys.stderr.flush()
+        show_progress(f"{time_s:6.1f} s of {plan.evaluation.duration_s:g} s")
 
     try:
         with explained(), Guard() as guard:
@@ -132,8 +131,7 @@ def _run(plan: Plan, seed: int, record: Path | None) -> Outcome:
     except Hung as hung:
         raise CliError(str(hung)) from None
     finally:
-        if sys.stderr.isatty():
-            sys.stderr.write("\r\x1b[K")
+        show_progress("")
 
 
 def _say_on_stderr(line: str) -> None:

@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from executor.evaluation.plan import Plan
+    from executor.evaluation.tuning.space import Port
     from executor.evaluation.tuning.study import Study, Trial
     from executor.evaluation.tuning.tune import Objective, Tuned
 
@@ -47,6 +50,7 @@ def tune(  # noqa: PLR0913, PLR0917 - one an option
     from backend.cli.evaluating.one_run import open_plan
     from backend.cli.run import fix_hashes
     from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
+    from backend.cli.shared.progress import show_progress
     from executor.evaluation.pool.environment import SINGLE
 
     if maximise is not None and minimise is not None:
@@ -62,9 +66,13 @@ def tune(  # noqa: PLR0913, PLR0917 - one an option
     from executor.evaluation.tuning.tune import tune as run_study
 
     try:
+        ports = read_ports(port, plan)
+        if apply and (other := _other_tree(project, plan, ports)) is not None:
+            text = f"it writes into the files of the trees, and there is no {other}; import the project first"
+            raise typer.BadParameter(text, param_hint="--apply")
         tuned = run_study(
             plan,
-            read_ports(port, plan),
+            ports,
             objective,
             report,
             trials=trials,
@@ -82,10 +90,10 @@ def tune(  # noqa: PLR0913, PLR0917 - one an option
         words = shlex.join(["bt-studio", *sys.argv[1:]])
         raise CliError(f"interrupted; the trials that have ended are kept. To continue: {words}") from None
     finally:
-        _say("")
+        show_progress("")
     _finish(plan, tuned, report)
     if apply:
-        _apply(project, plan, tuned)
+        write_best(project, plan, tuned)
 
 
 def _objective(plan: Plan, maximise: str | None, minimise: str | None) -> Objective:
@@ -102,28 +110,24 @@ def _objective(plan: Plan, maximise: str | None, minimise: str | None) -> Object
 
 
 def _told(trial: Trial, study: Study, trials: int, objective: Objective) -> None:
+    from backend.cli.shared.progress import show_progress
+
     best = study.best(1)
     text = f"{trial.number + 1} of {trials} trials"
     if best:
         text += f"  best {objective.name} {best[0].rating:.4g} at {_values(best[0].values)}"
-    _say(text)
+    show_progress(text)
 
 
 def _values(values: dict[str, float | int]) -> str:
     return ", ".join(f"{address} = {value:.4g}" for address, value in values.items())
 
 
-def _say(text: str) -> None:
-    """Rewrites the progress line, if the output is a terminal."""
-    if sys.stderr.isatty():
-        sys.stderr.write(f"\r\x1b[K{text}")
-        sys.stderr.flush()
-
-
 def _finish(plan: Plan, tuned: Tuned, report: Path) -> None:
     """Prints and writes the results."""
     import json
 
+    from backend.cli.shared.translation import write_file
     from executor.evaluation.report import page_html
     from executor.evaluation.tuning.tune import tuning_data, verdict
 
@@ -137,13 +141,20 @@ def _finish(plan: Plan, tuned: Tuned, report: Path) -> None:
         )
     print(verdict(tuned))
     document = tuning_data(tuned, plan)
-    (report / "tuning.json").write_text(json.dumps(document, ensure_ascii=False, indent=2) + "\n", "utf-8")
-    (report / "report.html").write_text(page_html(document, "tuning"), "utf-8")
+    text = json.dumps(document, ensure_ascii=False, indent=2) + "\n"
+    write_file(report / "tuning.json", text.encode())
+    write_file(report / "report.html", page_html(document, "tuning").encode())
     print(f"results: {report / 'report.html'}")
 
 
-def _apply(project: str, plan: Plan, tuned: Tuned) -> None:
-    """Writes the best values into the trees of a folder, if they are an improvement."""
+def write_best(project: str, plan: Plan, tuned: Tuned) -> None:
+    """Writes the best values into the trees of a folder, if they are an improvement.
+
+    Raises:
+        CliError: a tree cannot be written, or was changed since the study began.
+    """
+    from backend.cli.shared.errors import CliError
+    from backend.cli.shared.translation import write_file
     from executor.evaluation.tuning.edit import edited_trees
 
     if not tuned.is_improvement:
@@ -152,9 +163,22 @@ def _apply(project: str, plan: Plan, tuned: Tuned) -> None:
     trial = tuned.best[0].trial
     assert trial is not None  # noqa: S101 - the best ones are trials
     values = {port: trial.values[port.address] for port in tuned.ports}
+    if (other := _other_tree(project, plan, tuned.ports)) is not None:
+        raise CliError(
+            f"{other}:1:1: it was changed during the study, so nothing was written: set "
+            f"{_values(trial.values)} by hand"
+        )
     for path, data in edited_trees(plan.project, values).items():
-        target = Path(project, path)
-        temporary = target.with_name(f".{target.name}.part")
-        temporary.write_bytes(data)
-        temporary.replace(target)
-        print(f"written: {target}")
+        write_file(Path(project, path), data)
+        print(f"written: {Path(project, path)}")
+
+
+def _other_tree(project: str, plan: Plan, ports: Sequence[Port]) -> Path | None:
+    """Returns a file of a tuned tree that is not the one that was read, or None."""
+    from translator.diagram import diagram_path
+
+    for path in sorted({diagram_path(port.tree) for port in ports}):
+        on_disk = Path(project, path)
+        if not on_disk.is_file() or on_disk.read_bytes() != plan.project.files.get(path):
+            return on_disk
+    return None

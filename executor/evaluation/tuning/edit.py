@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from executor.evaluation.tuning.space import apply
-from translator.diagram import diagram_text
+from translator.diagram import diagram_path, diagram_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -18,4 +18,4 @@ def edited_trees(project: Project, values: Mapping[Port, Value]) -> dict[str, by
     """Returns the files of the trees that change, by path."""
     edited = apply(project, values)
     changed = {port.tree for port in values}
-    return {f"trees/{name}.json": diagram_text(edited.trees[name]).encode() for name in sorted(changed)}
+    return {diagram_path(name): diagram_text(edited.trees[name]).encode() for name in sorted(changed)}

@@ -1,4 +1,4 @@
-"""Holds of the debugger: the tree stands still within a tick, and the world with it.
+"""Holds of the debugger: the tree is stopped within a tick, and so is the world.
 
 The application says when its tree is held and when it runs on; between the steps of one tick it stays held.
 """
@@ -29,7 +29,7 @@ OUTSIDE_TEXT: Final = (
 
 @dataclass
 class Hold:
-    """What the debugger of a session has: its breakpoints, and since when the tree is held.
+    """The debugger of a session: its breakpoints, and since when the tree is held.
 
     Attributes:
         breakpoints: for the runs to come, too; None before the first command.
@@ -48,7 +48,7 @@ class Hold:
 
 
 def held(stage: Stage, child: Child, message: child_messages.Held) -> None:
-    """Handles the message that the tree is held: the world stands still, too."""
+    """Handles the message that the tree is held: the world is paused, too."""
     child.is_holding = True
     if child.is_stopping:
         return
@@ -79,7 +79,7 @@ def released(stage: Stage, child: Child, message: child_messages.Released) -> No
 
 
 def settle(stage: Stage, application: Child) -> None:
-    """Enters the state of a run that has begun or goes on: the tree may be held already."""
+    """Enters the state of a run that has begun or continues: the tree may be held already."""
     hold = stage.hold
     if hold.breakpoints is not None and hold.breakpoints is not hold.given:
         hold.given = hold.breakpoints  # they were set while the application was loading

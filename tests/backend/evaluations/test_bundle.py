@@ -6,7 +6,7 @@ import base64
 import io
 import zipfile
 
-from backend.evaluations.bundle import archive_of, in_the_worlds_of
+from backend.evaluations.bundle import archive_of
 from backend.projects.storage import writes as projects
 from backend.projects.storage.changes import Content, FileChange
 from tests.backend.evaluations.conftest import wish
@@ -28,8 +28,3 @@ def test_the_older_version_runs_in_the_worlds_of_the_newer_one(people):
     newer, older = files_in(archive_of(found, 2)), files_in(archive_of(found, 1))
     assert (newer["universes/own.yaml"], newer["trees/MainTree.json"]) == (b"new", b'{"new": 1}')
     assert (older["universes/own.yaml"], older["trees/MainTree.json"]) == (b"new", b"{}")
-
-
-def test_a_world_that_only_the_older_version_had_is_gone():
-    older = {"universes/gone.yaml": b"x", "actions/A.py": b"1"}
-    assert in_the_worlds_of({"assets/a.png": b"p"}, older) == {"actions/A.py": b"1", "assets/a.png": b"p"}

@@ -56,6 +56,36 @@ def test_a_plan_that_is_too_large_is_left_out():
     assert found.plan == {}
 
 
+def test_no_nul_passes_since_the_database_stores_none():
+    begun = {"job": "a", "workers": 2, "seed": 0, "wanted": 3, "sequential": False, "duration_s": 5}
+    found = read(sent("evaluation_started", begun | {"plan": {"outlines": ["a\0"]}}))
+    assert isinstance(found, Begun)
+    assert found.plan == {}
+    end = read(sent("evaluation_ended", {"job": "a", "end": "failed", "message": "it\0 died"}))
+    assert isinstance(end, Ended)
+    assert end.message == "it died"
+    refusal = read(sent("error", {"message": "n\0o"}))
+    assert isinstance(refusal, Refusal)
+    assert refusal.message == "no"
+    assert read_line(Done("a", 3, line(3, why="b\0"), 1, 1, 1, 1, 0, 1, 0)).why == "b"
+
+
+@pytest.mark.parametrize(
+    "more", [{"measures": {"a\0": 1}}, {"items": [{"item": "a", "holds": True, "unit": "m\0"}]}]
+)
+def test_a_name_with_a_nul_is_refused(more):
+    with pytest.raises(ValueError, match="matching regex"):
+        read_line(Done("a", 3, line(3, **more), 1, 1, 1, 1, 0, 1, 0))
+
+
+def test_what_is_nested_too_deeply_is_refused():
+    deep = "[" * 100_000 + "]" * 100_000
+    with pytest.raises(ValueError, match="nested"):
+        read(f'{{"id": "a", "command": "evaluation_started", "data": {{"plan": {deep}}}}}')
+    with pytest.raises(ValueError, match="nested"):
+        read_line(Done("a", 3, f'{{"seed": 3, "x": {deep}}}', 1, 1, 1, 1, 0, 1, 0))
+
+
 def test_the_nearest_item_is_that_which_decided_by_least():
     items = [{"item": "a", "holds": True, "margin": 0.1}, {"item": "b", "holds": False, "margin": -0.2}]
     found = read_line(done(3, "failure"))

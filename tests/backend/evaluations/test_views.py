@@ -41,7 +41,6 @@ def test_outcomes_are_read_on_from_a_cursor(people):
     store(found, done(2))
     second = people.viewer.get(f"{own}/outcomes?after={first['cursor']}")
     assert [row["seed"] for row in second["items"]] == [2]
-    assert people.viewer.get(f"{own}/outcomes?after=x%27")["items"]
     assert people.viewer.get(f"{own}/outcomes/1")["outcome"] == json.loads(line(1, "failure"))
     people.viewer.get(f"{own}/outcomes/7", expect=404)
     people.viewer.get(f"{own}/outcomes?revision=2", expect=404)
@@ -50,6 +49,20 @@ def test_outcomes_are_read_on_from_a_cursor(people):
     headers = answer.headers
     assert headers["Content-Disposition"].startswith("attachment")
     assert headers["X-Content-Type-Options"] == "nosniff"
+
+
+def test_a_query_that_is_no_query_is_refused_with_its_field(people):
+    at = address(people)
+    made = people.owner.post(at, {"name": "room"}, expect=201)
+    own = f"{at}/{made['id']}"
+    for query, name in (("after=x%27", "after"), ("after=-1", "after"), (f"after={2**63}", "after")):
+        assert people.viewer.get(f"{own}/outcomes?{query}", expect=422)["field"] == name
+    for place in ("outcomes", "outcomes/1", "runs.jsonl"):
+        found = people.viewer.get(f"{own}/{place}?revision={10**30}", expect=422)
+        assert found["field"] == "revision"
+    for seed in (2**63, 10**30):
+        people.viewer.get(f"{own}/outcomes/{seed}", expect=404)
+        people.owner.post(f"{own}/replays", {"revision": 1, "seed": seed}, expect=422)
 
 
 def test_a_wish_that_is_no_wish_is_refused(people):

@@ -101,12 +101,15 @@ def test_an_executor_that_is_lost_three_times_fails_the_evaluation_unless_it_got
     begin(found)
     for _ in range(writes.MOST_TRIES - 1):
         writes.lost(again(found), "it died")
-    assert again(found).state == JobState.WAITING
+    waiting = again(found)
+    assert (waiting.state, waiting.left_s, waiting.ended_at) == (JobState.WAITING, None, None)
     store(found, done(0))
     assert again(found).tries == 0
     for _ in range(writes.MOST_TRIES):
         writes.lost(again(found), "it died")
-    assert (again(found).state, again(found).error) == ("failed", "it died")
+    failed = again(found)
+    assert (failed.state, failed.error, failed.left_s) == ("failed", "it died", None)
+    assert failed.ended_at is not None
 
 
 def test_the_last_fifty_stay_and_those_that_run(people):

@@ -7,7 +7,8 @@ import shutil
 import pytest
 
 from executor.evaluation.plan import make_plan
-from tests.backend.cli.evaluating.test_evaluate import ROOT, studio
+from tests.cli.typed import ROOT
+from tests.cli.typed import evaluating as studio
 from translator import open_path
 
 EXAMPLE = ROOT / "examples" / "laser_bump_and_go"

@@ -3,36 +3,19 @@
 from __future__ import annotations
 
 import json
-import os
-import subprocess
-import sys
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
 from tests.budget import count
+from tests.cli.typed import studio
 from tests.fakes.jderobot_projects import write_follower, write_wanderer
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-ROOT = Path(__file__).parents[3]
-MAIN = "from backend.cli.main import main; main()"
+    from pathlib import Path
 
 pytestmark = [pytest.mark.simulation, pytest.mark.timeout(400)]
-
-
-def studio(*arguments: object) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-c", MAIN, *map(str, arguments)],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        timeout=380,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        check=False,
-    )
 
 
 def drive(folder: Path, write: Callable[[Path], Path], *how: object) -> tuple[dict[str, Any], str]:

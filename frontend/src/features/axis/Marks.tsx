@@ -5,6 +5,7 @@ import { canFlag, editFlag, useFlags } from '@/store/moment/flags';
 import { lookAt, type Extent } from '@/store/moment/looking';
 import { useMoment } from '@/store/moment/store';
 import type { Mark } from '@/store/recording/types';
+import { useSessionStore } from '@/store/session/store';
 import classes from './axis.module.css';
 import { MARK_ICONS } from './markIcons';
 import { useMarks } from './marks';
@@ -44,6 +45,7 @@ function MarkLine({ mark, run }: { readonly mark: Mark; readonly run: string }) 
   const { t } = useTranslation('axis');
   const user = useFlagUser();
   const isShown = useMoment((state) => state.t === mark.t);
+  const canChange = useSessionStore(canFlag);
   const Icon = MARK_ICONS[mark.kind];
   const { id, text } = mark;
   const advice = adviceOf(t, mark);
@@ -59,7 +61,7 @@ function MarkLine({ mark, run }: { readonly mark: Mark; readonly run: string }) 
         {labelOf(t, mark)}
         {advice ? <span className={classes['advice']}>{advice}</span> : null}
       </button>
-      {id !== undefined && canFlag() ? (
+      {id !== undefined && canChange ? (
         <>
           <ActionIcon
             size={24}

@@ -3,7 +3,7 @@ import { useElementSize } from '@mantine/hooks';
 import { useEffect, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { Outcome } from '@/api/evaluations';
-import { cellAfter, cellAt, columnsOf, draw, heightOf } from './cells';
+import { CELL_PX, cellAfter, cellAt, columnsOf, draw, heightOf } from './cells';
 import classes from './evaluate.module.css';
 import { outcomeText } from './outcomeText';
 
@@ -35,7 +35,7 @@ export function OutcomeGrid({ first, cells, rows, chosen, marked, onChoose, onPl
     const context = element?.getContext('2d');
     if (!element || !context) return;
     const scale = window.devicePixelRatio || 1;
-    const across = columns * 14;
+    const across = columns * CELL_PX;
     element.width = across * scale;
     element.height = height * scale;
     element.style.width = `${across}px`;

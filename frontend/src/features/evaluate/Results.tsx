@@ -3,6 +3,7 @@ import { IconPlayerPlay } from '@tabler/icons-react';
 import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { Evaluation, Outcome } from '@/api/evaluations';
+import { cellsOf } from './cells';
 import { Comparison } from './Comparison';
 import classes from './evaluate.module.css';
 import { Measures } from './Measures';
@@ -36,8 +37,7 @@ export function Results({ projectId, evaluation, mayReplay }: Props) {
   const replay = useReplay(projectId, evaluation.id);
   const bad = useMemo(() => worst(rows), [rows]);
   const first = evaluation.seed ?? 0;
-  const last = Math.max(-1, ...[...rows.keys()].map((seed) => seed - first));
-  const cells = Math.max(side?.wanted ?? 0, last + 1);
+  const cells = cellsOf(side?.wanted ?? 0, first, rows.keys());
   const row = chosen === null ? undefined : rows.get(chosen);
   const play = (seed: number) => {
     const found = rows.get(seed);

@@ -1,12 +1,19 @@
 import { describe, expect, it, vi } from 'vitest';
 import { outcome } from '../../../harness/evaluations';
-import { CELL_PX, cellAfter, cellAt, columnsOf, draw, heightOf } from './cells';
+import { CELL_PX, cellAfter, cellAt, cellsOf, columnsOf, draw, heightOf } from './cells';
 
 describe('cells', () => {
   it('fill the width in rows', () => {
     expect(columnsOf(10 * CELL_PX + 3)).toBe(10);
     expect(columnsOf(0)).toBe(1);
     expect(heightOf(21, 10)).toBe(3 * CELL_PX);
+  });
+
+  it('are as many as are wanted, and reach to the last outcome, however many there are', () => {
+    expect(cellsOf(4, 10, [])).toBe(4);
+    expect(cellsOf(4, 10, [10, 15])).toBe(6);
+    const seeds = Array.from({ length: 200_000 }, (_, index) => index);
+    expect(cellsOf(0, 0, seeds)).toBe(200_000);
   });
 
   it('are found by their place', () => {

@@ -19,6 +19,13 @@ const COLORS: Record<RunOutcome, string> = {
 /** Returns how many cells a row has. */
 export const columnsOf = (width: number): number => Math.max(1, Math.floor(width / CELL_PX));
 
+/** Returns how many cells show all runs: those that are wanted, and those that have an outcome beyond them. */
+export function cellsOf(wanted: number, first: number, seeds: Iterable<number>): number {
+  let cells = wanted;
+  for (const seed of seeds) cells = Math.max(cells, seed - first + 1);
+  return cells;
+}
+
 /** Returns the height of the grid in CSS pixels. */
 export const heightOf = (cells: number, columns: number): number => Math.ceil(cells / columns) * CELL_PX;
 

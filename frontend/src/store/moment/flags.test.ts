@@ -48,10 +48,11 @@ it.each([
   ['nobody who is not connected', { connection: 'lost' as const }],
   ['nobody without a recording', { segments: [] }],
   ['nobody after the recording has stopped', { stops: [stop] }],
-])('lets %s set no flags', (_, state) => {
+])('lets %s set or change no flags', (_, state) => {
   expect(canFlag()).toBe(true);
   useSessionStore.setState(state);
   expect(canFlag()).toBe(false);
+  editFlag(flag);
 });
 
 it('lets nobody mark a kept run', () => {

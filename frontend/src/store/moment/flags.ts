@@ -51,10 +51,10 @@ export function draftFlag(): void {
   useFlags.setState({ draft: { run: now.run, id, t: moment, text } });
 }
 
-/** Begins to change a flag. */
+/** Begins to change a flag, if the user can. */
 export function editFlag({ id, t, text }: Pick<Mark, 'id' | 't' | 'text'>): void {
   const run = extent()?.run;
-  if (run !== undefined && id !== undefined) useFlags.setState({ draft: { run, id, t, text } });
+  if (run !== undefined && id !== undefined && canFlag()) useFlags.setState({ draft: { run, id, t, text } });
 }
 
 /**

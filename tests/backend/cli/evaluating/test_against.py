@@ -9,7 +9,8 @@ import pytest
 from backend.cli.evaluating.against import open_older
 from backend.cli.shared.errors import CliError
 from backend.cli.shared.translation import open_project
-from tests.backend.cli.evaluating.test_evaluate import TEXT, studio
+from tests.backend.cli.evaluating.test_evaluate import TEXT
+from tests.cli.typed import evaluating as studio
 from tests.executor.evaluation.projects import DRIVE, write
 
 SLOW = DRIVE.replace("default=0.5", "default=0.05")

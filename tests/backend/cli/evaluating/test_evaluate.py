@@ -3,22 +3,17 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
 import subprocess
-import sys
 import time
-from pathlib import Path
 
 import pytest
 
 from backend.cli.evaluating.evaluate import ONLY_FAILED
-from executor.evaluation.pool.environment import SINGLE
+from tests.cli.typed import EVALUATING, ROOT, STUDIO
+from tests.cli.typed import evaluating as studio
 from tests.executor.evaluation.projects import DRIVE, write
 
-ROOT = Path(__file__).parents[4]
-MAIN = "from backend.cli.main import main; main()"
-ENVIRONMENT = {**os.environ, **SINGLE, "PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "0"}
 TEXT = """duration_s: 3
 runs: 6
 vary: {robot.pose: {area: start, yaw: [-0.4, 0.4]}, models.crate.pose.y: [1, 3]}
@@ -31,18 +26,6 @@ SETS = DRIVE.replace(
         twist.angular.z = len(next(iter(words))) / 100""",
 )
 pytestmark = [pytest.mark.simulation, pytest.mark.timeout(300)]
-
-
-def studio(*arguments):
-    return subprocess.run(
-        [sys.executable, "-c", MAIN, *map(str, arguments)],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        timeout=280,
-        env=ENVIRONMENT,
-        check=False,
-    )
 
 
 def test_workers_change_nothing_and_a_seed_alone_gives_the_same(tmp_path):
@@ -86,9 +69,9 @@ def test_workers_change_nothing_and_a_seed_alone_gives_the_same(tmp_path):
 def test_an_interrupted_evaluation_continues(tmp_path):
     runs = 20  # so many that the signal comes before the last one
     folder, report = write(tmp_path / "p", TEXT.replace("runs: 6", f"runs: {runs}")), tmp_path / "r"
-    command = [sys.executable, "-c", MAIN, "evaluate", str(folder), "--workers", "1", "--report", str(report)]
+    command = [*STUDIO, "evaluate", str(folder), "--workers", "1", "--report", str(report)]
     with subprocess.Popen(
-        command, cwd=ROOT, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        command, cwd=ROOT, env=EVALUATING, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     ) as process:
         part = report / "runs.part.jsonl"
         end_s = time.monotonic() + 200

@@ -3,33 +3,15 @@
 from __future__ import annotations
 
 import json
-import os
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
 
 from backend.cli.evaluating.one_run import outcome_lines
 from executor.evaluation.outcome import Outcome
-from executor.evaluation.pool.environment import SINGLE
+from tests.cli.typed import evaluating as studio
 from tests.executor.evaluation.projects import write
 
-ROOT = Path(__file__).parents[4]
-MAIN = "from backend.cli.main import main; main()"
 GOOD = "duration_s: 4\nruns: 2\njudge: {success: [{reach: {area: ahead}}], measure: [path_length_m]}\n"
-
-
-def studio(*arguments):
-    return subprocess.run(
-        [sys.executable, "-c", MAIN, *map(str, arguments)],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        timeout=200,
-        env={**os.environ, **SINGLE, "PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "0"},
-        check=False,
-    )
 
 
 def test_what_the_terminal_says():

@@ -6,8 +6,15 @@ import json
 
 import pytest
 
-from backend.cli.evaluating.tune import MOST_TRIAL_RUNS
-from tests.backend.cli.evaluating.test_evaluate import studio
+from backend.cli.evaluating.one_run import open_plan
+from backend.cli.evaluating.tune import MOST_TRIAL_RUNS, write_best
+from backend.cli.shared.errors import CliError
+from executor.evaluation.outcome import Outcome
+from executor.evaluation.statistics import Difference
+from executor.evaluation.tuning.space import read_ports
+from executor.evaluation.tuning.study import Trial
+from executor.evaluation.tuning.tune import Candidate, Objective, Tuned
+from tests.cli.typed import evaluating as studio
 from tests.executor.evaluation.projects import write
 
 pytestmark = [pytest.mark.simulation, pytest.mark.timeout(400)]
@@ -49,3 +56,21 @@ def test_bad_arguments_have_the_status_two(tmp_path, options, words):
     assert words in " ".join(done.stderr.replace("│", " ").split())
     assert "Traceback" not in done.stderr
     assert MOST_TRIAL_RUNS == 50
+
+
+def test_a_tree_that_was_changed_meanwhile_is_not_written(tmp_path):
+    folder = write(tmp_path / "p", TEXT)
+    plan, tree = open_plan(str(folder), "main"), folder / "trees" / "MainTree.json"
+    [port] = read_ports([PORT], plan)
+    runs = tuple(Outcome(seed, "success") for seed in range(9))
+    low, high = Difference(0.0, 0.0, 0.0), Difference(0.5, 0.2, 0.8)
+    trial = Trial(0, {port.address: 0.75}, 1.0)
+    best, today = Candidate(trial, runs, 1.0, high), Candidate(None, runs, 0.5, low)
+    tuned = Tuned((port,), Objective(), (trial,), today, (best,))
+    own = tree.read_text().replace("{", "{ ", 1)
+    tree.write_text(own)
+    with pytest.raises(CliError, match=r"changed during the study, so nothing was written: set .* = 0.75"):
+        write_best(str(folder), plan, tuned)
+    assert tree.read_text() == own
+    write_best(str(folder), open_plan(str(folder), "main"), tuned)
+    assert json.loads(tree.read_text())["nodes"]["a"]["ports"] == {"speed": "0.75"}

@@ -1,21 +1,16 @@
 """A Ray cluster has the outcomes of this machine's pool, also when a supervisor and a node are killed."""
 
-import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
 from executor.evaluation.cluster import ray_pool
 from executor.evaluation.cluster.ray_pool import ClusterError, RayPool, has_cluster, import_ray
-from executor.evaluation.pool.environment import SINGLE
 from tests.budget import count
+from tests.cli.typed import EVALUATING, ROOT, evaluating
 from tests.executor.evaluation.projects import write
 
-ROOT = Path(__file__).parents[4]
-MAIN = "from backend.cli.main import main; main()"
-ENVIRONMENT = {**os.environ, **SINGLE, "PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "0"}
 NODES = count("ray_nodes")
 SEEDS = 3 if NODES < 2 else 24
 TEXT = f"""duration_s: {2 if NODES < 2 else 8}
@@ -29,12 +24,11 @@ judge: {{success: [{{reach: {{area: ahead}}}}, {{never: collision}}]}}
 @pytest.mark.timeout(900)
 def test_a_cluster_has_the_outcomes_of_one_machine(tmp_path):
     folder, report = write(tmp_path / "p", TEXT), tmp_path / "r"
-    command = [sys.executable, "-c", MAIN, "evaluate", folder, "--workers", "1", "--report", report]
-    subprocess.run(command, cwd=ROOT, env=ENVIRONMENT, check=True, capture_output=True, timeout=400)
+    evaluating("evaluate", folder, "--workers", 1, "--report", report).check_returncode()
     done = subprocess.run(
         [sys.executable, "-m", "tests.executor.evaluation.cluster.nodes", folder, str(SEEDS), str(NODES)],
         cwd=ROOT,
-        env=ENVIRONMENT,
+        env=EVALUATING,
         check=False,
         capture_output=True,
         text=True,

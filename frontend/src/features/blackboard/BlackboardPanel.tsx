@@ -20,10 +20,11 @@ export function BlackboardPanel() {
   const { t } = useTranslation('blackboard');
   const blackboard = useShownSession((state) => state.blackboard);
   const isOpen = useShownSession(
-    ({ executor, introspection }) => executor === 'paused' && introspection?.role !== 'viewer',
+    ({ executor, introspection }) =>
+      (executor === 'paused' || executor === 'held') && introspection?.role !== 'viewer',
   );
   const isRunning = useShownSession(
-    ({ executor, tree }) => (executor === 'application_running' || executor === 'paused') && tree.length > 0,
+    ({ executor, tree }) => ['application_running', 'paused', 'held'].includes(executor) && tree.length > 0,
   );
   const isBack = useIsBack();
   const isRecorded = useExtent() !== null;

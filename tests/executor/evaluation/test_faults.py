@@ -109,7 +109,9 @@ def record(tmp_path_factory):
         messages: dict[str, list[tuple[float, bytes]]] = {}
         with target.open("rb") as file:
             for _, channel, message in make_reader(file).iter_messages():
-                messages.setdefault(channel.topic, []).append((message.log_time / 1e9, message.data))
+                at_s = message.log_time / 1e9
+                if at_s <= found["end_s"]:  # a recording continues for a second after the decision
+                    messages.setdefault(channel.topic, []).append((at_s, message.data))
         return found, messages
 
     with process:

@@ -2,6 +2,7 @@ import { ScrollArea } from '@mantine/core';
 import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useShownSession } from '@/store/moment/session';
+import { useExtent } from '@/store/moment/useExtent';
 import { useIsBack } from '@/store/moment/store';
 import type { BlackboardRow as Row } from '@/store/session/types';
 import { BlackboardRow } from './BlackboardRow';
@@ -26,6 +27,7 @@ export function BlackboardPanel() {
     ({ executor, tree }) => ['application_running', 'paused', 'held'].includes(executor) && tree.length > 0,
   );
   const isBack = useIsBack();
+  const isRecorded = useExtent() !== null;
   const groups = useMemo(() => byScope(Object.values(blackboard)), [blackboard]);
   return (
     <ScrollArea h="100%" type="auto" data-testid="blackboard">
@@ -42,7 +44,12 @@ export function BlackboardPanel() {
           </thead>
           <tbody>
             {rows.map((row) => (
-              <BlackboardRow key={row.key} row={row} canEdit={isOpen && !isBack && !row.preview} />
+              <BlackboardRow
+                key={row.key}
+                row={row}
+                canEdit={isOpen && !isBack && !row.preview}
+                isRecorded={isRecorded}
+              />
             ))}
           </tbody>
         </table>

@@ -206,7 +206,8 @@ class Flag(Struct, forbid_unknown_fields=True):
     """Sets, changes or removes a flag: a mark of the user in the recording of the present run.
 
     `t` is its moment in s; null is the present, or leaves the moment of a flag as it is. `id` names the flag
-    to change, "" sets a new one; an empty `text` removes it. `user` is who sets it, as the client names them.
+    to change, "" sets a new one; an empty `text` removes it. `user` is who sets it, as the client names them;
+    in a session of the web server it is the user who is signed in, whatever the client says.
     With `run` the command is refused (`not_present`) if another run has begun. Other refusals:
     `not_recorded`, `unknown_flag`, `no_text`, and `too_many` beyond 200 flags of a run.
     """

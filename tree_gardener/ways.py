@@ -47,6 +47,8 @@ class Ways:
         """Looks up again how each node is ticked, also for a tick in progress."""
         for node in self._tree.nodes:
             node.rewire()
+        if self._recorder.observers and self._tree.is_ticking:
+            self._recorder.touched += self._tree.nodes  # generated code in progress reports later
         self.tick_root = self._tree.nodes[0].entry()
         self.generation.doubt()
         self.choose()

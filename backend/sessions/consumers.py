@@ -90,7 +90,7 @@ async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
     noted = _noting(session_id, receive) if is_control else receive
     try:
         with watchmen.beside_page(session):
-            async with manager_socket(session, channel + (f"?{query}" if query else "")) as manager:
+            async with manager_socket(session, channel + (f"?{query}" if query else ""), user) as manager:
                 if is_control:
                     read_at_most(manager.transport, READ_BYTES)
                     attendance.join(session_id, send)

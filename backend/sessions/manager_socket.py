@@ -3,25 +3,33 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
+from urllib.parse import quote
 
 from websockets.asyncio.client import connect, unix_connect
 
+from backend.config.environment import environment
 from backend.sessions import writes
 
 if TYPE_CHECKING:
+    from backend.accounts.models import User
     from backend.sessions.models import Session
 
 MAX_MESSAGE_BYTES: Final = 64 * 1024 * 1024
 QUEUED_MESSAGES: Final = 2
+USER_HEADER: Final = "X-BT-Studio-User"
+"""Names the user to the manager (`executor.manager.identity`), in percent-encoding."""
 
 
-def manager_socket(session: Session, target: str) -> connect:
-    """Opens a socket to the manager of a session.
+def manager_socket(session: Session, target: str, user: User | None = None) -> connect:
+    """Opens a socket to the manager of a session; with `user`, what a client does is done in their name.
 
     Its address is `host:port`, or `unix:` with the path of a unix socket.
     """
+    headers = {"Authorization": f"Bearer {writes.manager_token(session)}"}
+    if user is not None:
+        headers[USER_HEADER] = quote(_name(user), safe="")
     options: dict[str, Any] = {
-        "additional_headers": {"Authorization": f"Bearer {writes.manager_token(session)}"},
+        "additional_headers": headers,
         "compression": None,
         "max_size": MAX_MESSAGE_BYTES,
         "max_queue": QUEUED_MESSAGES,
@@ -33,3 +41,8 @@ def manager_socket(session: Session, target: str) -> connect:
     if kind == "unix":
         return unix_connect(path, f"ws://localhost/{target}", **options)
     return connect(f"ws://{session.address}/{target}", **options)
+
+
+def _name(user: User) -> str:
+    """Returns the name that others see; without accounts nobody has one."""
+    return (user.get_full_name() or user.username) if environment().is_team else ""

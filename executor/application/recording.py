@@ -6,12 +6,12 @@ import time
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from executor.application.preview import preview
-from executor.recorder.link import Record, RecorderLink
+from executor.recorder.link import Record, RecorderLink, Until
 from executor.recorder.tree_recorder import TreeRecorder
 from executor.recorder.writer import nanoseconds
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
     from tree_gardener import Tree
 
@@ -19,6 +19,8 @@ __all__ = ["ApplicationRecorder"]
 
 GOODBYE_S: Final = 0.2
 RESET_S: Final = 1.0
+MOST_TICKS: Final = 50
+"""So many ticks are written at once, at most: a tree that ticks fast does not wait for all of a batch."""
 
 
 class _Later(NamedTuple):
@@ -50,7 +52,7 @@ class ApplicationRecorder:
         self._generation = 0
         self._recorder: TreeRecorder | None = None
         self._clock = clock
-        self._link = RecorderLink(address, self._restate, clock)
+        self._link = RecorderLink(address, self._restate, clock, self._gathered)
         self._later: _Later | None = None
 
     def begin(self, run: str, *, resets: bool = False) -> None:
@@ -63,7 +65,9 @@ class ApplicationRecorder:
 
     def pump(self) -> None:
         """Sends the waiting messages. Called many times in a second."""
-        self._write_ticks()
+        recorder = self._recorder
+        if recorder is not None and (recorder.waiting >= MOST_TICKS or not self._link.is_recording):
+            recorder.flush()  # nobody takes them where there is no recorder
         later = self._later
         if later is not None and (self._now() < later.reset_at_s or self._clock() >= later.until_s):
             self._later = None
@@ -79,6 +83,10 @@ class ApplicationRecorder:
     def _write_ticks(self) -> None:
         if self._recorder is not None:
             self._recorder.flush()
+
+    def _gathered(self) -> Iterator[Until]:
+        self._write_ticks()
+        yield Until(self._now_ns())
 
     def _restate(self) -> None:
         self._generation += 1

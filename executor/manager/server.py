@@ -26,6 +26,7 @@ from websockets.exceptions import ConnectionClosed
 
 from executor.manager.admission import Admission, is_loopback
 from executor.manager.allowance import Allowance
+from executor.manager.identity import USER_HEADER, user_of
 from executor.manager.recordings import Recordings, is_recording
 from executor.messages import COMMANDS, ClientMessage, Empty, Error, ServerMessage
 from executor.session.events import (
@@ -209,22 +210,23 @@ class SessionServer:
         assert connection.request is not None  # noqa: S101 - the handshake is over
         url = urlsplit(connection.request.path)
         asked = parse_qs(url.query).get("client", [None])[0]
+        user = user_of(connection.request.headers.get(USER_HEADER))
         _read_little(connection)
         with contextlib.suppress(ConnectionClosed):
             if url.path == "/control":
-                await self._serve_control(connection, asked)
+                await self._serve_control(connection, asked, user)
             elif url.path == "/stream":
                 await self._serve_stream(connection, asked)
             else:
                 await _take_nothing(connection)
 
-    async def _serve_control(self, connection: ServerConnection, asked: str | None) -> None:
+    async def _serve_control(self, connection: ServerConnection, asked: str | None, user: str | None) -> None:
         client = self._session.clients.client_id(asked)
         if client in self._controls:
             self._dismiss(client)
         outbox = self._controls[client] = ControlOutbox(lambda: self._snapshot_message(client))
         self._connections[client] = connection
-        self._report(ClientJoined(client))
+        self._report(ClientJoined(client, user))
         sender = asyncio.create_task(_send_all(connection, outbox))
         try:
             await self._take_all(client, connection, outbox)

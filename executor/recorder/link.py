@@ -4,8 +4,9 @@ The recorder listens at an address in Linux's abstract namespace, so that a reco
 found at the same place. What a source sends is kept until the recorder takes it, up to a bound; beyond it
 messages are dropped, and the source sends its whole state again once there is room.
 
-Messages go in batches, four in a second, at the same moments in all processes of the machine: so the recorder
-wakes four times in a second for all of them. A batch is one MessagePack list, with its length before it.
+Messages go in batches, two in a second, at the same moments in all processes of the machine: so the recorder
+wakes twice in a second for all of them. A batch is one MessagePack list, with its length before it. It ends
+with the time up to which the source has told everything, so that nothing waits for what does not come.
 """
 
 from __future__ import annotations
@@ -31,6 +32,7 @@ __all__ = [
     "Mark",
     "Record",
     "RecorderLink",
+    "Until",
     "next_batch_s",
 ]
 
@@ -38,7 +40,7 @@ ADDRESS_VARIABLE: Final = "BT_STUDIO_RECORDER"
 PREFIX: Final = struct.Struct("<I")
 MOST_MESSAGE_BYTES: Final = 16 << 20
 MOST_WAITING_BYTES: Final = 16 << 20
-BATCH_S: Final = 0.25
+BATCH_S: Final = 0.5
 BATCH_BYTES: Final = 64 << 10
 MOST_BATCH_BYTES: Final = MOST_MESSAGE_BYTES + 64
 RETRY_S: Final = 1.0
@@ -78,7 +80,13 @@ class Dump(Struct, tag="dump"):
     data: bytes
 
 
-Sent = Mark | Record | Heard | Dump
+class Until(Struct, tag="until"):
+    """Marks the time before which nothing comes any more."""
+
+    t_ns: int
+
+
+Sent = Mark | Record | Heard | Dump | Until
 
 
 def next_batch_s(now_s: float) -> float:
@@ -93,7 +101,8 @@ class RecorderLink:
         address: the recorder's address; "" for none, and then nothing is recorded.
         restate: is called when the recorder needs the whole state of this source: at the begin of a run,
             after a lost connection, and after dropped messages.
-        gather: returns what the source held back for a batch; is called before each.
+        gather: returns what the source held back for a batch, and the time that it has reached; is called
+            before each.
     """
 
     def __init__(
@@ -101,7 +110,7 @@ class RecorderLink:
         address: str,
         restate: Callable[[], None],
         clock: Callable[[], float] = time.monotonic,
-        gather: Callable[[], Iterable[Record]] = tuple,
+        gather: Callable[[], Iterable[Record | Until]] = tuple,
     ) -> None:
         self._address = address
         self._restate = restate
@@ -116,6 +125,7 @@ class RecorderLink:
         self._due_s = 0.0
         self._tried_s = -RETRY_S
         self._has_dropped = False
+        self._is_gathering = False
         os.register_at_fork(after_in_child=self._abandon)
 
     @property
@@ -139,6 +149,12 @@ class RecorderLink:
 
     def pump(self) -> None:
         """Sends the waiting messages, and reconnects to a lost recorder. Called many times in a second."""
+        now_s = self._clock()
+        if now_s < self._due_s:
+            if self._waiting:
+                self._write()
+            return
+        self._due_s = next_batch_s(now_s)
         if not self._run:
             return
         if self._socket is None:
@@ -148,12 +164,7 @@ class RecorderLink:
         if self._has_dropped and not self._waiting:
             self._has_dropped = False
             self._tell_all()
-        now_s = self._clock()
-        if now_s >= self._due_s:
-            self._due_s = next_batch_s(now_s)
-            self._finish_batch()
-        elif self._waiting:
-            self._write()
+        self._finish_batch()
 
     def flush(self, patience_s: float) -> None:
         """Sends all that waits, for at most this time."""
@@ -179,9 +190,11 @@ class RecorderLink:
         self._finish_batch()
 
     def _put_gathered(self) -> None:
-        if self.is_recording:
+        if self.is_recording and not self._is_gathering:  # what is gathered may fill a batch
+            self._is_gathering = True
             for message in self._gather():
                 self._put(message)
+            self._is_gathering = False
 
     def _put(self, message: Sent) -> None:
         data = self._encode(message)

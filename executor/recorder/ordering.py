@@ -1,7 +1,8 @@
 """Brings messages of several sources into the order of their times. Pure; real time is an argument.
 
 Sources send in batches, so one is ahead of the other by up to the time of a batch. A message waits until each
-source that is awake has told something later, or was silent for a while.
+source that is awake has told something later, or was silent for a while. A source that has nothing to tell
+says so with each batch.
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ if TYPE_CHECKING:
 
 __all__ = ["SILENT_S", "Ordering"]
 
-SILENT_S: Final = 0.4
-"""A source that was silent for as long is not waited for; sources send five times in a second."""
+SILENT_S: Final = 0.7
+"""A source that was silent for as long is not waited for; sources send twice in a second."""
 MOST_WAITING: Final = 20_000
 Item = TypeVar("Item")
 
@@ -37,6 +38,14 @@ class Ordering(Generic[Item]):
         heapq.heappush(self._waiting, (t_ns, self._number, item))
         if source is not None:
             self._last[source] = t_ns, now_s
+
+    def reached(self, t_ns: int, source: int, now_s: float) -> None:
+        """Notes that nothing before a time comes from a source any more."""
+        self._last[source] = t_ns, now_s
+
+    def is_behind(self, since_s: float, now_s: float) -> bool:
+        """Whether a source that is awake has told nothing since a moment of real time."""
+        return any(heard_s < since_s and now_s - heard_s < SILENT_S for _, heard_s in self._last.values())
 
     def drop(self, source: int) -> None:
         """Waits for a source no more."""

@@ -2,8 +2,9 @@
 
 World and application send what happens over links of their own (`executor.recorder.link`), the manager tells
 of lines, faults and the end. None of the user's code is in this process, and it survives all others. Links
-are read four times in a second, just after all sources send, and every second time all is flushed: what
-arrives between does not wake the process. A full disk stops the recording, not the run.
+are read twice in a second, just after all sources send, and then all is flushed: what arrives between does
+not wake the process. For a source that is late there is another look. A full disk stops the recording, not
+the run.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ from executor import __version__, child_messages, recorder_messages
 from executor.messages import Error, RecordingPart, Segment
 from executor.recorder.definitions import DefinitionError
 from executor.recorder.event_messages import message_of
-from executor.recorder.link import ADDRESS_VARIABLE, BATCH_S, Dump, Heard, Mark, Record, next_batch_s
+from executor.recorder.link import ADDRESS_VARIABLE, BATCH_S, Dump, Heard, Mark, Record, Until, next_batch_s
 from executor.recorder.ordering import Ordering
 from executor.recorder.project_files import project_files, project_name
 from executor.recorder.run_writer import LATEST_NS, RunWriter
@@ -47,9 +48,10 @@ if TYPE_CHECKING:
 
 __all__ = ["RecorderProcess", "main"]
 
-FLUSH_S: Final = 2 * BATCH_S
 LATER_S: Final = 0.05
 """How long after the moment at which sources send their batches are read."""
+LATE_S: Final = 0.1
+"""The time between two looks while a source is late."""
 FULL_S: Final = 0.01
 """The time between two looks at a source that sends as much as its way holds."""
 TOLD_S: Final = 1.0
@@ -111,9 +113,12 @@ class RecorderProcess:
         self._take_all()
         self._write_ready()
         is_full = any(source.is_full for source in self._sources.values())
-        self._look_s = now_s + FULL_S if is_full else next_batch_s(now_s - LATER_S) + LATER_S
-        if now_s >= self._flush_s:
-            self._flush_s = now_s + FLUSH_S - BATCH_S / 2  # at every second look
+        next_s = next_batch_s(now_s - LATER_S) + LATER_S
+        if self._order.is_behind(next_s - LATER_S - BATCH_S, now_s):
+            next_s = min(next_s, now_s + LATE_S)
+        self._look_s = now_s + FULL_S if is_full else next_s
+        if not is_full or now_s >= self._flush_s:
+            self._flush_s = now_s + BATCH_S
             self._has_told = False
             if self._writer is not None:
                 self._guarded(self._writer.flush)
@@ -228,7 +233,11 @@ class RecorderProcess:
     def _take(self, source: Source) -> None:
         try:
             for message in source.messages():
-                if self._writer_of(source.run) is not None and not isinstance(message, Mark):
+                if self._writer_of(source.run) is None or isinstance(message, Mark):
+                    continue
+                if isinstance(message, Until):
+                    self._order.reached(message.t_ns, source.connection.fileno(), time.monotonic())
+                else:
                     self._put(source.connection.fileno(), message)
         except BrokenSource:
             self._lose(source)
@@ -245,7 +254,7 @@ class RecorderProcess:
                 taken += [
                     (source.run, number, message)
                     for message in source.messages()
-                    if not isinstance(message, Mark)
+                    if not isinstance(message, Mark | Until)
                 ]
         return taken
 

@@ -19,7 +19,7 @@ __all__ = ["BrokenSource", "Source", "listen", "take_source"]
 MOST_SOURCES: Final = 16
 READ_BYTES: Final = 1 << 20
 FULL_BYTES: Final = 64 << 10
-_CREDENTIALS: Final = struct.Struct("3i")
+_CREDENTIALS: Final = struct.Struct("iII")
 
 
 class BrokenSource(Exception):  # noqa: N818 - says what the source is

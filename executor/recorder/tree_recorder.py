@@ -65,6 +65,11 @@ class TreeRecorder:
         self._rows, self._forms = [], []  # what was there before has no writer; the keyframe has it
         self.restate(generation)
 
+    @property
+    def waiting(self) -> int:
+        """The number of noted ticks that are not written."""
+        return len(self._ticks)
+
     def flush(self) -> None:
         """Writes the ticks that were noted."""
         ticks, self._ticks = self._ticks, []

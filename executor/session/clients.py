@@ -24,6 +24,7 @@ MOST_STREAMS: Final = 24
 @dataclass
 class _Client:
     is_here: bool = True
+    user: str | None = None
     left_s: float = 0.0
     has_stream: bool = False
     streams: dict[tuple[StreamName, str], Subscribe] = field(default_factory=dict)
@@ -55,10 +56,14 @@ class Clients:
         """Returns the client's role."""
         return "driver" if client == self._driver else "viewer"
 
-    def join(self, client: str) -> None:
-        """Adds a client, or marks a known one as connected."""
+    def user(self, client: str) -> str | None:
+        """Returns who uses a client, as the web server says; None if nobody vouches for a name."""
+        return self._clients[client].user if client in self._clients else None
+
+    def join(self, client: str, user: str | None = None) -> None:
+        """Adds a client, or marks a known one as connected; `user` is who uses it, if that is known."""
         record = self._clients.setdefault(client, _Client())
-        record.is_here = True
+        record.is_here, record.user = True, user
         self._empty_since_s = None
         if self._driver is None or not self._clients[self._driver].is_here:
             self._driver = client

@@ -61,9 +61,13 @@ Kind = Literal["world", "application", "node", "recorder", "evaluation"]
 
 @dataclass(frozen=True)
 class ClientJoined:
-    """A control socket was opened; `client` comes from `Session.client_id`."""
+    """A control socket was opened; `client` comes from `Session.client_id`.
+
+    `user` is who uses it, as the web server says; None if nobody vouches for a name.
+    """
 
     client: str
+    user: str | None = None
 
 
 @dataclass(frozen=True)

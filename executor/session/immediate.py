@@ -173,7 +173,7 @@ def _read_recording(stage: Stage, event: CommandCame, data: messages.ReadRecordi
 
 def _flag(stage: Stage, event: CommandCame, data: messages.Flag) -> None:
     try:
-        stage.recording.flag(data)
+        stage.recording.flag(data, stage.clients.user(event.client))
     except FlagRefused as refused:
         stage.output.refuse(event, refused.code, refused.message, refused.hint)
     else:

@@ -163,7 +163,7 @@ class Session:
     def _dispatch(self, event: Event) -> None:
         match event:
             case ClientJoined():
-                self.clients.join(event.client)
+                self.clients.join(event.client, event.user)
                 self.introspect(event.client)
                 self.output.send(event.client, self.snapshot())
                 streaming.resume_echoes(self)

@@ -85,8 +85,8 @@ class Recording:
         t_s = getattr(event, "time", 0.0) or self._stage.sim_time_s
         self._stage.children.tell_recorder(recorder_messages.Told(self.run, name, t_s, to_builtins(event)))
 
-    def flag(self, wanted: messages.Flag) -> None:
-        """Sets, changes or removes a flag of the present run.
+    def flag(self, wanted: messages.Flag, user: str | None = None) -> None:
+        """Sets, changes or removes a flag of the present run; `user` is who the client is, if that is known.
 
         Raises:
             FlagRefused: it cannot be kept, or is not there.
@@ -96,7 +96,7 @@ class Recording:
             raise FlagRefused("not_recorded", "There is no recording to mark.", hint)
         stage = self._stage
         known = {flag.id: flag for flag in stage.mirror.flags.values() if flag.run == self.run}
-        stage.output.emit(flag_of(wanted, known, self.run, stage.sim_time_s))
+        stage.output.emit(flag_of(wanted, known, self.run, stage.sim_time_s, user))
 
     # --- the recorder -----------------------------------------------------------------------------
 
@@ -181,7 +181,11 @@ class FlagRefused(Exception):  # noqa: N818 - an answer to a client
 
 
 def flag_of(
-    wanted: messages.Flag, known: Mapping[str, messages.FlagSet], run: str, now_s: float
+    wanted: messages.Flag,
+    known: Mapping[str, messages.FlagSet],
+    run: str,
+    now_s: float,
+    user: str | None = None,
 ) -> messages.FlagSet:
     """Returns a flag as a client wants it.
 
@@ -190,6 +194,7 @@ def flag_of(
         known: the flags of the run, by id.
         run: the present run.
         now_s: the present moment in s; no flag is later.
+        user: who the client is; with None the flag has the name that the client gave.
 
     Raises:
         FlagRefused: the flag does not exist, has no text, is of another run, or is one too many.
@@ -208,5 +213,6 @@ def flag_of(
         hint = "Remove one that is not needed any more."
         raise FlagRefused("too_many", f"A run has at most {MOST_FLAGS} flags.", hint)
     t_s = wanted.t if wanted.t is not None else (old.t if old is not None else now_s)
-    user = wanted.user if wanted.user or old is None else old.user
+    if user is None:
+        user = wanted.user if wanted.user or old is None else old.user
     return messages.FlagSet(run, old.id if old is not None else uuid4().hex[:12], min(t_s, now_s), text, user)

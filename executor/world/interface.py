@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
@@ -160,6 +160,9 @@ class World(Protocol):
 
         Do not write into the array.
         """
+
+    def read_poses(self) -> Callable[[], NDArray[np.float32]]:
+        """Returns a function that computes the present poses at any later time, as `poses` does."""
 
     def move_body(self, body: str, pose: Sequence[float]) -> None:
         """Moves a body to the pose [x, y, z, roll, pitch, yaw].

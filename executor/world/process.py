@@ -196,7 +196,7 @@ class WorldProcess:
         from executor.ros.graph.topics import Topics  # noqa: PLC0415
         from executor.ros.node import WorldNode  # noqa: PLC0415
         from executor.ros.outlet import Outlet  # noqa: PLC0415
-        from executor.ros.tap import TopicTap  # noqa: PLC0415
+        from executor.ros.tap import BatchTap  # noqa: PLC0415
         from executor.world.sensing.sensors import Sensors  # noqa: PLC0415
         from executor.world.simulation.launch import make_world  # noqa: PLC0415
         from executor.world.simulation.loop import SimulationLoop  # noqa: PLC0415
@@ -221,7 +221,7 @@ class WorldProcess:
         node = WorldNode(world, context, topics=renamed, true_poses=true_poses, outlet=outlet)
         self._close.append(node.close)
         self._topics = Topics(node.node, self._answer, commands=node, outlet=outlet)
-        recorder = WorldRecorder(world, node, TopicTap, os.environ.get(ADDRESS_VARIABLE, ""))
+        recorder = WorldRecorder(world, node, BatchTap, os.environ.get(ADDRESS_VARIABLE, ""))
         recorder.join(partial(GraphTap, context))
         self._close.append(recorder.close)
         self._recorder = recorder

@@ -11,42 +11,57 @@ from tree_gardener.debugging import Breakpoint, Debugger, Step, Stop, When, plac
 
 @dataclasses.dataclass(frozen=True)
 class Row:
-    """One tree, in microseconds a tick; `step` is the time of one step between two stops."""
+    """One tree, in microseconds a tick.
+
+    Attributes:
+        what: the tree.
+        methods: by the nodes' own methods.
+        without: by generated code, as all that follows.
+        attached: with a debugger that has no breakpoints.
+        results: with breakpoints on a result that does not come.
+        conditions: with breakpoints before the tick, whose condition is false.
+        step: of one step between two stops.
+    """
 
     what: str
     methods: float
     without: float
     attached: float
-    breakpoints: float
+    results: float
+    conditions: float
     step: float
 
     def __str__(self) -> str:
         ratios = " ".join(
-            f"{us:9.2f} ({us / self.without:5.2f}x)" for us in (self.attached, self.breakpoints)
+            f"{us:9.2f} ({us / self.without:5.2f}x)" for us in (self.attached, self.results, self.conditions)
         )
-        return (
-            f"{self.what:9} {self.methods:9.2f} {self.without:9.2f} | {ratios} "
-            f"({self.breakpoints / self.methods:4.2f}x methods) | {self.step:9.2f}"
-        )
+        return f"{self.what:9} {self.methods:9.2f} {self.without:9.2f} | {ratios} | {self.step:9.2f}"
 
 
 def rows(size: int = 1_000, count: int = 100, *, rounds: int = 7) -> list[Row]:
     """Trees by methods, with generated code, with a debugger, and with `count` breakpoints."""
     found = []
     for what, xml in (("full", body(size)), ("reactive", body(size, "ReactiveSequence", last="Run"))):
-        methods, without, attached, waiting = (Tree.from_xml(document(xml), NODES) for _ in range(4))
+        trees = [Tree.from_xml(document(xml), NODES) for _ in range(5)]
+        methods, _, attached, results, conditions = trees
         methods.generate_code(on=False)
         attached.debug(Debugger(_never))
-        debugger = Debugger(_never)
-        waiting.debug(debugger)
-        nodes = waiting.nodes[1 :: max(1, size // count)][:count]
+        nodes = results.nodes[1 :: max(1, size // count)][:count]
         places = [place_of(node, one_instance=True) for node in nodes]
-        debugger.set_breakpoints([Breakpoint(place, When.RETURNS, Status.FAILURE) for place in places])
-        calls = [tree.tick_exactly_once for tree in (methods, without, attached, waiting)]
+        _debug(results, [Breakpoint(place, When.RETURNS, Status.FAILURE) for place in places])
+        conditions.blackboard["battery"] = 80.0
+        _debug(conditions, [Breakpoint(place, condition="battery < 20") for place in places])
+        calls = [tree.tick_exactly_once for tree in trees]
         warm(*calls)
         times = [*race(*calls, rounds=rounds), _step_us(xml)]
         found.append(Row(what, *times))
     return found
+
+
+def _debug(tree: Tree, breakpoints: list[Breakpoint]) -> None:
+    debugger = Debugger(_never)
+    tree.debug(debugger)
+    debugger.set_breakpoints(breakpoints)
 
 
 def _never(stop: Stop) -> None:
@@ -69,7 +84,8 @@ def _step_us(xml: str) -> float:
 def main() -> None:
     """Prints the table."""
     print(
-        "debugger: methods, without | attached, 100 breakpoints that are not hit | a tick with one stop; µs"
+        "debugger: methods, without | attached, 100 breakpoints not hit: on a result, with a condition"
+        " | a tick with one stop; µs"
     )
     for row in rows():
         print(row)

@@ -30,7 +30,13 @@ async def echo(socket: ServerConnection) -> None:
     request = socket.request
     assert request is not None
     await socket.send(
-        json.dumps({"path": request.path, "authorization": request.headers.get("Authorization")})
+        json.dumps(
+            {
+                "path": request.path,
+                "authorization": request.headers.get("Authorization"),
+                "user": request.headers.get("X-BT-Studio-User"),
+            }
+        )
     )
     async for message in socket:
         if message == "close":

@@ -60,7 +60,7 @@ class Breakpoint:
     @property
     def wanted(self) -> Wanted:
         """The questions that its nodes must ask."""
-        return Wanted(self.when is When.BEFORE, self.results, self.when is When.HALTED)
+        return Wanted(self.when is When.BEFORE, self.results, halted=self.when is When.HALTED)
 
     @property
     def moment(self) -> str:
@@ -82,6 +82,14 @@ class _Set:
 
     breakpoint: Breakpoint
     condition: Callable[[], bool] | None
+
+    @property
+    def wanted(self) -> Wanted:
+        """The questions that its node must ask."""
+        wanted = self.breakpoint.wanted
+        if self.condition is None or not wanted.is_round_tick:
+            return wanted
+        return wanted._replace(tests=(self.condition,))
 
 
 class Breakpoints:
@@ -127,9 +135,9 @@ class Breakpoints:
         if not self.are_on:
             return wanted
         for uid, sets in self._at.items():
-            active = [each.breakpoint for each in sets if each.breakpoint.is_on]
+            active = [each.wanted for each in sets if each.breakpoint.is_on]
             if active:
-                wanted[uid] = functools.reduce(Wanted.joined, (each.wanted for each in active))
+                wanted[uid] = functools.reduce(Wanted.joined, active)
         return wanted
 
     def reason(self, event: Event, node: Node, status: Status | None) -> str:

@@ -3,9 +3,12 @@
 A node that asks has a function round its tick, in the list that its parent reads while it ticks, so that
 switching takes effect at once; and an `AskingGuard` in place of its own, if more is to be asked. The nodes
 above one that asks have the function too, which then only reads a flag: a step out of a node stops there.
+
+Generated code asks by itself, only where it must: it calls `asking_before` and `asking_after` of the nodes
+with questions. It was made for one `Epoch`; when this is over, it continues in the nodes' own methods.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from tree_gardener.conditions import Guard
@@ -19,7 +22,8 @@ if TYPE_CHECKING:
 
 RESULTS: Final = frozenset((SUCCESS, FAILURE, RUNNING, SKIPPED))
 _NO_RESULTS: Final[frozenset[Status]] = frozenset()
-_DECIDING: Final = {FAILURE: "_failureIf", SUCCESS: "_successIf", SKIPPED: "_skipIf"}
+DECIDES: Final = {FAILURE: "_failureIf", SUCCESS: "_successIf", SKIPPED: "_skipIf"}
+"""The pre-condition that decides each result, beside ``_while``."""
 
 
 class Wanted(NamedTuple):
@@ -29,19 +33,55 @@ class Wanted(NamedTuple):
         before: whether before its ticks.
         results: the results after which.
         within: whether between its pre-conditions and its tick, and when it is halted.
+        halted: whether when it is halted.
+        tests: conditions of which one must be true, or raise, for the questions before and after its tick;
+            without any they are always asked.
     """
 
     before: bool = False
     results: frozenset[Status] = _NO_RESULTS
     within: bool = False
+    halted: bool = False
+    tests: tuple[Callable[[], bool], ...] = ()
+
+    @property
+    def is_round_tick(self) -> bool:
+        """Whether it has questions before or after a tick."""
+        return self.before or bool(self.results)
+
+    @property
+    def test(self) -> Callable[[], bool] | None:
+        """The condition for the questions before and after a tick; None if they are always asked."""
+        tests = self.tests
+        return tests[0] if len(tests) == 1 else (lambda: any(test() for test in tests)) if tests else None
 
     def joined(self, other: "Wanted") -> "Wanted":
         """Returns what either of two wants."""
-        return Wanted(self.before or other.before, self.results | other.results, self.within or other.within)
+        rounds = [each.tests for each in (self, other) if each.is_round_tick]
+        return Wanted(
+            self.before or other.before,
+            self.results | other.results,
+            self.within or other.within,
+            self.halted or other.halted,
+            sum(rounds, ()) if all(rounds) else (),
+        )
 
 
 NOTHING: Final = Wanted()
 EVERYTHING: Final = Wanted(before=True, results=RESULTS, within=True)
+
+
+class Epoch:
+    """The time during which the same nodes ask.
+
+    Attributes:
+        is_over: whether others ask by now.
+    """
+
+    __slots__ = ("is_over",)
+
+    def __init__(self) -> None:
+        self.is_over = False
 
 
 class Asking:
@@ -82,7 +122,7 @@ class AskingGuard(Guard):
         result = super().before(node)
         if result is None:
             return self.agent.forced(node)
-        self.decided = "_while" if self.last is self.while_true else _DECIDING[result]
+        self.decided = "_while" if self.last is self.while_true else DECIDES[result]
         return result
 
     def run(self, node: Node, condition: "Condition") -> object:
@@ -108,6 +148,7 @@ class Wiring:
         tree: the tree.
         asks_all: whether every node asks.
         alone: the node that is ticked in place of the root, or None.
+        epoch: for how long the same nodes ask.
     """
 
     def __init__(self, tree: "Tree", agent: Agent) -> None:
@@ -120,6 +161,8 @@ class Wiring:
         self._wanted: Mapping[int, Wanted] = {}
         self._above: set[int] = set()
         self._asking = [Asking() for _ in tree.nodes]
+        self._inner: list[Execute] = [node.execute for node in tree.nodes]
+        self.epoch = Epoch()
 
     def choose(self, wanted: Mapping[int, Wanted], *, everything: bool = False) -> None:
         """Chooses the nodes that ask from now on, by uid; with `everything`, all nodes ask."""
@@ -150,10 +193,58 @@ class Wiring:
 
     def entry(self, node: Node, inner: Execute) -> Execute:
         """Returns the function that ticks a node and asks; the node's own if it does not ask."""
+        self._inner[node.uid - 1] = inner
         if not self.reaches(node):
             return inner
         asked = self._asked(node, self._asking[node.uid - 1], inner)
         return self._as_root(asked) if node.parent is None else asked
+
+    # -- generated code ---------------------------------------------------------------------------------
+
+    @property
+    def has_questions(self) -> bool:
+        """Whether any node asks."""
+        return bool(self._wanted) or self.asks_all
+
+    def wanted(self, node: Node) -> Wanted:
+        """Returns what is asked at a node."""
+        return EVERYTHING if self.asks_all else self._wanted.get(node.uid, NOTHING)
+
+    def asking_before(self, node: Node) -> Callable[[], bool]:
+        """Returns a function that asks before the tick of a node, and returns whether the epoch is over."""
+        before, epoch = self.agent.before, self.epoch
+
+        def ask() -> bool:
+            before(node)
+            return epoch.is_over
+
+        return ask
+
+    def asking_after(self, node: Node, status: Status, unchanged: object) -> Callable[[], object]:
+        """Returns a function that asks after a result of a node.
+
+        It returns the result to use if this is another one or the epoch is over, else `unchanged`.
+        """
+        after, epoch = self.agent.after, self.epoch
+
+        def ask() -> object:
+            result = after(node, status, "")
+            return result if epoch.is_over or result is not status else unchanged
+
+        return ask
+
+    def ticked(self, node: Node) -> Status:
+        """Ticks a node that has asked before its tick, and asks after it."""
+        status = self._inner[node.uid - 1]()
+        return self._after(node, status) if status in self._asking[node.uid - 1].results else status
+
+    def asked(self, node: Node, status: Status, decided: str = "") -> Status:
+        """Asks after a result of a node, if this is wanted now; returns the result to use.
+
+        `decided` is the name of the pre-condition that decided it, or "".
+        """
+        is_asked = status in self._asking[node.uid - 1].results
+        return self.agent.after(node, status, decided) if is_asked else status
 
     # -- within a tick ----------------------------------------------------------------------------------
 
@@ -213,6 +304,8 @@ class Wiring:
     def _apply(self) -> None:
         """Brings guards, flags and functions of all nodes to what is chosen."""
         nodes = self.tree.nodes
+        self.epoch.is_over = True
+        self.epoch = Epoch()
         self._above = set()
         for uid in self._wanted:
             above = nodes[uid - 1].parent
@@ -223,7 +316,7 @@ class Wiring:
             wanted = EVERYTHING if self.asks_all else self._wanted.get(node.uid, NOTHING)
             asking.before, asking.results = wanted.before, wanted.results
             own = node.guard.inner if isinstance(node.guard, AskingGuard) else node.guard
-            if not (wanted.within or (wanted.results and own is not None)):
+            if not (wanted.within or wanted.halted or (wanted.results and own is not None)):
                 node.guard = own
             elif own is node.guard:
                 node.guard = AskingGuard(own, self.agent)

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final
 
 from tree_gardener.generated.code import code_of, source_of
-from tree_gardener.generated.parts import COMPOSITES, PARALLEL, Planner, Region, Variant, rule_of
+from tree_gardener.generated.parts import COMPOSITES, PARALLEL, UNCHANGED, Planner, Region, Variant, rule_of
 from tree_gardener.generated.recovery import UNTICKED, Recovery
 from tree_gardener.hooks import Hooks
 from tree_gardener.leaves.behaviour import PY_FAILURE, PY_RUNNING, PY_SUCCESS
@@ -41,6 +41,7 @@ _STATUSES: Final = {
     "PY_RUNNING": PY_RUNNING,
     "RAISED": (Exception, SystemExit),
     "UNTICKED": UNTICKED,
+    "UNCHANGED": UNCHANGED,
     "CLOCK": time.perf_counter,
 }
 
@@ -133,6 +134,7 @@ class Generation:
 
     def finish(self) -> None:
         """Generates all code that is still to be generated."""
+        self.is_doubtful = self.is_doubtful and not self.is_consistent()
         planner = self.planner()
         while self.queue and not self.is_doubtful:
             self.make(planner, self.queue.pop())
@@ -140,17 +142,19 @@ class Generation:
     def planner(self) -> Planner:
         """Returns a planner for the tree as it is now."""
         recorder, hooks = self.recorder, self.hooks
+        wiring = hooks.wiring
         variant = Variant(
-            bool(recorder.observers), hooks.marks_leaves, hooks.times_leaves, hooks.counts is not None
+            is_observed=bool(recorder.observers),
+            marks=hooks.marks_leaves,
+            times=hooks.times_leaves,
+            counts=hooks.counts is not None,
+            asks=wiring is not None and wiring.has_questions,
         )
-        return Planner(variant, hooks.counts, lambda node: hooks.has_hook(node) or hooks.has_debugger(node))
+        return Planner(variant, hooks.counts, hooks.has_hook, wiring)
 
     def make(self, planner: Planner, node: Node) -> None:
         """Generates the code of one node, and puts the nodes that it calls into the queue."""
         if isinstance(node, Control) and node.quick is not None:
-            return
-        if self.hooks.has_debugger(node):  # its own method ticks it, so that switching takes effect at once
-            self.queue += [child for child in node.children if child.children]
             return
         regions = planner.regions(node)
         self.queue += [called for called in planner.called if called.children]
@@ -168,7 +172,8 @@ class Generation:
         if code is None:
             return None
         recorder = self.recorder
-        recovery = Recovery(self.tree, region, variant, self.hooks.counts, recorder, code.lines)
+        wiring = self.hooks.wiring
+        recovery = Recovery(self.tree, region, variant, self.hooks.counts, recorder, code.lines, wiring)
         fixed = {
             **_STATUSES,
             "REST": recovery.rest,
@@ -178,6 +183,7 @@ class Generation:
             "RESULTS": recorder.results.append,
             "CURRENT": self.tree.current,
             "TREE": self.tree,
+            "EPOCH": None if wiring is None else wiring.epoch,
         }
         return code.bind(region.values, fixed)
 

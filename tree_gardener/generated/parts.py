@@ -6,12 +6,13 @@ Regions of the same shape share their code.
 """
 
 from collections.abc import Callable, Mapping
-from typing import Any, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from tree_gardener.controls.fallback import Fallback
 from tree_gardener.controls.parallel import ParallelAll
 from tree_gardener.controls.reactive import ReactiveFallback, ReactiveSequence
 from tree_gardener.controls.sequence import Sequence
+from tree_gardener.debugging.wiring import NOTHING, Wanted
 from tree_gardener.decorators.result import ForceFailure, ForceSuccess, Inverter
 from tree_gardener.decorators.subtree import SubTree
 from tree_gardener.hooks import ResultCount
@@ -19,7 +20,10 @@ from tree_gardener.leaves.behaviour import BehaviourLeaf, ConditionLeaf, Immedia
 from tree_gardener.leaves.constant import AlwaysFailure, AlwaysSuccess
 from tree_gardener.leaves.scripts import Script, ScriptCondition
 from tree_gardener.node import Control, Flash, Mark, Node
-from tree_gardener.status import FAILURE, SUCCESS
+from tree_gardener.status import FAILURE, RUNNING, SUCCESS
+
+if TYPE_CHECKING:
+    from tree_gardener.debugging.wiring import Wiring
 
 MAX_NODES: Final = 33
 """The most nodes below the root of one function, which is made in 2 ms. A composite with more has several."""
@@ -34,9 +38,14 @@ COMPOSITES: Final = frozenset((ORDERED, REACTIVE, PARALLEL, WRAPPER, SUBTREE))
 # The values that a part can bring; `Part.has` lists them in the order of their positions.
 NODE, UPDATE, BEHAVIOUR, INITIALISE, TERMINATE = "n", "u", "b", "i", "t"
 UID, COUNT, FINISH, SLICE, END = "d", "k", "z", "o", "e"
+IF_BEFORE, ASK_BEFORE, IF_AFTER, AFTER_SUCCESS, AFTER_FAILURE = "g", "a", "h", "x", "y"
 DECIDING: Final = ("0", "1", "2")
 WHILE, ON_SUCCESS, ON_FAILURE, POST = "w", "s", "f", "p"
 _CONDITIONS: Final = frozenset((*DECIDING, WHILE, ON_SUCCESS, ON_FAILURE, POST))
+
+
+UNCHANGED: Final = object()
+"""Stands for the result of a node that a debugger left as it was."""
 
 
 class Rule(NamedTuple):
@@ -82,12 +91,13 @@ RULES: Final[Mapping[type, Rule]] = {
 
 
 class Variant(NamedTuple):
-    """Whether nodes are observed, and whether leaves are marked, timed or counted."""
+    """Whether nodes are observed, leaves marked, timed or counted, and whether nodes ask a debugger."""
 
     is_observed: bool
     marks: bool
     times: bool
     counts: bool
+    asks: bool = False
 
 
 class Part(NamedTuple):
@@ -161,15 +171,28 @@ class Planner:
     """
 
     def __init__(
-        self, variant: Variant, counts: list[ResultCount] | None, is_hooked: Callable[[Node], bool]
+        self,
+        variant: Variant,
+        counts: list[ResultCount] | None,
+        has_hook: Callable[[Node], bool],
+        wiring: "Wiring | None" = None,
     ) -> None:
         self.variant = variant
         self.counts = counts
-        self.is_hooked = is_hooked
+        self.has_hook = has_hook
+        self.wiring = wiring if variant.asks else None
         self.called: list[Node] = []
         self.values: list[Any] = []
         self.classes: list[type] = []
         self.flashes: list[Flash] = []
+
+    def is_hooked(self, node: Node) -> bool:
+        """Returns whether more runs round a node than code can do: hooks, or a forced result."""
+        return self.has_hook(node) or self.wanted(node).within
+
+    def wanted(self, node: Node) -> Wanted:
+        """Returns the questions that a node asks a debugger."""
+        return NOTHING if self.wiring is None else self.wiring.wanted(node)
 
     def regions(self, node: Node) -> list[Region]:
         """Returns the regions of a node: one, one for each slice of its children, or none without a rule."""
@@ -241,7 +264,8 @@ class Planner:
         bundles = self.variant.is_observed and rule.kind is not PARALLEL
         for position, node in enumerate(nodes):
             own = self.inlined(node, depth, in_parallel=rule.kind is PARALLEL)
-            is_bundled = bundles and own is not None and _is_bundled(node, own, goes)
+            is_plain = own is not None and not self.wanted(node).is_round_tick
+            is_bundled = bundles and is_plain and own is not None and _is_bundled(node, own, goes)
             if not is_bundled:
                 found += self.bundle()
             part = self.child(node, own, position, depth)
@@ -273,7 +297,7 @@ class Planner:
         if rule is None:
             self.called.append(node)
             return Part(CALL, ("", ""), first, NODE, position)
-        has = NODE + self.own(node, rule) + self.conditions(node)
+        has = NODE + self.own(node, rule) + self.conditions(node) + self.questions(node)
         if self.counts is not None:
             has += COUNT
             self.values.append(self.counts[node.uid - 1])
@@ -291,7 +315,9 @@ class Planner:
         if rule is None:
             return None
         if in_parallel:
-            is_plain = rule.kind is STATEFUL and node.guard is None
+            wanted = self.wanted(node)
+            asks = wanted.before or RUNNING in wanted.results
+            is_plain = rule.kind is STATEFUL and node.guard is None and not asks
         elif rule.kind in COMPOSITES:
             fits = depth < MAX_DEPTH and self.size(node, depth) <= MAX_NODES
             is_plain = rule.kind is not PARALLEL and fits
@@ -329,6 +355,24 @@ class Planner:
         ]
         self.values += [condition.call for _, condition in named if condition is not None]
         return "".join(letter for letter, condition in named if condition is not None)
+
+    def questions(self, node: Node) -> str:
+        """Adds the functions that ask a debugger round the tick of a node; returns their letters."""
+        wiring, wanted = self.wiring, self.wanted(node)
+        if wiring is None or not wanted.is_round_tick:
+            return ""
+        test = wanted.test
+        found: list[tuple[str, object]] = []
+        if wanted.before:
+            found += [(IF_BEFORE, test), (ASK_BEFORE, wiring.asking_before(node))]
+        if wanted.results & {SUCCESS, FAILURE}:
+            found.append((IF_AFTER, test))
+        for letter, status in ((AFTER_SUCCESS, SUCCESS), (AFTER_FAILURE, FAILURE)):
+            if status in wanted.results:
+                found.append((letter, wiring.asking_after(node, status, UNCHANGED)))
+        found = [each for each in found if each[1] is not None]
+        self.values += [value for _, value in found]
+        return "".join(letter for letter, _ in found)
 
 
 def _is_bundled(node: Node, rule: Rule, goes: str) -> bool:

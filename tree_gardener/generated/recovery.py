@@ -9,10 +9,16 @@ import time
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Final
 
+from tree_gardener.debugging.wiring import DECIDES
 from tree_gardener.errors import PortError, ScriptError, TickError
 from tree_gardener.generated.parts import (
+    AFTER_FAILURE,
+    AFTER_SUCCESS,
+    ASK_BEFORE,
     COMPOSITES,
     DECIDING,
+    IF_AFTER,
+    IF_BEFORE,
     INITIALISE,
     NODE,
     ON_FAILURE,
@@ -34,18 +40,32 @@ from tree_gardener.observe import Recorder
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
 
 if TYPE_CHECKING:
+    from tree_gardener.debugging.wiring import Wiring
     from tree_gardener.hooks import ResultCount
     from tree_gardener.tree import Tree
 
 UNTICKED: Final = object()
 """Stands for a result where a node was not ticked by the code: it was not IDLE, or a condition decided."""
+_QUESTIONS: Final = frozenset((ASK_BEFORE, AFTER_SUCCESS, AFTER_FAILURE))
 _OF_BEHAVIOURS: Final = frozenset((UPDATE, INITIALISE, TERMINATE))
 
 
 class Recovery:
     """Continues the ticks of one region."""
 
-    __slots__ = ("base", "counts", "lines", "node", "recorder", "root", "tree", "values", "variant")
+    __slots__ = (
+        "base",
+        "counts",
+        "epoch",
+        "lines",
+        "node",
+        "recorder",
+        "root",
+        "tree",
+        "values",
+        "variant",
+        "wiring",
+    )
 
     def __init__(  # noqa: PLR0913 - all parts of one region
         self,
@@ -55,6 +75,7 @@ class Recovery:
         counts: "list[ResultCount] | None",
         recorder: Recorder,
         lines: Mapping[int, Meaning],
+        wiring: "Wiring | None" = None,
     ) -> None:
         self.tree = tree
         self.node: Any = region.node
@@ -65,6 +86,8 @@ class Recovery:
         self.counts = counts
         self.recorder = recorder
         self.lines = lines
+        self.wiring = wiring
+        self.epoch = None if wiring is None else wiring.epoch
 
     # -- from the code ----------------------------------------------------------------------------------
 
@@ -90,12 +113,25 @@ class Recovery:
                 self.unmark()
                 returned = node.parent.ticks[self.position(node, part)]()
             return self.climb(node, part, returned)
+        if letter in _QUESTIONS:
+            return self.asked(node, part, letter, returned)
+        start_s = 0.0 if part.kind in COMPOSITES else start_s
         if letter == UPDATE:
             status = self.conditioned(node, node.conclude(returned, self.before))
+            status = self.ended(node, status, start_s)
         else:
             status = self.decided(node, letter)
-        self.ended(node, status, 0.0 if part.kind in COMPOSITES else start_s)
+            name = "_while" if letter == WHILE else DECIDES[status]
+            status = self.ended(node, status, start_s, name)
         return self.climb(node, part, status)
+
+    def asked(self, node: Node, part: Part, letter: str, returned: Any) -> Status | None:
+        """Continues where a debugger was asked, and the code does not hold any more."""
+        if letter == ASK_BEFORE:
+            assert self.wiring is not None
+            returned = self.wiring.ticked(node)
+        self.counted(node, returned)
+        return self.climb(node, part, returned)
 
     def recover(self, error: BaseException, start_s: float = 0.0) -> Status | None:
         """Continues after an exception in the code, or in a function that it called.
@@ -118,12 +154,13 @@ class Recovery:
         node: Any = self.values[part.first]
         self.report(line, node)
         if letter in _OF_BEHAVIOURS and part.kind not in (TEST, RUN):
-            status = self.conditioned(node, node.failed(error))
-            self.ended(node, status, start_s)
+            status = self.ended(node, self.conditioned(node, node.failed(error)), start_s)
             result = self.climb(node, part, status)
-            if self.root.kind == PARALLEL:
-                self.tick_from(self.position(node, part) + 1)
+            if self.root.kind == PARALLEL and result is None:
+                self.tick_from(self.position(node, part) + 1, self.base + len(self.root.children))
             return result
+        if letter in (IF_BEFORE, IF_AFTER):
+            return self.untested(node, part, letter)
         if letter == NODE or not isinstance(error, (ScriptError, PortError)):
             raise error.with_traceback(trace.tb_next)
         if letter == UPDATE:
@@ -131,6 +168,12 @@ class Recovery:
         if letter in (ON_SUCCESS, ON_FAILURE, POST):
             node.status = node.status_within(IDLE)
         raise TickError(node, f"in the script '{_condition(node, letter)}': {error}") from None
+
+    def untested(self, node: Any, part: Part, letter: str) -> Status | None:
+        """Asks a debugger where the condition of a breakpoint could not be tested."""
+        if letter == IF_BEFORE:
+            return self.climb(node, part, node.parent.ticks[self.position(node, part)]())
+        return self.climb(node, part, self.ended(node, node.status))
 
     def flush(self, line: int) -> None:
         """Reports the results of children before a line that were to be reported together."""
@@ -172,13 +215,23 @@ class Recovery:
                 raise
         return status
 
-    def ended(self, node: Node, status: Status, start_s: float = 0.0) -> None:
-        """Does the bookkeeping after a node's tick: removes its mark, measures and counts."""
+    def ended(self, node: Node, status: Status, start_s: float = 0.0, decided: str = "") -> Status:
+        """Does what follows a node's tick: removes its mark, measures, asks a debugger, and counts.
+
+        Returns the result to use.
+        """
         self.unmark()
         if start_s:
             duration_s = time.perf_counter() - start_s
             if duration_s > self.tree.slowest[0]:
                 self.tree.slowest = (duration_s, node.uid)
+        if self.wiring is not None:
+            status = self.wiring.asked(node, status, decided)
+        self.counted(node, status)
+        return status
+
+    def counted(self, node: Node, status: Status) -> None:
+        """Counts a result."""
         if self.counts is not None:
             self.counts[node.uid - 1].add(status)
 
@@ -196,24 +249,27 @@ class Recovery:
     def climb(self, node: Node, part: Part, status: Status) -> Status | None:
         """Continues in the nodes above with the result of a node; returns the root's result.
 
-        A slice of a ParallelAll continues by itself, for which None is returned.
+        A slice of a ParallelAll continues by itself, for which None is returned, unless a debugger has
+        changed which nodes ask: then its other children are ticked here.
         """
         position = self.position(node, part)
         above: Any = node.parent
         while above is not self.node:
-            status = self.conditioned(above, above.go_on(position, status))
-            self.ended(above, status)
+            status = self.ended(above, self.conditioned(above, above.go_on(position, status)))
             above, below = above.parent, above
             position = above.children.index(below)
         if self.root.kind == PARALLEL:
             above.tally(position, status)
-            return None
+            if self.epoch is None or not self.epoch.is_over:
+                return None
+            self.tick_from(position + 1, len(above.children))
+            return RUNNING
         result: Status = above.go_on(position, status)
         return result
 
-    def tick_from(self, position: int) -> None:
-        """Ticks the children of a slice of a ParallelAll from a position on."""
-        for index in range(position, self.base + len(self.root.children)):
+    def tick_from(self, start: int, end: int) -> None:
+        """Ticks children of a ParallelAll, from one position to before another one."""
+        for index in range(start, end):
             self.node.tally(index, self.node.ticks[index]())
 
 

@@ -11,6 +11,9 @@ from typing import Final, NamedTuple
 
 from tree_gardener.generated import syntax
 from tree_gardener.generated.parts import (
+    AFTER_FAILURE,
+    AFTER_SUCCESS,
+    ASK_BEFORE,
     BEHAVIOUR,
     BUNDLE,
     CALL,
@@ -20,6 +23,8 @@ from tree_gardener.generated.parts import (
     DECIDING,
     END,
     FINISH,
+    IF_AFTER,
+    IF_BEFORE,
     IMMEDIATE,
     INITIALISE,
     NODE,
@@ -49,12 +54,13 @@ from tree_gardener.generated.syntax import Statements, call, do, give, leave, le
 FIXED: Final = (
     *("IDLE", "RUNNING", "SUCCESS", "FAILURE", "PY_SUCCESS", "PY_FAILURE", "PY_RUNNING", "RAISED"),
     *("UNTICKED", "REST", "RECOVER", "FLUSH", "TOUCHED", "RESULTS", "CURRENT", "CLOCK", "TREE"),
+    *("UNCHANGED", "EPOCH"),
 )
 """The parameters that regions share; those that a region does not use are left out."""
 FIRST_LINE: Final = 2
 """The line of the first value. Line 1 is that of the function."""
 ATTRIBUTES: Final = frozenset(
-    ("failure", "marks", "reported", "running", "skips", "slowest", "status", "success", "ticks"),
+    ("failure", "is_over", "marks", "reported", "running", "skips", "slowest", "status", "success", "ticks"),
 )
 VARIABLES: Final = frozenset(("duration", "error", "kept", "result", "returned", "start"))
 """The variables, except ``ticks0``, ``ticks1`` … for the nodes whose children are called."""
@@ -205,7 +211,7 @@ class Writer:
         """Returns the statements for a slice of a ParallelAll whose children are RUNNING."""
         body: Statements = []
         for child in root.children:
-            unticked: Statements = [do(self.rest(child, NODE, self.fixed("UNTICKED")))]
+            unticked = self.in_parallel(self.rest(child, NODE, self.fixed("UNTICKED")))
             if child.kind is CALL:
                 body += [*self.unmark(), *unticked]
                 continue
@@ -215,11 +221,18 @@ class Writer:
             running = [
                 *self.begin_leaf(child),
                 let("returned", self.called(child, UPDATE)),
-                when(other, [do(rest)], usual),
+                when(other, self.in_parallel(rest), usual),
             ]
             is_running = syntax.same(self.attribute(child, "status"), self.fixed("RUNNING"))
             body.append(when(is_running, running, unticked))
         return [*body, *self.unmark(), give()]
+
+    def in_parallel(self, rest: ast.Call) -> Statements:
+        """Returns the call that continues with a child outside of the function.
+
+        If nodes ask a debugger, it may tick the other children, too.
+        """
+        return [when(rest, [give(self.fixed("RUNNING"))])] if self.variant.asks else [do(rest)]
 
     # -- children ---------------------------------------------------------------------------------------
 
@@ -237,6 +250,7 @@ class Writer:
         if is_careful:
             busy = syntax.other(self.attribute(part, "status"), self.fixed("IDLE"))
             body.append(when(busy, [give(self.rest(part, NODE, self.fixed("UNTICKED")))]))
+        body += self.asked_before(part)
         if part.kind not in COMPOSITES:
             return [*body, *self.begin_leaf(part), *self.before(part), *self.leaf(part, goes)]
         if part.is_guarded:
@@ -253,7 +267,13 @@ class Writer:
         other = syntax.other(load("result"), self.fixed(goes))
         ends = syntax.same(load("result"), self.fixed(OTHER[goes]))
         rest = give(self.rest(part, NODE, load("result")))
-        return [*self.unmark(), let("result", call(ticked)), when(other, [when(ends, [leave()], [rest])])]
+        is_over = syntax.attribute(self.fixed("EPOCH"), "is_over") if self.variant.asks else None
+        return [
+            *self.unmark(),
+            let("result", call(ticked)),
+            *([when(is_over, [rest])] if is_over is not None else []),
+            when(other, [when(ends, [leave()], [rest])]),
+        ]
 
     def leaf(self, part: Part, goes: str) -> Statements:
         """Returns the statements that tick a leaf."""
@@ -298,7 +318,7 @@ class Writer:
             body.append(do(call(self.fixed("FLUSH"), number(FIRST_LINE + part.place(NODE)))))
         if status != goes or not part.is_bundled:
             body += self.mark(part, status)
-        body += [*self.after(part, status), *self.time(part)]
+        body += self.after(part, status)
         if status != goes:
             body += [let("result", self.fixed(status)), leave()]
         return body
@@ -316,10 +336,33 @@ class Writer:
         return body
 
     def after(self, part: Part, status: str) -> Statements:
-        """Returns the calls of a node's post-conditions, and its count."""
+        """Returns the calls of a node's post-conditions, its time if it is a leaf, and its count."""
         own = ON_SUCCESS if status == S else ON_FAILURE
         calls = [do(self.called(part, letter)) for letter in (own, POST) if letter in part.has]
-        return [*calls, *self.count(part, status.lower())]
+        time = [] if part.kind in COMPOSITES else self.time(part)
+        return [*calls, *time, *self.asked_after(part, status), *self.count(part, status.lower())]
+
+    def asked_before(self, part: Part) -> Statements:
+        """Returns the question to a debugger before a node's tick."""
+        if ASK_BEFORE not in part.has:
+            return []
+        rest = give(self.rest(part, ASK_BEFORE, self.fixed("UNTICKED")))
+        return self.tested(part, IF_BEFORE, [when(self.called(part, ASK_BEFORE), [rest])])
+
+    def asked_after(self, part: Part, status: str) -> Statements:
+        """Returns the question to a debugger after a node's result."""
+        letter = AFTER_SUCCESS if status == S else AFTER_FAILURE
+        if letter not in part.has:
+            return []
+        asked = let("returned", self.called(part, letter))
+        changed = syntax.other(load("returned"), self.fixed("UNCHANGED"))
+        rest = give(self.rest(part, letter, load("returned")))
+        return self.tested(part, IF_AFTER, [asked, when(changed, [rest])])
+
+    def tested(self, part: Part, letter: str, question: Statements) -> Statements:
+        """Returns a question that is asked only if the condition of its breakpoints is true."""
+        question = [*self.unmark(), *question]
+        return [when(self.called(part, letter), question)] if letter in part.has else question
 
     def count(self, part: Part, result: str) -> Statements:
         """Returns the count of a result."""

@@ -5,13 +5,14 @@ What the world publishes or receives itself is taken where it is made (`executor
 
 from __future__ import annotations
 
+import time
 from typing import TYPE_CHECKING, Any, Final
 
 from rclpy.node import Node
 
 from executor.recorder.definitions import DefinitionError, full_text
 from executor.ros.raw_subscription import DEPTH, LARGE_TYPES, subscribe_raw
-from executor.ros.raw_take import take
+from executor.ros.raw_take import take_with_info
 from executor.ros.values import message_type
 
 if TYPE_CHECKING:
@@ -19,9 +20,10 @@ if TYPE_CHECKING:
 
     from rclpy.context import Context
 
-__all__ = ["GraphTap"]
+__all__ = ["GraphTap", "share_after"]
 
 LOOK_S: Final = 0.5
+POLL_S: Final = 0.1
 MOST_TOPICS: Final = 64
 NODE: Final = "_bt_studio_recorder"
 """The name of a hidden node: users did not start it, so their lists of nodes do not show it."""
@@ -34,7 +36,8 @@ class GraphTap:
     Args:
         context: the context of the ROS graph.
         own: the names of topics that are recorded elsewhere.
-        write: is called with the topic, the type and the message as CDR.
+        write: is called with the topic, the type, the message as CDR, and when it was sent: the share of the
+            time since the last look that has passed after it, from 0 to 1.
         note: is called once with a sentence for each topic that is not recorded.
     """
 
@@ -42,7 +45,7 @@ class GraphTap:
         self,
         context: Context,
         own: Collection[str],
-        write: Callable[[str, str, bytes], None],
+        write: Callable[[str, str, bytes, float], None],
         note: Callable[[str], None],
     ) -> None:
         self._node = Node(
@@ -58,18 +61,21 @@ class GraphTap:
         self._subscriptions: dict[str, tuple[str, Any]] = {}
         self._refused: set[str] = set()
         self._look_s = 0.0
+        self._poll_s = 0.0
+        self._polled_ns = time.time_ns()
+
+    def is_due(self, now_s: float) -> bool:
+        """Whether to look for messages: ten times in a second of real time, or always where many come."""
+        return now_s >= self._poll_s
 
     def poll(self, now_s: float) -> None:
         """Takes the messages that have arrived; looks for topics twice a second of real time."""
         if now_s >= self._look_s:
             self._look_s = now_s + LOOK_S
             self._look()
-        for topic, (kind, subscription) in self._subscriptions.items():
-            for _ in range(DEPTH):
-                data = take(subscription)
-                if data is None:
-                    break
-                self._write(topic, kind, data)
+        before_ns, self._polled_ns = self._polled_ns, time.time_ns()
+        most = max((self._take(*each, before_ns) for each in self._subscriptions.items()), default=0)
+        self._poll_s = now_s if most > DEPTH // 4 else now_s + POLL_S
 
     def restart(self) -> None:
         """Subscribes again, so that the recording of another run has the latched messages too."""
@@ -84,6 +90,18 @@ class GraphTap:
         self._node.destroy_node()
 
     # --- inside ---
+
+    def _take(self, topic: str, subscribed: tuple[str, Any], before_ns: int) -> int:
+        """Takes the messages of a topic; returns how many there were."""
+        kind, subscription = subscribed
+        for count in range(DEPTH):
+            taken = take_with_info(subscription)
+            if taken is None:
+                return count
+            data, info = taken
+            share = share_after(info["source_timestamp"], before_ns, self._polled_ns)
+            self._write(topic, kind, data, share)
+        return DEPTH
 
     def _look(self) -> None:
         present = {topic for topic, _ in self._node.get_topic_names_and_types()}
@@ -117,3 +135,8 @@ class GraphTap:
         except DefinitionError as error:
             return str(error)
         return ""
+
+
+def share_after(sent_ns: int, before_ns: int, now_ns: int) -> float:
+    """Returns the share of the time between two looks that has passed after a message was sent, 0 to 1."""
+    return min(1.0, max(0.0, (now_ns - sent_ns) / max(1, now_ns - before_ns)))

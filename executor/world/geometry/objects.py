@@ -1,7 +1,8 @@
-"""The scene objects of a world, and functions that return the current poses of objects that move."""
+"""The scene objects of a world, and functions that read where the objects are that move."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -9,13 +10,15 @@ import numpy as np
 from executor.messages import SceneObject, Shape
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
     from executor.world.geometry.transforms import Pose
 
 Kind = Literal["static", "dynamic", "robot", "actor"]
+Where = Callable[[], "Sequence[tuple[int, Pose]]"]
+"""Computes the poses of some objects from what was read before."""
 
 
 class SceneObjects:
@@ -23,7 +26,7 @@ class SceneObjects:
 
     def __init__(self) -> None:
         self.objects: list[SceneObject] = []
-        self._movers: list[Callable[[], Sequence[tuple[int, Pose]]]] = []
+        self._movers: list[Callable[[], Where]] = []
         self._poses = np.zeros((0, 7), np.float32)
 
     def add(self, body: str, link: str, kind: Kind, shapes: list[Shape], pose: Pose) -> int:
@@ -32,9 +35,9 @@ class SceneObjects:
         self.objects.append(SceneObject(object_id, body, link, kind, shapes, list(pose)))
         return object_id
 
-    def add_mover(self, where: Callable[[], Sequence[tuple[int, Pose]]]) -> None:
-        """Adds a function that returns the current poses of some objects."""
-        self._movers.append(where)
+    def add_mover(self, read: Callable[[], Where]) -> None:
+        """Adds a function that reads where some objects are now, and leaves the computing for later."""
+        self._movers.append(read)
 
     def place(self, object_id: int, pose: Pose) -> None:
         """Stores the pose of an object that has no mover."""
@@ -50,11 +53,21 @@ class SceneObjects:
 
     def update(self) -> NDArray[np.float32]:
         """Returns the current poses of all objects in a new array."""
+        self._poses = self.read()()
+        return self._poses
+
+    def read(self) -> Callable[[], NDArray[np.float32]]:
+        """Returns a function that computes the poses of this moment at any later time, in a new array."""
         if len(self._poses) != len(self.objects):
             self._poses = np.array([o.pose for o in self.objects], np.float32).reshape(-1, 7)
-        poses = self._poses.copy()
-        for where in self._movers:
-            for object_id, pose in where():
-                poses[object_id] = pose
-        self._poses = poses
-        return poses
+        before = self._poses  # nobody writes into it
+        found = [read() for read in self._movers]
+
+        def computed() -> NDArray[np.float32]:
+            poses = before.copy()
+            for where in found:
+                for object_id, pose in where():
+                    poses[object_id] = pose
+            return poses
+
+        return computed

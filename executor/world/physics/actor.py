@@ -6,7 +6,7 @@ from dataclasses import astuple
 from typing import TYPE_CHECKING
 
 from executor.world.geometry.person import Part, person_parts
-from executor.world.geometry.transforms import Pose, from_xyz_rpy
+from executor.world.geometry.transforms import from_xyz_rpy
 from executor.world.geometry.walk import Gait, Path, Walker
 from executor.world.physics.bodies import capsule, rgba
 from executor.world.physics.placement import put
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from executor.universes.model import Actor
     from executor.world.engine import Bullet
-    from executor.world.geometry.objects import SceneObjects
+    from executor.world.geometry.objects import SceneObjects, Where
 
 
 class BulletActor:
@@ -71,9 +71,9 @@ class BulletActor:
         ]
         objects.add_mover(lambda: self._where(ids))
 
-    def _where(self, ids: list[tuple[int, Part]]) -> Sequence[tuple[int, Pose]]:
+    def _where(self, ids: list[tuple[int, Part]]) -> Where:
         gait = self._walker.gait
-        return [(object_id, part.pose(gait)) for object_id, part in ids]
+        return lambda: [(object_id, part.pose(gait)) for object_id, part in ids]
 
     def _carry(self) -> None:
         for part, uid in self._solid:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from executor.robots.urdf import Urdf
     from executor.universes.model import Model
     from executor.world.engine import Bullet
-    from executor.world.geometry.objects import Kind, SceneObjects
+    from executor.world.geometry.objects import Kind, SceneObjects, Where
 
 Links = tuple["Urdf", dict[str, "Mesh"]]
 
@@ -72,7 +72,7 @@ class Assembly:
         """Adds the visual shapes of the assembly to the scene."""
         kind: Kind = "dynamic" if self.is_dynamic else "static"
         self._ids = add_links(self._model.id, self._urdf, self._model.file, objects, kind)
-        for object_id, pose in self._where():
+        for object_id, pose in self._where()():
             objects.place(object_id, pose)
         if self.is_dynamic:
             objects.add_mover(self._where)
@@ -80,19 +80,21 @@ class Assembly:
     def move_body(self, pose: Pose, objects: SceneObjects) -> None:
         """Sets the pose of the root; the joints do not change."""
         put_at_rest(self._bullet, self.uid, compose(pose, self._inertial))
-        for object_id, link in self._where():
+        for object_id, link in self._where()():
             objects.place(object_id, link)
 
     # --- inside ---
 
-    def _where(self) -> Sequence[tuple[int, Pose]]:
+    def _where(self) -> Where:
         position, orientation = self._bullet.getBasePositionAndOrientation(self.uid)
-        base = compose((*position, *orientation), inverse(self._inertial))
         states = self._bullet.getJointStates(self.uid, list(self._joints.values())) if self._joints else ()
-        positions = {name: state[0] for name, state in zip(self._joints, states, strict=True)}
-        return [
-            (object_id, link_pose(self._urdf, base, link, positions)) for link, object_id in self._ids.items()
-        ]
+
+        def computed() -> Sequence[tuple[int, Pose]]:
+            base = compose((*position, *orientation), inverse(self._inertial))
+            positions = {name: state[0] for name, state in zip(self._joints, states, strict=True)}
+            return [(id_, link_pose(self._urdf, base, link, positions)) for link, id_ in self._ids.items()]
+
+        return computed
 
     def _free_joints(self) -> dict[str, int]:
         names = {}

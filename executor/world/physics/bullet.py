@@ -9,7 +9,7 @@ from executor.messages import Light, Mesh, Scene, SensorPlacement
 from executor.robots.config import RobotConfig, load_robot
 from executor.world.engine import Bullet
 from executor.world.geometry.kinematics import mesh_key
-from executor.world.geometry.objects import Kind, SceneObjects
+from executor.world.geometry.objects import Kind, SceneObjects, Where
 from executor.world.geometry.transforms import Pose, compose, from_xyz_rpy
 from executor.world.interface import WorldError
 from executor.world.physics import ceiling
@@ -263,6 +263,12 @@ class BulletWorld:
             self._poses = self._objects.update()
         return self._poses
 
+    def read_poses(self) -> Callable[[], NDArray[np.float32]]:
+        """Returns a function that computes the present poses at any later time."""
+        if (poses := self._poses) is not None:
+            return lambda: poses
+        return self._objects.read()
+
     def move_body(self, body: str, pose: Sequence[float]) -> None:
         """Moves a model or a robot to the pose [x, y, z, roll, pitch, yaw]."""
         wanted = from_xyz_rpy(pose)
@@ -399,9 +405,9 @@ class BulletWorld:
         self._content.names[made.uid] = model.id
         self._rays.add_body(made.uid)
 
-    def _where(self, object_id: int, uid: int) -> Sequence[tuple[int, Pose]]:
+    def _where(self, object_id: int, uid: int) -> Where:
         position, orientation = self._bullet.getBasePositionAndOrientation(uid)
-        return [(object_id, (*position, *orientation))]
+        return lambda: [(object_id, (*position, *orientation))]
 
     def _make_scene(self) -> Scene:
         sensors: list[SensorPlacement] = []

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from executor.robots.config import Battery, Camera, Imu, Lidar, RobotConfig
     from executor.universes.model import RobotPlace
     from executor.world.engine import Bullet
-    from executor.world.geometry.objects import SceneObjects
+    from executor.world.geometry.objects import SceneObjects, Where
     from executor.world.interface import LidarReading
     from executor.world.sensing.battery import BatteryReading
     from executor.world.sensing.bumper import Zone
@@ -297,10 +297,12 @@ class BulletRobot:
                 if contact[8] <= TOUCH_M and contact[3] not in self._wheel_links:
                     yield contact
 
-    def _where(self, ids: dict[str, int]) -> Sequence[tuple[int, Pose]]:
+    def _where(self, ids: dict[str, int]) -> Where:
         base, positions = self.base_pose, self._positions()
         urdf = self.config.urdf
-        return [(object_id, link_pose(urdf, base, link, positions)) for link, object_id in ids.items()]
+        return lambda: [
+            (object_id, link_pose(urdf, base, link, positions)) for link, object_id in ids.items()
+        ]
 
     def _pose_of(self, link: str, base: Pose | None = None) -> Pose:
         carrier, offset = self._carriers.get(link) or self._find_carrier(link)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Final
 
 import msgspec
@@ -11,6 +12,8 @@ from executor.messages import Poses
 from executor.stream.pose_codec import POSE_BYTES, pack
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
 __all__ = ["POSES_HZ", "PoseTrack"]
@@ -22,48 +25,54 @@ _encode = msgspec.msgpack.Encoder().encode
 
 
 class PoseTrack:
-    """Notes which poses changed, in the form of the stream's frames.
+    """Notes poses, and finds those that changed, in the form of the stream's frames.
 
-    A pose is compared with the one that was noted last, so that slow ones are not lost.
+    A pose is compared with the one that was written last, so that slow ones are not lost. They are to be
+    noted next at the simulated time `next_s`.
     """
 
     def __init__(self) -> None:
-        self._noted: NDArray[np.float32] | None = None
-        self._next_s = 0.0
-        self._times_s: list[float] = []
-        self._rows: list[NDArray[np.intp]] = []
-        self._poses: list[NDArray[np.float32]] = []
+        self._written: NDArray[np.float32] | None = None
+        self.next_s = -math.inf
+        self._noted: list[tuple[float, Callable[[], NDArray[np.float32]]]] = []
 
-    def is_due(self, now_s: float) -> bool:
-        """Whether the poses are to be noted at a simulated time."""
-        return self._noted is None or now_s >= self._next_s
-
-    def note(self, now_s: float, poses: NDArray[np.float32]) -> None:
-        """Notes the rows [x, y, z, qx, qy, qz, qw] that changed; at first all of them."""
-        self._next_s = max(self._next_s + 1.0 / POSES_HZ, now_s) - SLACK_S
-        noted = self._noted
-        if noted is None:
-            self._noted = poses.copy()
-            rows = np.arange(len(poses))
-        else:
-            rows = (np.abs(poses - noted) > MOVED_M).any(axis=1).nonzero()[0]
-            if not len(rows):
-                return
-            noted[rows] = poses[rows]
-        self._times_s.append(now_s)
-        self._rows.append(rows)
-        self._poses.append(poses[rows])
+    def note(self, now_s: float, poses: Callable[[], NDArray[np.float32]]) -> None:
+        """Notes what computes the rows [x, y, z, qx, qy, qz, qw] of all objects at this moment."""
+        self.next_s = max(self.next_s + 1.0 / POSES_HZ, now_s) - SLACK_S
+        self._noted.append((now_s, poses))
 
     def take(self) -> list[tuple[float, bytes]]:
-        """Removes and returns what was noted: times in s, and frames `poses` of the stream."""
-        if not self._times_s:
+        """Removes what was noted; returns the times in s, and frames `poses` of the stream.
+
+        A frame holds the poses that changed; the first one holds all.
+        """
+        times_s: list[float] = []
+        rows: list[NDArray[np.intp]] = []
+        changed: list[NDArray[np.float32]] = []
+        for now_s, compute in self._noted:
+            poses = compute()
+            moved = self._moved(poses)
+            if len(moved):
+                times_s.append(now_s)
+                rows.append(moved)
+                changed.append(poses[moved])
+        self._noted = []
+        if not times_s:
             return []
-        packed = pack(np.concatenate(self._poses))
+        packed = pack(np.concatenate(changed))
         found, start = [], 0
-        for time_s, rows in zip(self._times_s, self._rows, strict=True):
-            end = start + len(rows) * POSE_BYTES
-            ids = rows.astype("<u2").tobytes()
+        for time_s, moved in zip(times_s, rows, strict=True):
+            end = start + len(moved) * POSE_BYTES
+            ids = moved.astype("<u2").tobytes()
             found.append((time_s, _encode(Poses(t=time_s, ids=ids, poses=packed[start:end]))))
             start = end
-        self._times_s, self._rows, self._poses = [], [], []
         return found
+
+    def _moved(self, poses: NDArray[np.float32]) -> NDArray[np.intp]:
+        """Returns the rows that differ from those that were written last, and notes them."""
+        if self._written is None:
+            self._written = poses.copy()
+            return np.arange(len(poses))
+        moved: NDArray[np.intp] = (np.abs(poses - self._written) > MOVED_M).any(axis=1).nonzero()[0]
+        self._written[moved] = poses[moved]
+        return moved

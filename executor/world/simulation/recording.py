@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final, Protocol
 import msgspec
 
 from executor.messages import Camera
-from executor.recorder.link import Dump, Heard, Record, RecorderLink
+from executor.recorder.link import Dump, Heard, Record, RecorderLink, Until
 from executor.recorder.thinning import Thinner, Verdict
 from executor.recorder.writer import nanoseconds
 from executor.world.simulation.pose_track import PoseTrack
@@ -35,9 +35,15 @@ class Tap(Protocol):
     def jpeg(self, topic: str, jpeg: bytes, now_s: float, frame_id: str) -> None:
         """Takes one picture."""
 
+    def flush(self) -> None:
+        """Writes what was taken."""
+
 
 class GraphTap(Protocol):
     """Takes messages of topics that others publish."""
+
+    def is_due(self, now_s: float) -> bool:
+        """Whether messages may have arrived."""
 
     def poll(self, now_s: float) -> None:
         """Takes the messages that have arrived; the time is real time in s."""
@@ -53,7 +59,10 @@ class MakeGraphTap(Protocol):
     """Makes a tap of a graph."""
 
     def __call__(
-        self, own: Collection[str], write: Callable[[str, str, bytes], None], note: Callable[[str], None]
+        self,
+        own: Collection[str],
+        write: Callable[[str, str, bytes, float], None],
+        note: Callable[[str], None],
     ) -> GraphTap:
         """Returns a new tap."""
 
@@ -84,17 +93,21 @@ class WorldRecorder:
         self._graph_tap: GraphTap | None = None
         self._poses = PoseTrack()
         self._dump_s = 0.0
+        self._real_s = 0.0
+        self._polled_s = 0.0
 
     def join(self, make_graph_tap: MakeGraphTap) -> None:
         """Records the topics that others publish too, once a run has begun.
 
         The arguments of the function are the names of the topics that are recorded already, a function that
-        writes topic, type and message, and one that notes a sentence.
+        writes topic, type, message and the share of the time since the last look that has passed after it,
+        and one that notes a sentence.
         """
         self._make_graph_tap = make_graph_tap
 
     def begin(self, run: str) -> None:
         """Begins the recording of a run."""
+        self._tap.flush()  # it belongs to the run before
         self._thinner = Thinner()
         self._node.tap(self._tap, samples=True)
         if self._graph_tap is not None:
@@ -103,16 +116,18 @@ class WorldRecorder:
 
     def look(self, real_s: float) -> None:
         """Sends all that is due."""
+        self._real_s = real_s
         self._link.pump()
         if not self._link.is_recording:
+            self._tap.flush()  # nobody takes it
             return
         now_s = self._world.time_s
-        if self._poses.is_due(now_s):
-            self._poses.note(now_s, self._world.poses())
+        if now_s >= self._poses.next_s:
+            self._poses.note(now_s, self._world.read_poses())
         if self._graph_tap is None and self._make_graph_tap is not None:
             self._graph_tap = self._make_graph_tap(self._node.topics, self._foreign, self._note)
-        if self._graph_tap is not None:
-            self._graph_tap.poll(real_s)
+        if self._graph_tap is not None and self._graph_tap.is_due(real_s):
+            self._poll_graph()
         if now_s >= self._dump_s:
             self._dump_s = now_s + KEYFRAME_S
             step = round(now_s / self._world.step_s)
@@ -136,11 +151,19 @@ class WorldRecorder:
         scene = {"stamp": nanoseconds(now_s), "data": _encode(self._world.scene)}
         self._link.send(Record("/world/scene", "Scene", scene))
         self._poses = PoseTrack()  # time may have gone back
-        self._poses.note(now_s, self._world.poses())
+        self._poses.note(now_s, self._world.read_poses())
 
-    def _gathered(self) -> Iterator[Record]:
+    def _gathered(self) -> Iterator[Record | Until]:
+        self._tap.flush()
+        self._poll_graph()
         for time_s, frame in self._poses.take():
             yield Record("/world/poses", "Poses", {"stamp": nanoseconds(time_s), "data": frame})
+        yield Until(nanoseconds(self._world.time_s))
+
+    def _poll_graph(self) -> None:
+        if self._graph_tap is not None:
+            self._graph_tap.poll(self._real_s)
+            self._polled_s = self._world.time_s
 
     def _topic(self, topic: str, kind: str, now_s: float, data: bytes) -> None:
         is_picture = topic.endswith("/compressed")
@@ -150,8 +173,9 @@ class WorldRecorder:
         if verdict.is_kept:
             self._link.send(Heard(topic, kind, nanoseconds(now_s), data))
 
-    def _foreign(self, topic: str, kind: str, data: bytes) -> None:
-        self._topic(topic, kind, self._world.time_s, data)
+    def _foreign(self, topic: str, kind: str, data: bytes, late: float) -> None:
+        now_s = self._world.time_s
+        self._topic(topic, kind, now_s - late * max(0.0, now_s - self._polled_s), data)
 
     def _note(self, text: str) -> None:
         fields = {"source": "world", "level": "warning", "text": text, "uid": 0}

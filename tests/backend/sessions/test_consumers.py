@@ -84,6 +84,7 @@ def test_text_and_bytes_go_both_ways_verbatim(relay, session):
         hello = json.loads(socket.recv())
         assert hello["path"] == "/control?client=c1"
         assert hello["authorization"].startswith("Bearer ")
+        assert not hello["user"]  # without accounts nobody has a name
         assert socket.subprotocol == "bt-studio.v1"
         for message in ("", "ä€", "x" * 300_000, b"", b"\x00\xff", bytes(3_000_000)):
             socket.send(message)

@@ -6,8 +6,8 @@ import secrets
 
 import pytest
 
-from executor.application.recording import RESET_S, ApplicationRecorder
-from executor.recorder.link import Mark, Record
+from executor.application.recording import MOST_TICKS, RESET_S, ApplicationRecorder
+from executor.recorder.link import BATCH_S, Mark, Record, Until
 from executor.recorder.sources import listen, take_source
 from tree_gardener import Tree
 
@@ -84,3 +84,28 @@ def test_where_time_never_goes_back_a_run_begins_after_a_while():
         assert next(source.messages()) == Mark("a1")
         source.connection.close()
         recorder.close()
+
+
+def test_ticks_are_written_with_a_batch_or_when_many_wait():
+    address = f"bt-studio-test-{secrets.token_hex(8)}"
+    with listen(address) as listener:
+        tree = Tree.from_xml(XML)
+        real = [100.0]
+        recorder = ApplicationRecorder(tree, lambda: 2.0, address, lambda: real[0])
+        recorder.begin("a1")
+        source = take_source(listener)
+        assert source is not None
+        recorder.pump()
+        list(source.messages())
+        for _ in range(MOST_TICKS + 1):
+            tree.tick_exactly_once()
+            recorder.pump()
+        assert list(source.messages()) == []
+        real[0] += BATCH_S
+        recorder.pump()
+        messages = list(source.messages())
+        source.connection.close()
+        recorder.close()
+    numbers = [m.fields["number"] for m in messages if isinstance(m, Record) and m.name == "Tick"]
+    assert numbers == list(range(1, MOST_TICKS + 2))
+    assert messages[-1] == Until(2_000_000_000)

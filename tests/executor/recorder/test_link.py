@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
-from executor.recorder.link import RETRY_S, Heard, Mark, RecorderLink
+from executor.recorder.link import BATCH_S, RETRY_S, Heard, Mark, RecorderLink, Until
 from executor.recorder.sources import BrokenSource, Source, listen, take_source
 
-SOON_S = 0.3
+SOON_S = BATCH_S + 0.05
 
 
 class Ends:
@@ -117,3 +117,27 @@ def test_what_waits_is_flushed_at_the_end(ends):
     assert list(source.messages()) == [heard(7)]
     with pytest.raises(BrokenSource):
         list(source.messages())
+
+
+def test_what_was_held_back_is_gathered_once_for_a_batch_and_ends_with_the_time():
+    address = f"bt-studio-test-{secrets.token_hex(8)}"
+    now_s, held = [100.0], [heard(number, 30_000) for number in range(5)]
+
+    def gathered():
+        while held:
+            yield held.pop(0)
+        yield Until(5)
+
+    with listen(address) as listener:
+        link = RecorderLink(address, lambda: None, lambda: now_s[0], gathered)
+        link.begin("a1")
+        source = take_source(listener)
+        assert source is not None
+        now_s[0] += SOON_S
+        link.pump()
+        link.flush(1.0)
+        found = [m for _ in range(5) for m in source.messages()]
+        link.close()
+        source.connection.close()
+    assert found[:7] == [Mark("a1"), *(heard(number, 30_000) for number in range(5)), Until(5)]
+    assert set(map(type, found[7:])) == {Until}

@@ -32,6 +32,28 @@ def test_a_source_that_is_silent_or_gone_is_not_waited_for():
     assert list(order.ready(1.0)) == [(30, "d")]
 
 
+def test_a_source_without_anything_to_tell_says_how_far_it_has_come():
+    order = Ordering[str]()
+    order.put(5, "b", 2, 0.0)
+    order.put(20, "a", 1, 0.0)
+    assert list(order.ready(0.0)) == [(5, "b")]
+    order.reached(19, 2, 0.1)
+    assert list(order.ready(0.1)) == []
+    order.reached(20, 2, 0.2)
+    assert list(order.ready(0.2)) == [(20, "a")]
+
+
+def test_a_source_is_behind_until_it_tells_something_or_was_silent_for_long():
+    order = Ordering[str]()
+    assert not order.is_behind(1.0, 1.0)
+    order.reached(5, 1, 1.1)
+    order.reached(5, 2, 0.6)
+    assert order.is_behind(1.0, 1.1)
+    assert not order.is_behind(1.0, 0.7 + SILENT_S)
+    order.reached(6, 2, 1.15)
+    assert not order.is_behind(1.0, 1.2)
+
+
 def test_at_the_end_all_are_taken_and_many_do_not_wait(monkeypatch):
     monkeypatch.setattr(ordering, "MOST_WAITING", 10)
     order = Ordering[int]()

@@ -69,3 +69,4 @@ def test_another_user_is_refused(monkeypatch):
         client.connect(f"\0{address}")
         monkeypatch.setattr(os, "getuid", lambda: uid + 1)
         assert take_source(listener) is None
+        assert client.recv(1) == b""  # the connection is closed

@@ -128,6 +128,7 @@ def test_ticks_are_written_after_they_ended_with_their_own_times():
         tree.tick_once()
     now[0] = 9
     assert of(said, "/bt/tick") == []
+    assert recorder.waiting == 2
     recorder.says("info", "afterwards")
     assert [fields["stamp"] for _, _, fields in said[2:]] == [2, 2, 3, 3, 9]
     assert [topic for topic, _, _ in said[2:]] == ["/bt/blackboard", "/bt/tick"] * 2 + ["/bt/log"]

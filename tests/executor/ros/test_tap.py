@@ -9,7 +9,7 @@ from sensor_msgs.msg import CompressedImage, Image
 from std_msgs.msg import Bool
 
 from executor.ros.feed import Coded, Shown
-from executor.ros.tap import TopicTap, kind_of
+from executor.ros.tap import BatchTap, TopicTap, kind_of
 
 
 def taken(*messages):
@@ -63,3 +63,17 @@ def test_a_message_that_is_coded_is_taken_as_it_is():
     assert taken((Coded("tf2_msgs/msg/TFMessage", b"cdr"), 1.0)) == [
         ("/topic", "tf2_msgs/msg/TFMessage", 1.0, b"cdr")
     ]
+
+
+def test_messages_of_a_batch_are_written_together_in_their_order_and_pictures_at_once():
+    said = []
+    tap = BatchTap(lambda *message: said.append(message))
+    tap("/a", Bool(data=True), 1.0)
+    tap("/b", Coded("std_msgs/msg/Bool", b"cdr"), 2.0)
+    picture = Image(height=16, width=32, encoding="rgb8", data=bytes(16 * 32 * 3))
+    tap("/camera/image_raw", Shown(picture, lambda: b"jpeg"), 3.0)
+    assert [topic for topic, *_ in said] == ["/camera/image_raw/compressed"]
+    tap.flush()
+    tap.flush()
+    assert [(topic, now_s) for topic, _, now_s, _ in said[1:]] == [("/a", 1.0), ("/b", 2.0)]
+    assert deserialize_message(said[1][3], Bool) == Bool(data=True)

@@ -84,6 +84,33 @@ def test_all_clients_see_a_flag_at_once_and_a_late_one_too():
     assert play.reply(play.command("flag", text="again", id=flag.id)) == "unknown_flag"
 
 
+def test_a_client_cannot_flag_in_the_name_of_another():
+    play = recorded()
+    play.happens(ClientJoined("c1", "Ada"))
+    play.command("flag", text="mine", user="Grace")
+    play.command("take_over", "c1")
+    play.command("flag", "c1", text="hers", user="Grace")
+    play.command("flag", "c1", text="also hers")
+    play.happens(ClientJoined("c1", "Grace"))  # another user connects as the same client
+    play.command("flag", "c1", text="not Ada's", user="Ada")
+    assert [(f.text, f.user) for f in play.sent("flag")] == [
+        ("mine", "Grace"),  # nobody vouches for this client
+        ("hers", "Ada"),
+        ("also hers", "Ada"),
+        ("not Ada's", "Grace"),
+    ]
+
+
+def test_who_changes_a_flag_becomes_its_user():
+    play = recorded()
+    play.command("flag", text="of Grace", user="Grace")
+    [flag] = play.sent("flag")
+    play.happens(ClientJoined("c1", "Ada"))
+    play.command("take_over", "c1")
+    play.command("flag", "c1", text="changed", id=flag.id)
+    assert [(f.text, f.user) for f in play.session.snapshot().flags] == [("changed", "Ada")]
+
+
 def test_viewers_set_no_flags():
     play = recorded()
     play.happens(ClientJoined("v"))

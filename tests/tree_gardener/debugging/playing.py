@@ -79,9 +79,11 @@ class Everything:
 class DebuggedRun(Run):
     """A run with a player, who does something before each tick or halt."""
 
-    def __init__(self, case: Case, letters: str) -> None:
-        super().__init__(case, is_generated=True, letters=letters, changes=False)
-        self.player = Player(self, case.seed)
+    def __init__(
+        self, case: Case, letters: str, *, player: type[Player] | None = None, changes: bool = False
+    ) -> None:
+        super().__init__(case, is_generated=True, letters=letters, changes=changes)
+        self.player = (player or Player)(self, case.seed)
 
     def tick(self, function: Callable[[], Any]) -> None:
         self.player.between_ticks()
@@ -93,15 +95,23 @@ class Player:
 
     Attributes:
         stops: where the tree was held, with the statuses of all nodes.
+        said: the lines of breakpoints that log.
     """
 
     def __init__(self, run: Run, seed: int) -> None:
         self.run = run
         self.chance = random.Random(seed)  # noqa: S311 - a reproducible case, no secret
         self.stops: list[Seen] = []
-        self.debugger = Debugger(self.hold, say=lambda line: None)
+        self.said: list[str] = []
+        self.debugger = Debugger(self.hold, self.said.append)
         run.tree.debug(self.debugger)
         self.debugger.set_breakpoints(self.breakpoints())
+
+    @property
+    def seen(self) -> tuple[list[Seen], list[str], list[int]]:
+        """The stops, the lines, and the hits of each breakpoint that the user has seen."""
+        breakpoints = self.debugger.breakpoints
+        return self.stops, self.said, [breakpoints.hits(each) for each in breakpoints.all]
 
     def between_ticks(self) -> None:
         """Does something between two ticks."""
@@ -134,11 +144,15 @@ class Player:
         assert all(tree.nodes[b - 1].parent.uid == a for a, b in zip(stop.lead, stop.lead[1:], strict=False))
         self.stops.append((stop.event, stop.uid, stop.tick, self.run.state()))
         self.command(stop)
-        step = chance.choice((*Step, Step.INTO, Step.CONTINUE))
+        step = self.step()
         if step is Step.HOLD:
             debugger.request_hold()
         else:
             debugger.resume(step, chance.choice(tree.nodes).uid)
+
+    def step(self) -> Step:
+        """The way to continue."""
+        return self.chance.choice((*Step, Step.INTO, Step.CONTINUE))
 
     def command(self, stop: Stop) -> None:
         """Does something else at the stop, without an effect on the run."""
@@ -149,34 +163,66 @@ class Player:
             debugger.turn_breakpoints(on=chance.random() < 0.5)
 
 
-def record(case: Case, letters: str) -> tuple[list[Any], Everything]:
+class Waiter(Player):
+    """A debugger's user who leaves breakpoints at many nodes, most of which are not hit."""
+
+    def between_ticks(self) -> None:
+        pass
+
+    def breakpoints(self) -> list[Breakpoint]:
+        nodes, chance = self.run.tree.nodes, self.chance
+        found = []
+        stop = 99 if chance.random() < 0.1 else 0  # the condition that cannot be tested
+        for node in nodes:
+            if chance.random() < 0.5:
+                when = chance.choice(list(When))
+                status = chance.choice(STATUSES) if when is When.RETURNS else None
+                condition = chance.choice(("i0 == 1", "i1 > 2", "i0 < 0", "", "nothing_of_this_name"[:stop]))
+                hits, log = chance.choice((1, 2, 5)), "i0 is {i0}" if chance.random() < 0.7 else ""
+                found.append(Breakpoint(place_of(node), when, status, condition, hits, log))
+        return found
+
+    def command(self, stop: Stop) -> None:
+        pass
+
+    def step(self) -> Step:
+        return self.chance.choice((Step.CONTINUE, Step.CONTINUE, Step.INTO, Step.OVER, Step.OUT))
+
+
+def record(case: Case, letters: str, *, changes: bool = False) -> tuple[list[Any], Everything]:
     """Runs a case by the nodes' own methods under an agent that every node asks."""
-    run = Run(case, is_generated=False, letters=letters, changes=False)
+    run = Run(case, is_generated=False, letters=letters, changes=changes)
     agent = Everything(run)
     run.tree.debug(agent)
     return run.run(), agent
 
 
-def compare(case: Case, letters: str) -> int:
+def compare(
+    case: Case, letters: str, *, player: type[Player] = Player, changes: bool = False, is_exact: bool = False
+) -> int:
     """Compares a run without a debugger, one that asks everywhere, and one with stops; counts the stops.
 
     Raises:
         AssertionError: the runs differ.
     """
-    plain = Run(case, is_generated=False, letters=letters, changes=False).run()
-    recorded, agent = record(case, letters)
+    plain = Run(case, is_generated=False, letters=letters, changes=changes).run()
+    recorded, agent = record(case, letters, changes=changes)
     _same(case, plain, recorded)
-    run = DebuggedRun(case, letters)
-    player = run.player
+    run = DebuggedRun(case, letters, player=player, changes=changes)
     _same(case, plain, run.run())
     rest = iter(agent.seen)
-    for stop in player.stops:
+    for stop in run.player.stops:
         assert any(stop == seen for seen in rest), f"seed {case.seed}: no node was at {stop}\n{case.xml()}"
+    if is_exact:
+        by_methods = DebuggedRun(case, letters, player=player, changes=changes)
+        by_methods.tree.generate_code(on=False)
+        by_methods.run()
+        assert run.player.seen == by_methods.player.seen, f"seed {case.seed}:\n{case.xml()}"
     if case.mode == "exactly_once" and "H" not in letters:
         _foreseen(case, agent)
     run.tree.debug(None)
     assert all(type(node.guard).__name__ != "AskingGuard" for node in run.tree.nodes)
-    return len(player.stops)
+    return len(run.player.stops)
 
 
 def _same(case: Case, expected: list[Any], found: list[Any]) -> None:

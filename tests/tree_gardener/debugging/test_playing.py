@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -16,9 +17,14 @@ from tree_gardener.conformance import cases as cases_module
 from tree_gardener.conformance import run_file
 from tree_gardener.debugging import Breakpoint, Debugger, Stop, When, place_of
 from tree_gardener.debugging.forces import Forces
+from tree_gardener.debugging.wiring import Wiring
+from tree_gardener.generated import generation
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from tests.tree_gardener.fuzz.generate import Case
+    from tree_gardener.node import Node
 
 CASES = Path(__file__).parents[2] / "conformance"
 CORPUS = ("focused.jsonl", "throws.jsonl", "timed.jsonl", "added.jsonl", "random.jsonl")
@@ -29,6 +35,42 @@ CORPUS = ("focused.jsonl", "throws.jsonl", "timed.jsonl", "added.jsonl", "random
 def test_stops_change_nothing(letters: str) -> None:
     stops = sum(playing.compare(case, letters) for case in cases(1, count("debugger_continues_trees")))
     assert stops >= 5 * count("debugger_continues_trees")
+
+
+@pytest.mark.timeout(3600)
+@pytest.mark.parametrize(("letters", "changes"), [(USUAL, True), (RARE, False)])
+def test_breakpoints_in_generated_code_change_nothing_and_stop_where_the_methods_do(
+    letters: str, *, changes: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = _generated_from_the_first_tick(monkeypatch)
+    number = count("debugger_continues_trees")
+    stops = sum(
+        playing.compare(case, letters, player=playing.Waiter, changes=changes, is_exact=True)
+        for case in cases(1, number)
+    )
+    assert stops >= number // 2
+    assert asked[True] + asked[False] >= number // 10
+
+
+def _generated_from_the_first_tick(monkeypatch: pytest.MonkeyPatch) -> Counter[bool]:
+    """Generates code before the first tick already; counts what it asks, and whether it was left then."""
+    monkeypatch.setattr(generation, "WARM_TICKS", -1)
+    monkeypatch.setattr(generation, "BUDGET_S", math.inf)
+    asked = Counter[bool]()
+    own = Wiring.asking_before
+
+    def asking_before(wiring: Wiring, node: Node) -> Callable[[], bool]:
+        ask = own(wiring, node)
+
+        def asks() -> bool:
+            is_left = ask()
+            asked[is_left] += 1
+            return is_left
+
+        return asks
+
+    monkeypatch.setattr(Wiring, "asking_before", asking_before)
+    return asked
 
 
 @pytest.mark.timeout(1800)

@@ -13,6 +13,8 @@ from hypothesis import strategies as st
 
 from tests.tree_gardener.trees import Succeeding, load
 from tree_gardener import LoadError, Tree
+from tree_gardener.debugging import Debugger
+from tree_gardener.debugging.wiring import RESULTS, Wanted, Wiring
 from tree_gardener.generated import code
 from tree_gardener.generated.parts import Planner, Variant
 from tree_gardener.generated.syntax import NODES
@@ -31,7 +33,9 @@ HOSTILE = (
     "é {} %s \u2028",
     "lambda: eval",
 )
-VARIANTS = [Variant(*(bool(number & bit) for bit in (1, 2, 4, 8))) for number in range(16) if number & 6 != 4]
+VARIANTS = [
+    Variant(*(bool(number & bit) for bit in (1, 2, 4, 8, 16))) for number in range(32) if number & 6 != 4
+]
 BODY = (
     "<Sequence name={name} _skipIf={test} _post={script}><Fallback><ScriptCondition code={test} name={name}/>"
     '<Succeeding name={name} port={literal} _failureIf={test}/><Sleep msec="1"/></Fallback>'
@@ -44,6 +48,18 @@ class Ported(Succeeding):
     """A leaf that takes any text."""
 
     INPUT_PORTS = {"port": str}  # noqa: RUF012 - as users write
+
+
+class Asked(Debugger):
+    """A debugger that is asked round the tick of each node."""
+
+    def __init__(self) -> None:
+        super().__init__(lambda stop: None)
+
+    def attach(self, wiring: Wiring) -> None:
+        super().attach(wiring)
+        wanted = Wanted(before=True, results=RESULTS, halted=True, tests=(lambda: True,))
+        wiring.choose({node.uid: wanted for node in wiring.tree.nodes})
 
 
 def tree_of(text: str) -> Tree:
@@ -105,8 +121,14 @@ def assert_safe(tree: Tree, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize("text", HOSTILE)
-def test_hostile_documents_get_into_no_source(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert_safe(tree_of(text), monkeypatch)
+@pytest.mark.parametrize("is_debugged", [False, True])
+def test_hostile_documents_get_into_no_source(
+    text: str, *, is_debugged: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tree = tree_of(text)
+    if is_debugged:
+        tree.debug(Asked())
+    assert_safe(tree, monkeypatch)
 
 
 @given(st.text(alphabet="ab_'\"\n\x00\ud800(){}\\;.", max_size=12))
@@ -124,7 +146,9 @@ def test_random_documents_get_into_no_source(text: str) -> None:
 def test_every_variant_is_harmless_and_each_value_has_its_line(variant: Variant) -> None:
     tree = tree_of("text")
     tree.observe(lambda changes: None)
-    planner = Planner(variant, tree.count_results() if variant.counts else None, lambda node: False)
+    tree.debug(Asked())
+    wiring = tree._hooks.wiring
+    planner = Planner(variant, tree.count_results() if variant.counts else None, lambda node: False, wiring)
     waiting = [tree.nodes[0]]
     while waiting:
         regions = planner.regions(waiting.pop())

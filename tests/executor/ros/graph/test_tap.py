@@ -13,7 +13,8 @@ from sensor_msgs.msg import Image
 from std_msgs.msg import Int32, String
 
 from executor.ros.graph import tap as graph_tap
-from executor.ros.graph.tap import GraphTap
+from executor.ros.graph.tap import GraphTap, share_after
+from executor.ros.raw_subscription import DEPTH
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -25,7 +26,7 @@ class Taken:
     """A tap, and what it took."""
 
     def __init__(self, context: Context) -> None:
-        self.messages: list[tuple[str, str, bytes]] = []
+        self.messages: list[tuple[str, str, bytes, float]] = []
         self.notes: list[str] = []
         self.now_s = 0.0
         self.tap = GraphTap(context, {"/own"}, lambda *taken: self.messages.append(taken), self.notes.append)
@@ -42,7 +43,7 @@ class Taken:
             time.sleep(0.005)
 
     def texts(self, topic: str) -> list[str]:
-        return [deserialize_message(data, String).data for name, _, data in self.messages if name == topic]
+        return [deserialize_message(data, String).data for name, _, data, _ in self.messages if name == topic]
 
 
 @pytest.fixture
@@ -69,7 +70,7 @@ def test_each_message_of_a_topic_that_appears_is_taken_once_with_its_type(taken:
     taken.poll_until(lambda: len(taken.texts("/chatter")) >= 3)
     taken.poll()
     assert taken.texts("/chatter") == ["a", "b", "c"]
-    assert {(topic, kind) for topic, kind, _ in taken.messages} == {("/chatter", "std_msgs/msg/String")}
+    assert {(topic, kind) for topic, kind, *_ in taken.messages} == {("/chatter", "std_msgs/msg/String")}
     assert own.get_subscription_count() == 0
 
 
@@ -111,3 +112,35 @@ def test_what_cannot_be_recorded_is_noted_once(
     assert taken.notes[1:] == [
         "/one_more is not recorded: a recording holds at most 0 topics of other processes."
     ]
+
+
+@pytest.mark.parametrize(("sent_ns", "share"), [(100, 1.0), (150, 0.75), (300, 0.0), (90, 1.0), (310, 0.0)])
+def test_when_a_message_was_sent_is_a_share_of_the_time_between_two_looks(sent_ns: int, share: float) -> None:
+    assert share_after(sent_ns, 100, 300) == share
+    assert share_after(sent_ns, 300, 300) in {0.0, 1.0}
+
+
+def test_a_message_comes_with_when_it_was_sent(taken: Taken, talker: Node) -> None:
+    publisher = talker.create_publisher(String, "/chatter", 10)
+    taken.poll_until(publisher.get_subscription_count)
+    for text in "ab":
+        publisher.publish(String(data=text))
+    taken.poll_until(lambda: len(taken.texts("/chatter")) == 2)
+    shares = [share for *_, share in taken.messages]
+    assert all(0.0 < share <= 1.0 for share in shares)
+
+
+def test_many_messages_are_looked_for_at_every_turn(taken: Taken, talker: Node) -> None:
+    publisher = talker.create_publisher(String, "/chatter", QoSProfile(depth=50))
+    taken.poll_until(publisher.get_subscription_count)
+    taken.poll()
+    assert not taken.tap.is_due(taken.now_s + graph_tap.POLL_S / 2)
+    assert taken.tap.is_due(taken.now_s + graph_tap.POLL_S)
+    most = DEPTH // 4
+
+    def busy() -> bool:
+        for _ in range(most + 10):
+            publisher.publish(String(data="x"))
+        return taken.tap.is_due(taken.now_s)
+
+    taken.poll_until(busy)

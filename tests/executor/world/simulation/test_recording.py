@@ -9,9 +9,9 @@ import msgspec
 
 from executor.child_messages import Frame
 from executor.messages import Camera
-from executor.recorder.link import BATCH_S, Dump, Heard, Mark, Record
+from executor.recorder.link import BATCH_S, Dump, Heard, Mark, Record, Until
 from executor.recorder.sources import listen, take_source
-from executor.ros.tap import TopicTap
+from executor.ros.tap import BatchTap
 from executor.universes import load_builtin
 from executor.world.physics.bullet import BulletWorld
 from executor.world.simulation.recording import KEYFRAME_S, WorldRecorder
@@ -39,9 +39,12 @@ class Others:
         self._note = note
         self.restarts = 0
 
+    def is_due(self, real_s: float) -> bool:
+        return real_s > 1.0  # they are taken with each batch anyway
+
     def poll(self, real_s: float) -> None:
         assert real_s == 0.0
-        self._write("/goal", "std_msgs/msg/String", bytes(30_000))
+        self._write("/goal", "std_msgs/msg/String", bytes(30_000), 0.5)
         if not self.restarts:
             self._note("/depth is not recorded: it is too large.")
             self.restart()
@@ -60,7 +63,7 @@ def test_scene_poses_dumps_and_pictures_are_sent(monkeypatch):
     world = BulletWorld(load_builtin("walled_room"))
     node: Any = Topics()
     with listen(address) as listener:
-        recorder = WorldRecorder(world, node, TopicTap, address)
+        recorder = WorldRecorder(world, node, BatchTap, address)
         recorder.join(Others)
         recorder.look(0.0)
         recorder.begin("a1")
@@ -89,6 +92,13 @@ def test_scene_poses_dumps_and_pictures_are_sent(monkeypatch):
     assert dumps[1] - dumps[0] >= KEYFRAME_S * 1e9
     others = [m for m in messages if isinstance(m, Heard) and m.topic == "/goal"]
     assert sum(len(m.data) for m in others if m.t_ns < 1e9) == 180_000
+    step_ns = 8 * world.step_s * 1e9
+    # Each was sent in the middle between two looks; a full batch has another look at the same time.
+    halves = [round(m.t_ns / step_ns * 2) % 2 for m in others]
+    assert halves.count(1) > halves.count(0)
+    untils = [m.t_ns for m in messages if isinstance(m, Until)]
+    assert untils == sorted(untils)
+    assert untils[-1] == round(world.time_s * 1e9)
     lines = [m.fields for m in messages if isinstance(m, Record) and m.name == "Log"]
     assert [line["text"] for line in lines] == [
         "/depth is not recorded: it is too large.",

@@ -15,7 +15,7 @@ A message with a `request` asks for an answer; the answer repeats that token.
 
 from __future__ import annotations
 
-from typing import Any, Final, TypeVar
+from typing import Any, Final, Literal, TypeVar
 
 import msgspec
 from msgspec import Struct
@@ -23,6 +23,7 @@ from msgspec import Struct
 from executor import messages
 
 Event = TypeVar("Event", bound=Struct)
+DebugStep = Literal["continue", "into", "over", "out", "to"]
 
 
 class Message(Struct, tag_field="type", omit_defaults=True):
@@ -177,7 +178,7 @@ class DescribeType(Asked, tag="describe_type"):
 class StartApplication(Message, tag="start"):
     """Loads the application in `app_dir`, which then waits, paused.
 
-    With `outside`, it uses the time of an outside ROS graph.
+    With `outside`, it uses the time of an outside ROS graph. `breakpoints` are set before the first tick.
     """
 
     app_dir: str
@@ -187,6 +188,7 @@ class StartApplication(Message, tag="start"):
     seed: int = 0
     domain_id: int | None = None
     outside: bool = False
+    breakpoints: messages.SetBreakpoints | None = None
 
 
 class StepTick(Message, tag="step"):
@@ -214,6 +216,37 @@ class SetPort(Asked, tag="set_port"):
     path: str
     port: str
     value: str | None
+
+
+class SetBreakpoints(Asked, tag="set_breakpoints"):
+    """Replaces the breakpoints."""
+
+    wanted: messages.SetBreakpoints
+
+
+class Continue(Asked, tag="continue"):
+    """Continues a held tree; `step` ends at a later event, at the node `uid` for `to`.
+
+    With `off` all breakpoints are switched off. With `pauses` ticks are paused after the one in progress.
+    """
+
+    step: DebugStep = "continue"
+    uid: int = 0
+    path: str = ""
+    off: bool = False
+    pauses: bool = False
+
+
+class ForceResult(Asked, tag="force"):
+    """Forces a result on a node."""
+
+    force: messages.Force
+
+
+class ReleaseForced(Asked, tag="release"):
+    """Ends what is forced on a node, or on all nodes."""
+
+    uid: int | None = None
 
 
 # --- from both ------------------------------------------------------------------------------------
@@ -388,6 +421,20 @@ class PortSet(messages.PortSet, tag_field="type", tag="port_set"):
     """The event `port_set` for clients."""
 
 
+class Held(messages.Held, tag_field="type", tag="held"):
+    """The event `held` for clients."""
+
+
+class Released(Message, tag="released"):
+    """The tree runs on after a hold; if it is `paused`, no tick follows the one in progress."""
+
+    paused: bool = False
+
+
+class Forced(messages.Forced, tag_field="type", tag="forced"):
+    """The event `forced` for clients."""
+
+
 class Fault(messages.Fault, tag_field="type", tag="fault"):
     """The event `fault` for clients."""
 
@@ -441,6 +488,10 @@ ToApplication = (
     | SetTickRate
     | SetBlackboard
     | SetPort
+    | SetBreakpoints
+    | Continue
+    | ForceResult
+    | ReleaseForced
 )
 FromApplication = (
     Beat
@@ -456,6 +507,9 @@ FromApplication = (
     | Tick
     | Blackboard
     | PortSet
+    | Held
+    | Released
+    | Forced
     | Fault
     | Finished
 )
@@ -476,6 +530,10 @@ Request = (
     | DescribeType
     | SetTickRate
     | SetPort
+    | SetBreakpoints
+    | Continue
+    | ForceResult
+    | ReleaseForced
 )
 """Messages that a child answers with `Answer`."""
 

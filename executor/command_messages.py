@@ -7,6 +7,7 @@ from typing import Annotated, Any, Final, Literal
 import msgspec
 from msgspec import Meta, Struct
 
+from executor.debug_messages import Force, Release, SetBreakpoints, StepTo
 from executor.evaluation_events import Evaluate
 
 StreamName = Literal["poses", "scan", "camera", "view"]
@@ -89,7 +90,7 @@ class SetSpeed(Struct, forbid_unknown_fields=True):
 class SetBlackboard(Struct, forbid_unknown_fields=True):
     """Writes an entry of the blackboard; `scope` is the path of a SubTree, "" for the root.
 
-    Only while paused.
+    Only while paused or held.
     """
 
     scope: str
@@ -240,6 +241,14 @@ COMMANDS: Final[dict[str, type[Struct]]] = {
     "disconnect": Empty,
     "set_blackboard": SetBlackboard,
     "set_port": SetPort,
+    "set_breakpoints": SetBreakpoints,
+    "continue_run": Empty,
+    "step_into": Empty,
+    "step_over": Empty,
+    "step_out": Empty,
+    "step_to": StepTo,
+    "force": Force,
+    "release": Release,
     "teleop": Teleop,
     "move_body": MoveBody,
     "subscribe": Subscribe,

@@ -43,7 +43,19 @@ from executor.command_messages import (
     UniverseDocument,
     Unsubscribe,
 )
+from executor.debug_messages import (
+    Breakpoint,
+    Force,
+    Forced,
+    ForcedNode,
+    Held,
+    Release,
+    Released,
+    SetBreakpoints,
+    StepTo,
+)
 from executor.evaluation_events import Evaluate, EvaluationEnded, EvaluationOutcome, EvaluationStarted
+from executor.recording_events import FlagSet, RecordingStopped, Segment, StopReason
 from executor.stream_messages import (
     FRAMES,
     Camera,
@@ -64,6 +76,7 @@ from executor.stream_messages import (
 __all__ = [
     "COMMANDS",
     "FRAMES",
+    "Breakpoint",
     "Camera",
     "CameraPose",
     "ClientMessage",
@@ -75,6 +88,11 @@ __all__ = [
     "EvaluationOutcome",
     "EvaluationStarted",
     "Flag",
+    "FlagSet",
+    "Force",
+    "Forced",
+    "ForcedNode",
+    "Held",
     "LaunchUniverse",
     "Light",
     "Mesh",
@@ -85,18 +103,25 @@ __all__ = [
     "PublishTopic",
     "ReadRecording",
     "RecordingPart",
+    "RecordingStopped",
+    "Release",
+    "Released",
     "RestartNode",
     "Run",
     "RunApplication",
     "Scan",
     "Scene",
     "SceneObject",
+    "Segment",
     "SensorPlacement",
     "SetBlackboard",
+    "SetBreakpoints",
     "SetPort",
     "SetSpeed",
     "SetTickRate",
     "Shape",
+    "StepTo",
+    "StopReason",
     "StreamName",
     "Subscribe",
     "Teleop",
@@ -108,7 +133,9 @@ __all__ = [
 
 PROTOCOL: Final = "bt-studio.v1"
 
-State = Literal["idle", "connected", "universe_ready", "visualization_ready", "application_running", "paused"]
+State = Literal[
+    "idle", "connected", "universe_ready", "visualization_ready", "application_running", "paused", "held"
+]
 Rung = Literal["connect", "launch_universe", "prepare_visualization", "run_application"]
 NodeStatus = Literal["IDLE", "RUNNING", "SUCCESS", "FAILURE", "SKIPPED"]
 LogSource = Literal["action", "world", "manager", "launch"]
@@ -118,7 +145,6 @@ LaunchState = Literal["running", "ended", "failed"]
 FaultKind = Literal["exception", "process", "timeout", "load"]
 PortEffect = Literal["next_tick", "next_start"]
 MismatchCode = Literal["type", "reliability", "durability", "qos"]
-StopReason = Literal["disk_full", "disk_failed", "recorder_died", "recorder_hung"]
 FinishReason = Literal["root_finished", "action_raised", "terminated", "process_died"]
 
 
@@ -387,47 +413,6 @@ class LaunchNodes(Struct):
     nodes: list[LaunchNode]
 
 
-class Segment(Struct):
-    """A part of the recording of a run: 20 s of simulated time, and an MCAP file by itself.
-
-    It is sent again each second while it grows: `bytes` of it can be read then. `complete` tells that it has
-    its end. A new `version` replaces it when old pictures were removed; with 0 `bytes` it is gone.
-    """
-
-    run: str
-    branch: int
-    number: int
-    version: int
-    from_t: float
-    to_t: float
-    bytes: int
-    complete: bool = False
-
-
-class FlagSet(Struct):
-    """A flag of the user was set or changed in a run, at a moment in s; with an empty `text` it is gone."""
-
-    run: str
-    id: str
-    t: float
-    text: str
-    user: str = ""
-
-
-class RecordingStopped(Struct):
-    """The recording of a run stopped at a simulated time in s; the run itself continues.
-
-    What happens from then on is missing: until another recorder has started if it `goes_on`, else to the end
-    of the run. `detail` is the cause as the system tells it.
-    """
-
-    run: str
-    t: float
-    reason: StopReason
-    detail: str
-    goes_on: bool
-
-
 class Snapshot(Struct):
     """The full state for a client that joins late; later events change it."""
 
@@ -457,6 +442,8 @@ class Snapshot(Struct):
     """The flags of the present run."""
     stops: list[RecordingStopped] = []
     """Where recordings of this session stopped."""
+    held: Held | None = None
+    forced: Forced | None = None
 
 
 EVENTS: Final[dict[str, type[Struct]]] = {
@@ -482,6 +469,9 @@ EVENTS: Final[dict[str, type[Struct]]] = {
     "segment": Segment,
     "flag": FlagSet,
     "recording_stopped": RecordingStopped,
+    "held": Held,
+    "released": Released,
+    "forced": Forced,
     "evaluation_started": EvaluationStarted,
     "evaluation_outcome": EvaluationOutcome,
     "evaluation_ended": EvaluationEnded,

@@ -29,9 +29,18 @@ class Limit(NamedTuple):
     what: str
 
 
-TABLE: Final[Mapping[str, Limit]] = {
-    row["name"]: Limit(**row) for row in json.loads(TABLE_PATH.read_text(encoding="utf-8"))["limits"]
-}
+class StatedLimit(NamedTuple):
+    """A limit that other code has as a constant, `module:name`; a test compares both."""
+
+    name: str
+    value: int
+    what: str
+    constant: str
+
+
+_FILE: Final = json.loads(TABLE_PATH.read_text(encoding="utf-8"))
+TABLE: Final[Mapping[str, Limit]] = {row["name"]: Limit(**row) for row in _FILE["limits"]}
+RECORDINGS: Final = tuple(StatedLimit(**row) for row in _FILE["recordings"])
 
 NODES_PER_TREE: Final = TABLE["nodes_per_tree"].value
 NODES_PER_PROJECT: Final = TABLE["nodes_per_project"].value

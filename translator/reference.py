@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 from translator.diagnostic import rules
-from translator.limits import TABLE, Limit, megabytes
+from translator.limits import RECORDINGS, TABLE, Limit, StatedLimit, megabytes
 from translator.schema import SCHEMAS, json_schema
 
 FOLDER = Path(__file__).resolve().parents[1] / "docs" / "reference"
@@ -70,11 +70,21 @@ def limits_page() -> str:
         "| limit | of |",
         "| --- | --- |",
         *(f"| {_shown(row)} | {row.what} |" for row in TABLE.values()),
+        "",
+        "## Recordings and kept runs",
+        "",
+        "All kept runs of a user together have the quota `BT_STUDIO_MAX_USER_RUN_BYTES`. A recording has",
+        "[its own bounds](recording.md), too. A server for a team reads no logs of robots, since nothing of",
+        "a user's file is parsed outside of a container there: `bt-studio convert` does it elsewhere.",
+        "",
+        "| limit | of |",
+        "| --- | --- |",
+        *(f"| {_shown(row)} | {row.what} |" for row in RECORDINGS),
     ]
     return "\n".join(lines) + "\n"
 
 
-def _shown(row: Limit) -> str:
+def _shown(row: Limit | StatedLimit) -> str:
     return megabytes(row.value) if row.name.endswith("bytes") or "bytes_" in row.name else f"{row.value:,}"
 
 

@@ -27,6 +27,7 @@ from backend.config.environment import environment
 from backend.projects.api.open_pages import pages
 from backend.sessions import drain, writes
 from backend.sessions.choices import SessionKind, SessionState
+from backend.sessions.holds import is_held
 from backend.sessions.lease import CARE, holder, is_alone
 from backend.sessions.models import Session
 from backend.sessions.signals import sessions_maintained
@@ -207,7 +208,10 @@ def ending_soon() -> dict[UUID, int]:
 
 
 def _unused() -> list[tuple[Session, timedelta]]:
-    """Returns the sessions that have not been used for long, and the time left until each is ended."""
+    """Returns the sessions that have not been used for long, and the time left until each is ended.
+
+    One whose tree a debugger holds is in use.
+    """
     limit = timedelta(minutes=environment().session_idle_minutes)
     if not limit:
         return []
@@ -215,4 +219,6 @@ def _unused() -> list[tuple[Session, timedelta]]:
     rows = Session.objects.filter(
         state=SessionState.READY, kind=SessionKind.INTERACTIVE, used_at__lt=now - limit + WARNING
     )
-    return [(session, limit - (now - (session.used_at or now))) for session in rows]
+    held = [session for session in rows if is_held(session)]
+    note_used({session.id: 0.0 for session in held})
+    return [(session, limit - (now - (session.used_at or now))) for session in rows if session not in held]

@@ -8,6 +8,7 @@ messages of the manager; a third one sends beats (`executor.supervision.pulse`).
 from __future__ import annotations
 
 import argparse
+import contextlib
 import faulthandler
 import os
 import queue
@@ -27,8 +28,10 @@ from executor.supervision.confine import die_with_parent
 from executor.supervision.pulse import Pulse
 
 if TYPE_CHECKING:
+    from executor.application.debugging import ApplicationDebugger
     from executor.application.recording import ApplicationRecorder
     from executor.application.ros import Graph
+    from executor.application.zeros import Zeros
     from tree_gardener import Status, TickError, Tree
     from tree_gardener.runner import Runner
 
@@ -60,6 +63,8 @@ class Application:
         pulse.locate = self._locator.beat_place
         self._runner: Runner | None = None
         self._recorder: ApplicationRecorder | None = None
+        self._debugger: ApplicationDebugger | None = None
+        self._zeros: Zeros | None = None
         self._connect_by_s: float | None = None
         self._is_connected = False
 
@@ -130,18 +135,50 @@ class Application:
         self._reporter.flush()
         if self._recorder is not None:
             self._recorder.pump()
+        if self._debugger is not None:
+            self._debugger.between_ticks()
         self._guarded(lambda: self._graph.spin_once(SPIN_S))
+
+    # --- held by the debugger ---------------------------------------------------------------------
+
+    def serve_held(self) -> None:
+        """Obeys the session while the tree is held; callbacks and timers of ROS do not run."""
+        self._pulse.moved()
+        self._reporter.flush()
+        if self._recorder is not None:
+            self._recorder.pump()
+        if self._zeros is not None:
+            self._zeros.send()
+        with contextlib.suppress(queue.Empty):
+            self._obey(self._commands.get(timeout=SPIN_S))
+
+    def show_held(self) -> None:
+        """Reports the entries that the tick in progress has written."""
+        assert self._runner is not None  # noqa: S101 - it ticks
+        self._reporter.held(self._runner.tree)
+
+    def note_input(self, command: str, data: Any, tick: int, hook: int) -> None:
+        """Records what a person did."""
+        if self._recorder is not None:
+            self._recorder.did(command, data, tick, hook)
 
     def _obey(self, message: ToApplication) -> None:
         from executor.application.live_ports import set_port  # noqa: PLC0415 - as all of the engine
+        from tree_gardener.debugging import DebuggingEnded  # noqa: PLC0415 - as above
 
         runner = self._runner
         assert runner is not None  # noqa: S101 - commands come after `ready`
         assert self._recorder is not None  # noqa: S101 - as above
+        debugger = self._debugger
+        assert debugger is not None  # noqa: S101 - as above
         match message:
             case child_messages.Stop():
+                if debugger.is_holding:
+                    raise DebuggingEnded
                 runner.stop()
                 raise _Stop
+            case child_messages.Pause() if debugger.is_holding:
+                self._channel.send(child_messages.Paused())  # a held tree is stopped already
             case child_messages.BeginRecording():
                 self._recorder.begin(message.run, resets=message.resets)
             case child_messages.Pause():
@@ -163,6 +200,14 @@ class Application:
                 self._channel.send(child_messages.Answer(request=message.request, error=error))
             case child_messages.SetBlackboard():
                 self._channel.send(child_messages.BlackboardSet(self._set_blackboard(message)))
+            case (
+                child_messages.SetBreakpoints()
+                | child_messages.Continue()
+                | child_messages.ForceResult()
+                | child_messages.ReleaseForced()
+            ):
+                error = debugger.obey(message)
+                self._channel.send(child_messages.Answer(request=message.request, error=error))
 
     def _set_blackboard(self, message: child_messages.SetBlackboard) -> str:
         assert self._runner is not None  # noqa: S101 - as above
@@ -182,6 +227,9 @@ class Application:
         except Exception as error:
             return f"{type(error).__name__}: {error}"
         self._reporter.written(tree, scope, message.key)
+        if self._debugger is not None:
+            written = {"scope": scope, "key": message.key, "value": message.value}
+            self.note_input("set_blackboard", written, *self._debugger.place)
         return ""
 
     # --- loading ----------------------------------------------------------------------------------
@@ -229,7 +277,9 @@ class Application:
         return Tree.from_xml(document.read_bytes(), clock=self._graph, name=document.name)
 
     def _make_runner(self, tree: Tree, start: StartApplication) -> None:
+        from executor.application.debugging import ApplicationDebugger  # noqa: PLC0415
         from executor.application.recording import ApplicationRecorder  # noqa: PLC0415
+        from executor.application.zeros import Zeros  # noqa: PLC0415
         from tree_gardener.runner import Runner  # noqa: PLC0415
 
         tree.setup(node=self._graph.node)
@@ -241,6 +291,10 @@ class Application:
             finished=self._on_finished,
             fault=self._reporter.raised,
         )
+        self._debugger = ApplicationDebugger(self._runner, self._channel.send, self)
+        self._reporter.take_held_s = self._debugger.take_held_s
+        self._zeros = Zeros(self._graph.node) if start.outside else None
+        self._debugger.start(start.breakpoints)
         tree.observe(self._reporter.ticked)
         self._recorder = ApplicationRecorder(tree, self._now, os.environ.pop(ADDRESS_VARIABLE, ""))
         tree.current = self._pulse.current
@@ -259,6 +313,8 @@ class Application:
             self._is_connected = self._has_connected()
         if self._is_connected:
             self._runner.tick_due(now_s)
+            if self._debugger is not None:
+                self._debugger.between_ticks()
 
     def _has_connected(self) -> bool:
         """Returns whether ticks may begin: all topics are connected, or the time for discovery is over."""
@@ -269,11 +325,14 @@ class Application:
     def _guarded(self, work: Any) -> None:
         """Runs code of actions; reports each exception that it raises, and ends the run after it."""
         from executor.application.watchdog import Interrupted  # noqa: PLC0415
+        from tree_gardener.debugging import DebuggingEnded  # noqa: PLC0415
 
         try:
             work()
         except _Stop:
             raise
+        except DebuggingEnded:
+            raise _Stop from None
         except Interrupted as interrupted:
             self._reporter.hangs(f"{interrupted.place} did not return and was interrupted", interrupted.place)
             self._end_broken("The tick did not return.")
@@ -297,6 +356,8 @@ class Application:
     def _say_goodbye(self) -> None:
         """Halts the tree, so that actions release their resources."""
         assert self._runner is not None  # noqa: S101 - it ran
+        if self._debugger is not None:
+            self._debugger.detach()
         try:
             self._runner.shutdown()
         except BaseException as error:

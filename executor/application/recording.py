@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
@@ -19,6 +20,8 @@ __all__ = ["ApplicationRecorder"]
 
 GOODBYE_S: Final = 0.2
 RESET_S: Final = 1.0
+STEP_HZ: Final = 240.0
+"""Steps of the simulated world in a second of its time."""
 MOST_TICKS: Final = 50
 """So many ticks are written at once, at most: a tree that ticks fast does not wait for all of a batch."""
 
@@ -62,6 +65,20 @@ class ApplicationRecorder:
         else:
             self._write_ticks()  # they belong to the run before
             self._link.begin(run)
+
+    def did(self, command: str, data: Any, tick: int, hook: int) -> None:
+        """Records what a person did, at the `hook`-th stop of a tick, or between two ticks (-1)."""
+        self._write_ticks()
+        fields = {
+            "stamp": self._now_ns(),
+            "step": round(self._now() * STEP_HZ),
+            "tick": tick,
+            "hook": hook,
+            "command": command,
+            "data_json": json.dumps(data, ensure_ascii=False, separators=(",", ":")),
+            "user": "",
+        }
+        self._send("/bt/input", "Input", fields)
 
     def pump(self) -> None:
         """Sends the waiting messages. Called many times in a second."""

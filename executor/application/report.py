@@ -91,6 +91,9 @@ class Reporter:
         self._stubs = ""
         self._last = LastTick()
         self._nodes: Sequence[Node] = ()
+        self._told: dict[tuple[str, str], object] = {}
+        self.take_held_s: Callable[[], float] = lambda: 0.0
+        """Returns for how long a debugger held the tree in the last tick; it is no part of the tick."""
 
     def tree(self, tree: Tree) -> None:
         """Reports the nodes of a new tree."""
@@ -117,6 +120,8 @@ class Reporter:
         now_s = self._clock()
         for entry in changes.blackboard:
             self._entries[entry.scope, entry.key] = entry
+            self._told[entry.scope, entry.key] = entry.value
+        held_s = self.take_held_s()
         has_past_changed = self._last.take(changes)
         if changes.changed or changes.flashed or has_past_changed or now_s >= self._ticks_due_s:
             self._ticks_due_s = now_s + IDLE_TICK_INTERVAL_S
@@ -126,7 +131,7 @@ class Reporter:
                     t=self._now_s(),
                     changed=_named(changes.changed),
                     flashed=_named(changes.flashed),
-                    duration_ms=changes.duration_s * 1000.0,
+                    duration_ms=max(0.0, changes.duration_s - held_s) * 1000.0,
                     past=_named(self._last.past.items()),
                 )
             )
@@ -139,6 +144,18 @@ class Reporter:
         if entry is not None:
             changed = BlackboardChange(scope, key, entry.type_name, entry.value, removed=False, writer_uid=0)
             self._entries[scope, key] = changed
+        self.flush(now=True)
+
+    def held(self, tree: Tree) -> None:
+        """Reports the entries that a held tick has written; only another value counts as written."""
+        for board in tree.boards:
+            for key, entry in board.entries.items():
+                place = board.path, key
+                if place not in self._told or self._told[place] is not entry.value:
+                    self._told[place] = entry.value
+                    self._entries[place] = BlackboardChange(
+                        *place, entry.type_name, entry.value, removed=False, writer_uid=0
+                    )
         self.flush(now=True)
 
     def flush(self, *, now: bool = False) -> None:

@@ -16,7 +16,7 @@ from msgspec import NODEFAULT, Struct
 
 from executor import messages
 from executor.manager.allowance import BURST, COSTS, RATE_HZ
-from executor.session.ladder import TABLE, State
+from executor.session.ladder import TABLE, Row, State
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -64,9 +64,12 @@ _ERRORS: Final = {
     "process_died": "the process that the step waited for ended",
     "tick_hangs": "the tick did not return and was ended",
     "not_answering": "the process that should confirm the command hangs; the text says how",
+    "bad_breakpoint": "a breakpoint cannot be set; the text says which and why",
+    "not_forced": "a result cannot be forced there; the text says why",
+    "not_held": "the tree is not held at a node now",
     "nothing_to_restart": "no application was run yet",
     "bad_launch_file": "a launch file cannot be read; the text and a `fault` say where",
-    "unknown_node": "the launch files have no such node, or it cannot be started",
+    "unknown_node": "the launch files, or the running tree, have no such node, or it cannot be started",
     "not_recorded": "the recording, or this version of its segment, is not there",
     "no_stream": "the answer comes on the stream socket, which this client has not opened",
     "unknown_topic": "the ROS graph has no such topic",
@@ -94,10 +97,16 @@ def _ladder() -> Iterator[str]:
     yield "| --- |" + " --- |" * (len(State) + 2)
     for name, row in TABLE.items():
         target = f"`{row.target}`" if row.target else "·"
-        legal = [target if state in row.sources else "" for state in State]
+        legal = [_effect(row, target, state) for state in State]
         viewers = "V" if row.for_viewers else ""
         yield f"| `{name}` | {' | '.join(legal)} | {viewers} | {row.does} |"
     yield ""
+
+
+def _effect(row: Row, target: str, state: State) -> str:
+    if state not in row.sources:
+        return ""
+    return "·" if state in row.idle_in else target
 
 
 def _commands() -> Iterator[str]:
@@ -107,6 +116,7 @@ def _commands() -> Iterator[str]:
             yield from _struct(f"`{name}`", kind)
     yield from _struct("`universe` as a document", messages.UniverseDocument)
     yield from _struct("`camera_pose`", messages.CameraPose)
+    yield from _struct("`Breakpoint`", messages.Breakpoint)
 
 
 def _errors() -> Iterator[str]:
@@ -122,7 +132,13 @@ def _events() -> Iterator[str]:
     yield "## Events\n"
     for name, kind in messages.EVENTS.items():
         yield from _struct(f"`{name}`", kind)
-    for kind in (messages.TreeNode, messages.BlackboardEntry, messages.TopicInfo, messages.LaunchNode):
+    for kind in (
+        messages.TreeNode,
+        messages.BlackboardEntry,
+        messages.TopicInfo,
+        messages.LaunchNode,
+        messages.ForcedNode,
+    ):
         yield from _struct(f"`{kind.__name__}`", kind)
 
 
@@ -160,6 +176,8 @@ def _type_name(kind: Any) -> str:
         "executor.command_messages.",
         "executor.stream_messages.",
         "executor.evaluation_events.",
+        "executor.debug_messages.",
+        "executor.recording_events.",
         "typing.",
         "msgspec.",
     ):

@@ -14,14 +14,28 @@ from typing import TYPE_CHECKING, Final, Literal, get_args, get_origin
 import msgspec
 from msgspec import inspect as types
 
-from executor import command_messages, evaluation_events, messages, stream_messages
+from executor import (
+    command_messages,
+    debug_messages,
+    evaluation_events,
+    messages,
+    recording_events,
+    stream_messages,
+)
 
 if TYPE_CHECKING:
     from types import ModuleType
 
 TARGET: Final = Path(__file__).parents[2] / "frontend" / "src" / "generated" / "messages.ts"
 
-_MODULES: Final = (command_messages, evaluation_events, messages, stream_messages)
+_MODULES: Final = (
+    debug_messages,
+    command_messages,
+    evaluation_events,
+    recording_events,
+    messages,
+    stream_messages,
+)
 
 _HEADER: Final = """// Generated from executor/messages.py by `python -m executor.generate.typescript`.
 // Do not edit.

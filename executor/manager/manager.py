@@ -167,6 +167,7 @@ class Manager:
             ros_environment={} if settings.is_closed_off else ros_environment(self.domain_id),
             outside_domain_id=outside_domain_id(),
             grace_s=settings.grace_s,
+            hold_limit_s=60.0 * float(os.environ.get("BT_STUDIO_HOLD_MINUTES", "15")),
         )
         self.session = Session(about, now_s=loop.time())
         self._programs = settings.programs or session_programs(self.domain_id)

@@ -49,6 +49,7 @@ class Child:
 
     Attributes:
         hang: the message of the fault that reported its hang; "" while it does not hang.
+        is_holding: whether it holds its tree at a node.
     """
 
     def __init__(self, kind: Kind, number: int, now_s: float = 0.0) -> None:
@@ -61,6 +62,7 @@ class Child:
         self.last_lines: tuple[str, ...] = ()
         self.vitals = Vitals(now_s)
         self.hang = ""
+        self.is_holding = False
         self.was_inspected = False
         self._said: dict[type[Struct], FromWorld | FromApplication | FromRecorder | FromEvaluation] = {}
         self._answers: dict[str, Answer | None] = {}

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from executor import child_messages, messages
 from executor.child_messages import Answer, Failed, Log, Progress, WorldReady, event_of
+from executor.session.debugger import holding
 from executor.session.ladder import State
 from executor.session.questions import answer
 
@@ -25,6 +26,7 @@ _SAME: dict[type[Struct], type[Struct]] = {
     child_messages.Fault: messages.Fault,
     child_messages.Finished: messages.Finished,
     child_messages.TopicMismatch: messages.TopicMismatch,
+    child_messages.Forced: messages.Forced,
 }
 """Messages that are sent to clients as an event without further change."""
 
@@ -49,6 +51,10 @@ def forward(stage: Stage, child: Child, event: ChildSaid) -> None:
             _answer(stage, child, message)
         case Failed() if stage.state.reaches(State.UNIVERSE_READY):
             stage.output.emit(messages.Log("world", "error", f"{message.message} {message.hint}".strip()))
+        case child_messages.Held():
+            holding.held(stage, child, message)
+        case child_messages.Released():
+            holding.released(stage, child, message)
         case WorldReady():
             stage.know_world(message.renderer, has_tf=message.tf)
         case child_messages.Topics() | child_messages.TopicMessage() | child_messages.TypeDescription():

@@ -52,6 +52,12 @@ class Clients:
         """
         return resumed if resumed is not None and resumed in self._clients else uuid4().hex
 
+    @property
+    def driver_left_s(self) -> float | None:
+        """The time at which the driver's connection was lost; None while it is there."""
+        driver = self._clients.get(self._driver) if self._driver is not None else None
+        return None if driver is None or driver.is_here else driver.left_s
+
     def role(self, client: str) -> Role:
         """Returns the client's role."""
         return "driver" if client == self._driver else "viewer"

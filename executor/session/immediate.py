@@ -9,7 +9,7 @@ from msgspec import Struct
 from executor import child_messages, messages, recorder_messages
 from executor.session import streaming
 from executor.session.clients import MOST_ECHOED_BY_VIEWER, MOST_STREAMS
-from executor.session.ladder import State
+from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.questions import ANSWER_S
 from executor.session.recording import FlagRefused
 from executor.session.steps import RESET_TIMEOUT_S
@@ -67,6 +67,37 @@ def _set_tick_rate(stage: Stage, event: CommandCame, data: messages.SetTickRate)
 def _set_port(stage: Stage, event: CommandCame, data: messages.SetPort) -> None:
     message = child_messages.SetPort(node_id=data.node_id, path=data.path, port=data.port, value=data.value)
     _ask(stage, event, "application", message)
+
+
+def _set_breakpoints(stage: Stage, event: CommandCame, data: messages.SetBreakpoints) -> None:
+    def note() -> None:
+        stage.hold.breakpoints = data
+
+    application = stage.children.get("application")
+    if application is not None and stage.state in HAS_APPLICATION:
+        _ask(stage, event, "application", child_messages.SetBreakpoints(wanted=data), then=note)
+        return
+    note()
+    stage.output.send(event.client, messages.Ack(), event.request)
+
+
+def _going(step: child_messages.DebugStep) -> Callable[[Stage, CommandCame, messages.Empty], None]:
+    def go(stage: Stage, event: CommandCame, _: messages.Empty) -> None:
+        _ask(stage, event, "application", child_messages.Continue(step=step))
+
+    return go
+
+
+def _step_to(stage: Stage, event: CommandCame, data: messages.StepTo) -> None:
+    _ask(stage, event, "application", child_messages.Continue(step="to", uid=data.uid, path=data.path))
+
+
+def _force(stage: Stage, event: CommandCame, data: messages.Force) -> None:
+    _ask(stage, event, "application", child_messages.ForceResult(force=data))
+
+
+def _release(stage: Stage, event: CommandCame, data: messages.Release) -> None:
+    _ask(stage, event, "application", child_messages.ReleaseForced(uid=data.uid))
 
 
 def _set_speed(stage: Stage, event: CommandCame, data: messages.SetSpeed) -> None:
@@ -207,6 +238,14 @@ def _typed(
 IMMEDIATE: Final[dict[str, Callable[[Stage, CommandCame], None]]] = {
     "set_tick_rate": _typed(messages.SetTickRate, _set_tick_rate),
     "set_port": _typed(messages.SetPort, _set_port),
+    "set_breakpoints": _typed(messages.SetBreakpoints, _set_breakpoints),
+    "continue_run": _typed(messages.Empty, _going("continue")),
+    "step_into": _typed(messages.Empty, _going("into")),
+    "step_over": _typed(messages.Empty, _going("over")),
+    "step_out": _typed(messages.Empty, _going("out")),
+    "step_to": _typed(messages.StepTo, _step_to),
+    "force": _typed(messages.Force, _force),
+    "release": _typed(messages.Release, _release),
     "set_speed": _typed(messages.SetSpeed, _set_speed),
     "reset_world": _typed(messages.Empty, _reset_world),
     "run_world": _typed(messages.Empty, _run_world),
@@ -230,6 +269,14 @@ ANSWER_LATER: Final = frozenset(
     {
         "set_tick_rate",
         "set_port",
+        "set_breakpoints",
+        "continue_run",
+        "step_into",
+        "step_over",
+        "step_out",
+        "step_to",
+        "force",
+        "release",
         "set_speed",
         "reset_world",
         "run_world",

@@ -15,7 +15,7 @@ __all__ = ["TABLE", "Row", "State", "is_legal", "where"]
 class State(StrEnum):
     """A rung of the ladder.
 
-    States are listed from bottom to top; PAUSED is as high as APPLICATION_RUNNING.
+    States are listed from bottom to top; PAUSED and HELD are as high as APPLICATION_RUNNING.
     """
 
     IDLE = "idle"
@@ -24,6 +24,7 @@ class State(StrEnum):
     VISUALIZATION_READY = "visualization_ready"
     APPLICATION_RUNNING = "application_running"
     PAUSED = "paused"
+    HELD = "held"
 
     @property
     def height(self) -> int:
@@ -37,9 +38,12 @@ class State(StrEnum):
 
 ANY: Final = frozenset(State)
 WORLD_UP: Final = frozenset(s for s in State if s.reaches(State.UNIVERSE_READY))
-HAS_APPLICATION: Final = frozenset({State.APPLICATION_RUNNING, State.PAUSED})
+HAS_APPLICATION: Final = frozenset({State.APPLICATION_RUNNING, State.PAUSED, State.HELD})
+BETWEEN_TICKS: Final = HAS_APPLICATION - {State.HELD}
 RUNNABLE: Final = HAS_APPLICATION | {State.VISUALIZATION_READY}
-WORLD_STANDS: Final = WORLD_UP - {State.APPLICATION_RUNNING}
+WORLD_MOVABLE: Final = WORLD_UP - {State.HELD}
+WORLD_STANDS: Final = WORLD_MOVABLE - {State.APPLICATION_RUNNING}
+HELD: Final = frozenset({State.HELD})
 
 
 @dataclass(frozen=True)
@@ -53,6 +57,7 @@ class Row:
             early.
         for_viewers: whether viewers may send the command too.
         does: the sentence that describes the command in the reference page.
+        idle_in: the states in which the command is legal without an effect.
     """
 
     sources: frozenset[State]
@@ -60,10 +65,15 @@ class Row:
     is_step: bool
     for_viewers: bool
     does: str
+    idle_in: frozenset[State] = frozenset()
 
 
 def _move(sources: frozenset[State], target: State, does: str) -> Row:
     return Row(sources, target, is_step=True, for_viewers=False, does=does)
+
+
+def _move_now(sources: frozenset[State], target: State, does: str) -> Row:
+    return Row(sources, target, is_step=False, for_viewers=False, does=does)
 
 
 def _act(sources: frozenset[State], does: str, *, is_step: bool = False, for_viewers: bool = False) -> Row:
@@ -89,8 +99,13 @@ TABLE: Final[dict[str, Row]] = {
     "restart_application": _move(
         RUNNABLE, State.APPLICATION_RUNNING, "Restarts the application of the last run."
     ),
-    "pause": _move(
-        frozenset({State.APPLICATION_RUNNING}), State.PAUSED, "Stops ticks and simulated time together."
+    "pause": Row(
+        frozenset({State.APPLICATION_RUNNING, State.HELD}),
+        State.PAUSED,
+        is_step=True,
+        for_viewers=False,
+        does="Stops ticks and simulated time together.",
+        idle_in=HELD,
     ),
     "resume": _move(
         frozenset({State.PAUSED}), State.APPLICATION_RUNNING, "Resumes ticks and simulated time."
@@ -107,24 +122,36 @@ TABLE: Final[dict[str, Row]] = {
     "disconnect": _move(ANY, State.IDLE, "Ends everything, in order."),
     "cancel": _act(ANY, "Ends the step under way; the ladder stays on the last rung reached."),
     "step": _act(frozenset({State.PAUSED}), "One tick, and `1/tick_hz` of simulated time.", is_step=True),
-    "set_tick_rate": _act(HAS_APPLICATION, "Changes the tick rate from the next tick on."),
-    "set_port": _act(HAS_APPLICATION, "Changes a port of a running node from the next tick on."),
-    "set_speed": _act(WORLD_UP, "Changes how fast simulated time passes."),
-    "reset_world": _act(WORLD_UP, "Restores the initial state of the world."),
+    "set_tick_rate": _act(BETWEEN_TICKS, "Changes the tick rate from the next tick on."),
+    "set_port": _act(BETWEEN_TICKS, "Changes a port of a running node from the next tick on."),
+    "set_speed": _act(WORLD_MOVABLE, "Changes how fast simulated time passes."),
+    "reset_world": _act(WORLD_MOVABLE, "Restores the initial state of the world."),
     "run_world": _act(
         frozenset({State.VISUALIZATION_READY}),
         "Lets the world run without an application, until it is stopped or an application starts.",
     ),
-    "set_blackboard": _act(frozenset({State.PAUSED}), "Writes an entry of the blackboard.", is_step=True),
-    "teleop": _act(WORLD_UP, "Drives the robot by hand."),
+    "set_blackboard": _act(
+        frozenset({State.PAUSED, State.HELD}), "Writes an entry of the blackboard.", is_step=True
+    ),
+    "set_breakpoints": _act(ANY, "Replaces the breakpoints, also those of later runs."),
+    "continue_run": _move_now(HELD, State.APPLICATION_RUNNING, "Lets a held tree run on."),
+    "step_into": _act(HELD, "Continues to the next event at any node."),
+    "step_over": _act(HELD, "Continues until the node is done."),
+    "step_out": _act(HELD, "Continues until the parent of the node is done."),
+    "step_to": _act(HELD, "Continues until a node is to be ticked."),
+    "force": _act(HAS_APPLICATION, "Forces a result on a node, freezes it, skips to it, or ticks it alone."),
+    "release": _act(HAS_APPLICATION, "Ends what is forced on a node, or on all."),
+    "teleop": _act(WORLD_MOVABLE, "Drives the robot by hand."),
     "move_body": _act(WORLD_STANDS, "Sets the pose of a body."),
     "subscribe": _act(ANY, "Subscribes to a stream, or changes the subscription.", for_viewers=True),
     "unsubscribe": _act(ANY, "Ends a stream.", for_viewers=True),
     "list_topics": _act(WORLD_UP, "Answers with a `topics` event.", for_viewers=True),
     "echo_topic": _act(WORLD_UP, "Sends the messages of a topic.", for_viewers=True),
-    "publish_topic": _act(WORLD_UP, "Publishes one message; refused (`world_paused`) while time is paused."),
+    "publish_topic": _act(
+        WORLD_MOVABLE, "Publishes one message; refused (`world_paused`) while time is paused."
+    ),
     "describe_type": _act(WORLD_UP, "Answers with a `type_description` event.", for_viewers=True),
-    "restart_node": _act(HAS_APPLICATION, "Restarts a node of the launch files."),
+    "restart_node": _act(BETWEEN_TICKS, "Restarts a node of the launch files."),
     "read_recording": _act(
         ANY, "Reads a part of a recording; it comes as a frame `recording`.", for_viewers=True
     ),

@@ -17,12 +17,15 @@ from executor.messages import (
     Fault,
     Finished,
     FlagSet,
+    Forced,
+    Held,
     LaunchNode,
     LaunchNodes,
     Log,
     NodeStatus,
     PortSet,
     RecordingStopped,
+    Released,
     Segment,
     Sim,
     Snapshot,
@@ -53,6 +56,8 @@ class Mirror:
         self.state = State.IDLE
         self.tree: Tree | None = None
         self.statuses: dict[int, NodeStatus] = {}
+        self.held: Held | None = None
+        self.forced: Forced | None = None
         self.past: list[tuple[int, NodeStatus]] = []
         self.finished: Finished | None = None
         self.ports: dict[tuple[str, str, str], PortSet] = {}
@@ -80,6 +85,7 @@ class Mirror:
         self.statuses.clear()
         self.past = []
         self.finished = None
+        self.held = self.forced = None
         self.ports.clear()
         self.blackboard.clear()
         self.faults.clear()
@@ -120,6 +126,12 @@ class Mirror:
                 self._apply_flag(event)
             case RecordingStopped():
                 self.stops.append(event)
+            case Held():
+                self.held = event
+            case Released():
+                self.held = None
+            case Forced():
+                self.forced = event if event.nodes or event.alone else None
             case Sim():
                 self.speed = event.speed
                 self.real_time_factor = event.real_time_factor
@@ -155,6 +167,8 @@ class Mirror:
             segments=list(self.segments.values()),
             flags=list(self.flags.values()),
             stops=list(self.stops),
+            held=self.held,
+            forced=self.forced,
         )
 
     def _starts(self) -> list[tuple[int, int]]:
@@ -164,6 +178,8 @@ class Mirror:
 
     def _enter(self, state: State) -> None:
         self.state = state
+        if state is not State.HELD and not state.reaches(State.APPLICATION_RUNNING):
+            self.held = self.forced = None
         if not state.reaches(State.UNIVERSE_READY):
             self.mismatches.clear()
 

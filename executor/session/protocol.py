@@ -18,6 +18,7 @@ from executor.child_messages import Fault, Finished
 from executor.session import child_events, child_exits, immediate, steps, streaming
 from executor.session.children import Children
 from executor.session.clients import Clients
+from executor.session.debugger import holding
 from executor.session.evaluation.evaluating import Evaluating
 from executor.session.events import (
     ChildExited,
@@ -86,6 +87,7 @@ class Session:
         self.questions = Questions()
         self.children = Children(self.output.effect, lambda: self.now_s, self.questions.token, self._lost)
         self.run = LastRun()
+        self.hold = holding.Hold()
         self.recording = Recording(self)
         self.output.record = self.recording.tell
         self.evaluating = Evaluating(self)
@@ -111,7 +113,7 @@ class Session:
         None if there is none.
         """
         times = [self.clients.deadline_s(self.about.grace_s, self.about.promote_s)]
-        times.append(self.questions.deadline_s)
+        times += [self.questions.deadline_s, holding.deadline_s(self)]
         if self._job is not None:
             times.append(self._job.deadline_s)
         return min((t for t in times if t is not None), default=None)
@@ -357,6 +359,7 @@ class Session:
 
     def _expire(self) -> None:
         answer_late(self, self.questions.expired(self.now_s), "timeout", "did not answer in time")
+        holding.expire(self)
         for client in self.clients.promote(self.now_s, self.about.promote_s):
             self.introspect(client)
         if self.clients.is_abandoned(self.now_s, self.about.grace_s):

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from executor import child_messages, messages
-from executor.child_messages import BlackboardSet, Finished, Paused, Resumed, Stepped
+from executor.child_messages import BlackboardSet, Finished, Held, Paused, Resumed, Stepped
+from executor.session.debugger.holding import settle
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.waits import (
     NOT_ANSWERING,
@@ -69,7 +70,9 @@ def go(stage: Stage, application: Child) -> Step:
 
 
 def pause(stage: Stage, _: Struct) -> Step:
-    """Pauses ticks and simulated time together."""
+    """Pauses ticks and simulated time together; a held tree is stopped already."""
+    if stage.state is State.HELD:
+        return
     application = stage.children.ensure("application")
     application.forget(Paused)
     stage.children.tell_application(child_messages.Pause())
@@ -84,7 +87,8 @@ def pause(stage: Stage, _: Struct) -> Step:
             # Time must pass in both processes, or in neither.
             stage.children.tell_application(child_messages.Resume())
         raise
-    stage.enter(State.PAUSED)
+    if not application.is_holding:
+        stage.enter(State.PAUSED)
 
 
 def await_tick(stage: Stage, application: Child, until: Callable[[], Any]) -> Ended:
@@ -158,23 +162,25 @@ def _tell_killed(stage: Stage, application: Child, failure: StepFailed) -> None:
 
 def resume(stage: Stage, _: Struct) -> Step:
     """Resumes ticks and simulated time."""
+    application = stage.children.ensure("application")
     try:
-        yield from go(stage, stage.children.ensure("application"))
+        yield from go(stage, application)
     except StepFailed:
         if stage.state is State.PAUSED:  # time must pass in both processes, or in neither
             stage.children.tell_application(child_messages.Pause())
             stage.children.tell_world(child_messages.Pause())
         raise
-    stage.enter(State.APPLICATION_RUNNING)
+    settle(stage, application)
 
 
 def step(stage: Stage, _: Struct) -> Step:
     """Ticks once, and simulates the time of one tick period."""
     application = stage.children.ensure("application")
     application.forget(Stepped)
+    application.forget(Held)
     stage.children.tell_application(child_messages.StepTick())
     try:
-        yield Wait(message_of(application, Stepped, Finished), REPLY_TIMEOUT_S, "tick")
+        yield Wait(message_of(application, Stepped, Finished, Held), REPLY_TIMEOUT_S, "tick")
     except StepFailed as failure:
         if failure.code != "timeout":
             raise

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from executor import messages
     from executor.session.children import Children
     from executor.session.clients import Clients
+    from executor.session.debugger.holding import Hold
     from executor.session.evaluation.evaluating import Evaluating
     from executor.session.events import Unpacked
     from executor.session.ladder import State
@@ -42,6 +43,8 @@ class About:
     outside_domain_id: int = 0
     grace_s: float = 300.0
     promote_s: float = 5.0
+    hold_limit_s: float = 900.0
+    """Seconds after which a tree that the debugger holds runs on; 0 is without limit."""
 
 
 @dataclass
@@ -74,6 +77,7 @@ class Stage(Protocol):
     recording: Recording
     evaluating: Evaluating
     run: LastRun
+    hold: Hold
     now_s: float
     sim_time_s: float
 

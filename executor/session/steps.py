@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Final, TypeVar
 from executor import child_messages, messages
 from executor.child_messages import ApplicationReady, Failed, Fault, StartWorld, WorldReady
 from executor.session import streaming
+from executor.session.debugger.holding import settle
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.running import (
     await_tick,
@@ -182,6 +183,7 @@ def _start_application(stage: Stage) -> Child:
     _progress(stage, "run_application", 0.0, "Loading the tree and its actions")
     application = stage.children.ensure("application")
     application.is_started = True
+    stage.hold.since_s, stage.hold.given = None, stage.hold.breakpoints
     stage.children.tell_application(
         child_messages.StartApplication(
             app_dir=stage.run.folder,
@@ -191,6 +193,7 @@ def _start_application(stage: Stage) -> Child:
             seed=stage.run.seed,
             domain_id=stage.run.domain_id,
             outside=stage.run.is_outside,
+            breakpoints=stage.hold.breakpoints,
         )
     )
     stage.nodes.start(stage, stage.run.plan)
@@ -219,7 +222,7 @@ def _await_application(stage: Stage, application: Child, tries: int = 2) -> Step
             return
         stage.children.replenish()
         raise
-    stage.enter(State.APPLICATION_RUNNING)
+    settle(stage, application)
 
 
 def _run(stage: Stage, data: messages.Run) -> Step:

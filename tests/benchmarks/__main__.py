@@ -21,6 +21,7 @@ BENCHMARKS = (
     "flood",
     "opening",
     "browser",
+    "axis",
 )
 
 

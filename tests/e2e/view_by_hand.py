@@ -101,6 +101,8 @@ def the_view_is_turned(studio: Studio) -> None:
         "the view moves": lambda: drag("right"),
         "the view comes nearer": scroll,
     }
+    expect(studio.at("viewer-3d").get_by_text("Loading 3D")).to_have_count(0, timeout=180_000)
+    at_rest(studio)  # the worker learns of the larger area some time after the page, and frames views by it
     # A worker draws some time after a click: a view is known to be drawn when another one was before.
     changes(studio, tool(studio, "Top view").click, "the view from above")
     changes(studio, tool(studio, "Default view").click, "the default view")

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import psutil
 
-from executor.session.ladder import State
+from executor.session.ladder import HAS_APPLICATION, State
 from tests.executor.session_client import SessionClient, manager_process, run_data
 
 CHILDREN = ("world", "application")
@@ -19,8 +19,10 @@ CASES = [(kind, state) for state in State for kind in CHILDREN]
 """A world or an application that is stopped; below its rung it is the spare that waits to be used."""
 _IN_USE = {
     "world": [state for state in State if state.reaches(State.UNIVERSE_READY)],
-    "application": [State.APPLICATION_RUNNING, State.PAUSED],
+    "application": sorted(HAS_APPLICATION),
 }
+ROOT = {"tree_id": "MainTree", "node_id": "n1"}
+"""A breakpoint at the root of the example."""
 _LEFT = {"world": State.CONNECTED, "application": State.VISUALIZATION_READY}
 
 
@@ -63,6 +65,8 @@ class HangingSession:
     async def climb(self, state):
         """Climbs or descends to a state."""
         await self.ask("disconnect")
+        stops = [ROOT] if state is State.HELD else []
+        await self.ask("set_breakpoints", {"breakpoints": stops})
         universe, application = self.run["universe"], self.run["application"]
         for command, data, rung in [
             ("connect", None, State.CONNECTED),
@@ -71,7 +75,11 @@ class HangingSession:
             ("run_application", application, State.APPLICATION_RUNNING),
             ("pause", None, State.PAUSED),
         ]:
-            if list(State).index(rung) <= list(State).index(state):
+            if state is State.HELD and rung is State.PAUSED:
+                at = len(self.client.events)
+                await self.client.until(lambda: self.client.state == State.HELD)
+                assert self.client.named("fault", after=at) == []
+            elif list(State).index(rung) <= list(State).index(state):
                 await self.ask(command, data)
         if state is State.IDLE:
             await self.ask("connect")  # it starts the spares again, which remain

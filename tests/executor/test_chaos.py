@@ -15,7 +15,7 @@ import psutil
 import pytest
 
 from executor.manager.manager import Manager, ManagerSettings
-from executor.session.ladder import State
+from executor.session.ladder import HAS_APPLICATION, State
 from executor.supervision.shared_memory import FOLDER, mapped_files, remove_abandoned_segments
 from tests.budget import count
 from tests.executor.manager.test_server import FAKE, RUN, manager
@@ -116,7 +116,7 @@ class Storm:
         needed = set()
         if self.session.state.reaches(State.UNIVERSE_READY):
             needed.add("world")
-        if self.session.state in {State.APPLICATION_RUNNING, State.PAUSED}:
+        if self.session.state in HAS_APPLICATION:
             needed.add("application")
         living = {process.pid for process in supervised()}
         pids = {key: child.pid for key, child in self.manager._supervisor._children.items()}

@@ -8,6 +8,7 @@ failing       ends at once with status 3
 stubborn      listens, has a child in a session of its own, ignores SIGTERM
 deaf          listens, reads what comes, and answers nothing at all
 old           listens, and knows no /watch
+held          answers that a debugger holds its tree
 mute          says something else than its port
 """
 
@@ -58,7 +59,7 @@ async def flood(socket: ServerConnection) -> None:
 
 async def listen(kind: str, ready_fd: int) -> None:
     handler = flood if kind == "flood" else echo
-    refusal = refuse_watch if kind == "old" else None
+    refusal = {"old": refuse_watch, "held": tell_held}.get(kind)
     options: Any = {"compression": None, "max_queue": 2, "max_size": None, "process_request": refusal}
     async with (
         await asyncio.start_server(read_only, "127.0.0.1", 0)
@@ -73,6 +74,10 @@ async def listen(kind: str, ready_fd: int) -> None:
 
 def refuse_watch(connection: ServerConnection, request):
     return connection.respond(404, "There is no such thing.") if request.path == "/watch" else None
+
+
+def tell_held(connection: ServerConnection, request):
+    return connection.respond(200, '{"state": "held"}') if request.path == "/health" else None
 
 
 async def read_only(reader: asyncio.StreamReader, _: asyncio.StreamWriter) -> None:

@@ -14,9 +14,15 @@ function isTextField(target: EventTarget | null): boolean {
   return isContentEditable || ['TEXTAREA', 'SELECT'].includes(tagName);
 }
 
+/** Whether Escape closes something above the page, which has the focus: a menu, a list or a dialogue. */
+function closesItself({ key, target }: KeyboardEvent): boolean {
+  const open = '[role=menu], [role=listbox], [role=dialog], [aria-haspopup][aria-expanded=true]';
+  return key === 'Escape' && ((target as Partial<Element> | null)?.closest?.(open) ?? null) !== null;
+}
+
 function handler(command: UserCommand) {
   return (event: KeyboardEvent) => {
-    if (event.defaultPrevented) return;
+    if (event.defaultPrevented || closesItself(event)) return;
     if (!command.inTextFields && isTextField(event.target)) return;
     if (command.enabled?.() === false) return;
     event.preventDefault();

@@ -1,5 +1,5 @@
 import '@/i18n/editorTexts';
-import { Button, Center, Stack, Text, Title } from '@mantine/core';
+import { Button, Center, Stack, Text, Title, VisuallyHidden } from '@mantine/core';
 import { useMediaQuery } from '@mantine/hooks';
 import { useEffect } from 'react';
 import { useTranslation } from 'react-i18next';
@@ -86,7 +86,9 @@ function CannotOpen({ error }: { readonly error: Error }) {
   return (
     <Center h="100%" role="alert">
       <Stack maw={480} gap="sm">
-        <Title order={3}>{t(isMissing ? 'cannotOpen.missing' : 'cannotOpen.title')}</Title>
+        <Title order={1} size="h3">
+          {t(isMissing ? 'cannotOpen.missing' : 'cannotOpen.title')}
+        </Title>
         <Text c="dimmed">{error.message}</Text>
         <Button w="fit-content" onClick={() => navigate('/')}>
           {t('cannotOpen.back')}
@@ -174,6 +176,8 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
       <TopBar />
       <RunStrip />
       <main className={classes['dock']}>
+        {/* The top bar, which has the heading of the page, is hidden then. */}
+        {presenting === 'off' ? null : <VisuallyHidden component="h1">{name}</VisuallyHidden>}
         <PresentationBar />
         {model && modelWidth ? <Dock model={model} width={modelWidth} key={modelWidth} /> : null}
       </main>

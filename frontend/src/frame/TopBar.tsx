@@ -39,7 +39,7 @@ export function TopBar() {
         <Anchor href="/" onClick={goHome} aria-label={t('toProjects')} title={t('toProjects')} lh={0}>
           <Logo size={26} />
         </Anchor>
-        <Text fw={600} truncate="end" title={name}>
+        <Text component="h1" fw={600} m={0} truncate="end" title={name}>
           {name}
         </Text>
         {activeTree ? (

@@ -3,6 +3,16 @@
 
 export const PROTOCOL = "bt-studio.v1";
 
+export type ResultName = "RUNNING" | "SUCCESS" | "FAILURE" | "SKIPPED";
+
+export type BreakpointMoment = "before" | "after" | "returns" | "halted";
+
+export type ForceEffect = "result" | "skip_to" | "alone";
+
+export type HeldEvent = "before" | "after" | "decided" | "halted";
+
+export type HeldCause = "breakpoint" | "step" | "condition";
+
 export type StreamName = "poses" | "scan" | "camera" | "view";
 
 export type OnFinish = "stop" | "repeat";
@@ -11,7 +21,9 @@ export type OnError = "stop" | "failure";
 
 export type EvaluationEnd = "complete" | "refused" | "failed" | "replaced";
 
-export type State = "idle" | "connected" | "universe_ready" | "visualization_ready" | "application_running" | "paused";
+export type StopReason = "disk_full" | "disk_failed" | "recorder_died" | "recorder_hung";
+
+export type State = "idle" | "connected" | "universe_ready" | "visualization_ready" | "application_running" | "paused" | "held";
 
 export type Rung = "connect" | "launch_universe" | "prepare_visualization" | "run_application";
 
@@ -31,9 +43,108 @@ export type PortEffect = "next_tick" | "next_start";
 
 export type MismatchCode = "type" | "reliability" | "durability" | "qos";
 
-export type StopReason = "disk_full" | "disk_failed" | "recorder_died" | "recorder_hung";
-
 export type FinishReason = "root_finished" | "action_raised" | "terminated" | "process_died";
+
+/**
+ * A breakpoint on a block.
+ *
+ * `tree_id` is the ID of the block's BehaviorTree, and `node_id` its id in the diagram. `instance` has the
+ * ids of the SubTree nodes that lead to one instance, from the main tree on; null stands for all instances.
+ * `when` is the moment, and `status` the result for `returns`. `condition` is a script that must be true,
+ * and `hits` the first hit that counts. With `log` this line is written in place of a stop.
+ */
+export interface Breakpoint {
+  tree_id: string;
+  node_id: string;
+  instance: string[] | null;
+  when: BreakpointMoment;
+  status: ResultName | null;
+  condition: string;
+  hits: number;
+  log: string;
+  on: boolean;
+}
+
+/**
+ * Replaces all breakpoints of the session; they also hold for later runs.
+ *
+ * With `on` false none has an effect. Refused with `bad_breakpoint` if one cannot be set in the running
+ * tree; all are as they were then.
+ */
+export interface SetBreakpoints {
+  breakpoints: Breakpoint[];
+  on?: boolean;
+}
+
+/** Continues until a node is to be ticked. */
+export interface StepTo {
+  uid: number;
+  path: string;
+}
+
+/**
+ * Forces a result on a node, in place of what was forced on it before.
+ *
+ * `effect` is `result` for the result `status` in place of its tick (with `after`, of the tick's own
+ * result), `skip_to` to skip the siblings before it once, or `alone` to tick it in place of the
+ * root. RUNNING freezes the node. `once` is for one tick, else it holds until it is released.
+ * Refused with `not_forced`.
+ */
+export interface Force {
+  uid: number;
+  path: string;
+  effect?: ForceEffect;
+  status?: ResultName;
+  once?: boolean;
+  after?: boolean;
+}
+
+/** Ends what is forced on a node; null for all nodes. */
+export interface Release {
+  uid?: number | null;
+}
+
+/**
+ * The tree is held at a node, within a tick.
+ *
+ * `path` has the uids from the root to the node `uid`, and `ahead` those that the rules may still tick in
+ * this tick: possible ones, not certain ones. `why` is the reason in words, and `cause` its kind. `event` is
+ * what happens at the node: `status` is its result, and `decided` the pre-condition that gave it without a
+ * tick. `statuses` are those of all nodes that are not IDLE. `hook` counts the stops of the tick, from 0.
+ * With `outside` the robot is not held: it belongs to an outside ROS graph.
+ */
+export interface Held {
+  uid: number;
+  path: number[];
+  why: string;
+  ahead: number[];
+  cause: HeldCause;
+  event: HeldEvent;
+  tick: number;
+  status: ResultName | null;
+  decided: string;
+  statuses: [number, ResultName][];
+  hook: number;
+  outside: boolean;
+}
+
+/** The tree is not held any more. */
+export type Released = Record<string, never>;
+
+/** A result that is forced on a node; `skips_to` is the node to which the skips lead, or 0. */
+export interface ForcedNode {
+  uid: number;
+  status: ResultName;
+  once: boolean;
+  after: boolean;
+  skips_to: number;
+}
+
+/** All that is forced now; `alone` is the uid of the node that runs alone, or 0. */
+export interface Forced {
+  nodes: ForcedNode[];
+  alone: number;
+}
 
 /** A command without arguments. */
 export type Empty = Record<string, never>;
@@ -94,7 +205,7 @@ export interface SetSpeed {
 /**
  * Writes an entry of the blackboard; `scope` is the path of a SubTree, "" for the root.
  *
- * Only while paused.
+ * Only while paused or held.
  */
 export interface SetBlackboard {
   scope: string;
@@ -301,6 +412,46 @@ export interface EvaluationEnded {
   wanted: number;
   message: string;
   run: string;
+}
+
+/**
+ * A part of the recording of a run: 20 s of simulated time, and an MCAP file by itself.
+ *
+ * It is sent again each second while it grows: `bytes` of it can be read then. `complete` tells that it has
+ * its end. A new `version` replaces it when old pictures were removed; with 0 `bytes` it is gone.
+ */
+export interface Segment {
+  run: string;
+  branch: number;
+  number: number;
+  version: number;
+  from_t: number;
+  to_t: number;
+  bytes: number;
+  complete: boolean;
+}
+
+/** A flag of the user was set or changed in a run, at a moment in s; with an empty `text` it is gone. */
+export interface FlagSet {
+  run: string;
+  id: string;
+  t: number;
+  text: string;
+  user: string;
+}
+
+/**
+ * The recording of a run stopped at a simulated time in s; the run itself continues.
+ *
+ * What happens from then on is missing: until another recorder has started if it `goes_on`, else to the end
+ * of the run. `detail` is the cause as the system tells it.
+ */
+export interface RecordingStopped {
+  run: string;
+  t: number;
+  reason: StopReason;
+  detail: string;
+  goes_on: boolean;
 }
 
 /** The command was done. */
@@ -548,46 +699,6 @@ export interface LaunchNodes {
   nodes: LaunchNode[];
 }
 
-/**
- * A part of the recording of a run: 20 s of simulated time, and an MCAP file by itself.
- *
- * It is sent again each second while it grows: `bytes` of it can be read then. `complete` tells that it has
- * its end. A new `version` replaces it when old pictures were removed; with 0 `bytes` it is gone.
- */
-export interface Segment {
-  run: string;
-  branch: number;
-  number: number;
-  version: number;
-  from_t: number;
-  to_t: number;
-  bytes: number;
-  complete: boolean;
-}
-
-/** A flag of the user was set or changed in a run, at a moment in s; with an empty `text` it is gone. */
-export interface FlagSet {
-  run: string;
-  id: string;
-  t: number;
-  text: string;
-  user: string;
-}
-
-/**
- * The recording of a run stopped at a simulated time in s; the run itself continues.
- *
- * What happens from then on is missing: until another recorder has started if it `goes_on`, else to the end
- * of the run. `detail` is the cause as the system tells it.
- */
-export interface RecordingStopped {
-  run: string;
-  t: number;
-  reason: StopReason;
-  detail: string;
-  goes_on: boolean;
-}
-
 /** The full state for a client that joins late; later events change it. */
 export interface Snapshot {
   state: State;
@@ -610,6 +721,8 @@ export interface Snapshot {
   segments: Segment[];
   flags: FlagSet[];
   stops: RecordingStopped[];
+  held: Held | null;
+  forced: Forced | null;
 }
 
 /** The envelope of an event. */
@@ -791,6 +904,14 @@ export interface Commands {
   disconnect: Empty;
   set_blackboard: SetBlackboard;
   set_port: SetPort;
+  set_breakpoints: SetBreakpoints;
+  continue_run: Empty;
+  step_into: Empty;
+  step_over: Empty;
+  step_out: Empty;
+  step_to: StepTo;
+  force: Force;
+  release: Release;
   teleop: Teleop;
   move_body: MoveBody;
   subscribe: Subscribe;
@@ -831,6 +952,9 @@ export interface Events {
   segment: Segment;
   flag: FlagSet;
   recording_stopped: RecordingStopped;
+  held: Held;
+  released: Released;
+  forced: Forced;
   evaluation_started: EvaluationStarted;
   evaluation_outcome: EvaluationOutcome;
   evaluation_ended: EvaluationEnded;

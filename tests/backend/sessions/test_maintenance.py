@@ -126,6 +126,17 @@ def test_the_idle_are_warned_and_then_ended(api, start, fake_manager, settings_o
     assert (ended["state"], ended["error"]) == ("ended", "It was ended because it was not used.")
 
 
+def test_a_session_whose_tree_is_held_is_in_use(start, fake_manager, settings_of):
+    fake_manager("held")
+    settings_of(session_idle_minutes=30)
+    launched(start("One")["id"])
+    Session.objects.update(used_at=timezone.now() - timedelta(minutes=31))
+    maintenance.maintain()
+    assert Session.objects.get().state == "ready"
+    assert timezone.now() - Session.objects.get().used_at < timedelta(minutes=1)
+    assert maintenance.ending_soon() == {}
+
+
 def test_the_dead_are_noted_without_anyone_asking(api, start, fake_manager):
     launcher = fake_manager("echo")
     started = start("One")

@@ -101,3 +101,17 @@ def test_a_tick_without_changes_that_clears_the_last_one_is_reported() -> None:
     for _ in range(2):
         tree.tick_exactly_once()
     assert desk.of(child_messages.Tick)[-1].past == []
+
+
+def test_a_held_tick_reports_what_it_has_written_so_far() -> None:
+    sent: list[Any] = []
+    reporter = Reporter(sent.append, lambda: 0.0)
+    tree = Tree.from_xml(
+        "<root BTCPP_format='4'><BehaviorTree ID='M'><Script code='n := 1'/></BehaviorTree></root>"
+    )
+    tree.setup()
+    tree.tick_exactly_once()
+    reporter.held(tree)
+    reporter.held(tree)
+    [blackboard] = sent
+    assert [(entry.key, entry.value) for entry in blackboard.entries] == [("n", 1)]

@@ -41,6 +41,9 @@ DATA: dict[str, dict[str, Any]] = {
     "set_speed": {"speed": 2.0},
     "set_port": {"node_id": "n1", "path": "Act::1", "port": "gain", "value": "2"},
     "set_blackboard": {"scope": "", "key": "k", "value": 1},
+    "set_breakpoints": {"breakpoints": [{"tree_id": "Main", "node_id": "n1"}]},
+    "step_to": {"uid": 2, "path": "Act::2"},
+    "force": {"uid": 2, "path": "Act::2"},
     "teleop": {"linear": 0.1, "angular": 0.0},
     "move_body": {"id": "crate", "pose": [0, 0, 0, 0, 0, 0]},
     "subscribe": {"stream": "poses"},
@@ -55,6 +58,15 @@ DATA: dict[str, dict[str, Any]] = {
 }
 
 
+HELD: dict[str, Any] = {
+    "uid": 2,
+    "path": [1, 2],
+    "why": "breakpoint 1 before its tick",
+    "ahead": [2, 3],
+    "cause": "breakpoint",
+    "event": "before",
+    "tick": 7,
+}
 ANSWERS = {
     child_messages.Pause: "paused",
     child_messages.Resume: "resumed",
@@ -102,6 +114,11 @@ class Play:
                 return [self._said(effect, "ready")]
             case Tell(kind="application", message=child_messages.Stop()):
                 return [ChildExited(effect.kind, effect.number, "ended with exit code 0")]
+            case Tell(message=child_messages.Continue(step="continue") as message):
+                answers: list[Event] = [self._said(effect, "released", paused=message.pauses)]
+                if message.request:
+                    answers.append(self._said(effect, "answer", request=message.request))
+                return answers
             case Tell(message=message) if getattr(message, "request", None):
                 return [self._said(effect, "answer", request=getattr(message, "request", None))]
             case Tell(kind="application", message=message) if type(message) in ANSWERS:
@@ -166,7 +183,10 @@ class Play:
             State.VISUALIZATION_READY: ["connect", "launch_universe", "prepare_visualization"],
             State.APPLICATION_RUNNING: ["run"],
             State.PAUSED: ["run", "pause"],
+            State.HELD: ["run"],
         }[state]
         for name in way:
             assert self.reply(self.command(name)) == "ack"
+        if state is State.HELD:
+            self.child_says("application", "held", **HELD)
         assert self.state is state

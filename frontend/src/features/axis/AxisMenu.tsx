@@ -28,7 +28,7 @@ export function AxisMenu() {
       </Menu.Target>
       <Menu.Dropdown>
         {AXIS_MENU.map((ids, at) => [
-          at > 0 ? <Menu.Divider key={ids[0]} /> : null,
+          at > 0 ? <Menu.Divider key={`before ${ids[0]}`} /> : null,
           ...ids.map((id) => {
             const command = commands[id];
             if (!command) return null;

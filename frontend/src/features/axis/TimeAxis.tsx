@@ -1,9 +1,9 @@
 import { ActionIcon, Button, NativeSelect, Tooltip } from '@mantine/core';
 import { IconLink, IconPlayerPause, IconPlayerPlay } from '@tabler/icons-react';
-import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { RecordingStopped } from '@/generated/messages';
-import { extent as extentNow, lookNow, setPlaying } from '@/store/moment/looking';
+import { lookNow, setPlaying } from '@/store/moment/looking';
+import { useExtent } from '@/store/moment/useExtent';
 import { unrecorded } from '@/store/moment/flags';
 import { useSource } from '@/store/moment/source';
 import { PLAY_SPEEDS, useMoment } from '@/store/moment/store';
@@ -32,11 +32,9 @@ function Unrecorded({ stop }: { readonly stop: RecordingStopped }) {
 /** The time axis of the recorded run, below everything. */
 export function TimeAxis() {
   const { t } = useTranslation('axis');
-  const segments = useSessionStore((state) => state.segments);
   const source = useSource((state) => state.source);
   const kept = useSource((state) => state.kept);
-  // eslint-disable-next-line react-hooks/exhaustive-deps -- both decide what the extent is
-  const extent = useMemo(() => extentNow(), [segments, source]);
+  const extent = useExtent();
   const moment = useMoment((state) => state.t);
   const shown = useMoment((state) => state.shown);
   const isPlaying = useMoment((state) => state.isPlaying);

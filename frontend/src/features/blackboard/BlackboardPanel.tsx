@@ -2,6 +2,7 @@ import { ScrollArea } from '@mantine/core';
 import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useShownSession } from '@/store/moment/session';
+import { useExtent } from '@/store/moment/useExtent';
 import { useIsBack } from '@/store/moment/store';
 import type { BlackboardRow as Row } from '@/store/session/types';
 import { BlackboardRow } from './BlackboardRow';
@@ -19,12 +20,14 @@ export function BlackboardPanel() {
   const { t } = useTranslation('blackboard');
   const blackboard = useShownSession((state) => state.blackboard);
   const isOpen = useShownSession(
-    ({ executor, introspection }) => executor === 'paused' && introspection?.role !== 'viewer',
+    ({ executor, introspection }) =>
+      (executor === 'paused' || executor === 'held') && introspection?.role !== 'viewer',
   );
   const isRunning = useShownSession(
-    ({ executor, tree }) => (executor === 'application_running' || executor === 'paused') && tree.length > 0,
+    ({ executor, tree }) => ['application_running', 'paused', 'held'].includes(executor) && tree.length > 0,
   );
   const isBack = useIsBack();
+  const isRecorded = useExtent() !== null;
   const groups = useMemo(() => byScope(Object.values(blackboard)), [blackboard]);
   return (
     <ScrollArea h="100%" type="auto" data-testid="blackboard">
@@ -41,7 +44,12 @@ export function BlackboardPanel() {
           </thead>
           <tbody>
             {rows.map((row) => (
-              <BlackboardRow key={row.key} row={row} canEdit={isOpen && !isBack && !row.preview} />
+              <BlackboardRow
+                key={row.key}
+                row={row}
+                canEdit={isOpen && !isBack && !row.preview}
+                isRecorded={isRecorded}
+              />
             ))}
           </tbody>
         </table>

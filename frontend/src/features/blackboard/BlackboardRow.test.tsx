@@ -1,12 +1,13 @@
 import { screen } from '@testing-library/react';
-import { describe, expect, it } from 'vitest';
+import { describe, expect, it, vi } from 'vitest';
 import { useRenameKey } from '@/store/dialogs/renameKey';
+import * as looking from '@/store/moment/looking';
 import { openProject, show, user } from '../../../harness/testing';
 import { BlackboardRow } from './BlackboardRow';
 
 type Row = Parameters<typeof BlackboardRow>[0]['row'];
 
-function open(more: Partial<Row>, canEdit = false) {
+function open(more: Partial<Row>, canEdit = false, isRecorded = false) {
   const row = {
     scope: '',
     key: 'goal',
@@ -20,7 +21,7 @@ function open(more: Partial<Row>, canEdit = false) {
   const table = (shown: Row) => (
     <table>
       <tbody>
-        <BlackboardRow row={shown} canEdit={canEdit} />
+        <BlackboardRow row={shown} canEdit={canEdit} isRecorded={isRecorded} />
       </tbody>
     </table>
   );
@@ -41,6 +42,30 @@ describe('BlackboardRow', () => {
     open({ scope: 'In::1' });
     await user.click(screen.getByRole('button', { name: 'Rename the key goal everywhere…' }));
     expect(useRenameKey.getState()).toEqual({ isOpen: true, key: { board: 'In', name: 'goal' } });
+  });
+
+  it('goes to the moment of its last write', async () => {
+    const look = vi.spyOn(looking, 'lookAt').mockReturnValue(undefined);
+    open({ written: { t: 2.5, by: 'Aim' } }, false, true);
+    await user.click(screen.getByRole('button', { name: 'since 2.50 s, written by Aim' }));
+    expect(look).toHaveBeenCalledExactlyOnceWith(2.5);
+  });
+
+  it('shows its recorded writes, and hides them again', async () => {
+    vi.spyOn(looking, 'followWrites').mockImplementation((_, show) => {
+      show([{ t: 3.25, value: 7, isRemoved: false, by: 'Aim' }]);
+      return () => undefined;
+    });
+    open({}, false, true);
+    await user.click(screen.getByRole('button', { name: 'Show the writes of goal' }));
+    expect(screen.getByRole('list', { name: /Writes of goal/ })).toHaveTextContent('3.25 s7Aim');
+    await user.click(screen.getByRole('button', { name: 'Hide the writes of goal' }));
+    expect(screen.queryByRole('list')).toBeNull();
+  });
+
+  it('offers no writes without a recording', () => {
+    open({});
+    expect(screen.queryByRole('button', { name: /writes/ })).toBeNull();
   });
 
   it('can be edited where that is allowed', () => {

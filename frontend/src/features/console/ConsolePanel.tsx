@@ -6,7 +6,7 @@ import { useTranslation } from 'react-i18next';
 import type { LogLevel } from '@/generated/messages';
 import { useShallow } from 'zustand/react/shallow';
 import { useProjectStore } from '@/store/project';
-import { extent } from '@/store/moment/looking';
+import { useExtent } from '@/store/moment/useExtent';
 import { useShownSession } from '@/store/moment/session';
 import { useIsBack } from '@/store/moment/store';
 import { useSessionStore } from '@/store/session/store';
@@ -31,11 +31,7 @@ export function ConsolePanel() {
   const names = useMemo(() => new Map(launched.map(({ id, name }) => [id, name])), [launched]);
   const sources = useSources(names, filter.source);
   const lines = useMemo(() => filterLines(logs, filter), [logs, filter]);
-  const segments = useSessionStore((state) => state.segments);
-  const recordedFrom = useMemo(
-    () => (segments.length > 0 ? (extent()?.from ?? Infinity) : Infinity),
-    [segments],
-  );
+  const recordedFrom = useExtent()?.from ?? Infinity;
   const runFrom = useMemo(() => logs.findLast(({ run }) => run !== undefined)?.id ?? -1, [logs]);
   const [isFollowing, setFollowing] = useState(true);
   const scroller = useRef<HTMLDivElement>(null);

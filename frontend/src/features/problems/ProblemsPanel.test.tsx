@@ -1,12 +1,14 @@
 import { act, screen } from '@testing-library/react';
-import { afterEach, describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it, vi } from 'vitest';
 import type { Diagnostic } from '@/api/types';
 import type { TopicMismatch } from '@/generated/messages';
 import { setLanguage } from '@/i18n';
 import { useLanguageStore } from '@/store/language';
+import * as looking from '@/store/moment/looking';
 import { useProjectStore } from '@/store/project';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
+import { segmentOf } from '../../../harness/runs';
 import { nodeOf, openProject, show, user, watchNavigation } from '../../../harness/testing';
 import { ProblemsPanel } from './ProblemsPanel';
 
@@ -201,4 +203,27 @@ describe('ProblemsPanel', () => {
     expect(rows()[0]).toHaveTextContent('has a brace without its partner');
     expect(rows()[0]).not.toHaveTextContent('Server.');
   });
+});
+
+it('goes to the moment of a fault of the run, where the run was recorded', async () => {
+  const go = vi.spyOn(looking, 'goToFault').mockResolvedValue(true);
+  const fault = { kind: 'exception', message: 'It broke.', hint: '', node_id: '', tree_id: '' } as const;
+  const rest = { node_path: '', file: '', line: 0, traceback: '' };
+  useSessionStore.setState({ faults: [{ ...fault, ...rest }] });
+  open();
+  expect(screen.queryByTestId('fault-moment')).toBeNull();
+  act(() => useSessionStore.setState({ segments: [segmentOf({ run: 'a', to_t: 3, bytes: 10 })] }));
+  await user.click(screen.getByRole('button', { name: 'Show the moment' }));
+  expect(go).toHaveBeenCalledExactlyOnceWith('It broke.');
+});
+
+it('says that a recording does not hold the fault', async () => {
+  vi.spyOn(looking, 'goToFault').mockResolvedValue(false);
+  const fault = { kind: 'exception', message: 'It broke.', hint: '', node_id: '', tree_id: '' } as const;
+  const rest = { node_path: '', file: '', line: 0, traceback: '' };
+  const segments = [segmentOf({ run: 'a', to_t: 3, bytes: 10 })];
+  useSessionStore.setState({ faults: [{ ...fault, ...rest }], segments });
+  open();
+  await user.click(screen.getByRole('button', { name: 'Show the moment' }));
+  expect(await screen.findByText('The recording does not hold this fault.')).toBeInTheDocument();
 });

@@ -1,8 +1,17 @@
-import { ScrollArea, Text } from '@mantine/core';
-import { IconAlertTriangle, IconCircleCheck, IconCircleX, IconInfoCircle } from '@tabler/icons-react';
+import { Button, ScrollArea, Text } from '@mantine/core';
+import { notifications } from '@mantine/notifications';
+import {
+  IconAlertTriangle,
+  IconCircleCheck,
+  IconCircleX,
+  IconHistory,
+  IconInfoCircle,
+} from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { displayName } from '@/model/diagram';
 import { fixesFor } from '@/model/fixes';
+import { goToFault } from '@/store/moment/looking';
+import { useExtent } from '@/store/moment/useExtent';
 import { useProjectStore } from '@/store/project';
 import type { ListedProblem } from '@/store/problems/list';
 import { openProblem } from '@/store/problems/open';
@@ -56,6 +65,7 @@ function Row({ item }: { readonly item: ListedProblem }) {
     .join(' · ');
   const fixes = diagram && !item.isFault ? fixesFor(item.problem, diagram, vocabulary) : [];
   const path = item.problem.source === 'server' ? (item.problem.path ?? []) : [];
+  const hasMoment = useExtent() !== null && item.isFault;
   const canSilence = node !== undefined && item.severity !== 'error' && !item.isFault;
   return (
     <>
@@ -75,11 +85,14 @@ function Row({ item }: { readonly item: ListedProblem }) {
           {item.isFault ? t('fault') : item.topic === null ? item.code : t('topic')}
         </span>
       </button>
-      {path.length > 0 || fixes.length > 0 || canSilence ? (
+      {path.length > 0 || fixes.length > 0 || canSilence || hasMoment ? (
         <div className={classes['fixes']}>
           <ReasonPath path={path} />
           <div className={classes['actions']}>
             <QuickFixes tree={item.tree ?? ''} fixes={fixes} />
+            {hasMoment ? (
+              <MomentButton message={item.problem.source === 'server' ? item.problem.message : ''} />
+            ) : null}
             {canSilence ? (
               <FindingMenu tree={item.tree ?? ''} node={item.node ?? ''} code={item.code} message={message} />
             ) : null}
@@ -87,5 +100,25 @@ function Row({ item }: { readonly item: ListedProblem }) {
         </div>
       ) : null}
     </>
+  );
+}
+
+/** Goes to the moment at which a fault of the run happened. */
+function MomentButton({ message }: { readonly message: string }) {
+  const { t } = useTranslation('problems');
+  const go = async () => {
+    const isFound = await goToFault(message).catch(() => false);
+    if (!isFound) notifications.show({ message: t('moment.missing') });
+  };
+  return (
+    <Button
+      size="compact-xs"
+      variant="default"
+      leftSection={<IconHistory size={14} />}
+      data-testid="fault-moment"
+      onClick={() => void go()}
+    >
+      {t('moment.show')}
+    </Button>
   );
 }

@@ -21,6 +21,7 @@ import {
   hasApplication,
   hasSession,
   isViewer,
+  isHeld,
   isPaused,
   isRunning,
   pause,
@@ -79,7 +80,7 @@ const rows: UserCommand[] = [
     icon: IconPlayerSkipForwardFilled,
     shortcut: 'F10',
     inTextFields: true,
-    enabled: hasApplication,
+    enabled: () => hasApplication() && !isHeld(),
     run: () => void step(),
   },
   {
@@ -99,7 +100,7 @@ const rows: UserCommand[] = [
     icon: IconPlayerTrackNextFilled,
     shortcut: '$mod+F10',
     inTextFields: true,
-    enabled: hasApplication,
+    enabled: () => hasApplication() && !isHeld(),
     run: () => void stepMany(10),
   },
   {

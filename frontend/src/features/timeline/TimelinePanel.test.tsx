@@ -254,7 +254,7 @@ describe('the wheel', () => {
 });
 
 it('looks at the moment of a bar that is clicked, and of nothing else', () => {
-  const look = vi.spyOn(looking, 'lookAt').mockReturnValue(undefined);
+  const look = vi.spyOn(looking, 'lookAtPresentRun').mockReturnValue(undefined);
   run();
   fireEvent.click(rows(), { clientX: 480, clientY: 5, detail: 1 });
   expect(look).toHaveBeenCalledTimes(1);
@@ -262,4 +262,18 @@ it('looks at the moment of a bar that is clicked, and of nothing else', () => {
   fireEvent.click(rows(), { clientX: 480, clientY: 30, detail: 1 });
   fireEvent.click(rows(), { clientX: 480, clientY: 5, detail: 0 });
   expect(look).toHaveBeenCalledTimes(1);
+});
+
+it('goes to the changes of the row that has the focus, by comma and full stop', async () => {
+  const go = vi.spyOn(looking, 'goToChangeOfPresentRun').mockResolvedValue(true);
+  run();
+  rows().querySelector('button')!.focus();
+  await user.keyboard('{ArrowDown}');
+  await waitFor(() => expect(screen.getByText('drive').closest('button')).toHaveFocus());
+  await user.keyboard(',');
+  await user.keyboard('.');
+  expect(go.mock.calls).toEqual([
+    [2, -1],
+    [2, 1],
+  ]);
 });

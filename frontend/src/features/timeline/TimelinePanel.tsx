@@ -19,7 +19,7 @@ import {
 import { useTranslation } from 'react-i18next';
 import { useProjectStore } from '@/store/project';
 import { openTree } from '@/store/project/navigation';
-import { lookAt } from '@/store/moment/looking';
+import { goToChangeOfPresentRun, lookAtPresentRun } from '@/store/moment/looking';
 import { useSessionStore } from '@/store/session/store';
 import { trace } from '@/store/session/trace/trace';
 import { cancellable } from '@/ui/cancellable';
@@ -111,7 +111,7 @@ export function TimelinePanel() {
     const time = from + share * (to - from);
     const isBar =
       row && trace.stretches(row.uid, time, time).some(({ start, end }) => start <= time && end >= time);
-    if (isBar) lookAt(time);
+    if (isBar) lookAtPresentRun(time);
   };
 
   const select = (row: TimelineRow) => {
@@ -130,6 +130,12 @@ export function TimelinePanel() {
     );
   };
 
+  /** Goes to the next (1) or previous (-1) change of the row's node. */
+  const toChange = (direction: 1 | -1) => {
+    const row = rows[active];
+    if (row) void goToChangeOfPresentRun(row.uid, direction);
+  };
+
   const onKeyDown = (event: KeyboardEvent) => {
     const keys: Record<string, () => void> = {
       ArrowDown: () => focusRow(active + 1),
@@ -143,6 +149,8 @@ export function TimelinePanel() {
       '+': () => view.zoom(1 / ZOOM_STEP),
       '-': () => view.zoom(ZOOM_STEP),
       '0': () => view.showAll(),
+      ',': () => toChange(-1),
+      '.': () => toChange(1),
     };
     const doIt = keys[event.key];
     if (!doIt || event.ctrlKey || event.metaKey) return;

@@ -4,7 +4,7 @@ import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
-import { lookAt } from '@/store/moment/looking';
+import { lookAtPresentRun } from '@/store/moment/looking';
 import { useMoment } from '@/store/moment/store';
 import { clearPlots, togglePlot, useTopicsStore } from '@/store/session/topics';
 import { dataOf, HEIGHT_PX, markOf, optionsFor } from './chart';
@@ -68,7 +68,7 @@ export function Plot({ isVisible }: PlotProps) {
     };
     showRange.current = show;
     draw();
-    const endGestures = gestures(chart, element, show, lookAt);
+    const endGestures = gestures(chart, element, show, lookAtPresentRun, () => useMoment.getState().t);
     const endFollowing = useMoment.subscribe((now, before) => {
       if (now.t !== before.t) place();
     });

@@ -1,12 +1,13 @@
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import type uPlot from 'uplot';
-import { gestures } from './plotGestures';
+import { gestures, sampleFrom } from './plotGestures';
 
 const setRange = vi.fn();
 const goTo = vi.fn();
 let over: HTMLElement;
 let host: HTMLElement;
 let end: () => void;
+let shown: number | null = null;
 
 beforeEach(() => {
   setRange.mockClear();
@@ -15,8 +16,10 @@ beforeEach(() => {
   host.append(over);
   over.setPointerCapture = vi.fn();
   Object.defineProperty(over, 'clientWidth', { value: 100 });
-  const chart = { over, scales: { x: { min: 0, max: 10 } }, posToVal: (px: number) => px / 10 };
-  end = gestures(chart as unknown as uPlot, host, setRange, goTo);
+  const scales = { x: { min: 0, max: 10 } };
+  const chart = { over, scales, data: [[1, 2.5, 4]], posToVal: (px: number) => px / 10 };
+  shown = null;
+  end = gestures(chart as unknown as uPlot, host, setRange, goTo, () => shown);
 });
 
 const pointer = (type: string, clientX: number) =>
@@ -52,6 +55,20 @@ describe('gestures', () => {
     expect(goTo).toHaveBeenCalledExactlyOnceWith(4.1);
   });
 
+  it('go from sample to sample by comma and full stop, from the last one at the present', () => {
+    goTo.mockClear();
+    press(',');
+    expect(goTo).toHaveBeenLastCalledWith(4);
+    shown = 4;
+    press(',');
+    expect(goTo).toHaveBeenLastCalledWith(2.5);
+    press('.');
+    expect(goTo).toHaveBeenCalledTimes(2);
+    shown = 1;
+    press('.');
+    expect(goTo).toHaveBeenLastCalledWith(2.5);
+  });
+
   it('cancel a drag with Escape', () => {
     pointer('pointerdown', 50);
     pointer('pointermove', 70);
@@ -81,5 +98,14 @@ describe('gestures', () => {
     end();
     press('0');
     expect(setRange).not.toHaveBeenCalled();
+  });
+});
+
+describe('sampleFrom', () => {
+  it('is the next sample in a direction, or none', () => {
+    expect(sampleFrom([1, 2.5, 4], 2.5, 1)).toBe(4);
+    expect(sampleFrom([1, 2.5, 4], 2.4, 1)).toBe(2.5);
+    expect(sampleFrom([1, 2.5, 4], 1, -1)).toBeUndefined();
+    expect(sampleFrom([], null, 1)).toBeUndefined();
   });
 });

@@ -5,6 +5,9 @@ const WHEEL_STEP = 1.2;
 /** The share of the range by which an arrow key moves it. */
 const ARROW_STEP = 0.2;
 
+/** Samples of less distance, in s, are one. */
+const SAME_S = 1e-6;
+
 /** A pointer that moved less is a click. */
 const CLICK_PX = 3;
 
@@ -36,16 +39,32 @@ function rangeAfter(key: string, range: TimeRange): TimeRange | null | undefined
   }
 }
 
+/** Returns the sample after (1) or before (-1) a time; at null, the last one. Times are in order. */
+export function sampleFrom(
+  times: ArrayLike<number>,
+  from: number | null,
+  direction: 1 | -1,
+): number | undefined {
+  const all = Array.from(times);
+  if (from === null) return all.at(-1);
+  return direction > 0
+    ? all.find((time) => time > from + SAME_S)
+    : all.findLast((time) => time < from - SAME_S);
+}
+
 /**
- * Adds the gestures of a plot: the wheel zooms, a drag moves, a double click or 0 shows everything, and a click
- * goes to the time under it.
+ * Adds the gestures of a plot: the wheel zooms, a drag moves, a double click or 0 shows everything, a click
+ * goes to the time under it, and comma and full stop go from sample to sample.
  * Returns a function that removes them.
+ *
+ * @param shown returns the moment at which one looks; null: the present.
  */
 export function gestures(
   chart: uPlot,
   host: HTMLElement,
   setRange: SetRange,
   goTo: (time: number) => void,
+  shown: () => number | null,
 ): () => void {
   const { over } = chart;
   let held: { x: number; range: TimeRange } | null = null;
@@ -104,8 +123,16 @@ export function gestures(
         held = null;
         return;
       }
+      if (event.ctrlKey || event.metaKey || event.altKey) return;
+      if (event.key === ',' || event.key === '.') {
+        const sample = sampleFrom(chart.data[0], shown(), event.key === '.' ? 1 : -1);
+        event.preventDefault();
+        event.stopPropagation();
+        if (sample !== undefined) goTo(sample);
+        return;
+      }
       const next = range ? rangeAfter(event.key, range) : undefined;
-      if (next === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
+      if (next === undefined) return;
       event.preventDefault();
       event.stopPropagation();
       setRange(next);

@@ -5,6 +5,7 @@ import { useProjectStore } from '@/store/project';
 import { Engine } from '@/store/recording/engine';
 import { liveSource } from '@/store/recording/liveSource';
 import type { EngineLink } from '@/store/recording/recordedRun';
+import type { WriteAt } from '@/store/recording/types';
 import { shownFrames } from '@/store/session/frames';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
@@ -12,9 +13,13 @@ import { segmentOf } from '../../../harness/runs';
 import {
   extent,
   followPresent,
+  followWrites,
   goSeconds,
   goTicks,
+  goToChangeOfPresentRun,
+  goToFault,
   lookAt,
+  lookAtPresentRun,
   lookNow,
   openKept,
   openRun,
@@ -149,4 +154,56 @@ it('opens a kept run without a session, and closes it in the present', async () 
   expect(shownFrames.scene()).toBeNull();
   expect(useSource.getState()).toEqual({ source: liveSource, kept: null });
   expect(extent()).toBeNull();
+});
+
+it('leaves an earlier run for a moment of the last one', async () => {
+  useSessionStore.setState({ segments: [segment('a'), { ...segment('b'), to_t: 0.8 }] });
+  openRun('a', 0.5);
+  await shown(0.5);
+  lookAtPresentRun(0.3);
+  await shown(0.3);
+  expect(extent()).toMatchObject({ run: 'b' });
+  openRun('a', 0.5);
+  await shown(0.5);
+  await goToChangeOfPresentRun(1, -1);
+  expect(extent()).toMatchObject({ run: 'b' });
+});
+
+it('tells the writes of a key, the last one first, at the present too', async () => {
+  const told: (readonly WriteAt[])[] = [];
+  const end = followWrites({ scope: '', key: 'offset' }, (writes) => told.push(writes));
+  await vi.waitFor(() => expect(told.at(-1)?.length).toBeGreaterThan(1));
+  const writes = told.at(-1)!;
+  expect(writes.map(({ t }) => t)).toEqual([...writes.map(({ t }) => t)].sort((a, b) => b - a));
+  lookAt(writes[1]!.t);
+  await shown(writes[1]!.t);
+  const row = Object.values(usePastSession.getState().blackboard).find(({ key }) => key === 'offset')!;
+  expect({ value: row.value, t: row.written?.t, by: row.written?.by }).toEqual({
+    value: writes[1]!.value,
+    t: writes[1]!.t,
+    by: writes[1]!.by,
+  });
+  end();
+  const count = told.length;
+  lookAt(0.1);
+  await shown(0.1);
+  expect(told).toHaveLength(count);
+});
+
+it('says that a fault is not recorded, and stays at the present', async () => {
+  expect(await goToFault('Something else')).toBe(false);
+  expect(isLookingBack()).toBe(false);
+});
+
+it('keeps lists that are as before, so that their views are not drawn again', async () => {
+  lookAt(0.5);
+  await shown(0.5);
+  const { tree, logs } = usePastSession.getState();
+  const { faults } = usePastLive.getState();
+  lookAt(0.52);
+  await shown(0.52);
+  expect(tree.length).toBeGreaterThan(0);
+  expect(usePastSession.getState().tree).toBe(tree);
+  expect(usePastSession.getState().logs).toBe(logs);
+  expect(usePastLive.getState().faults).toBe(faults);
 });

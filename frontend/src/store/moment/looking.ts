@@ -5,7 +5,7 @@ import { earlierSource, runsOf } from '@/store/recording/liveSource';
 import { RecordedRun, type EngineLink } from '@/store/recording/recordedRun';
 import type { FromEngine } from '@/store/recording/engine';
 import type { Story } from '@/store/recording/story';
-import type { Changes, Moment, Overview, RecordingSource } from '@/store/recording/types';
+import type { Changes, EntryName, Moment, Overview, RecordingSource, WriteAt } from '@/store/recording/types';
 import { useSessionStore } from '@/store/session/store';
 import type { LogLine } from '@/store/session/types';
 import { identified, recordedTrees } from './recordedTrees';
@@ -74,6 +74,12 @@ export function lookAt(t: number, tick: number | null = null): void {
   void refresh();
 }
 
+/** Shows a moment of the session's last run, also while another run is open. */
+export function lookAtPresentRun(t: number): void {
+  if (!isPresentRun(useSource.getState())) lookNow();
+  lookAt(t);
+}
+
 /** Opens a kept run at a moment, or at its begin. */
 export function openKept(source: RecordingSource, kept: Kept, t: number | null = null): void {
   lookNow();
@@ -135,6 +141,12 @@ export async function goToChange(uid: number, direction: 1 | -1): Promise<boolea
   return found !== null;
 }
 
+/** As `goToChange`, of the session's last run, also while another run is open. */
+export function goToChangeOfPresentRun(uid: number, direction: 1 | -1): Promise<boolean> {
+  if (!isPresentRun(useSource.getState())) lookNow();
+  return goToChange(uid, direction);
+}
+
 /** Returns the moment from which to continue: at the present, the end of the run, once that was read. */
 async function beginning(): Promise<{ t: number; tick: number | null } | null> {
   const { t, tick } = useMoment.getState();
@@ -170,6 +182,13 @@ export async function storyUntilNow(): Promise<Story | null> {
   const { t: shown, tick } = useMoment.getState();
   const t = shown ?? extent()?.to;
   if (t === undefined) return null;
+  const now = await readUntil(t);
+  const story = await now.ask({ what: 'story', t, tick });
+  if (useMoment.getState().t === null) now.want(null);
+  return story;
+}
+
+async function readUntil(t: number): Promise<RecordedRun> {
   const now = theRun();
   now.want(t);
   await new Promise<void>((resolve, reject) => {
@@ -183,9 +202,44 @@ export async function storyUntilNow(): Promise<Story | null> {
     };
     look();
   });
-  const story = await now.ask({ what: 'story', t, tick });
-  if (useMoment.getState().t === null) now.want(null);
-  return story;
+  return now;
+}
+
+/** Goes to the last fault of the present run with a message; returns whether it is recorded. */
+export async function goToFault(message: string): Promise<boolean> {
+  if (!isPresentRun(useSource.getState())) lookNow();
+  const end = extent()?.to;
+  if (end === undefined) return false;
+  const { overview } = await readUntil(end);
+  const fault = overview?.faults.findLast((each) => each.message === message);
+  if (fault) lookAt(fault.t);
+  else if (useMoment.getState().t === null) theRun().want(null);
+  return fault !== undefined;
+}
+
+/**
+ * Calls back with the writes of a key, the last ones first, now and when more of the recording was read; returns
+ * a function that stops it.
+ */
+export function followWrites(key: EntryName, show: (writes: readonly WriteAt[]) => void): () => void {
+  let isOver = false;
+  const ask = async () => {
+    const end = extent()?.to;
+    if (end === undefined) return;
+    const now = theRun();
+    now.want(useMoment.getState().t ?? end);
+    const writes = await now.ask({ what: 'writes', ...key });
+    if (!isOver && now === recorded) show(writes ?? []);
+  };
+  const stop = useMoment.subscribe((now, before) => {
+    if (now.overview !== before.overview || now.t !== before.t) void ask();
+  });
+  void ask();
+  return () => {
+    isOver = true;
+    stop();
+    if (useMoment.getState().t === null) recorded?.want(null);
+  };
 }
 
 export function setPlaying(isPlaying: boolean): void {
@@ -267,7 +321,8 @@ function show(moment: Moment): void {
   live.setPast(moment.flashes.filter(([uid]) => !statuses.has(uid)));
   if (moment.tickT !== before.shown?.tickT) live.flash(moment.flashes);
   const faults = (before.overview?.faults ?? []).filter((fault) => fault.t <= moment.t);
-  usePastLive.setState({ faults: new Map() });
+  // Every block listens to the map: it is replaced only where there is a fault.
+  if (usePastLive.getState().faults.size > 0) usePastLive.setState({ faults: new Map() });
   for (const { uid, message } of faults) {
     const node = tree.find((each) => each.uid === uid);
     if (node?.node_id) live.setFault(node.node_id, node.tree_id, message);
@@ -275,9 +330,10 @@ function show(moment: Moment): void {
   usePastSession.setState(
     {
       ...useSessionStore.getState(),
-      tree: [...tree],
+      // Lists that are as before stay the same objects, so that views of them are not drawn again.
+      tree: same(usePastSession.getState().tree, tree),
       blackboard: rowsOf(moment, tree),
-      logs: linesUntil(lines, moment.t),
+      logs: same(usePastSession.getState().logs, linesUntil(lines, moment.t)),
       simTime: moment.t,
       tick: moment.tick,
       faults: [],
@@ -292,6 +348,12 @@ function show(moment: Moment): void {
   showWorld(moment, isPresent ? null : scene);
   const run = theRun();
   void showTrail(moment.t, before.overview, isPresent, () => run.ask({ what: 'trail' }));
+}
+
+/** Returns the list from before if it has the same items, else a copy of the new one. */
+function same<T>(before: T[], now: readonly T[]): T[] {
+  const isSame = before.length === now.length && before.every((item, at) => item === now[at]);
+  return isSame ? before : [...now];
 }
 
 /** Returns to the present when the run is gone, and when the user edits, since edits belong to the present. */

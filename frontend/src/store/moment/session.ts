@@ -2,6 +2,7 @@ import { create, useStore } from 'zustand';
 import type { LogSource } from '@/generated/messages';
 import {
   IN_PLACE,
+  writerName,
   type Moment,
   type Overview,
   type RecordedFault,
@@ -55,7 +56,7 @@ const lineOf = ({ t, uid, message, traceback, path }: RecordedFault): RecordedLi
 
 /** Returns the blackboard at a moment as rows. */
 export function rowsOf({ entries }: Moment, tree: readonly TreeNode[]): Record<string, BlackboardRow> {
-  const names = new Map(tree.map(({ uid, name, type }) => [uid, name.replace(/::\d+$/, '') || type]));
+  const names = new Map(tree.map((node) => [node.uid, writerName(node)]));
   const by = (writer: number | null): string | null => {
     if (writer === null) return null;
     return writer === 0 || writer === IN_PLACE ? '' : (names.get(writer) ?? null);

@@ -2,7 +2,7 @@ import type { Segment } from '@/generated/messages';
 import { RunIndex } from './runIndex';
 import { SegmentReader } from './segmentReader';
 import type { Story } from './story';
-import type { Changes, Moment, Overview, TickAt } from './types';
+import type { Changes, Moment, Overview, TickAt, WriteAt } from './types';
 
 export type Ask =
   | {
@@ -22,6 +22,7 @@ export type Ask =
     }
   | { readonly what: 'story'; readonly t: number; readonly tick: number | null }
   | { readonly what: 'trail' }
+  | { readonly what: 'writes'; readonly scope: string; readonly key: string }
   | { readonly what: 'changes'; readonly from: number; readonly to: number };
 
 export interface Answers {
@@ -30,6 +31,7 @@ export interface Answers {
   change: TickAt | null;
   story: Story | null;
   trail: Float32Array | null;
+  writes: readonly WriteAt[] | null;
   changes: Changes | null;
 }
 
@@ -116,6 +118,8 @@ export class Engine {
           return this.index.storyUntil(ask.t, ask.tick);
         case 'trail':
           return this.index.trail();
+        case 'writes':
+          return this.index.writesOf(ask);
         case 'changes':
           return this.index.changes(ask.from, ask.to);
       }

@@ -103,3 +103,25 @@ it('begins again with another run', async () => {
   set([segment(0, { run: 'b' })]);
   await vi.waitFor(() => expect(asked).toHaveLength(2));
 });
+
+it('reads a small part of a long file first, then as large ones as its source allows', async () => {
+  const bytes = 12 << 20;
+  const lengths: number[] = [];
+  const run = new RecordedRun(
+    {
+      segments: () => [segment(0, { bytes })],
+      subscribe: () => () => {},
+      partBytes: 4 << 20,
+      read: (...[, , length]) => {
+        lengths.push(length);
+        return Promise.resolve(new Uint8Array(length));
+      },
+    },
+    { post: () => {}, onMessage: () => {} },
+    () => {},
+    () => {},
+  );
+  run.want(5);
+  await vi.waitFor(() => expect(lengths.reduce((sum, each) => sum + each, 0)).toBe(bytes));
+  expect(lengths).toEqual([1 << 20, 4 << 20, 4 << 20, 3 << 20]);
+});

@@ -109,7 +109,9 @@ export class RecordedRun {
     const { run } = this;
     const held = this.held.get(segment.number) ?? { version: segment.version, bytes: 0, isWhole: false };
     try {
-      const length = Math.min(PART_BYTES, segment.bytes - held.bytes);
+      // The first part is small, so that a moment at the begin is there soon.
+      const most = held.bytes === 0 ? PART_BYTES : (this.source.partBytes ?? PART_BYTES);
+      const length = Math.min(most, segment.bytes - held.bytes);
       const bytes = await this.source.read(segment, held.bytes, length);
       if (run !== this.run) return;
       if (bytes.length === 0) throw new Error('The part is empty.');

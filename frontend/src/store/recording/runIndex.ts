@@ -6,12 +6,24 @@ import { SegmentIndex, type State } from './segmentIndex';
 import type { TickStep } from './steps';
 import { storyUntil, type Story } from './story';
 import { trailOf } from './trailOf';
-import type { Changes, EntryAt, FlagMark, Moment, Overview, PictureAt, ScanAt, TickAt } from './types';
+import type {
+  Changes,
+  EntryAt,
+  EntryName,
+  FlagMark,
+  Moment,
+  Overview,
+  PictureAt,
+  ScanAt,
+  TickAt,
+  WriteAt,
+} from './types';
 
 /** The bytes of pictures that are kept; beyond them, those of the oldest segments go. */
 const MOST_PICTURE_BYTES = 128 << 20;
 const MOST_LINES = 20_000;
 const MOST_MARKS = 1000;
+const MOST_WRITES = 500;
 
 /** Returns the flags that are set at the end of what was read. */
 function flagsOf(segments: readonly SegmentIndex[]): FlagMark[] {
@@ -146,6 +158,16 @@ export class RunIndex {
       all.flatMap(({ poses }) => poses),
       robot.id,
     );
+  }
+
+  /** Returns the last writes of a key in all parts that were read, the last one first. */
+  writesOf(name: EntryName): WriteAt[] {
+    const all = this.inOrder().toReversed();
+    const writes: WriteAt[] = [];
+    for (const segment of all) {
+      if (writes.length < MOST_WRITES) writes.push(...segment.writesOf(name));
+    }
+    return writes.slice(0, MOST_WRITES);
   }
 
   /** Returns the story of a moment's tree until then, from the parts that were read without a gap. */

@@ -13,9 +13,12 @@ import {
   type WritesStep,
 } from './steps';
 import {
+  IN_PLACE,
   RecordingError,
   STATUSES,
+  writerName,
   type Entry,
+  type EntryName,
   type FlagMark,
   type Mark,
   type PosesAt,
@@ -23,6 +26,7 @@ import {
   type RecordedLine,
   type RecordedNode,
   type StatusOf,
+  type WriteAt,
 } from './types';
 
 export const entryId = ({ scope, key }: Pick<Entry, 'scope' | 'key'>) => `${scope}\u0000${key}`;
@@ -172,6 +176,24 @@ export class SegmentIndex {
   /** Returns the last write of a key up to a step, also of a tree that is written again since. */
   lastWrite(id: string, last = Infinity): LastWrite | null {
     return this.writes.get(id)?.findLast(({ at }) => at <= last) ?? null;
+  }
+
+  /** Returns the writes of a key, the last one first. */
+  writesOf(name: EntryName): WriteAt[] {
+    const id = entryId(name);
+    return (this.writes.get(id) ?? []).toReversed().flatMap(({ t, writer, isRemoved, at }): WriteAt[] => {
+      const step = this.steps[at];
+      if (step?.kind !== 'writes') return [];
+      const value = step.writes.findLast((each) => entryId(each) === id)?.value;
+      return [{ t, value, isRemoved, by: this.writerAt(at, writer) }];
+    });
+  }
+
+  private writerAt(at: number, writer: number): string | null {
+    if (writer === 0 || writer === IN_PLACE) return '';
+    const tree = this.steps[this.begins.findLast((each) => each.at <= at)?.tree ?? -1];
+    const node = tree?.kind === 'tree' ? tree.nodes.find(({ uid }) => uid === writer) : undefined;
+    return node ? writerName(node) : null;
   }
 
   /** Returns the poses of all bodies at a time; null without any. */

@@ -12,6 +12,8 @@ it('is one segment that has ended', () => {
     { run: '12ab', branch: 0, number: 0, version: 0, from_t: 2, to_t: 5, bytes: 100, complete: true },
   ]);
   expect(source.subscribe(vi.fn())()).toBeUndefined();
+  // The server answers at most 8 MiB at once.
+  expect(source.partBytes).toBeLessThanOrEqual(8 << 20);
 });
 
 it('reads a range of the file', async () => {

@@ -2,6 +2,9 @@ import { runs, type StoredRun } from '@/api/runs';
 import type { Segment } from '@/generated/messages';
 import type { RecordingSource } from './types';
 
+/** Each part costs a request and a new overview; the server answers up to 8 MiB. */
+const PART_BYTES = 4 << 20;
+
 /** The recording of a run that was kept with a project: one segment, read in ranges. */
 export function storedSource(projectId: string, run: StoredRun): RecordingSource {
   const segment: Segment = {
@@ -16,6 +19,7 @@ export function storedSource(projectId: string, run: StoredRun): RecordingSource
   };
   return {
     segments: () => [segment],
+    partBytes: PART_BYTES,
     subscribe: () => () => undefined,
     read: async (_, offset, length) => {
       const range = `bytes=${offset}-${offset + length - 1}`;

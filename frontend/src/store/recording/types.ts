@@ -9,6 +9,8 @@ export type StatusOf = readonly [uid: number, status: NodeStatus];
 export interface RecordingSource {
   segments(): readonly Segment[];
   read(segment: Segment, offset: number, length: number): Promise<Uint8Array>;
+  /** The most bytes of a read after the first of a segment; without it, 1 MiB, as of a session. */
+  readonly partBytes?: number;
   /** Calls back when segments came, grew or went; returns a function that stops it. */
   subscribe(changed: () => void): () => void;
 }
@@ -28,6 +30,18 @@ export interface Entry {
   readonly isPreview: boolean;
 }
 
+/** What identifies a value of the blackboard. */
+export type EntryName = Pick<Entry, 'scope' | 'key'>;
+
+/** A write of a value of the blackboard, or its removal. */
+export interface WriteAt {
+  readonly t: number;
+  readonly value: unknown;
+  readonly isRemoved: boolean;
+  /** The name of the node that wrote; empty if it was none, null if it is unknown. */
+  readonly by: string | null;
+}
+
 export interface EntryAt extends Entry {
   /** The time of the last write in s; null if the part of the recording with it is not read or is gone. */
   readonly since: number | null;
@@ -36,6 +50,10 @@ export interface EntryAt extends Entry {
 }
 
 export const IN_PLACE = 0xffffffff;
+
+/** Returns the name of a node as the blackboard shows its writers. */
+export const writerName = ({ name, type }: Pick<TreeNode, 'name' | 'type'>): string =>
+  name.replace(/::\d+$/, '') || type;
 
 export interface RecordedLine {
   readonly t: number;

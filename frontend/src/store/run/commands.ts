@@ -21,7 +21,8 @@ async function reported(doing: Promise<unknown>): Promise<void> {
 
 export const isRunning = () => useSessionStore.getState().executor === 'application_running';
 export const isPaused = () => useSessionStore.getState().executor === 'paused';
-export const hasApplication = () => isRunning() || isPaused();
+export const isHeld = () => useSessionStore.getState().executor === 'held';
+export const hasApplication = () => isRunning() || isPaused() || isHeld();
 /** Returns whether the program can be restarted in the running world. */
 export const canRestart = () =>
   hasApplication() || useSessionStore.getState().executor === 'visualization_ready';
@@ -69,7 +70,7 @@ export function setTickRate(tickHz: number): void {
   const isSame = useRunStore.getState().ranAt === useProjectStore.getState().changeCounter;
   useProjectStore.getState().setSettings({ tick_hz: tickHz });
   useSessionStore.setState({ tickHz });
-  if (!hasApplication()) return;
+  if (!isRunning() && !isPaused()) return;
   // The running application has the new rate too, so this change does not make the program outdated.
   if (isSame) useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter });
   void reported(send('set_tick_rate', { tick_hz: tickHz }));

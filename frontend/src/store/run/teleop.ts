@@ -38,7 +38,7 @@ let repeating: ReturnType<typeof setInterval> | undefined;
 export function canDrive(): boolean {
   const { executor, introspection } = useSessionStore.getState();
   return (
-    !['idle', 'connected', 'paused'].includes(executor) &&
+    !['idle', 'connected', 'paused', 'held'].includes(executor) &&
     introspection?.role !== 'viewer' &&
     !isLookingBack()
   );

@@ -4,7 +4,7 @@ type Clock = Pick<SessionData, 'executor' | 'sim'>;
 
 /** Returns whether there is a world whose time is paused. */
 export function isWorldPaused({ executor, sim }: Clock): boolean {
-  if (executor === 'paused') return true;
+  if (executor === 'paused' || executor === 'held') return true;
   return (executor === 'universe_ready' || executor === 'visualization_ready') && (sim?.paused ?? true);
 }
 

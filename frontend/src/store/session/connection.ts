@@ -21,7 +21,7 @@ const EXECUTOR_SILENT = 4504;
 const STORAGE_PREFIX = 'bts.session.';
 
 /** The states of the manager in which it offers streams. */
-const STREAMING: readonly State[] = ['visualization_ready', 'application_running', 'paused'];
+const STREAMING: readonly State[] = ['visualization_ready', 'application_running', 'paused', 'held'];
 
 const isOffline = (error: unknown) => error instanceof ApiError && error.isOffline;
 

@@ -3,6 +3,7 @@ import type {
   BlackboardEntry,
   Events,
   Introspection,
+  Held,
   Log,
   ServerMessage,
   Snapshot,
@@ -47,6 +48,8 @@ const snapshot = (more: Partial<Snapshot> = {}): Snapshot => ({
   segments: [],
   flags: [],
   stops: [],
+  held: null,
+  forced: null,
   state: 'application_running',
   tree: null,
   statuses: [],
@@ -374,4 +377,38 @@ it('knows the flags of the present run, and where a recording stopped until a la
   expect(reduce(stopped, message('segment', { ...segment, run: 'b' })).stops).toEqual([]);
   const joined = reduce(initialSession, message('snapshot', snapshot({ flags: set.flags, stops: [stop] })));
   expect(joined).toMatchObject({ flags: set.flags, stops: [stop] });
+});
+
+describe('a held tree', () => {
+  const held: Held = {
+    uid: 2,
+    path: [1, 2],
+    why: 'step',
+    ahead: [2],
+    cause: 'step',
+    event: 'before',
+    tick: 3,
+    status: null,
+    decided: '',
+    statuses: [[1, 'RUNNING']],
+    hook: 0,
+    outside: false,
+  };
+  const message = (command: string, data: unknown) => ({ id: '', command, data, seq: 1, t: 0 });
+  const states = (...messages: ReturnType<typeof message>[]) => reduceAll(initialSession, messages);
+
+  it('is known until it is released, or the run is over', () => {
+    const began = [message('held', held), message('state-changed', { state: 'held', reason: '' })];
+    expect(states(...began).held).toEqual(held);
+    expect(states(...began, message('released', {})).held).toBeNull();
+    const over = message('state-changed', { state: 'visualization_ready', reason: '' });
+    expect(states(...began, over)).toMatchObject({ held: null, forced: null });
+    expect(states(message('snapshot', snapshot({ state: 'held', held }))).held).toEqual(held);
+  });
+
+  it('has forced results while any are', () => {
+    const forced = { nodes: [], alone: 2 };
+    expect(states(message('forced', forced)).forced).toEqual(forced);
+    expect(states(message('forced', forced), message('forced', { nodes: [], alone: 0 })).forced).toBeNull();
+  });
 });

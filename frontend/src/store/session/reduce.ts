@@ -9,12 +9,16 @@ import type {
   Segment,
   ServerMessage,
   Snapshot,
+  State,
   TopicMismatch,
 } from '@/generated/messages';
 import type { BlackboardRow, LogLine, SessionData } from './types';
 
 /** The time in s after which the executor reports a tick that has not returned. */
 const HANG_REPORTED_S = 2;
+
+/** The states in which a program is loaded. */
+const APPLICATION: readonly State[] = ['application_running', 'paused', 'held'];
 
 /** The number of log lines that are kept, about an hour of output; older lines are dropped. */
 export const MAX_LOG_LINES = 5000;
@@ -46,6 +50,8 @@ export const initialSession: SessionData = {
   segments: [],
   flags: [],
   stops: [],
+  held: null,
+  forced: null,
   sim: null,
   simTime: 0,
   tick: 0,
@@ -71,7 +77,9 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     executor: data.state,
     executorReason: data.reason,
     isHanging: false,
-    ...(data.state === 'application_running' || data.state === 'paused' ? {} : { progress: state.progress }),
+    ...(APPLICATION.includes(data.state) ? {} : { progress: state.progress }),
+    ...(APPLICATION.includes(data.state) ? {} : { forced: null }),
+    ...(data.state === 'held' ? {} : { held: null }),
     ...(data.state === 'idle' || data.state === 'connected' ? { sim: null, mismatches: [] } : {}),
     // Every rung below a running application pauses the world; the next report of the world is up to 1 s away.
     ...(data.state === 'visualization_ready' && state.sim ? { sim: { ...state.sim, paused: true } } : {}),
@@ -93,6 +101,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     ),
     finished: null,
     ports: {},
+    forced: null,
     tick: 0,
   }),
   tick: (_, data) => ({ tick: data.n, isHanging: false }),
@@ -131,6 +140,9 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
   },
   flag: ({ flags }, data) => ({ flags: withFlag(flags, data) }),
   recording_stopped: ({ stops }, data) => ({ stops: [...stops, data] }),
+  held: (_, data) => ({ held: data, isHanging: false }),
+  released: () => ({ held: null }),
+  forced: (_, data) => ({ forced: data.nodes.length > 0 || data.alone > 0 ? data : null }),
   sim: (_, data) => ({ sim: data, speed: data.speed }),
   snapshot: (state, data, { seq, t }) => ({
     executor: data.state,
@@ -152,6 +164,8 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     segments: data.segments,
     flags: data.flags,
     stops: data.stops,
+    held: data.held,
+    forced: data.forced,
     ...keptLogs({ ...state, logs: [] }, data, t),
   }),
 };

@@ -3,6 +3,8 @@ import type {
   Fault,
   Finished,
   FlagSet,
+  Forced,
+  Held,
   Introspection,
   LaunchNode,
   Log,
@@ -71,6 +73,10 @@ export interface SessionData {
   flags: FlagSet[];
   /** Where recordings of this session stopped. */
   stops: RecordingStopped[];
+  /** Where the debugger holds the tree; null while it does not. */
+  held: Held | null;
+  /** What is forced on nodes; null for nothing. */
+  forced: Forced | null;
   sim: Sim | null;
   simTime: number;
   tick: number;

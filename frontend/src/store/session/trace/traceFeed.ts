@@ -2,7 +2,7 @@ import type { ServerMessage, Snapshot, State, Tick, Tree } from '@/generated/mes
 import { trace } from './trace';
 import { takeCachedTrace } from './overReload';
 
-const APPLICATION: readonly State[] = ['application_running', 'paused'];
+const APPLICATION: readonly State[] = ['application_running', 'paused', 'held'];
 
 /** Passes events about nodes to the trace. */
 export function feedTrace({ command, data, t }: ServerMessage): void {

@@ -1,0 +1,126 @@
+"""The commands and the events of the debugger: a part of the protocol in `executor.messages`.
+
+A node of the running tree is named by its `uid` in the event `tree`, and by its path there, so that a command
+for an earlier tree is refused (`unknown_node`).
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from msgspec import Meta, Struct
+
+Key = Annotated[str, Meta(min_length=1, max_length=255)]
+Uid = Annotated[int, Meta(ge=1, le=1_000_000)]
+Path = Annotated[str, Meta(min_length=1, max_length=65536)]
+ResultName = Literal["RUNNING", "SUCCESS", "FAILURE", "SKIPPED"]
+BreakpointMoment = Literal["before", "after", "returns", "halted"]
+ForceEffect = Literal["result", "skip_to", "alone"]
+HeldEvent = Literal["before", "after", "decided", "halted"]
+HeldCause = Literal["breakpoint", "step", "condition"]
+
+
+class Breakpoint(Struct, forbid_unknown_fields=True):
+    """A breakpoint on a block.
+
+    `tree_id` is the ID of the block's BehaviorTree, and `node_id` its id in the diagram. `instance` has the
+    ids of the SubTree nodes that lead to one instance, from the main tree on; null stands for all instances.
+    `when` is the moment, and `status` the result for `returns`. `condition` is a script that must be true,
+    and `hits` the first hit that counts. With `log` this line is written in place of a stop.
+    """
+
+    tree_id: Key
+    node_id: Key
+    instance: Annotated[list[Key], Meta(max_length=100)] | None = None
+    when: BreakpointMoment = "before"
+    status: ResultName | None = None
+    condition: Annotated[str, Meta(max_length=1000)] = ""
+    hits: Annotated[int, Meta(ge=1, le=1_000_000)] = 1
+    log: Annotated[str, Meta(max_length=1000)] = ""
+    on: bool = True
+
+
+class SetBreakpoints(Struct, forbid_unknown_fields=True):
+    """Replaces all breakpoints of the session; they also hold for later runs.
+
+    With `on` false none has an effect. Refused with `bad_breakpoint` if one cannot be set in the running
+    tree; all are as they were then.
+    """
+
+    breakpoints: Annotated[list[Breakpoint], Meta(max_length=500)]
+    on: bool = True
+
+
+class StepTo(Struct, forbid_unknown_fields=True):
+    """Continues until a node is to be ticked."""
+
+    uid: Uid
+    path: Path
+
+
+class Force(Struct, forbid_unknown_fields=True):
+    """Forces a result on a node, in place of what was forced on it before.
+
+    `effect` is `result` for the result `status` in place of its tick (with `after`, of the tick's own
+    result), `skip_to` to skip the siblings before it once, or `alone` to tick it in place of the
+    root. RUNNING freezes the node. `once` is for one tick, else it holds until it is released.
+    Refused with `not_forced`.
+    """
+
+    uid: Uid
+    path: Path
+    effect: ForceEffect = "result"
+    status: ResultName = "SUCCESS"
+    once: bool = False
+    after: bool = False
+
+
+class Release(Struct, forbid_unknown_fields=True):
+    """Ends what is forced on a node; null for all nodes."""
+
+    uid: Uid | None = None
+
+
+class Held(Struct):
+    """The tree is held at a node, within a tick.
+
+    `path` has the uids from the root to the node `uid`, and `ahead` those that the rules may still tick in
+    this tick: possible ones, not certain ones. `why` is the reason in words, and `cause` its kind. `event` is
+    what happens at the node: `status` is its result, and `decided` the pre-condition that gave it without a
+    tick. `statuses` are those of all nodes that are not IDLE. `hook` counts the stops of the tick, from 0.
+    With `outside` the robot is not held: it belongs to an outside ROS graph.
+    """
+
+    uid: int
+    path: list[int]
+    why: str
+    ahead: list[int]
+    cause: HeldCause
+    event: HeldEvent
+    tick: int
+    status: ResultName | None = None
+    decided: str = ""
+    statuses: list[tuple[int, ResultName]] = []
+    hook: int = 0
+    outside: bool = False
+
+
+class Released(Struct):
+    """The tree is not held any more."""
+
+
+class ForcedNode(Struct):
+    """A result that is forced on a node; `skips_to` is the node to which the skips lead, or 0."""
+
+    uid: int
+    status: ResultName
+    once: bool
+    after: bool
+    skips_to: int = 0
+
+
+class Forced(Struct):
+    """All that is forced now; `alone` is the uid of the node that runs alone, or 0."""
+
+    nodes: list[ForcedNode]
+    alone: int = 0

@@ -1,0 +1,50 @@
+"""The events of a recording: a part of the protocol in `executor.messages`."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from msgspec import Struct
+
+StopReason = Literal["disk_full", "disk_failed", "recorder_died", "recorder_hung"]
+
+
+class Segment(Struct):
+    """A part of the recording of a run: 20 s of simulated time, and an MCAP file by itself.
+
+    It is sent again each second while it grows: `bytes` of it can be read then. `complete` tells that it has
+    its end. A new `version` replaces it when old pictures were removed; with 0 `bytes` it is gone.
+    """
+
+    run: str
+    branch: int
+    number: int
+    version: int
+    from_t: float
+    to_t: float
+    bytes: int
+    complete: bool = False
+
+
+class FlagSet(Struct):
+    """A flag of the user was set or changed in a run, at a moment in s; with an empty `text` it is gone."""
+
+    run: str
+    id: str
+    t: float
+    text: str
+    user: str = ""
+
+
+class RecordingStopped(Struct):
+    """The recording of a run stopped at a simulated time in s; the run itself continues.
+
+    What happens from then on is missing: until another recorder has started if it `goes_on`, else to the end
+    of the run. `detail` is the cause as the system tells it.
+    """
+
+    run: str
+    t: float
+    reason: StopReason
+    detail: str
+    goes_on: bool

@@ -1,0 +1,1 @@
+"""The debugger in a session: holds of the tree, and their end."""

@@ -1,0 +1,16 @@
+"""The page of limits states those of recordings and kept runs as the code has them."""
+
+from __future__ import annotations
+
+from functools import reduce
+from importlib import import_module
+
+import pytest
+
+from translator.limits import RECORDINGS
+
+
+@pytest.mark.parametrize("limit", RECORDINGS, ids=lambda limit: limit.name)
+def test_the_page_states_the_constant_of_the_code(limit):
+    module, path = limit.constant.split(":")
+    assert reduce(getattr, path.split("."), import_module(module)) == limit.value

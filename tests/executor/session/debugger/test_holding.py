@@ -1,0 +1,208 @@
+"""Holds in the session: the ladder, the world, limits, clients that leave, and random plays."""
+
+from __future__ import annotations
+
+import os
+import random
+import sys
+
+import pytest
+
+from executor.child_messages import Continue, SetBreakpoints, StartApplication
+from executor.session.debugger.holding import HOLD_DRIVER_GRACE_S
+from executor.session.events import ClientJoined, ClientLeft, Tell
+from executor.session.ladder import TABLE, State, is_legal
+from tests.budget import count
+from tests.executor.session.play import DATA, HELD, Play
+
+STEPS = ("step_into", "step_over", "step_out", "step_to")
+ENDS = ("terminate_application", "disconnect", "run", "restart_application")
+
+
+def held() -> Play:
+    play = Play()
+    play.climb(State.HELD)
+    return play
+
+
+def messages_of(play: Play, kind: type) -> list:
+    return [e.message for e in play.effects if isinstance(e, Tell) and isinstance(e.message, kind)]
+
+
+def test_a_hold_stops_the_world_and_a_release_lets_it_continue() -> None:
+    play = held()
+    assert play.told("world")[-1] == "pause"
+    assert [e.uid for e in play.sent("held")] == [2]
+    assert play.session.snapshot().held is not None
+    assert play.reply(play.command("continue_run")) == "ack"
+    assert play.state is State.APPLICATION_RUNNING
+    assert play.told("world")[-1] == "resume"
+    assert play.session.snapshot().held is None
+
+
+def test_a_pause_of_a_held_run_has_no_effect() -> None:
+    play = held()
+    told = len(play.told("application"))
+    assert play.reply(play.command("pause")) == "ack"
+    assert play.state is State.HELD
+    assert len(play.told("application")) == told
+
+
+def test_the_world_is_stopped_between_the_steps_of_a_tick() -> None:
+    play = held()
+    told = len(play.told("world"))
+    for command in STEPS:
+        assert play.reply(play.command(command)) == "ack"
+        play.child_says("application", "held", **HELD)
+    assert play.state is State.HELD
+    assert "resume" not in play.told("world")[told:]
+
+
+def test_a_hold_meets_a_pause_that_is_under_way() -> None:
+    play = Play()
+    play.climb(State.APPLICATION_RUNNING)
+    play.obedient = False
+    request = play.command("pause")
+    play.child_says("application", "held", **HELD)
+    play.child_says("application", "paused")
+    play.child_says("world", "answer", request=messages_of_world(play)[-1])
+    assert play.reply(request) == "ack"
+    assert play.state is State.HELD
+
+
+def messages_of_world(play: Play) -> list[str]:
+    return [
+        getattr(e.message, "request", "")
+        for e in play.effects
+        if isinstance(e, Tell) and e.kind == "world" and getattr(e.message, "request", None)
+    ]
+
+
+def test_a_step_of_a_paused_run_that_is_held_ends_with_the_hold() -> None:
+    play = Play()
+    play.climb(State.PAUSED)
+    play.obedient = False
+    request = play.command("step")
+    play.child_says("application", "held", **HELD)
+    assert play.reply(request) == "ack"
+    assert play.state is State.HELD
+
+
+def test_a_tree_that_is_held_before_the_run_is_reported_stays_held() -> None:
+    play = Play()
+    play.command("set_breakpoints")
+    play.obedient = False
+    play.command("run")
+    answers = [answer for effect in list(play.effects) for answer in play.answers(effect)]
+    while answers:
+        play.effects.clear()
+        for answer in answers:
+            play.happens(answer)
+        answers = [answer for effect in list(play.effects) for answer in play.answers(effect)]
+        if "resume" in play.told("application"):
+            play.child_says("application", "held", **HELD)
+    assert play.state is State.HELD
+
+
+def test_breakpoints_are_kept_for_later_runs_and_those_set_while_it_loads_follow() -> None:
+    play = Play()
+    assert play.reply(play.command("set_breakpoints")) == "ack"
+    play.command("run")
+    [start] = messages_of(play, StartApplication)
+    assert start.breakpoints.breakpoints[0].node_id == "n1"
+    assert messages_of(play, SetBreakpoints) == []
+    play.command("set_breakpoints", breakpoints=[])
+    assert [m.wanted.breakpoints for m in messages_of(play, SetBreakpoints)] == [[]]
+
+
+def test_a_hold_that_lasts_too_long_ends_with_a_notice() -> None:
+    play = held()
+    play.command("set_breakpoints")
+    limit_s = play.session.about.hold_limit_s
+    assert play.session.deadline_s is not None
+    play.later(limit_s - 1)
+    assert play.state is State.HELD
+    play.later(2)
+    assert play.state is State.APPLICATION_RUNNING
+    assert "held for 15 min" in play.sent("log")[-1].text
+    assert play.session.hold.breakpoints is not None
+    assert not play.session.hold.breakpoints.on
+
+
+def test_a_driver_that_stays_away_leaves_a_paused_run_without_breakpoints() -> None:
+    play = held()
+    play.happens(ClientLeft("d"))
+    play.later(HOLD_DRIVER_GRACE_S - 1)
+    assert play.state is State.HELD
+    play.later(2)
+    assert play.state is State.PAUSED
+    [last] = [m for m in messages_of(play, Continue) if m.off]
+    assert last.pauses
+    assert "was away" in play.sent("log")[-1].text
+
+
+def test_a_driver_that_comes_back_in_time_finds_the_tree_held() -> None:
+    play = held()
+    play.happens(ClientLeft("d"))
+    play.later(HOLD_DRIVER_GRACE_S / 2)
+    play.happens(ClientJoined("d"))
+    play.later(HOLD_DRIVER_GRACE_S)
+    assert play.state is State.HELD
+    assert play.sent("snapshot", client="d")[-1].held.uid == 2
+
+
+def test_viewers_see_the_stop_and_control_nothing() -> None:
+    play = held()
+    play.happens(ClientJoined("v"))
+    assert play.sent("snapshot", client="v")[-1].held.why == HELD["why"]
+    for command in (*STEPS, "continue_run", "set_breakpoints", "force", "release"):
+        assert play.reply(play.command(command, client="v")) == "not_driver"
+    assert play.state is State.HELD
+
+
+def test_the_user_of_an_outside_robot_learns_that_it_keeps_moving() -> None:
+    play = Play()
+    play.command("run", **(DATA["run"] | {"universe": {"universe": "none"}}))
+    play.child_says("application", "held", **HELD)
+    assert play.sent("held")[-1].outside
+    assert "keeps moving" in play.sent("log")[-1].text
+
+
+@pytest.mark.parametrize("kind", ["world", "application"])
+def test_a_child_that_dies_while_held_ends_the_hold(kind) -> None:
+    play = held()
+    play.child_dies(kind)
+    assert play.state is (State.CONNECTED if kind == "world" else State.VISUALIZATION_READY)
+    snapshot = play.session.snapshot()
+    assert (snapshot.held, snapshot.forced) == (None, None)
+    assert play.reply(play.command("run")) == "ack"
+
+
+def test_random_plays_with_stops_keep_to_the_table() -> None:
+    """At any moment the application may say that it is held; then every command is tried."""
+    seed = int(os.environ.get("BT_STUDIO_SEED", "0")) or random.randrange(1 << 30)  # noqa: S311
+    sys.stdout.write(f"seed {seed}\n")
+    chance = random.Random(seed)  # noqa: S311
+    commands = [name for name in TABLE if name not in ("read_recording", "evaluate", "flag", "cancel")]
+    for _ in range(count("session_holds")):
+        play = Play()
+        play.climb(State.APPLICATION_RUNNING)
+        for _ in range(20):
+            before = play.state
+            if before is State.APPLICATION_RUNNING and chance.random() < 0.7:
+                play.child_says("application", "held", **HELD)
+                assert play.state is State.HELD
+                before = play.state
+            name = chance.choice(commands)
+            reply = play.reply(play.command(name))
+            if not is_legal(before, name):
+                assert (reply, play.state) == ("wrong_state", before), name
+            elif before is State.HELD and name in STEPS:
+                assert (reply, play.state) == ("ack", State.HELD), name
+                play.child_says("application", chance.choice(["held", "released"]), **HELD)
+            elif before is State.HELD and name not in (*ENDS, "continue_run", "run_application"):
+                assert play.state is State.HELD, name
+            has_world_stopped = "resume" not in play.told("world")[-1:]
+            assert play.state is not State.HELD or has_world_stopped, name
+            held_event = play.session.snapshot().held
+            assert (held_event is not None) is (play.state is State.HELD), name

@@ -1,0 +1,92 @@
+"""Real processes that die or are stopped while the debugger holds the tree: the ladder comes true."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import random
+import signal
+import sys
+import time
+
+import psutil
+import pytest
+
+from executor.session.hangs.vitals import FAULT_AFTER_S
+from executor.session.ladder import State
+from tests.budget import count
+from tests.executor.hanging import ROOT, hanging_session
+from tests.executor.session_client import SessionClient, manager_process, run_data
+
+pytestmark = pytest.mark.simulation
+
+LEFT = {"world": State.CONNECTED, "application": State.VISUALIZATION_READY}
+
+
+def chance_of_today():
+    seed = int(os.environ.get("BT_STUDIO_SEED", "0")) or random.randrange(1 << 30)  # noqa: S311
+    sys.stdout.write(f"seed {seed}\n")
+    return random.Random(seed)  # noqa: S311
+
+
+async def test_a_process_that_is_killed_while_the_tree_is_held_is_reported_and_replaced():
+    victims = ["application", "world", "recorder"]
+    async with hanging_session() as session:
+        for number in range(count("held_kills")):
+            kind = victims[number % len(victims)]
+            await session.climb(State.HELD)
+            victim = await session.spare(kind)
+            at, began_s = len(session.client.events), time.monotonic()
+            os.kill(victim.pid, signal.SIGKILL)
+            if kind in LEFT:
+                left = LEFT[kind]
+                come = await session.client.event(
+                    "state-changed", lambda d, left=left: d["state"] == left, after=at
+                )
+                faults = session.client.named("fault", after=at)
+                [fault] = [fault for fault in faults if fault["kind"] == "process"]
+                assert "SIGKILL" in fault["message"]
+            else:
+                come = await session.client.event("recording_stopped", lambda d: d["goes_on"], after=at)
+                assert session.client.state == State.HELD
+            sys.stdout.write(f"{kind}: true after {come['at'] - began_s:.2f} s\n")
+            await session.spare(kind, other_than=victim.pid)
+        await session.ask("set_breakpoints", {"breakpoints": []})
+        await session.runs()
+
+
+async def test_a_process_that_is_stopped_while_the_tree_is_held_is_reported():
+    chance = chance_of_today()
+    async with hanging_session() as session:
+        for _ in range(count("held_stops")):
+            outcome = await session.stop_child(chance.choice(["application", "world"]), State.HELD)
+            sys.stdout.write(f"{outcome.victim}: {outcome.reported_s:.2f} s, {outcome.right_s:.2f} s\n")
+        await session.ask("set_breakpoints", {"breakpoints": []})
+        await session.runs()
+
+
+async def test_a_tree_that_is_held_for_long_is_not_called_hung():
+    async with hanging_session() as session:
+        await session.climb(State.HELD)
+        at = len(session.client.events)
+        await asyncio.sleep(2 * FAULT_AFTER_S)  # the time is the test: a hang is reported after half of it
+        assert session.client.named("fault", after=at) == []
+        assert session.client.state == State.HELD
+        await session.ask("continue_run")
+        await session.ask("terminate_application")
+
+
+async def test_a_page_that_is_gone_leaves_the_tree_held_and_a_killed_manager_leaves_nothing():
+    async with manager_process() as manager:
+        client = await SessionClient(manager.ready["port"]).open(stream=False)
+        assert await client.ask("set_breakpoints", {"breakpoints": [ROOT]}) == "ack"
+        assert await client.ask("run", run_data()) == "ack"
+        await client.event("held")
+        await client.close()
+        other = await SessionClient(manager.ready["port"]).open(stream=False)
+        snapshot = (await other.event("snapshot"))["data"]
+        assert (snapshot["state"], snapshot["held"]["uid"]) == ("held", 1)
+        family = psutil.Process(manager.pid).children(recursive=True)
+        manager.kill()
+        _, alive = await asyncio.to_thread(psutil.wait_procs, family, 60)
+        assert alive == []

@@ -2,11 +2,13 @@
 
 import json
 
-from executor.evaluation.reference import FILE, schema_text
+from executor.evaluation.reference.schema import FILE, schema_text
 
 
 def test_the_schema_is_up_to_date():
-    assert FILE.read_text(encoding="utf-8") == schema_text(), "run: python -m executor.evaluation.reference"
+    assert FILE.read_text(encoding="utf-8") == schema_text(), (
+        "run: python -m executor.evaluation.reference.schema"
+    )
 
 
 def test_the_schema_takes_the_short_forms():

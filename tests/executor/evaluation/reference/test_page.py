@@ -1,15 +1,15 @@
 """The page of the evaluation format."""
 
 from executor.evaluation.document import FAULT_FIELDS, MEASURES, Criterion, Draw, Evaluation, Fault
-from executor.generate import evaluation_page
+from executor.evaluation.reference import page as reference
 
 
 def test_the_committed_page_is_what_the_schema_says():
-    assert evaluation_page.PAGE.read_text(encoding="utf-8") == evaluation_page.page()
+    assert reference.PAGE.read_text(encoding="utf-8") == reference.page()
 
 
 def test_every_key_has_a_meaning_and_every_kind_of_fault_its_fields():
-    page = evaluation_page.page()
+    page = reference.page()
     for model in (Evaluation, Draw, Criterion, Fault):
         for name, field in model.model_fields.items():
             assert field.description, f"{model.__name__}.{name}"
@@ -21,7 +21,7 @@ def test_every_key_has_a_meaning_and_every_kind_of_fault_its_fields():
 
 
 def test_bounds_and_defaults_are_written():
-    page = evaluation_page.page()
+    page = reference.page()
     assert "| `runs` | whole number ≥ 1, ≤ 100,000 | How many runs." in page
     assert (
         "| `duration_s` | number > 0, ≤ 36,000 | The longest time of a run, in simulated s. (required) |"

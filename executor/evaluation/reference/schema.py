@@ -1,4 +1,4 @@
-"""Writes the JSON Schema of the evaluation format: `python -m executor.evaluation.reference`."""
+"""Writes the JSON Schema of the evaluation format: `python -m executor.evaluation.reference.schema`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any, Final
 
 from executor.evaluation.document import Evaluation
 
-FILE: Final = Path(__file__).parents[2] / "docs" / "reference" / "schemas" / "evaluation.schema.json"
+FILE: Final = Path(__file__).parents[3] / "docs" / "reference" / "schemas" / "evaluation.schema.json"
 
 
 def schema_text() -> str:

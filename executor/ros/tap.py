@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from array import array
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -81,7 +82,7 @@ class TopicTap:
 
     def _write_jpeg(self, topic: str, jpeg: bytes, now_s: float, header: Header) -> None:
         packed = CompressedImage(header=header, format="rgb8; jpeg compressed bgr8")
-        packed.data = np.frombuffer(jpeg, np.uint8)
+        packed.data = array("B", jpeg)  # of all other types ROS looks at each byte
         self._write(f"{topic}/compressed", kind_of(packed), now_s, encode_object(kind_of(packed), packed))
 
 

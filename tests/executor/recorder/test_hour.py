@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 import psutil
+import pytest
 
 from executor.messages import Poses
 from executor.recorder.run_writer import SEGMENT_NS, RunWriter
@@ -24,6 +25,7 @@ GROWTH_BYTES = 48 << 20
 TEN_MINUTES_NS = 600 * SECOND
 
 
+@pytest.mark.timeout(1800)  # some 30 s of processor time for an hour
 def test_an_hour_stays_in_its_bounds_of_disk_and_memory(tmp_path: Path) -> None:
     chance = random.Random(1)  # noqa: S311 - reproducible data, no secret
     shelf = Shelf(tmp_path, lambda _: None)

@@ -51,7 +51,7 @@ def report_html(document: dict[str, Any]) -> str:
 def page_html(document: dict[str, Any], kind: str) -> str:
     """Returns a self-contained page that shows a document: `report`, or `tuning` for a study."""
     style = (_PAGE / "report.css").read_text(encoding="utf-8")
-    script = (_PAGE / f"{kind}.js").read_text(encoding="utf-8")
+    script = "".join((_PAGE / f"{name}.js").read_text(encoding="utf-8") for name in ("elements", kind))
     policy = (
         f"default-src 'none'; script-src '{_hash(script)}'; style-src '{_hash(style)}'; img-src data:; "
         "base-uri 'none'; form-action 'none'"

@@ -11,7 +11,7 @@ from typing import Any, Final
 
 import numpy as np
 
-__all__ = ["FieldError", "Flattened", "describe", "fill", "flatten", "message_type"]
+__all__ = ["FieldError", "Flattened", "describe", "fill", "flatten", "message_type", "type_name"]
 
 LARGEST_LIST: Final = 400
 LARGEST_TEXT: Final = 4000
@@ -40,6 +40,11 @@ def message_type(name: str) -> Any:
         return getattr(import_module(f"{match[1]}.msg"), match[2])
     except (ImportError, AttributeError) as error:
         raise ValueError(f"the message type {name!r} is not installed") from error
+
+
+def type_name(kind: type) -> str:
+    """Returns the name of a message type, such as `sensor_msgs/msg/LaserScan`."""
+    return f"{kind.__module__.partition('.')[0]}/msg/{kind.__name__}"
 
 
 # --- out ------------------------------------------------------------------------------------------

@@ -1,37 +1,9 @@
-'use strict';
-// Shows a study. All foreign text goes through textContent; nothing is parsed as HTML.
+// Shows a study.
 (() => {
-  const data = JSON.parse(document.getElementById('data').textContent);
-  const root = document.getElementById('report');
-  const SVG = 'http://www.w3.org/2000/svg';
   const WIDE = 560;
   const HIGH = 220;
   const EDGE = 44;
-  const percent = (value) => `${(value * 100).toFixed(1)} %`;
-  const short = (value) => (Math.abs(value) >= 1000 ? value.toFixed(0) : String(Number(value.toPrecision(4))));
   const rated = (value) => (value === null ? 'undefined' : data.objective === 'success' ? percent(value) : short(value));
-
-  function add(parent, name, attributes = {}, text = undefined) {
-    const made = document.createElement(name);
-    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-    if (text !== undefined) made.textContent = text;
-    parent.append(made);
-    return made;
-  }
-
-  function draw(parent, name, attributes = {}, text = undefined) {
-    const made = document.createElementNS(SVG, name);
-    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-    if (text !== undefined) made.textContent = text;
-    parent.append(made);
-    return made;
-  }
-
-  function card(title) {
-    const made = add(root, 'section', { class: 'card' });
-    add(made, 'h2', {}, title);
-    return made;
-  }
 
   const trials = data.trials.filter((trial) => trial.rating !== null);
   const better = (a, b) => (data.maximise ? a > b : a < b);

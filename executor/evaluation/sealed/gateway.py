@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import importlib
 from typing import TYPE_CHECKING, Any
 
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from executor.evaluation.sealed.link import Heard
-from executor.evaluation.sealed.remote import name_of
 from executor.navigation.node import ACTIONS, MAP_TOPIC, SERVICES
 from executor.ros.raw_take import ignore, take
+from executor.ros.values import message_type, type_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -19,12 +18,6 @@ if TYPE_CHECKING:
     from rclpy.context import Context
 
     from executor.evaluation.sealed.link import Sent, Topic
-
-
-def type_of(name: str) -> Any:
-    """Returns the message type of a name, such as `sensor_msgs/msg/LaserScan`."""
-    package, kind, type_ = name.split("/")
-    return getattr(importlib.import_module(f"{package}.{kind}"), type_)
 
 
 class Gateway:
@@ -39,12 +32,13 @@ class Gateway:
             use_global_arguments=False,
         )
         self._publishers = [
-            self.node.create_publisher(type_of(topic.types[0]), topic.name, _qos(topic))
+            self.node.create_publisher(message_type(topic.types[0]), topic.name, _qos(topic))
             for topic in publishers
         ]
         self._topics = {topic.name: topic for topic in subscriptions}
         self._subscriptions = {
-            topic.name: self._subscribe(type_of(topic.types[0]), topic) for topic in self._topics.values()
+            topic.name: self._subscribe(message_type(topic.types[0]), topic)
+            for topic in self._topics.values()
         }
 
     def publish(self, sent: Iterable[Sent]) -> None:
@@ -61,14 +55,14 @@ class Gateway:
         found = []
         for topic, subscription in self._subscriptions.items():
             while (data := take(subscription)) is not None:
-                found.append(Heard(topic, name_of(subscription.msg_type), data))
+                found.append(Heard(topic, type_name(subscription.msg_type), data))
         return found
 
     def make_way(self, topic: str, message_type: type) -> None:
         """Changes the type of a subscription, for a node of this participant (`share_commands`)."""
         known = self._topics.get(topic)
-        name = name_of(message_type)
-        if known is None or name not in known.types or name == name_of(self._subscriptions[topic].msg_type):
+        name = type_name(message_type)
+        if known is None or name not in known.types or name == type_name(self._subscriptions[topic].msg_type):
             return
         self.node.destroy_subscription(self._subscriptions[topic])
         self._subscriptions[topic] = self._subscribe(message_type, known)

@@ -13,16 +13,12 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message
 
 from executor.evaluation.sealed.link import Sent, Topic
+from executor.ros.values import type_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from executor.evaluation.sealed.link import Heard
-
-
-def name_of(kind: type) -> str:
-    """Returns the name of a message type, such as `sensor_msgs/msg/LaserScan`."""
-    return f"{kind.__module__.partition('.')[0]}/msg/{kind.__name__}"
 
 
 class RemoteNode:
@@ -45,7 +41,7 @@ class RemoteNode:
     def create_publisher(self, kind: type, topic: str, qos: QoSProfile | int) -> RemotePublisher:
         """Returns a publisher, as rclpy's method does."""
         depth, is_latched = _read_qos(qos)
-        self.publishers.append(Topic(topic, (name_of(kind),), depth, is_latched))
+        self.publishers.append(Topic(topic, (type_name(kind),), depth, is_latched))
         self.listeners.append(0)
         return RemotePublisher(self, len(self.publishers) - 1, topic)
 
@@ -93,7 +89,7 @@ class RemoteNode:
         for each in heard:
             make_way(each.topic, each.type)
             subscription = self.subscriptions.get(each.topic)
-            if subscription is not None and name_of(subscription.msg_type) == each.type:
+            if subscription is not None and type_name(subscription.msg_type) == each.type:
                 subscription.add(each.data)
 
 

@@ -33,7 +33,8 @@ from executor.evaluation.sealed.link import (
     Topic,
     Waits,
 )
-from executor.evaluation.sealed.remote import RemoteNode, name_of
+from executor.evaluation.sealed.remote import RemoteNode
+from executor.ros.values import type_name
 from tree_gardener import Status
 
 if TYPE_CHECKING:
@@ -101,7 +102,7 @@ class SealedRun(EvaluationRun):
         commands = [
             Topic(
                 topic,
-                tuple(map(name_of, self.node.types_of(topic))) or (name_of(subscription.msg_type),),
+                tuple(map(type_name, self.node.types_of(topic))) or (type_name(subscription.msg_type),),
                 subscription.depth,
             )
             for topic, subscription in self._remote.subscriptions.items()
@@ -181,7 +182,7 @@ class SealedRun(EvaluationRun):
 
     def _make_way(self, topic: str, type_: str) -> None:
         for kind in self.node.types_of(topic):
-            if name_of(kind) == type_:
+            if type_name(kind) == type_:
                 self.node.make_way(topic, kind)
 
     # --- what the judge asks ---

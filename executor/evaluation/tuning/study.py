@@ -60,6 +60,9 @@ class Study:
         ports: the ports.
         maximise: whether more is better.
         seed: the seed of the sampler.
+
+    Raises:
+        TuningError: Optuna is not installed, or the folder can hold no study.
     """
 
     def __init__(self, folder: Path, key: str, ports: Sequence[Port], *, maximise: bool, seed: int) -> None:
@@ -67,14 +70,26 @@ class Study:
         self._ports = ports
         self._seed = seed
         self._maximise = maximise
-        folder.mkdir(parents=True, exist_ok=True)
+        from sqlalchemy.exc import SQLAlchemyError  # noqa: PLC0415 - Optuna brings it
+
+        failures = (OSError, SQLAlchemyError, self._optuna.exceptions.StorageInternalError)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            self._open(folder / FILE, key)
+        except failures as error:
+            why = str(error).partition("\n")[0]
+            raise TuningError(
+                f"{folder / FILE}: no study can be kept here (name another --report): {why}"
+            ) from error
+
+    def _open(self, file: Path, key: str) -> None:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            self._storage = self._optuna.storages.RDBStorage(f"sqlite:///{folder / FILE}")
+            self._storage = self._optuna.storages.RDBStorage(f"sqlite:///{file}")
             self._study = self._optuna.create_study(
                 storage=self._storage,
                 study_name=key,
-                direction="maximize" if maximise else "minimize",
+                direction="maximize" if self._maximise else "minimize",
                 load_if_exists=True,
             )
 

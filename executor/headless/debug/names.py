@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from executor.headless.debug.words import whole
 from tree_gardener.debugging import place_of
 
 if TYPE_CHECKING:
@@ -51,9 +52,9 @@ def names_of(nodes: Sequence[Node]) -> list[str]:
 
 
 def _nodes(nodes: Sequence[Node], name: str) -> list[Node]:
-    number = name.removeprefix("#")
-    if number.isdecimal() and 0 < int(number) <= len(nodes):
-        return [nodes[int(number) - 1]]
+    number = whole(name.removeprefix("#"))
+    if number is not None and 0 < number <= len(nodes):
+        return [nodes[number - 1]]
     for attribute in ("path", "name", "type"):
         found = [node for node in nodes if getattr(node, attribute) == name]
         if found:

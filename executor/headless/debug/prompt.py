@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final, TextIO
 
 from executor.headless.debug.help import HELP
 from executor.headless.debug.names import UnknownNodeError, names_of, node_named, place_named
-from executor.headless.debug.words import MOMENTS, RESULTS, WordsError, breakpoint_of, split
+from executor.headless.debug.words import MOMENTS, RESULTS, WordsError, breakpoint_of, split, whole
 from tree_gardener import PortError, ScriptError, Status
 from tree_gardener.blackboard import EMPTY
 from tree_gardener.debugging import (
@@ -157,10 +157,10 @@ class Prompt(cmd.Cmd):
 
     def _without(self, line: str) -> list[Breakpoint]:
         found = list(self.debugger.breakpoints.all)
-        number = line.strip()
-        if not number.isdecimal() or not 0 < int(number) <= len(found):
-            raise WordsError(f"there is no breakpoint '{number}'; `break` lists them")
-        del found[int(number) - 1]
+        number = whole(line.strip())
+        if number is None or not 0 < number <= len(found):
+            raise WordsError(f"there is no breakpoint '{line.strip()}'; `break` lists them")
+        del found[number - 1]
         return found
 
     def do_off(self, line: str) -> None:

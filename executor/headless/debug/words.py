@@ -41,6 +41,11 @@ def split(line: str) -> list[str]:
         raise WordsError(f"{error}: {line}") from None
 
 
+def whole(text: str) -> int | None:
+    """Returns a number of at most nine digits; None for any other text."""
+    return int(text) if text.isdecimal() and len(text) < 10 else None
+
+
 def breakpoint_of(line: str, place_named: Callable[[str], Place]) -> Breakpoint:
     """Returns the breakpoint of ``NODE [MOMENT] [if CONDITION] [hits N] [log TEXT]``.
 
@@ -66,6 +71,7 @@ def breakpoint_of(line: str, place_named: Callable[[str], Place]) -> Breakpoint:
         if not words:
             raise WordsError(f"nothing stands behind '{name}'")
         options[name] = words.pop(0)
-    if not options["hits"].isdecimal():
-        raise WordsError(f"the hit count '{options['hits']}' is no number")
-    return Breakpoint(place, when, status, options["if"], int(options["hits"]), options["log"])
+    hits = whole(options["hits"])
+    if hits is None:
+        raise WordsError(f"the hit count '{options['hits'][:20]}' is no number, or too large")
+    return Breakpoint(place, when, status, options["if"], hits, options["log"])

@@ -25,7 +25,7 @@ from executor.ros.graph.ends import shown_ends
 from executor.ros.outlet import Outlet, Piped
 from executor.ros.raw_subscription import LARGE_TYPES, subscribe_raw
 from executor.ros.raw_take import take
-from executor.ros.values import FieldError, describe, fill, flatten, message_type
+from executor.ros.values import FieldError, describe, fill, flatten, message_type, type_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -249,11 +249,11 @@ class Topics:
         self._publish_waiting(time.monotonic())
 
     def _publisher(self, topic: str, kind: Any) -> Any:
-        type_name = f"{kind.__module__.partition('.')[0]}/msg/{kind.__name__}"
+        name = type_name(kind)
         there = dict(self._node.get_topic_names_and_types()).get(topic)
-        if there and type_name not in self._types(topic, there):
-            raise TopicError("type_differs", f"{topic} is of the type {there[0]}, not {type_name}.")
-        if (topic, type_name) not in self._publishers:
+        if there and name not in self._types(topic, there):
+            raise TopicError("type_differs", f"{topic} is of the type {there[0]}, not {name}.")
+        if (topic, name) not in self._publishers:
             if len(self._publishers) >= MOST_PUBLISHERS:
                 raise TopicError("too_many", f"At most {MOST_PUBLISHERS} topics can be published on.")
             try:
@@ -262,15 +262,15 @@ class Topics:
                 # Only the first line of ROS's text: the others mark the place in it with a caret.
                 text = str(error).partition("\n")[0].rstrip(":")
                 raise TopicError("bad_topic", f"{topic!r} is no name of a topic: {text}.") from error
-            self._publishers[topic, type_name] = made if self._outlet is None else Piped(made, self._outlet)
-        return self._publishers[topic, type_name]
+            self._publishers[topic, name] = made if self._outlet is None else Piped(made, self._outlet)
+        return self._publishers[topic, name]
 
     def _types(self, topic: str, there: list[str]) -> list[str]:
         """Returns the types of a topic; if a robot accepts several types, the published one is first."""
         takes = () if self._commands is None else self._commands.types_of(topic)
         if not takes or not there:
             return there
-        names = [f"geometry_msgs/msg/{each.__name__}" for each in takes]
+        names = [type_name(each) for each in takes]
         published = {end.topic_type for end in self._node.get_publishers_info_by_topic(topic)}
         return sorted(names, key=lambda name: name not in published) + [
             name for name in there if name not in names

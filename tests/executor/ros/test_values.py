@@ -9,12 +9,27 @@ from sensor_msgs.msg import CameraInfo, Image, JointState, LaserScan
 from shape_msgs.msg import SolidPrimitive
 from std_msgs.msg import String, UInt8MultiArray
 
-from executor.ros.values import LARGEST_LIST, LARGEST_TEXT, MOST_VALUES, FieldError, fill, flatten
+from executor.ros.values import (
+    LARGEST_LIST,
+    LARGEST_TEXT,
+    MOST_VALUES,
+    FieldError,
+    fill,
+    flatten,
+    message_type,
+    type_name,
+)
 
 KINDS = [
     CameraInfo, DiagnosticStatus, Image, JointState, LaserScan, Path, PoseWithCovariance, SolidPrimitive,
     String, Twist, UInt8MultiArray,
 ]  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_type_is_found_by_its_name(kind: Any) -> None:
+    assert message_type(type_name(kind)) is kind
+    assert type_name(LaserScan) == "sensor_msgs/msg/LaserScan"
 
 
 @pytest.mark.parametrize("kind", KINDS)

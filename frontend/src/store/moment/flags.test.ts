@@ -53,6 +53,7 @@ it.each([
   useSessionStore.setState(state);
   expect(canFlag()).toBe(false);
   editFlag(flag);
+  expect(useFlags.getState().draft).toBeNull();
 });
 
 it('lets nobody mark a kept run', () => {

@@ -6,14 +6,10 @@ from rclpy.serialization import deserialize_message, serialize_message
 from std_msgs.msg import String
 
 from executor.evaluation.sealed.link import Heard, Topic
-from executor.evaluation.sealed.remote import RemoteNode, name_of
+from executor.evaluation.sealed.remote import RemoteNode
 from executor.ros.raw_take import ignore, take
 
 TWIST = "geometry_msgs/msg/Twist"
-
-
-def test_a_type_has_the_name_of_ros():
-    assert name_of(Twist) == TWIST
 
 
 def test_messages_wait_in_order_and_are_taken_once():

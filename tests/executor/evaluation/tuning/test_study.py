@@ -5,7 +5,7 @@ import sys
 import pytest
 
 from executor.evaluation.tuning.space import Port, TuningError
-from executor.evaluation.tuning.study import Study, import_optuna, sampler_seed
+from executor.evaluation.tuning.study import FILE, Study, import_optuna, sampler_seed
 
 PORTS = [Port("T.a.x", "T", "a", "x", 0.0, 1.0), Port("T.a.n", "T", "a", "n", 1, 5, whole=True)]
 
@@ -74,3 +74,15 @@ def test_a_missing_extra_is_one_sentence_with_the_command(monkeypatch):
     with pytest.raises(TuningError, match=r"not installed: .* -m pip install 'optuna~=") as found:
         import_optuna()
     assert "\n" not in str(found.value)
+
+
+@pytest.mark.parametrize("how", ["a file in place of the folder", "a file that is no study"])
+def test_a_folder_that_can_hold_no_study_is_named(tmp_path, how):
+    folder = tmp_path / "r"
+    if how == "a file in place of the folder":
+        folder.touch()
+    else:
+        folder.mkdir()
+        (folder / FILE).write_text("no database, but some text that is longer than a few letters")
+    with pytest.raises(TuningError, match=r"r/study\.sqlite: no study can be kept here"):
+        study(folder)

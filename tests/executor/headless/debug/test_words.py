@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from executor.headless.debug.words import WordsError, breakpoint_of, split
+from executor.headless.debug.words import WordsError, breakpoint_of, split, whole
 from tree_gardener import Status
 from tree_gardener.debugging import Breakpoint, Place, When
 
@@ -32,12 +32,20 @@ def test_the_words_of_a_breakpoint(line: str, expected: Breakpoint) -> None:
         ("a sometimes", "'sometimes' is not one of before, after"),
         ("a if", "nothing stands behind 'if'"),
         ("a hits many", "'many' is no number"),
+        (f"a hits {'9' * 5000}", "'9{20}' is no number, or too large"),
         ("a if 'x", "No closing quotation"),
     ],
 )
 def test_wrong_words_are_refused(line: str, why: str) -> None:
     with pytest.raises(WordsError, match=why):
         breakpoint_of(line, place_named)
+
+
+@pytest.mark.parametrize(
+    ("text", "number"), [("0", 0), ("123456789", 123456789), ("1" * 10, None), ("-1", None), ("", None)]
+)
+def test_a_number_is_read_only_where_it_is_small(text: str, number: int | None) -> None:
+    assert whole(text) == number
 
 
 def test_quotes_hold_words_together() -> None:

@@ -19,13 +19,6 @@ Word = Annotated[str, StringConstraints(min_length=1, max_length=300)]
 Range = tuple[Finite, Finite]
 Pose6 = tuple[Finite, Finite, Finite, Finite, Finite, Finite]
 Measure = Literal["time_to_success_s", "path_length_m", "smallest_clearance_m", "mean_speed_m_s", "energy_j"]
-MEASURES: Final[tuple[Measure, ...]] = (
-    "time_to_success_s",
-    "path_length_m",
-    "smallest_clearance_m",
-    "mean_speed_m_s",
-    "energy_j",
-)
 
 
 class _Strict(BaseModel):

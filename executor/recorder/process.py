@@ -34,7 +34,7 @@ from executor.recorder.ordering import Ordering
 from executor.recorder.project_files import project_files, project_name
 from executor.recorder.run_writer import LATEST_NS, RunWriter
 from executor.recorder.shelf import Budgets, Shelf
-from executor.recorder.sources import BrokenSource, Source, listen, take_source
+from executor.recorder.sources import MOST_SOURCES, BrokenSource, Source, listen, take_source
 from executor.recorder_messages import FromRecorder, ToRecorder, decode_to_recorder
 from executor.supervision.channel import Channel, ChannelClosed, ChannelError
 from executor.supervision.confine import die_with_parent
@@ -56,7 +56,6 @@ FULL_S: Final = 0.01
 """The time between two looks at a source that sends as much as its way holds."""
 TOLD_S: Final = 1.0
 GOODBYE_S: Final = 0.5
-MOST_SOURCES: Final = 16
 BRANCH: Final = 0
 FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 _NO_FIELDS: Final = (KeyError, TypeError, ValueError, AttributeError, OverflowError, struct.error)

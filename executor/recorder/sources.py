@@ -14,7 +14,7 @@ from executor.recorder.link import MOST_BATCH_BYTES, PREFIX, Mark, Sent
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["BrokenSource", "Source", "listen", "take_source"]
+__all__ = ["MOST_SOURCES", "BrokenSource", "Source", "listen", "take_source"]
 
 MOST_SOURCES: Final = 16
 READ_BYTES: Final = 1 << 20

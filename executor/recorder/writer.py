@@ -58,11 +58,6 @@ class RecordingWriter:
         file.flush()
 
     @property
-    def bytes_written(self) -> int:
-        """The length of the file so far, without the open chunk."""
-        return self._file.tell()
-
-    @property
     def last_ns(self) -> int:
         """The time of the last message."""
         return self._last_ns

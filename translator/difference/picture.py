@@ -24,7 +24,6 @@ GAP_Y: Final = 40
 MARGIN: Final = 24
 MOST_LINES: Final = 4
 CHARACTERS: Final = 26
-TITLE_CHARACTERS: Final = 19
 
 COLORS: Final = {
     "+": "#1a7f37",

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from executor.evaluation.outcome import CRASHED, ERROR, Outcome
 from executor.evaluation.run import EvaluationRun, actions_seed
-from executor.evaluation.sealed.actions import place_of
+from executor.evaluation.sealed.actions import MOST_TEXT, place_of
 from executor.evaluation.sealed.confine import free_uid
 from executor.evaluation.sealed.link import (
     Failed,
@@ -50,7 +50,6 @@ KEPT_PREFIXES: Final = ("PYTHONHASHSEED", "OPENBLAS_", "OMP_", "MKL_", "LP_", "R
                         "FASTRTPS_", "RCUTILS_", "AMENT_")  # fmt: skip
 HIDDEN: Final = ("evaluations/", "universes/", "robots/", "tests/")
 """Folders of the project that the actions never see."""
-MOST_TEXT: Final = 2000
 _STATUSES: Final = frozenset(status.name for status in Status)
 _LETTERS: Final = frozenset("SFRK")
 

@@ -1,6 +1,8 @@
 """The page of the evaluation format."""
 
-from executor.evaluation.document import FAULT_FIELDS, MEASURES, Criterion, Draw, Evaluation, Fault
+from typing import get_args
+
+from executor.evaluation.document import FAULT_FIELDS, Criterion, Draw, Evaluation, Fault, Measure
 from executor.evaluation.reference import page as reference
 
 
@@ -16,7 +18,7 @@ def test_every_key_has_a_meaning_and_every_kind_of_fault_its_fields():
             assert f"| `{name}` | " in page
     for kind in FAULT_FIELDS:
         assert f"| `{kind}` | `" in page
-    for measure in MEASURES:
+    for measure in get_args(Measure):
         assert f"`{measure}`" in page
 
 

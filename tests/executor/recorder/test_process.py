@@ -88,10 +88,11 @@ async def joined(manager, run):
 async def joined_with(manager, client, run, topic):
     """Returns the messages of a run, once they have some of a topic: processes begin a run one by one."""
     while True:
+        at = len(client.events)  # the last segment may be reported while the file is on its way
         found = await joined(manager, run)
         if any(each == topic for each, _, _ in found):
             return found
-        await client.event("segment", after=len(client.events))
+        await client.event("segment", after=at)
 
 
 async def flagged(client, text):

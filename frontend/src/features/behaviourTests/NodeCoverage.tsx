@@ -21,7 +21,7 @@ export function NodeCoverage({ tree, node }: NodeCoverageProps) {
   if (!covered && failures.length === 0) return null;
   return (
     <section className={classes['node']} aria-label={t('node.title')} data-testid="node-coverage">
-      <h3>{t('node.title')}</h3>
+      <h2>{t('node.title')}</h2>
       {failures.map(({ failure, test, file }, index) => (
         <button
           key={index}

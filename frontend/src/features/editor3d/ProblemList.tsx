@@ -32,7 +32,7 @@ export function ProblemList({ problems, paths, title, editor }: ProblemListProps
   };
   return (
     <section className={classes['problems']} aria-label={title}>
-      <h3>{title}</h3>
+      <h2>{title}</h2>
       <ul>
         {problems.slice(0, SHOWN).map((problem, index) => (
           <li key={index}>

@@ -76,7 +76,7 @@ export function ThingList(props: ThingListProps) {
   return (
     <section className={classes['things']}>
       <header className={classes['thingsHead']}>
-        <h3>{title}</h3>
+        <h2>{title}</h2>
         <ListButton
           label={whole.label}
           isDisabled={selection.length === 0}

@@ -9,7 +9,7 @@ it('has a heading, an action beside it and its content below', () => {
       <p>None.</p>
     </Section>,
   );
-  const heading = screen.getByRole('heading', { level: 3, name: 'Ports' });
+  const heading = screen.getByRole('heading', { level: 2, name: 'Ports' });
   expect(heading.nextElementSibling).toBe(screen.getByRole('button', { name: 'Add' }));
   expect(heading.parentElement?.nextElementSibling).toHaveTextContent('None.');
 });

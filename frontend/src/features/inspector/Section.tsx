@@ -11,7 +11,7 @@ export function Section({ title, action, children }: SectionProps) {
   return (
     <div className={classes['section']}>
       <div className={classes['sectionHead']}>
-        <h3 className={classes['sectionTitle']}>{title}</h3>
+        <h2 className={classes['sectionTitle']}>{title}</h2>
         {action}
       </div>
       {children}

@@ -60,7 +60,7 @@ function Rows({ title, offers, record }: RowsProps) {
   const taken = useMemo(() => takenIn(record), [record]);
   return (
     <>
-      {title === undefined ? null : <h3 className={classes['section']}>{title}</h3>}
+      {title === undefined ? null : <h2 className={classes['section']}>{title}</h2>}
       <ul className={classes['list']} aria-label={title}>
         {offers.map((offer) => (
           <BehaviourRow
@@ -136,7 +136,7 @@ export function Library() {
       ))}
       {ofProjects.length > 0 ? <Rows title={t('ofProjects')} offers={ofProjects} record={record} /> : null}
       {ofProjects.length > 0 && shown.length > 0 ? (
-        <h3 className={classes['section']}>{t('builtIn')}</h3>
+        <h2 className={classes['section']}>{t('builtIn')}</h2>
       ) : null}
       {isLoading ? null : <Rows offers={shown} record={record} />}
       {data && !isLoading && shown.length + ofProjects.length === 0 ? (

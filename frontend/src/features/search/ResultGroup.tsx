@@ -39,7 +39,7 @@ export function ResultGroup({ group: { path, rows }, isReplacing, isFresh, onRep
   const name = treeIdOf(path) ?? path;
   return (
     <section className={classes['group']} data-testid={`search-in-${path}`}>
-      <h3 className={classes['heading']}>
+      <h2 className={classes['heading']}>
         <button
           type="button"
           className={classes['title']}
@@ -64,7 +64,7 @@ export function ResultGroup({ group: { path, rows }, isReplacing, isFresh, onRep
             </ActionIcon>
           </Tooltip>
         ) : null}
-      </h3>
+      </h2>
       {isFolded ? null : (
         <ul className={classes['list']}>
           {rows.map((row) => (

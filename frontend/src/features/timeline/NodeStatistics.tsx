@@ -43,7 +43,7 @@ export function NodeStatistics({ tree, node }: NodeStatisticsProps) {
   ] as const;
   return (
     <section className={classes['statistics']} aria-label={t('node.title')} data-testid="node-statistics">
-      <h3 className={classes['statisticsTitle']}>{t('node.title')}</h3>
+      <h2 className={classes['statisticsTitle']}>{t('node.title')}</h2>
       <dl className={classes['statisticsList']}>
         {rows.map(([key, value]) => (
           <div key={key} data-key={key}>

@@ -45,7 +45,16 @@ def relay():
     listener = bind("127.0.0.1", 0)
     config = uvicorn.Config(application, ws=PatientSocket, lifespan="off", log_config=None)
     server = uvicorn.Server(config)
-    thread = threading.Thread(target=lambda: asyncio.run(server.serve(sockets=[listener])))
+
+    async def serve():
+        await server.serve(sockets=[listener])
+        left = asyncio.all_tasks() - {asyncio.current_task()}
+        for task in left:
+            task.cancel()
+        await asyncio.gather(*left, return_exceptions=True)
+        await asyncio.sleep(0)  # sockets to managers that were aborted close in the next round of the loop
+
+    thread = threading.Thread(target=lambda: asyncio.run(serve()))
     thread.start()
     yield f"127.0.0.1:{listener.getsockname()[1]}"
     server.should_exit = True

@@ -11,6 +11,9 @@ says why, and a child ends itself. Both ends always have the same version, so no
 Messages that become events of the session protocol extend the event of the same name (`executor.messages`).
 
 A message with a `request` asks for an answer; the answer repeats that token.
+
+The module has more than 500 lines because it is the whole contract of two channels: the unions at its end
+name every message, and both ends import all of them.
 """
 
 from __future__ import annotations

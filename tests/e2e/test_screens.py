@@ -25,7 +25,7 @@ DIALOGUES = {
     "shortcuts": "Control+Slash",
 }
 PANELS = (
-    *("Timeline", "Topics", "Problems", "Blackboard", "Library", "Outline"),
+    *("Timeline", "Topics", "Breakpoints", "Problems", "Blackboard", "Library", "Outline"),
     *("History", "Nodes", "Search", "Camera"),
 )
 

@@ -29,6 +29,8 @@ export interface LiveState {
   readonly faults: ReadonlyMap<LiveKey, string>;
   setTree(nodes: readonly TreeNode[]): void;
   setStatuses(changed: readonly (readonly [uid: number, status: NodeStatus])[]): void;
+  /** Returns the status of each node that has changed since the tree began. */
+  uidStatuses(): ReadonlyMap<number, NodeStatus>;
   /** Replaces the statuses of the last tick. */
   setPast(past: readonly (readonly [uid: number, status: NodeStatus])[]): void;
   flash(flashed: readonly (readonly [uid: number, status: NodeStatus])[]): void;
@@ -89,6 +91,7 @@ function liveStore() {
         }
         set({ statuses });
       },
+      uidStatuses: () => byUid,
       setPast: (pairs) => {
         const past = new Map<LiveKey, NodeStatus>();
         for (const [uid, status] of pairs) {

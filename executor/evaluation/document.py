@@ -46,12 +46,14 @@ class Draw(_Strict):
     take a range of `yaw` in rad.
     """
 
-    uniform: Range | None = None
-    normal: Range | None = None
-    clip: Range | None = None
-    choice: tuple[bool | int | Finite | Word, ...] | None = Field(default=None, min_length=1, max_length=1000)
-    area: Word | None = None
-    yaw: Range | None = None
+    uniform: Range | None = Field(default=None, description="Equally likely from a to b; `[a, b]` for short.")
+    normal: Range | None = Field(default=None, description="Mean and standard deviation; needs `clip`.")
+    clip: Range | None = Field(default=None, description="Values of `normal` beyond it move to its ends.")
+    choice: tuple[bool | int | Finite | Word, ...] | None = Field(
+        default=None, min_length=1, max_length=1000, description="Each value equally often."
+    )
+    area: Word | None = Field(default=None, description="Of a pose: x and y are uniform over this area.")
+    yaw: Range | None = Field(default=None, description="With `area`: a range in rad, uniform.")
 
     @model_validator(mode="before")
     @classmethod
@@ -79,9 +81,9 @@ class Draw(_Strict):
 class Until(_Strict):
     """Runs until the interval of the rate is narrow enough: at most `half_width` to each side."""
 
-    half_width: float = Field(gt=0, lt=0.5)
-    confidence: float = Field(default=0.95, ge=0.5, le=0.999)
-    at_most: int = Field(ge=50, le=MOST_RUNS)
+    half_width: float = Field(gt=0, lt=0.5, description="Half the width of the interval at which it ends.")
+    confidence: float = Field(default=0.95, ge=0.5, le=0.999, description="Of the interval.")
+    at_most: int = Field(ge=50, le=MOST_RUNS, description="The largest number of runs.")
 
 
 FAULT_FIELDS: Final[dict[str, tuple[str, ...]]] = {
@@ -121,22 +123,28 @@ class Fault(_Strict):
         "push",
         "light_change",
         "action_raises",
-    ]
-    at_s: NotNegative | tuple[NotNegative, NotNegative] = 0.0
-    for_s: NotNegative | tuple[NotNegative, NotNegative] | None = None
-    probability: Share = 1.0
-    robot: Word | None = None
-    sensor: Word | None = None
-    topic: Word | None = None
-    wheel: Word | None = None
-    node: Word | None = None
-    factor: NotNegative | None = None
-    delay_s: NotNegative | None = None
-    share: Share | None = None
-    area: Word | None = None
-    pose: Pose6 | None = None
-    impulse_n_s: NotNegative | None = None
-    direction: tuple[Finite, Finite] | None = None
+    ] = Field(description="What goes wrong.")
+    at_s: NotNegative | tuple[NotNegative, NotNegative] = Field(
+        default=0.0, description="When it begins; a range is drawn from."
+    )
+    for_s: NotNegative | tuple[NotNegative, NotNegative] | None = Field(
+        default=None, description="How long it takes; until the end without it."
+    )
+    probability: Share = Field(default=1.0, description="The share of the runs in which it happens.")
+    robot: Word | None = Field(default=None, description="The id of another robot than the first.")
+    sensor: Word | None = Field(default=None, description="The name of a sensor of the robot.")
+    topic: Word | None = Field(default=None, description="A topic of a sensor, of odometry, or `/cmd_vel`.")
+    wheel: Word | None = Field(default=None, description="The joint of a wheel.")
+    node: Word | None = Field(default=None, description="Name or id of a leaf in the trees.")
+    factor: NotNegative | None = Field(default=None, description="By what noise, friction or light changes.")
+    delay_s: NotNegative | None = Field(default=None, description="By how much messages come later.")
+    share: Share | None = Field(default=None, description="The share of the messages that is lost.")
+    area: Word | None = Field(default=None, description="Where the robot is put, at a free place.")
+    pose: Pose6 | None = Field(default=None, description="x, y, z in m, roll, pitch, yaw in rad.")
+    impulse_n_s: NotNegative | None = Field(default=None, description="The push, at the centre of mass.")
+    direction: tuple[Finite, Finite] | None = Field(
+        default=None, description="[x, y] in the frame of the world; its length does not matter."
+    )
 
     @model_validator(mode="after")
     def _fits_its_kind(self) -> Self:
@@ -165,16 +173,20 @@ class Fault(_Strict):
 class Reach(_Strict):
     """The robot stands in an area, within a time if one is given."""
 
-    area: Word
-    within_s: NotNegative | None = None
+    area: Word = Field(description="The robot's middle has to be in this area of the universe.")
+    within_s: NotNegative | None = Field(default=None, description="In so much time from the start.")
 
 
 class Never(_Strict):
     """An event that must not happen: a collision, or something closer than a distance."""
 
-    collision: Literal[True] | None = None
-    closer_than_m: NotNegative | None = None
-    to: Word = "anything"
+    collision: Literal[True] | None = Field(
+        default=None, description="Touching anything but the floor; `never: collision` for short."
+    )
+    closer_than_m: NotNegative | None = Field(default=None, description="Something is closer than this.")
+    to: Word = Field(
+        default="anything", description="`anything`, `models`, `actors`, `robots`, or the id of one."
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -197,17 +209,30 @@ class Criterion(_Strict):
     thresholds of the numbers that it returns.
     """
 
-    reach: Reach | None = None
-    never: Never | None = None
-    visit: tuple[Word, ...] | None = Field(default=None, min_length=1, max_length=100)
-    in_order: bool = False
-    tree: Literal["SUCCESS", "FAILURE"] | None = None
-    within_s: NotNegative | None = None
+    reach: Reach | None = Field(default=None, description="A goal: the robot gets into an area.")
+    never: Never | None = Field(default=None, description="What must not happen.")
+    visit: tuple[Word, ...] | None = Field(
+        default=None, min_length=1, max_length=100, description="A goal: the robot was in each of the areas."
+    )
+    in_order: bool = Field(default=False, description="With `visit`: in this order.")
+    tree: Literal["SUCCESS", "FAILURE"] | None = Field(
+        default=None, description="A goal: the tree ends with this result."
+    )
+    within_s: NotNegative | None = Field(
+        default=None, description="With `visit` and `tree`: in so much time from the start."
+    )
     python: (
         Annotated[str, StringConstraints(pattern=r"^[\w/-]+\.py:[A-Za-z_]\w*$", max_length=200)] | None
-    ) = None
-    at_least: dict[Word, Finite] = Field(default_factory=dict)
-    at_most: dict[Word, Finite] = Field(default_factory=dict)
+    ) = Field(
+        default=None,
+        description="`file.py:function` in `evaluations/`; takes the truth of the run and returns numbers.",
+    )
+    at_least: dict[Word, Finite] = Field(
+        default_factory=dict, description="With `python`: the smallest value of a number, by its name."
+    )
+    at_most: dict[Word, Finite] = Field(
+        default_factory=dict, description="With `python`: the largest value of a number, by its name."
+    )
 
     @model_validator(mode="after")
     def _is_one_kind(self) -> Self:
@@ -242,25 +267,35 @@ class Criterion(_Strict):
 class Judge(_Strict):
     """The items of success, and the measures."""
 
-    success: tuple[Criterion, ...] = Field(min_length=1, max_length=100)
-    measure: tuple[Measure, ...] = ("path_length_m",)
+    success: tuple[Criterion, ...] = Field(
+        min_length=1, max_length=100, description="Items, all of which must hold."
+    )
+    measure: tuple[Measure, ...] = Field(
+        default=("path_length_m",), description="What is measured until the run is decided."
+    )
 
 
 class Evaluation(_Strict):
     """An evaluation of a project: worlds, robot, length, seeds, what varies, faults and judge."""
 
-    format: Literal["bt-studio/evaluation"]
-    version: Literal[1]
-    description: str = Field(default="", max_length=10_000)
-    universe: Word | None = None
-    robot: Word | None = None
-    duration_s: float = Field(gt=0, le=36_000)
-    runs: int | None = Field(default=None, ge=1, le=MOST_RUNS)
-    until: Until | None = None
-    seed: int = Field(default=0, ge=0, le=LAST_SEED - MOST_RUNS)
-    vary: dict[Word, Draw] = Field(default_factory=dict, max_length=1000)
-    faults: tuple[Fault, ...] = Field(default=(), max_length=100)
-    judge: Judge
+    format: Literal["bt-studio/evaluation"] = Field(description="Required.")
+    version: Literal[1] = Field(description="Required.")
+    description: str = Field(default="", max_length=10_000, description="For readers.")
+    universe: Word | None = Field(default=None, description="The project's own without it.")
+    robot: Word | None = Field(default=None, description="The project's own without it.")
+    duration_s: float = Field(gt=0, le=36_000, description="The longest time of a run, in simulated s.")
+    runs: int | None = Field(
+        default=None, ge=1, le=MOST_RUNS, description="How many runs. Either `runs` or `until` is needed."
+    )
+    until: Until | None = Field(default=None, description="Runs until the rate is known well enough.")
+    seed: int = Field(
+        default=0, ge=0, le=LAST_SEED - MOST_RUNS, description="The seed of the first run; others follow."
+    )
+    vary: dict[Word, Draw] = Field(
+        default_factory=dict, max_length=1000, description="What differs from run to run, by its address."
+    )
+    faults: tuple[Fault, ...] = Field(default=(), max_length=100, description="What goes wrong.")
+    judge: Judge = Field(description="What counts as success, and what is measured.")
 
     @field_validator("vary", mode="before")
     @classmethod

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
 JUDGE_EVERY: Final = 12  # steps: 20 times a simulated second
 BEYOND_S: Final = 0.1  # the judge ends the run, at its first sample that is not before the end
+AFTER_S: Final = 1.0  # a recorded run goes on for so long, so that the moment of its decision is within it
 MOST_BUMPS: Final = 50
 PATH_POINTS: Final = 200
 PATH_PERIOD_S: Final = 0.5
@@ -93,11 +94,12 @@ class EvaluationRun(LockstepRun):
 
     def __init__(self, plan: Plan, seed: int, recording: Path | None, say: Callable[[str], None]) -> None:
         evaluation = plan.evaluation
+        self._after_s = AFTER_S if recording is not None else 0.0
         options = LockstepOptions(
             universe=evaluation.universe,
             robot=evaluation.robot,
             seed=seed,
-            duration_s=evaluation.duration_s + BEYOND_S + 1 / plan.project.settings.tick_hz,
+            duration_s=evaluation.duration_s + BEYOND_S + self._after_s + 1 / plan.project.settings.tick_hz,
             on_finish="stop",
             recording=recording,
             outlasts_tree=True,
@@ -130,7 +132,8 @@ class EvaluationRun(LockstepRun):
         except LoadError as error:
             return self.outcome_of(ERROR, str(error.diagnostics[0]))
         except TickError as error:
-            return self.outcome_of(ERROR, _place(error.file, error.line, error.path, error.message))
+            if not self._is_settled:
+                return self.outcome_of(ERROR, _place(error.file, error.line, error.path, error.message))
         except JudgeError as error:
             return self.outcome_of(ERROR, str(error))
         if self._decision is not None:
@@ -208,9 +211,18 @@ class EvaluationRun(LockstepRun):
     def sample(self, tick: int) -> None:
         """Adds nothing to the report: the truth holds more."""
 
+    @property
+    def _is_settled(self) -> bool:
+        """Whether the outcome is known, and what happens now is only recorded."""
+        return self._decision is not None and not self._plan.to_the_end
+
     def _moved(self) -> None:
         self.heard()
         world = self.world
+        if self._decision is not None and self._is_settled:
+            if world.time_s >= self._decision.at_s + self._after_s - 1e-9:
+                raise _Decided
+            return
         if self._faults is not None:
             self._faults.act(world.time_s)
         if self._energy_due:
@@ -219,7 +231,7 @@ class EvaluationRun(LockstepRun):
             self._look()
 
     def _bumped(self, robot: str, collision: Collision) -> None:
-        if robot == self._robot.id:
+        if robot == self._robot.id and not self._is_settled:
             x, y, _ = self._robot.pose
             self._truth.bumps.append(Bump(collision.time_s, x, y, collision.body))
 
@@ -244,7 +256,7 @@ class EvaluationRun(LockstepRun):
             if self._decision is not None:
                 self._settle()
         is_over = now_s >= self._plan.evaluation.duration_s - 1e-9
-        if self._decision is not None and (is_over or not self._plan.to_the_end):
+        if self._decision is not None and (is_over if self._plan.to_the_end else not self._after_s):
             raise _Decided
 
     def _settle(self) -> None:

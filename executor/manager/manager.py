@@ -47,6 +47,7 @@ from executor.session.stage import About
 from executor.supervision.confine import die_with_parent
 from executor.supervision.processes import Limits, Program
 from executor.supervision.shared_memory import remove_abandoned_segments
+from executor.supervision.single_threaded import SINGLE_THREADED
 from executor.supervision.supervisor import Supervisor
 
 if TYPE_CHECKING:
@@ -63,14 +64,6 @@ GOODBYE_S: Final = 1.0
 LAST_DOMAIN_ID: Final = 100
 LARGEST_DOMAIN_ID: Final = 232
 # Sharing a small picture between threads costs more than it gains, and sessions share one machine.
-SINGLE_THREADED: Final = {
-    "PYTHONHASHSEED": "0",
-    "OPENBLAS_NUM_THREADS": "1",
-    "OMP_NUM_THREADS": "1",
-    "MKL_NUM_THREADS": "1",
-    "LP_NUM_THREADS": "0",
-}
-"""Variables of the process of an evaluation: it forks its runs, and equal seeds are equal runs."""
 FEW_THREADS: Final = {"OPENCV_FOR_THREADS_NUM": "1", "LP_NUM_THREADS": "2"}
 
 

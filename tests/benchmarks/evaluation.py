@@ -13,7 +13,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from executor.evaluation.pool.environment import SINGLE
+from executor.supervision.single_threaded import SINGLE_THREADED
 
 if TYPE_CHECKING:
     from executor.evaluation.outcome import Outcome
@@ -29,7 +29,7 @@ SHORT_S = 0.1
 
 def main() -> None:
     """Prints every figure, each from a process of its own."""
-    environment = {**os.environ, **SINGLE, "PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "0"}
+    environment = {**os.environ, **SINGLE_THREADED, "PYTHONPATH": str(ROOT)}
     for part in ("a_run", "the_parent", "the_pool"):
         code = f"from tests.benchmarks.evaluation import {part}; {part}()"
         subprocess.run([sys.executable, "-c", code], env=environment, cwd=ROOT, check=True)

@@ -20,6 +20,7 @@ GENERATORS: Final = (
     [sys.executable, "-m", "executor.universes.reference"],
     [sys.executable, "-m", "executor.robots.reference"],
     [sys.executable, "-m", "executor.evaluation.reference"],
+    [sys.executable, "-m", "executor.evaluation.reference_page"],
     [sys.executable, "-m", "executor.generate.textures"],
     [sys.executable, "-m", "executor.generate.typescript"],
     [sys.executable, "-m", "backend.config.reference"],

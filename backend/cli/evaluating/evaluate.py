@@ -84,10 +84,10 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     from backend.cli.evaluating.one_run import evaluations_of
     from backend.cli.run import fix_hashes
     from backend.cli.shared.errors import CliError
-    from executor.evaluation.pool.environment import SINGLE
     from executor.evaluation.summary import pair
+    from executor.supervision.single_threaded import SINGLE_THREADED
 
-    fix_hashes(SINGLE)
+    fix_hashes(SINGLE_THREADED)
     if as_list:
         for each in evaluations_of(judged_by or project):
             print(each)

@@ -7,7 +7,7 @@ import json
 import sys
 from typing import TYPE_CHECKING
 
-from executor.evaluation.pool.environment import SINGLE
+from executor.supervision.single_threaded import SINGLE_THREADED
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -33,7 +33,7 @@ def run_one(  # noqa: PLR0913 - one an option
     from backend.cli.shared import translation as cli
     from backend.cli.shared.errors import CliError
 
-    fix_hashes(SINGLE)
+    fix_hashes(SINGLE_THREADED)
     plan = open_plan(project, name, judged_by=judged_by, as_json=as_json)
     outcome = _run(plan, seed, record)
     document = outcome.to_line() + "\n"

@@ -47,13 +47,13 @@ def tune(  # noqa: PLR0913, PLR0917 - one an option
     from backend.cli.evaluating.one_run import open_plan
     from backend.cli.run import fix_hashes
     from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
-    from executor.evaluation.pool.environment import SINGLE
+    from executor.supervision.single_threaded import SINGLE_THREADED
 
     if maximise is not None and minimise is not None:
         raise typer.BadParameter("leave out one of the two", param_hint="--maximise / --minimise")
     if apply and not Path(project).is_dir():
         raise typer.BadParameter("it writes into a folder; this project is none", param_hint="--apply")
-    fix_hashes(SINGLE)
+    fix_hashes(SINGLE_THREADED)
     plan = open_plan(project, name)
     objective = _objective(plan, maximise, minimise)
 

@@ -18,9 +18,9 @@ from typing import TYPE_CHECKING, BinaryIO
 from executor.evaluation.cluster.parcel import unpack
 from executor.evaluation.evaluate import load_libraries, supervisor_of
 from executor.evaluation.fingerprint import fingerprint
-from executor.evaluation.pool.environment import SINGLE
 from executor.evaluation.pool.worker import Done, Limits, read_done
 from executor.supervision.confine import die_with_parent
+from executor.supervision.single_threaded import SINGLE_THREADED
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -57,7 +57,7 @@ def run_batch(parcel: bytes, seeds: Sequence[int], limits: Limits | None) -> Bat
 
 def _environment() -> dict[str, str]:
     """Returns the environment of the supervisor: that of the worker, without the packages that Ray brings."""
-    found = {**os.environ, **SINGLE, "PYTHONHASHSEED": "0"}
+    found = {**os.environ, **SINGLE_THREADED}
     paths = [path for path in found.pop("PYTHONPATH", "").split(os.pathsep) if path and "/ray/" not in path]
     return found | ({"PYTHONPATH": os.pathsep.join(paths)} if paths else {})
 

@@ -30,6 +30,7 @@ NOTED: Final = Path("/tmp/ray/ray_current_cluster")  # noqa: S108 - where Ray ke
 MISSING: Final = (
     "--cluster needs Ray, which is not installed: {python} -m pip install 'ray~=2.60' (the extra `cluster`)"
 )
+STALE: Final = f" (if the cluster that {NOTED} names is gone, `ray stop` removes that note)"
 
 
 class ClusterError(RuntimeError):
@@ -187,7 +188,10 @@ def connect(ray: Any, address: str | None) -> None:
             ray.init(address=address or "local", **options)
         except (ConnectionError, ValueError, RuntimeError) as error:
             text = str(error).strip().partition("\n")[0]
-            raise ClusterError(f"--cluster {address or AUTO}: there is no Ray cluster: {text}") from error
+            stale = STALE if address == AUTO and NOTED.exists() else ""
+            raise ClusterError(
+                f"--cluster {address or AUTO}: there is no Ray cluster: {text}{stale}"
+            ) from error
 
 
 def _lost(seed: int, why: str) -> Done:

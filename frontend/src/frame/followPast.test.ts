@@ -1,6 +1,7 @@
 import { expect, it, onTestFinished } from 'vitest';
 import { watchTabs } from '../../harness/tabs';
 import { openProject } from '../../harness/testing';
+import { ofSession, useSource } from '@/store/moment/source';
 import { atPresent, useMoment } from '@/store/moment/store';
 import type { Moment } from '@/store/recording/types';
 import { oneBlock } from '@/store/testing';
@@ -45,4 +46,14 @@ it('opens it in a new layout, too', async () => {
   const documents = watchTabs();
   await Promise.resolve();
   expect(documents()).toEqual([{ kind: 'past' }]);
+});
+
+it('brings a kept run that was asked for to the front of any document', () => {
+  open('file');
+  onTestFinished(() => useSource.setState(ofSession));
+  useSource.setState({ kept: { id: 'r1', name: 'room, seed 5' } });
+  look(true);
+  expect(front()).toEqual({ kind: 'past' });
+  look(false);
+  expect(front()).toEqual({ kind: 'file', path: 'a.py' });
 });

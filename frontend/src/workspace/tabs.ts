@@ -121,12 +121,15 @@ export function closeTab(tab: DocumentTab): void {
 
 const PAST: DocumentTab = { kind: 'past' };
 
-/** Opens the tab of the tree as it ran: in front of a tree, behind any other document. The focus stays. */
-export function openPast(): void {
+/**
+ * Opens the tab of the tree as it ran: in front of a tree, and behind any other document unless the user asked
+ * for a run. The focus stays.
+ */
+export function openPast(isAsked = false): void {
   const { model, front } = useTabs.getState();
   if (!model || nodeOf(model, PAST)) return;
   const json: IJsonTabNode = { type: 'tab', component: 'past', className: 'bts-past', ...faceOf(PAST) };
-  const isSelected = front === null || front.kind === 'tree';
+  const isSelected = isAsked || front === null || front.kind === 'tree';
   model.doAction(Actions.addTab(json, EDITORS, DockLocation.CENTER, -1, isSelected));
 }
 

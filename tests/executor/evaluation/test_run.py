@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from mcap.reader import make_reader
 
 from executor.evaluation import run
 from executor.evaluation.outcome import read_outcome
@@ -167,4 +168,21 @@ def test_a_run_can_be_recorded(tmp_path, cells):
     recorded = cells(folder, recording=str(target))
     assert target.stat().st_size > 1000
     assert recorded.to_line() == cells(folder).to_line()
-    assert run.JUDGE_EVERY == 12
+    with target.open("rb") as file:
+        summary = make_reader(file).get_summary()
+    assert summary is not None
+    assert summary.statistics is not None
+    # The tree is halted at the end of a recording: the moment of the decision lies before it.
+    after_s = summary.statistics.message_end_time / 1e9 - recorded.end_s
+    assert after_s == pytest.approx(run.AFTER_S, abs=0.1)
+
+
+def test_what_happens_after_the_decision_of_a_recorded_run_changes_nothing(tmp_path, cells):
+    """The robot reaches its goal; what its action would raise a little later is not of the outcome."""
+    faults = "faults: [{kind: action_raises, node: go, at_s: 2.6}]\n"
+    text = f"{HEAD}{faults}judge: {{success: [{{reach: {{area: ahead}}}}, {{never: collision}}]}}\n"
+    folder = write(tmp_path / "p", text)
+    plain = cells(folder)
+    assert plain.outcome == "success"
+    assert plain.end_s < 2.6 < plain.end_s + run.AFTER_S
+    assert cells(folder, recording=str(tmp_path / "run.mcap")).to_line() == plain.to_line()

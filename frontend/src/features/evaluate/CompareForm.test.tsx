@@ -4,7 +4,7 @@ import '@/i18n/editorTexts';
 import { fakeServer, show, user } from '../../../harness/testing';
 import { CompareForm } from './CompareForm';
 
-it('offers the older revisions, the last one first', async () => {
+function open(suggested: number | null) {
   const revision = (number: number) => ({
     number,
     label: '',
@@ -15,7 +15,23 @@ it('offers the older revisions, the last one first', async () => {
     'GET /projects/p1/revisions?limit=100&before=7': { items: [revision(6), revision(5)], next_before: null },
   });
   const compare = vi.fn();
-  show(<CompareForm projectId="p1" before={7} onCompare={compare} onCancel={vi.fn()} />);
+  const props = { projectId: 'p1', before: 7, suggested, onCompare: compare, onCancel: vi.fn() };
+  show(<CompareForm {...props} />);
+  return compare;
+}
+
+it.each([
+  [5, /Revision 5 · evaluated before · m5/],
+  [2, /Revision 2 · evaluated before/],
+])('begins with the revision %i that was evaluated before', async (suggested, name) => {
+  const compare = open(suggested);
+  expect(await screen.findByRole('option', { name, selected: true })).toBeInTheDocument();
+  await user.click(screen.getByRole('button', { name: 'Compare' }));
+  expect(compare).toHaveBeenCalledWith(suggested);
+});
+
+it('offers the older revisions, the last one first', async () => {
+  const compare = open(null);
   const choice = screen.getByLabelText('With an older revision');
   expect(await screen.findByRole('option', { name: /Revision 6 · m6/ })).toBeInTheDocument();
   await user.selectOptions(choice, '5');

@@ -9,7 +9,7 @@ import { EvaluationActions } from './EvaluationActions';
 function open(found: Evaluation, mayStart = true) {
   const did = { onCancel: vi.fn(), onResume: vi.fn(), onCompare: vi.fn(), onRemove: vi.fn() };
   fakeServer({});
-  show(<EvaluationActions projectId="p1" evaluation={found} mayStart={mayStart} {...did} />);
+  show(<EvaluationActions projectId="p1" evaluation={found} earlier={null} mayStart={mayStart} {...did} />);
   return did;
 }
 const named = (name: string) => screen.queryByRole('button', { name });

@@ -9,6 +9,8 @@ import { isLive } from './useEvaluations';
 interface Props {
   readonly projectId: string;
   readonly evaluation: Evaluation;
+  /** The revision that was evaluated before, with which it is compared at first. */
+  readonly earlier: number | null;
   readonly mayStart: boolean;
   readonly onCancel: () => void;
   readonly onResume: () => void;
@@ -20,6 +22,7 @@ interface Props {
 export function EvaluationActions({
   projectId,
   evaluation,
+  earlier,
   mayStart,
   onCancel,
   onResume,
@@ -37,6 +40,7 @@ export function EvaluationActions({
       <CompareForm
         projectId={projectId}
         before={evaluation.revision}
+        suggested={earlier}
         onCancel={back}
         onCompare={(revision) => {
           back();

@@ -11,6 +11,13 @@ const IDLE_MS = 20_000;
 export const isLive = ({ state }: Pick<Evaluation, 'state'>): boolean =>
   state === 'waiting' || state === 'running';
 
+/** Returns the newest older revision of which the same evaluation has outcomes. */
+export const earlierOf = (shown: Evaluation, items: readonly Evaluation[]): number | null =>
+  items.find(
+    ({ name, revision, sides }) =>
+      name === shown.name && revision < shown.revision && (sides[0]?.done ?? 0) > 0,
+  )?.revision ?? null;
+
 type Act = 'start' | 'cancel' | 'resume' | 'compare' | 'remove';
 
 /** Returns the evaluations of the open project, and what can be done with them; errors are shown. */
@@ -38,10 +45,10 @@ export function useEvaluations(isVisible: boolean) {
   return {
     projectId,
     found,
-    start: (name: string, runs: number) =>
+    start: (name: string, runs: number, sealed: boolean) =>
       did('start', async () => {
         await saveNow(); // what is evaluated is the last revision
-        return evaluations.start(projectId, name, runs);
+        return evaluations.start(projectId, name, runs, sealed);
       }),
     cancel: (id: string) => did('cancel', () => evaluations.cancel(projectId, id)),
     resume: (id: string) => did('resume', () => evaluations.resume(projectId, id)),

@@ -13,12 +13,12 @@ from pathlib import Path
 import pytest
 
 from backend.cli.evaluating.evaluate import ONLY_FAILED
-from executor.evaluation.pool.environment import SINGLE
+from executor.supervision.single_threaded import SINGLE_THREADED
 from tests.executor.evaluation.projects import DRIVE, write
 
 ROOT = Path(__file__).parents[4]
 MAIN = "from backend.cli.main import main; main()"
-ENVIRONMENT = {**os.environ, **SINGLE, "PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "0"}
+ENVIRONMENT = {**os.environ, **SINGLE_THREADED, "PYTHONPATH": str(ROOT)}
 TEXT = """duration_s: 3
 runs: 6
 vary: {robot.pose: {area: start, yaw: [-0.4, 0.4]}, models.crate.pose.y: [1, 3]}

@@ -12,7 +12,7 @@ import pytest
 
 from backend.cli.evaluating.one_run import outcome_lines
 from executor.evaluation.outcome import Outcome
-from executor.evaluation.pool.environment import SINGLE
+from executor.supervision.single_threaded import SINGLE_THREADED
 from tests.executor.evaluation.projects import write
 
 ROOT = Path(__file__).parents[4]
@@ -27,7 +27,7 @@ def studio(*arguments):
         capture_output=True,
         text=True,
         timeout=200,
-        env={**os.environ, **SINGLE, "PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "0"},
+        env={**os.environ, **SINGLE_THREADED, "PYTHONPATH": str(ROOT)},
         check=False,
     )
 

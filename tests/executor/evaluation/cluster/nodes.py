@@ -14,8 +14,8 @@ from typing import Any
 import psutil
 
 from executor.evaluation.cluster.ray_pool import import_ray
-from executor.evaluation.evaluate import evaluate
-from executor.evaluation.plan import make_plan
+from executor.evaluation.evaluate import Progress, evaluate
+from executor.evaluation.plan import Plan, make_plan
 from translator import open_path
 
 MEMORY = 100 << 20
@@ -54,7 +54,16 @@ def main() -> None:
         "include_dashboard": False,
     }
     cluster = Cluster()
-    started = [cluster.add_node(**options) for _ in range(nodes)]
+    try:
+        progress = evaluated(plan, cluster, [cluster.add_node(**options) for _ in range(nodes)], seeds)
+    finally:
+        cluster.shutdown()  # otherwise its address stays noted for every later Ray of this machine
+    for seed in sorted(progress.outcomes):
+        print(progress.outcomes[seed].to_line())  # noqa: T201 - the result
+
+
+def evaluated(plan: Plan, cluster: Any, started: list[Any], seeds: int) -> Progress:
+    """Evaluates; with two nodes, a supervisor and then a node are killed."""
     told: list[str] = []
 
     def harm() -> None:
@@ -66,16 +75,14 @@ def main() -> None:
     thread = threading.Thread(target=harm, daemon=True)
 
     def hear(_: object, done: object) -> None:
-        if done is not None and nodes > 1 and not thread.ident:
+        if done is not None and len(started) > 1 and not thread.ident:
             thread.start()
 
     progress = evaluate(plan, range(seeds), cluster=cluster.address, told=hear)
-    if nodes > 1:
+    if len(started) > 1:
         thread.join(60)
         assert told == ["killed"]
-    for seed in sorted(progress.outcomes):
-        print(progress.outcomes[seed].to_line())  # noqa: T201 - the result
-    cluster.shutdown()
+    return progress
 
 
 main()

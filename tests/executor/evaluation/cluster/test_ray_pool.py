@@ -8,14 +8,14 @@ from pathlib import Path
 import pytest
 
 from executor.evaluation.cluster import ray_pool
-from executor.evaluation.cluster.ray_pool import ClusterError, RayPool, has_cluster, import_ray
-from executor.evaluation.pool.environment import SINGLE
+from executor.evaluation.cluster.ray_pool import ClusterError, RayPool, connect, has_cluster, import_ray
+from executor.supervision.single_threaded import SINGLE_THREADED
 from tests.budget import count
 from tests.executor.evaluation.projects import write
 
 ROOT = Path(__file__).parents[4]
 MAIN = "from backend.cli.main import main; main()"
-ENVIRONMENT = {**os.environ, **SINGLE, "PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "0"}
+ENVIRONMENT = {**os.environ, **SINGLE_THREADED, "PYTHONPATH": str(ROOT)}
 NODES = count("ray_nodes")
 SEEDS = 3 if NODES < 2 else 24
 TEXT = f"""duration_s: {2 if NODES < 2 else 8}
@@ -65,3 +65,20 @@ def test_a_cluster_is_known_by_what_ray_notes(monkeypatch, tmp_path):
     monkeypatch.setattr(ray_pool, "NOTED", tmp_path / "nothing")
     monkeypatch.setenv("RAY_ADDRESS", "10.0.0.1:6379")
     assert has_cluster()
+
+
+class RayWithoutCluster:
+    """Ray where nothing answers at the address."""
+
+    def init(self, **_: object) -> None:
+        raise ConnectionError("nothing answers\nat all")
+
+
+def test_a_note_of_a_cluster_that_is_gone_is_named(monkeypatch, tmp_path):
+    noted = tmp_path / "ray_current_cluster"
+    monkeypatch.setattr(ray_pool, "NOTED", noted)
+    with pytest.raises(ClusterError, match=r"^--cluster auto: there is no Ray cluster: nothing answers$"):
+        connect(RayWithoutCluster(), "auto")
+    noted.touch()
+    with pytest.raises(ClusterError, match="`ray stop` removes that note"):
+        connect(RayWithoutCluster(), "auto")

@@ -11,6 +11,7 @@ import pytest
 
 from executor.evaluation.outcome import read_outcome
 from executor.evaluation.sealed.run import environment
+from executor.supervision.single_threaded import SINGLE_THREADED
 from tests.budget import count
 from tests.executor.evaluation.projects import DRIVE, write
 from tests.executor.evaluation.sealed.attacks import BROWSES, LEAVES, WRITES, action
@@ -53,7 +54,7 @@ def cells():
     process = subprocess.Popen(
         [sys.executable, "-m", "tests.executor.evaluation.cells"],
         cwd=ROOT,
-        env={**os.environ, "PYTHONHASHSEED": "0", "LP_NUM_THREADS": "0", "OPENBLAS_NUM_THREADS": "1"},
+        env={**os.environ, **SINGLE_THREADED},
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,

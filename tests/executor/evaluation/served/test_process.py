@@ -24,8 +24,8 @@ from executor.evaluation_messages import (
     StartEvaluation,
     decode_from_evaluation,
 )
-from executor.manager.manager import SINGLE_THREADED
 from executor.supervision.channel import encode
+from executor.supervision.single_threaded import SINGLE_THREADED
 
 EXAMPLE = Path(__file__).parents[4] / "examples" / "laser_bump_and_go"
 QUICK = b"""format: bt-studio/evaluation

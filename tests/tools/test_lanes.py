@@ -1,4 +1,4 @@
-"""What of two runs of pytest is shown at the end, and what is run again."""
+"""Failures of two runs of pytest are listed at the end, and a few walks are run again."""
 
 from __future__ import annotations
 

@@ -63,7 +63,7 @@ class EvaluationSerializer(serializers.Serializer[Any]):
 
 
 class CostSerializer(serializers.Serializer[Any]):
-    """What a run of an evaluation has cost so far."""
+    """The cost of a run of an evaluation so far."""
 
     name = serializers.CharField(help_text="Of the evaluation.")
     cpu_s = serializers.FloatField(help_text="The mean processor time of a run, in s.")

@@ -1605,7 +1605,7 @@ export interface components {
             revision?: number;
             conflicts?: components["schemas"]["Conflict"][];
         };
-        /** @description What a run of an evaluation has cost so far. */
+        /** @description The cost of a run of an evaluation so far. */
         Cost: {
             /** @description Of the evaluation. */
             name: string;

@@ -34,7 +34,7 @@ class Result(TextChoices):
 
 
 class WaitsFor(TextChoices):
-    """What a waiting evaluation waits for: processor hours of its user, users who work, or its turn."""
+    """The reason for which an evaluation waits: processor hours of its user, users who work, or its turn."""
 
     NOTHING = "", "nothing"
     HOURS = "hours"

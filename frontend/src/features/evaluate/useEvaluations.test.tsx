@@ -24,7 +24,11 @@ it('lists the evaluations of the project, and starts one', async () => {
   });
   show(<P />);
   await user.click(await screen.findByRole('button', { name: '1' }));
-  expect(requests.find(({ method }) => method === 'POST')?.body).toEqual({ name: 'room', runs: 3, sealed: true });
+  expect(requests.find(({ method }) => method === 'POST')?.body).toEqual({
+    name: 'room',
+    runs: 3,
+    sealed: true,
+  });
 });
 
 it('tells a refusal, and what is live', async () => {

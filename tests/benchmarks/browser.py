@@ -44,8 +44,8 @@ MOVES = frozenset({"pointermove", "wheel"})
 PRESSES = frozenset({"keydown", "click"})
 DROPS = frozenset({"pointerup"})
 TEMPLATE = "laser_bump_and_go"
-# Chromium of Debian rasterises the page by WebGL, which is emulated here and takes seconds for what the processor
-# does in milliseconds.
+# Chromium of Debian rasterises the page by WebGL, which is emulated here: it takes seconds for what the
+# processor does in milliseconds.
 RASTER = ["--disable-gpu-rasterization"]
 
 

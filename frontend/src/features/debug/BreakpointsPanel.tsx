@@ -36,7 +36,7 @@ export function BreakpointsPanel() {
         ) : (
           <div className={classes['buttons']}>
             <Switch
-              size="xs"
+              size="md"
               label={t('areOn')}
               checked={areOn}
               data-testid="breakpoints-on"
@@ -79,7 +79,7 @@ function Row({ breakpoint: each }: { readonly breakpoint: BlockBreakpoint }) {
     <li className={classes['row']} data-testid={`row-${each.node_id}`}>
       <div className={classes['line']}>
         <Checkbox
-          size="xs"
+          size="md"
           aria-label={t('isOn', { name })}
           checked={each.on}
           onChange={({ currentTarget: { checked } }) =>

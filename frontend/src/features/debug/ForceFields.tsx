@@ -46,7 +46,7 @@ export function ForceFields({ tree, node }: ForceFieldsProps) {
           onChange={({ currentTarget: { value } }) => setStatus(value as ResultName)}
         />
         <Checkbox
-          size="xs"
+          size="md"
           label={t('force.once')}
           checked={once && !isFreeze}
           disabled={isFreeze}

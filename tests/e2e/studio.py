@@ -105,8 +105,12 @@ class Studio:
             wait_until(lambda: self.stat("t") < before, "the world begins again")
 
     def expect_state(self, state: str) -> None:
-        """Waits for a rung of the ladder."""
-        expect(self.at("executor-state")).to_have_attribute("data-state", state)
+        """Waits for a rung of the ladder; a failure says what the page tells of the run."""
+        try:
+            expect(self.at("executor-state")).to_have_attribute("data-state", state)
+        except AssertionError as error:
+            strip = " ".join(self.at("run-strip").all_inner_texts())
+            raise AssertionError(f"not {state}; the page says: {strip}") from error
 
     def saved(self) -> None:
         """Waits until everything typed is stored."""

@@ -132,6 +132,7 @@ def the_block_is_built_from_lists(studio: Studio) -> None:
     add_field(studio, "feedback.distance_remaining", "feedback__distance_remaining")
     for timeout in ("wait_for_server_timeout", "server_timeout"):  # a busy machine is late
         studio.at(f"port-{timeout}").fill("120000")
+    studio.at("port-error").fill("{why}")
     studio.saved()
     expect(made).to_contain_text("position.x")
     expect(made).not_to_have_attribute("data-problem", "error")
@@ -151,7 +152,9 @@ def the_robot_drives_to_the_goal(studio: Studio) -> None:
     studio.run()
     observer = studio.observe()
     wait_until(lambda: bool(observer.of("finished")), "the goal is reached", deadline_s=200)
-    assert observer.of("finished")[0]["data"]["status"] == "SUCCESS", observer.of("log")
+    finished = observer.of("finished")[0]["data"]
+    texts = [event["data"]["text"] for event in observer.of("log")]
+    assert finished["status"] == "SUCCESS", f"{finished}; {observer.of('blackboard')[-1:]}; {texts}"
     _, *place = observer.track("robot")[-1]  # the robot started at the origin
     assert math.hypot(*place[:2]) == pytest.approx(GOAL_M, abs=0.15)
     studio.picture("ros-action-reached")

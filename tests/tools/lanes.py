@@ -1,11 +1,14 @@
 """`make test-python`: the browser's tests and all others beside each other, since each mostly waits.
 
-Every line is shown as it comes, with the name of its lane; failures are listed again at the end.
-Arguments go to each run of pytest.
+Every line is shown as it comes, with the name of its lane; failures and their errors are listed again at the
+end. The two lanes share the machine, so a walk through the browser can run out of time that it has alone: a
+few walks that failed are run again after the lanes. One that fails again has failed; one that passes stays
+listed as unsteady. Arguments go to each run of pytest.
 """
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 import threading
@@ -21,14 +24,23 @@ LANES: Final = {
     "browser": [["tests/e2e", *(f"--ignore={path}" for path in LATE)]],
     "others": [["tests", "--ignore=tests/e2e"], LATE],
 }
-# The beginnings of lines in pytest's summary that report a failure.
-FAILURES: Final = ("FAILED tests/", "ERROR tests/")
+# Results of pytest; all others mean that its run did not come to its end.
+PASSED: Final = 0
+TESTS_FAILED: Final = 1
+NOT_COMPLETE: Final = 2
+# More failed walks than these have another cause than a busy machine.
+AGAIN_AT_MOST: Final = 3
+# The lines of an error that are shown again at the end.
+ERROR_LINES: Final = 6
+_FAILURE: Final = re.compile(r"(?:FAILED|ERROR) (?P<test>tests/\S+)")
+_WALK: Final = re.compile(r"FAILED (?P<test>tests/e2e/\S+)")
+_TITLE: Final = re.compile(r"_{3,} .+ _{3,}$")
 
 
 def main(arguments: list[str]) -> int:
-    """Runs the lanes to their ends; returns 0 if all passed."""
+    """Runs the lanes to their ends, then failed walks alone; returns 0 if all passed."""
     began_s = time.monotonic()
-    lanes = [Lane(name, runs, arguments) for name, runs in LANES.items()]
+    lanes = [Lane(name, [pytest(*run, *arguments) for run in runs]) for name, runs in LANES.items()]
     try:
         for lane in lanes:
             lane.start()
@@ -39,26 +51,64 @@ def main(arguments: list[str]) -> int:
             lane.is_ended = True
             lane.join()
         return 130
-    for lane in lanes:
-        print("".join(f"{lane.name:7} | {line}" for line in lane.failures), end="")
-    print(", ".join(map(str, lanes)), f"in {(time.monotonic() - began_s) / 60:.1f} min")
-    return max(lane.result for lane in lanes)
+    is_complete = all(lane.result in (PASSED, TESTS_FAILED) for lane in lanes)
+    walks = walks_to_repeat([line for lane in lanes for line in lane.failures]) if is_complete else []
+    again = [Lane("again", [pytest(*walks, *arguments)])] if walks else []
+    for lane in again:
+        lane.run()
+    report = [*lanes, *again]
+    for lane in report:
+        print("".join(f"{lane.name:7} | {line}" for line in lane.summary), end="")
+    if again and again[0].result == PASSED:
+        print(f"UNSTEADY, passed when run alone: {' '.join(walks)}")
+    print(", ".join(map(str, report)), f"in {(time.monotonic() - began_s) / 60:.1f} min")
+    return max(lane.result for lane in again or lanes)
+
+
+def pytest(*arguments: str) -> list[str]:
+    """Returns the command of a run of pytest."""
+    return [sys.executable, "-m", "pytest", *arguments]
+
+
+def walks_to_repeat(failures: list[str]) -> list[str]:
+    """Returns the walks that are run again: all that failed, if they are few and nothing else failed."""
+    walks = [found["test"] for line in failures if (found := _WALK.match(line))]
+    return walks if len(walks) == len(failures) <= AGAIN_AT_MOST else []
 
 
 class Lane(threading.Thread):
     """Runs of pytest, one after the other; the rest runs also after a failure."""
 
-    def __init__(self, name: str, runs: list[list[str]], arguments: list[str]) -> None:
+    def __init__(self, name: str, commands: list[list[str]]) -> None:
         super().__init__(name=name)
-        self.result = 0
+        self.result = PASSED
         self.is_ended = False
         self.failures: list[str] = []
-        self._commands = [[sys.executable, "-m", "pytest", *run, *arguments] for run in runs]
+        self._errors: list[list[str]] = []
+        self._commands = commands
+
+    @property
+    def summary(self) -> list[str]:
+        """The failures, and under them the beginnings of their errors."""
+        return [*self.failures, *(line for error in self._errors for line in error[:ERROR_LINES])]
 
     def run(self) -> None:
         for command in self._commands:
             if not self.is_ended:
-                self.result = max(self.result, self._show(command))
+                before = len(self.failures)
+                result = self._show(command)
+                if result == TESTS_FAILED and len(self.failures) == before:  # it ended before its summary
+                    result = NOT_COMPLETE
+                self.result = max(self.result, result)
+
+    def read(self, line: str) -> None:
+        """Keeps a line of pytest's output if it names a failure or says what failed."""
+        if _FAILURE.match(line):
+            self.failures.append(line)
+        elif _TITLE.match(line.rstrip()):
+            self._errors.append([])
+        elif line.startswith("E  ") and self._errors:
+            self._errors[-1].append(line)
 
     def _show(self, command: list[str]) -> int:
         with subprocess.Popen(
@@ -66,12 +116,11 @@ class Lane(threading.Thread):
         ) as process:
             for line in process.stdout or ():
                 print(f"{self.name:7} | {line}", end="", flush=True)
-                if line.startswith(FAILURES):
-                    self.failures.append(line)
+                self.read(line)
         return abs(int(process.returncode))
 
     def __str__(self) -> str:
-        return f"{self.name} {'passed' if self.result == 0 else f'FAILED ({self.result})'}"
+        return f"{self.name} {'passed' if self.result == PASSED else f'FAILED ({self.result})'}"
 
 
 if __name__ == "__main__":

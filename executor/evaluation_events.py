@@ -24,6 +24,7 @@ class Evaluate(Struct, forbid_unknown_fields=True):
         runs: how many, if not as the evaluation says; 0 is as it says.
         known: [seed, outcome] of seeds that are part of the evaluation and need not be run.
         record: whether the first of the seeds alone is run, and recorded.
+        sealed: whether tree and actions run in a process that sees nothing of the judge.
     """
 
     job: JobName
@@ -33,6 +34,7 @@ class Evaluate(Struct, forbid_unknown_fields=True):
     known: Annotated[list[tuple[Seed, str]], Meta(max_length=100_000)] = []
     runs: Annotated[int, Meta(ge=0, le=100_000)] = 0
     record: bool = False
+    sealed: bool = False
 
 
 class EvaluationStarted(Struct):

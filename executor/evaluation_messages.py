@@ -18,6 +18,7 @@ class StartEvaluation(Message, tag="start"):
     known: list[tuple[int, str]]
     runs: int = 0
     record_to: str = ""
+    sealed: bool = False
 
 
 class Started(Message, tag="started"):

@@ -33,5 +33,14 @@ class Result(TextChoices):
     CANCELLED = "cancelled"
 
 
+class WaitsFor(TextChoices):
+    """The reason for which an evaluation waits: processor hours of its user, users who work, or its turn."""
+
+    NOTHING = "", "nothing"
+    HOURS = "hours"
+    USERS = "users"
+    TURN = "turn"
+
+
 LIVE: Final = (JobState.WAITING, JobState.RUNNING)
 NOT_COUNTED: Final = (Result.INVALID, Result.LOST, Result.CANCELLED)

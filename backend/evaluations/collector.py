@@ -152,6 +152,7 @@ class Collector:
             seeds=side.seeds,
             known=side.known,
             runs=0 if side.seeds else found.runs,
+            sealed=found.sealed,
         )
         waiting: list[tuple[told.Done, told.Line]] = []
         stored_s = 0.0

@@ -22,6 +22,7 @@ class Evaluation(models.Model):
         older: the revision with which it is compared; it runs in the worlds of `revision`.
         runs: the number of runs that was asked for; 0 is as the file says.
         seed, wanted: the first seed and the number of runs, once they are known.
+        sealed: whether tree and actions run in a process that sees nothing of the judge.
         sequential: whether the outcomes decide the number of runs.
         results: by revision, `done`, `wanted`, `rate`, `low` and `high`.
         plan: outlines of the world, for the report.
@@ -37,6 +38,7 @@ class Evaluation(models.Model):
     runs = models.PositiveIntegerField(default=0)
     seed = models.BigIntegerField(null=True)
     wanted = models.PositiveIntegerField(null=True)
+    sealed = models.BooleanField(default=False)
     sequential = models.BooleanField(default=False)
     duration_s = models.FloatField(default=0)
     workers = models.PositiveSmallIntegerField(default=0)

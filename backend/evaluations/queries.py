@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from datetime import timedelta
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
-from django.db.models import Count, Sum
+from django.db.models import Avg, Count, Sum
 from django.utils import timezone
 
 from backend.core.problems import NotFoundError
@@ -58,6 +58,21 @@ def counts(found: list[Evaluation]) -> dict[tuple[UUID, int], dict[str, int]]:
     for evaluation_id, revision, outcome, number in rows.annotate(number=Count("id")):
         by.setdefault((evaluation_id, revision), {})[outcome] = number
     return by
+
+
+def costs(rows: list[Evaluation]) -> list[dict[str, Any]]:
+    """Returns what a run takes, by the last of these evaluations of each name that has outcomes."""
+    last: dict[str, Evaluation] = {}
+    for row in rows:
+        if row.results and not row.sealed:
+            last.setdefault(row.name, row)
+    means = Outcome.objects.filter(evaluation__in=last.values()).values_list("evaluation")
+    by_id = dict(means.annotate(mean=Avg("cpu_s")).values_list("evaluation", "mean"))
+    return [
+        {"name": name, "cpu_s": by_id[row.id], "workers": max(row.workers, 1)}
+        for name, row in last.items()
+        if row.id in by_id
+    ]
 
 
 def outcomes(found: Evaluation, revision: int, after: int) -> list[Outcome]:

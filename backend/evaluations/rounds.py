@@ -59,7 +59,7 @@ def one_round() -> None:
     with _lock:
         running = {Place(row.project_id, row.user_id): row for row in _sessions()}
         waiting = work.waiting_places()
-        somebody_works = _waits_for_place()
+        somebody_works = work.somebody_waits_for_place()
         _make_room(running, waiting, somebody_works=somebody_works)
         for place in work.in_turn(waiting, running):
             if somebody_works or len(running) >= environment().max_evaluations or current_drain() is not None:
@@ -83,11 +83,6 @@ def _is_work() -> bool:
     return (
         Evaluation.objects.filter(state__in=LIVE).exists() or Replay.objects.filter(state__in=LIVE).exists()
     )
-
-
-def _waits_for_place() -> bool:
-    """Returns whether a user who works waits for a place."""
-    return Session.objects.filter(kind=SessionKind.INTERACTIVE, state=SessionState.QUEUED).exists()
 
 
 def _sessions() -> Any:

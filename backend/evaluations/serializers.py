@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from rest_framework import serializers
 
 from backend.core.rest.fields import ObjectField, StrictIntegerField, StrictSerializer
-from backend.evaluations.choices import JobState, Result
+from backend.evaluations.choices import JobState, Result, WaitsFor
 from backend.evaluations.models import MAX_NAME_LENGTH
 from backend.projects.choices import Role
 
@@ -43,9 +43,16 @@ class EvaluationSerializer(serializers.Serializer[Any]):
     older = serializers.IntegerField(allow_null=True, help_text="The revision with which it is compared.")
     seed = serializers.IntegerField(allow_null=True, help_text="The first seed, once it is known.")
     sequential = serializers.BooleanField(help_text="Whether the outcomes decide the number of runs.")
+    sealed = serializers.BooleanField(
+        help_text="Whether tree and actions ran in a process that sees nothing of the judge."
+    )
     duration_s = serializers.FloatField(help_text="The longest time of a run, in simulated s.")
     workers = serializers.IntegerField(help_text="Runs at a time.")
     state = serializers.ChoiceField(choices=JobState.choices)
+    waits_for = serializers.ChoiceField(
+        choices=WaitsFor.choices,
+        help_text="While it waits: processor hours of its user, users who work, or its turn. Else empty.",
+    )
     error = serializers.CharField(help_text="Why it failed, a line for each problem; else empty.")
     attempt = serializers.IntegerField(help_text="Changes when it is begun again; outcomes may have gone.")
     left_s = serializers.FloatField(allow_null=True, help_text="The time that is probably left, in s.")
@@ -55,10 +62,19 @@ class EvaluationSerializer(serializers.Serializer[Any]):
     sides = SideSerializer(many=True, help_text="The revision, and then the older one, if there is one.")
 
 
+class CostSerializer(serializers.Serializer[Any]):
+    """The cost of a run of an evaluation so far."""
+
+    name = serializers.CharField(help_text="Of the evaluation.")
+    cpu_s = serializers.FloatField(help_text="The mean processor time of a run, in s.")
+    workers = serializers.IntegerField(help_text="Runs at a time.")
+
+
 class EvaluationListSerializer(serializers.Serializer[Any]):
     """The evaluations of a project, the newest first."""
 
     items = EvaluationSerializer(many=True)
+    costs = CostSerializer(many=True, help_text="By the last evaluation of each name that has outcomes.")
     may_start = serializers.BooleanField(help_text="Whether you may start evaluations of this project.")
     may_replay = serializers.BooleanField(help_text="Whether you may play a run again.")
     why_not = serializers.CharField(help_text="Why this server runs none; else empty.")
@@ -70,6 +86,9 @@ class StartEvaluationSerializer(StrictSerializer):
     name = serializers.CharField(max_length=MAX_NAME_LENGTH)
     runs = StrictIntegerField(
         min_value=0, max_value=MOST_RUNS, default=0, help_text="So many runs; 0 is as the file says."
+    )
+    sealed = serializers.BooleanField(
+        default=False, help_text="Keep tree and actions in a process that sees nothing of the judge."
     )
 
 
@@ -170,12 +189,17 @@ class ComparisonSerializer(serializers.Serializer[Any]):
     measures = MeasureDifferenceSerializer(many=True)
 
 
-def presented(found: Evaluation, counts: Mapping[tuple[UUID, int], dict[str, int]]) -> dict[str, Any]:
+def presented(
+    found: Evaluation,
+    counts: Mapping[tuple[UUID, int], dict[str, int]],
+    waits: Mapping[UUID, WaitsFor],
+) -> dict[str, Any]:
     """Returns an evaluation as JSON."""
-    plain = ("name", "revision", "older", "seed", "sequential", "duration_s", "workers", "state", "error")
+    plain = ("name", "revision", "older", "seed", "sealed", "sequential", "duration_s", "workers", "state")
     revisions = [found.revision, *([] if found.older is None else [found.older])]
-    return {name: getattr(found, name) for name in (*plain, "attempt", "left_s")} | {
+    return {name: getattr(found, name) for name in (*plain, "error", "attempt", "left_s")} | {
         "id": str(found.id),
+        "waits_for": waits.get(found.id, WaitsFor.NOTHING).value,
         "author": found.user.username,
         "created_at": found.created_at.isoformat(),
         "ended_at": None if found.ended_at is None else found.ended_at.isoformat(),

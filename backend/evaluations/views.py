@@ -16,7 +16,7 @@ from backend.accounts.api.viewsets import ResourceViewSet
 from backend.core.file_answers import FileAnswer, saved_as
 from backend.core.problems import NotFoundError
 from backend.core.scratch import scratch
-from backend.evaluations import queries, results, writes
+from backend.evaluations import queries, results, work, writes
 from backend.evaluations import serializers as s
 from backend.evaluations.rounds import round_soon
 from backend.workers.aside import conversions
@@ -49,9 +49,10 @@ class Evaluations(ResourceViewSet):
         """Lists the evaluations of a project, the newest first; the last 50 are kept."""
         user = user_of(request)
         project, rows = queries.evaluations(project_id, user=user)
-        counts = queries.counts(rows)
+        counts, waits = queries.counts(rows), work.waits_for(rows)
         answer = {
-            "items": [s.presented(row, counts) for row in rows],
+            "items": [s.presented(row, counts, waits) for row in rows],
+            "costs": queries.costs(rows),
             "may_start": s.may_start(project.role, is_guest=user.is_guest),
             "may_replay": not user.is_guest,
             "why_not": writes.why_not(project),
@@ -68,7 +69,9 @@ class Evaluations(ResourceViewSet):
     def create(self, request: Request, project_id: UUID) -> Response:
         """Puts an evaluation of the current revision into the queue."""
         asked, user = parsed(s.StartEvaluationSerializer, request.data), user_of(request)
-        found = writes.start(project_id, asked["name"], asked["runs"], acting_user=user)
+        found = writes.start(
+            project_id, asked["name"], asked["runs"], acting_user=user, sealed=asked["sealed"]
+        )
         return _begun(found, 201)
 
     @extend_schema(operation_id="get_evaluation", responses=s.EvaluationSerializer, tags=["evaluations"])
@@ -231,7 +234,7 @@ def _attached(name: str, kind: str) -> dict[str, str]:
 
 
 def _answer(found: Evaluation, status: int = 200) -> Response:
-    return Response(s.presented(found, queries.counts([found])), status=status)
+    return Response(s.presented(found, queries.counts([found]), work.waits_for([found])), status=status)
 
 
 def _begun(found: Evaluation, status: int = 200) -> Response:

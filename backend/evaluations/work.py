@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from backend.evaluations import queries
-from backend.evaluations.choices import LIVE, NOT_COUNTED
+from backend.evaluations.choices import LIVE, NOT_COUNTED, JobState, WaitsFor
 from backend.evaluations.models import Evaluation, Replay
 from backend.evaluations.writes import hours_left
+from backend.sessions.choices import SessionKind, SessionState
+from backend.sessions.models import Session
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -60,6 +62,21 @@ def next_side(found: Evaluation) -> Side | None:
     there = {seed for seed, _ in older}
     missing = [seed for seed in counted if seed not in there]
     return Side(found.older, older, missing) if missing else None
+
+
+def waits_for(rows: Iterable[Evaluation]) -> dict[UUID, WaitsFor]:
+    """Returns what those of some evaluations that wait are waiting for."""
+    waiting = [row for row in rows if row.state == JobState.WAITING]
+    if not waiting:
+        return {}
+    has_hours = {user.pk: hours_left(user) for user in {row.user for row in waiting}}
+    free = WaitsFor.USERS if somebody_waits_for_place() else WaitsFor.TURN
+    return {row.id: free if has_hours[row.user_id] else WaitsFor.HOURS for row in waiting}
+
+
+def somebody_waits_for_place() -> bool:
+    """Returns whether a user who works waits for a place."""
+    return Session.objects.filter(kind=SessionKind.INTERACTIVE, state=SessionState.QUEUED).exists()
 
 
 def waiting_places() -> dict[Place, datetime]:

@@ -42,7 +42,7 @@ def why_not(project: Project) -> str:
     return "The project is archived." if project.archived_at else ""
 
 
-def start(project_id: UUID, name: str, runs: int, *, acting_user: User) -> Evaluation:
+def start(project_id: UUID, name: str, runs: int, *, acting_user: User, sealed: bool = False) -> Evaluation:
     """Puts an evaluation of the current revision of a project into the queue.
 
     Raises:
@@ -69,6 +69,7 @@ def start(project_id: UUID, name: str, runs: int, *, acting_user: User) -> Evalu
             name=name,
             revision=project.revision,
             runs=runs,
+            sealed=sealed,
             created_at=now,
             asked_at=now,
         )

@@ -221,7 +221,7 @@ def drawn() -> Iterator[bytes]:
     base = np.stack([rows // 2, columns // 3, (rows + columns) // 5], axis=2)
     coded: list[Any] = []
     for _ in range(20):
-        noise = chance.integers(-6, 6, (480, 640, 1))
+        noise = chance.integers(-4, 4, (480, 640, 1))
         jpeg = to_jpeg(np.clip(base + noise, 0, 255).astype(np.uint8))
         message = CompressedImage(format="rgb8; jpeg compressed bgr8")
         message.data = np.frombuffer(jpeg, np.uint8)

@@ -166,7 +166,8 @@ def _plan(job: StartEvaluation) -> Plan:
     Raises:
         _RefusedError: it cannot be run.
     """
-    from executor.evaluation.plan import EvaluationError, make_plan  # noqa: PLC0415 - as above
+    from executor.evaluation.plan import EvaluationError, make_plan, sealed  # noqa: PLC0415 - as above
+    from executor.evaluation.sealed.confine import SealError  # noqa: PLC0415 - as above
     from executor.universes.document import DocumentError  # noqa: PLC0415 - as above
     from translator import TranslatorError, load  # noqa: PLC0415 - as above
     from translator.archive import read_zip  # noqa: PLC0415 - as above
@@ -174,12 +175,13 @@ def _plan(job: StartEvaluation) -> Plan:
     try:
         files = read_zip(base64.b64decode(job.archive_base64, validate=True))
         plan = make_plan(load(files), job.evaluation)
+        plan = sealed(plan) if job.sealed else plan
     except binascii.Error as error:
         raise _RefusedError(f"the project is no base64: {error}") from error
     except TranslatorError as error:
         lines = [str(each) for each in error.diagnostics]
         raise _RefusedError("\n".join(lines[:MOST_PROBLEMS])) from error
-    except (DocumentError, EvaluationError) as error:
+    except (DocumentError, EvaluationError, SealError) as error:
         raise _RefusedError("\n".join(str(error).splitlines()[:MOST_PROBLEMS])) from error
     evaluation = plan.evaluation
     if runs := job.runs or len(job.seeds):

@@ -75,6 +75,7 @@ class Evaluating:
                 known=data.known,
                 record_to=f"{folder}/{run}/0.0.mcap" if run else "",
                 runs=data.runs,
+                sealed=data.sealed,
             )
         )
 

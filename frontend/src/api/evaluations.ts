@@ -20,11 +20,11 @@ export const evaluations = {
     const params = { path: { project_id } };
     return dataOf(rest.GET('/api/v1/projects/{project_id}/evaluations', { params, signal: signal ?? null }));
   },
-  start: (project_id: string, name: string, runs: number): Promise<Evaluation> =>
+  start: (project_id: string, name: string, runs: number, sealed: boolean): Promise<Evaluation> =>
     dataOf(
       rest.POST('/api/v1/projects/{project_id}/evaluations', {
         params: { path: { project_id } },
-        body: { name, runs },
+        body: { name, runs, sealed },
       }),
     ),
   cancel: (projectId: string, id: string): Promise<Evaluation> =>

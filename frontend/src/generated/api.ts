@@ -1515,6 +1515,8 @@ export interface components {
         BehaviourList: {
             items: components["schemas"]["Behaviour"][];
         };
+        /** @enum {unknown} */
+        BlankEnum: "";
         /** @description The project after the change: all files, and the translator's findings. */
         ChangesDone: {
             revision: number;
@@ -1602,6 +1604,18 @@ export interface components {
             field?: string;
             revision?: number;
             conflicts?: components["schemas"]["Conflict"][];
+        };
+        /** @description The cost of a run of an evaluation so far. */
+        Cost: {
+            /** @description Of the evaluation. */
+            name: string;
+            /**
+             * Format: double
+             * @description The mean processor time of a run, in s.
+             */
+            cpu_s: number;
+            /** @description Runs at a time. */
+            workers: number;
         };
         /** @description The coverage of all trees, by tree id. */
         Coverage: {
@@ -1710,6 +1724,8 @@ export interface components {
             seed: number | null;
             /** @description Whether the outcomes decide the number of runs. */
             sequential: boolean;
+            /** @description Whether tree and actions ran in a process that sees nothing of the judge. */
+            sealed: boolean;
             /**
              * Format: double
              * @description The longest time of a run, in simulated s.
@@ -1718,6 +1734,8 @@ export interface components {
             /** @description Runs at a time. */
             workers: number;
             state: components["schemas"]["EvaluationState"];
+            /** @description While it waits: processor hours of its user, users who work, or its turn. Else empty. */
+            waits_for: components["schemas"]["WaitsForEnum"] | components["schemas"]["BlankEnum"];
             /** @description Why it failed, a line for each problem; else empty. */
             error: string;
             /** @description Changes when it is begun again; outcomes may have gone. */
@@ -1739,6 +1757,8 @@ export interface components {
         /** @description The evaluations of a project, the newest first. */
         EvaluationList: {
             items: components["schemas"]["Evaluation"][];
+            /** @description By the last evaluation of each name that has outcomes. */
+            costs: components["schemas"]["Cost"][];
             /** @description Whether you may start evaluations of this project. */
             may_start: boolean;
             /** @description Whether you may play a run again. */
@@ -2455,6 +2475,11 @@ export interface components {
              * @default 0
              */
             runs?: number;
+            /**
+             * @description Keep tree and actions in a process that sees nothing of the judge.
+             * @default false
+             */
+            sealed?: boolean;
         };
         /** @description A node on the path of a finding's reason. */
         Step: {
@@ -2566,6 +2591,8 @@ export interface components {
             run_bytes: number;
             max_run_bytes: number;
         };
+        /** @enum {string} */
+        WaitsForEnum: "hours" | "users" | "turn";
         /** @description All that is known of one run. */
         WholeOutcome: {
             /** @description Its line of runs.jsonl. */

@@ -349,6 +349,7 @@ export interface ClientMessage {
  *     runs: how many, if not as the evaluation says; 0 is as it says.
  *     known: [seed, outcome] of seeds that are part of the evaluation and need not be run.
  *     record: whether the first of the seeds alone is run, and recorded.
+ *     sealed: whether tree and actions run in a process that sees nothing of the judge.
  */
 export interface Evaluate {
   job: string;
@@ -358,6 +359,7 @@ export interface Evaluate {
   known?: [number, string][];
   runs?: number;
   record?: boolean;
+  sealed?: boolean;
 }
 
 /**

@@ -93,6 +93,13 @@ def test_outcomes_are_stored_without_any_page_and_the_session_ends(people, colle
     assert [data["evaluation"] for data in asked] == ["room"]
 
 
+def test_a_sealed_evaluation_is_asked_for_as_one(people, collect):
+    wish(people)
+    writes.start(people.project.id, "room", 0, acting_user=people.owner.user, sealed=True)
+    _, asked = collect(whole)
+    assert [data["sealed"] for data in asked] == [False, True]
+
+
 def test_after_a_lost_connection_the_rest_alone_is_asked_for(people, collect):
     found = wish(people)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from backend.evaluations import queries
+from backend.evaluations.choices import WaitsFor
 from backend.evaluations.models import Outcome
 from backend.evaluations.results import Comparison, MeasureDifference
 from backend.evaluations.serializers import (
@@ -18,17 +19,24 @@ from tests.backend.evaluations.conftest import begin, done, store, wish
 
 def test_an_evaluation_shows_how_far_it_is(people):
     found = wish(people)
-    before = presented(found, {})
+    before = presented(found, {}, {})
     assert before["sides"] == [
         {"revision": 1, "done": 0, "wanted": None, "rate": 0, "low": 0, "high": 0, "counts": {}}
     ]
     begin(found)
     store(found, done(0), done(1, "failure", 2))
     found.refresh_from_db()
-    after = presented(found, queries.counts([found]))
+    after = presented(found, queries.counts([found]), {})
     assert (after["state"], after["left_s"], after["author"]) == ("running", 9.0, "owner")
     [side] = after["sides"]
     assert (side["done"], side["wanted"], side["counts"]) == (2, 4, {"success": 1, "failure": 1})
+
+
+def test_an_evaluation_says_that_it_waits_and_for_what(people):
+    found = wish(people)
+    assert presented(found, {}, {})["waits_for"] == ""
+    told = presented(found, {}, {found.id: WaitsFor.USERS})
+    assert (told["state"], told["waits_for"], told["sealed"]) == ("waiting", "users", False)
 
 
 def test_an_outcome_has_the_margin_of_the_item_that_decided(people):

@@ -51,6 +51,19 @@ def test_outcomes_are_read_on_from_a_cursor(people):
     assert headers["X-Content-Type-Options"] == "nosniff"
 
 
+def test_a_sealed_one_says_so_and_the_list_has_what_runs_cost(people):
+    at = address(people)
+    assert people.owner.post(at, {"name": "room", "sealed": True}, expect=201)["sealed"]
+    made = people.owner.post(at, {"name": "room"}, expect=201)
+    assert (made["sealed"], made["waits_for"]) == (False, "turn")
+    assert people.viewer.get(at)["costs"] == []
+    found = Evaluation.objects.get(id=made["id"])
+    begin(found)
+    store(found, done(0))
+    assert people.viewer.get(at)["costs"] == [{"name": "room", "cpu_s": 3.0, "workers": 2}]
+    people.owner.post(at, {"name": "room", "sealed": "perhaps"}, expect=422)
+
+
 def test_a_query_that_is_no_query_is_refused_with_its_field(people):
     at = address(people)
     made = people.owner.post(at, {"name": "room"}, expect=201)

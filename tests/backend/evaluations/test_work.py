@@ -6,11 +6,11 @@ from datetime import UTC, datetime
 from uuid import UUID
 
 from backend.evaluations import work, writes
-from backend.evaluations.choices import JobState
+from backend.evaluations.choices import JobState, WaitsFor
 from backend.evaluations.models import Evaluation
 from backend.evaluations.told import read_line
 from backend.evaluations.work import Place, in_turn
-from tests.backend.evaluations.conftest import begin, done, store, wish
+from tests.backend.evaluations.conftest import begin, done, session_for, store, wish
 
 A, B = UUID(int=1), UUID(int=2)
 
@@ -44,6 +44,19 @@ def test_a_user_without_processor_hours_waits(people, settings_of):
     store(found, done(0))
     settings_of(evaluation_hours_a_day=0.0001)
     assert work.next_of(Place(people.project.id, people.owner.user.pk)) is None
+
+
+def test_an_evaluation_says_what_it_waits_for(people, settings_of):
+    waiting, running = wish(people), wish(people, "editor")
+    begin(running)
+    running.refresh_from_db()
+    assert work.waits_for([waiting, running]) == {waiting.id: WaitsFor.TURN}
+    session_for(people, "viewer", kind="interactive", state="queued")
+    assert work.waits_for([waiting]) == {waiting.id: WaitsFor.USERS}
+    store(waiting, done(0))
+    settings_of(evaluation_hours_a_day=0.0001)
+    assert work.waits_for([waiting]) == {waiting.id: WaitsFor.HOURS}
+    assert work.waits_for([running]) == {}
 
 
 def test_the_older_revision_runs_the_seeds_that_counted_after_the_newer_one(people):

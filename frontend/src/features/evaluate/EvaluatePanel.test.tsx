@@ -16,7 +16,7 @@ function open(items: object[], rights: object = allowed, names = ['room']) {
   openProject({ trees: { Main: { r: { type: 'Sequence' } } }, texts });
   const at = `/projects/${useProjectStore.getState().projectId}/evaluations`;
   const { requests } = fakeServer({
-    [`GET ${at}`]: { items, ...rights },
+    [`GET ${at}`]: { items, costs: [], ...rights },
     [`POST ${at}`]: evaluation({ id: 'e9' }),
     [`GET ${at}/e1/outcomes?revision=7&after=0`]: { items: [], cursor: 0 },
   });
@@ -28,7 +28,11 @@ it('starts the chosen evaluation with as many runs as asked', async () => {
   const requests = open([]);
   await user.type(await screen.findByLabelText('Runs'), '5');
   await user.click(screen.getByRole('button', { name: 'Evaluate' }));
-  expect(requests.find(({ method }) => method === 'POST')?.body).toEqual({ name: 'room', runs: 5 });
+  expect(requests.find(({ method }) => method === 'POST')?.body).toEqual({
+    name: 'room',
+    runs: 5,
+    sealed: false,
+  });
 });
 
 it('shows the newest evaluation, and edits the file in a form', async () => {

@@ -1,5 +1,4 @@
-import { Button, Group, Loader, NativeSelect, NumberInput, Text } from '@mantine/core';
-import { IconPlayerPlay } from '@tabler/icons-react';
+import { Button, Group, Loader, NativeSelect, Text } from '@mantine/core';
 import { useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { evaluationNames, evaluationPath } from '@/model/evaluation/files';
@@ -12,6 +11,7 @@ import { EvaluationForm } from './EvaluationForm';
 import { History } from './History';
 import { NewEvaluation } from './NewEvaluation';
 import { Results } from './Results';
+import { StartForm } from './StartForm';
 import { earlierOf, isLive, useEvaluations } from './useEvaluations';
 
 /** The evaluations of the project: chosen or made, run, looked at, compared and played again. */
@@ -25,17 +25,16 @@ export function EvaluatePanel() {
   const [wanted, setWanted] = useState<string | null>(null);
   const [id, setId] = useState<string | null>(null);
   const [mode, setMode] = useState<'results' | 'form' | 'new'>('results');
-  const [runs, setRuns] = useState<number | null>(null);
   const [isStarting, setStarting] = useState(false);
   const name = wanted !== null && names.includes(wanted) ? wanted : (names[0] ?? null);
   const list = all.found.data;
   const shown = list?.items.find((item) => item.id === id) ?? list?.items[0] ?? null;
   const mayStart = list?.may_start === true;
   const canStart = mayStart && list.why_not === '';
-  const start = async () => {
+  const start = async (runs: number, sealed: boolean) => {
     if (name === null) return;
     setStarting(true);
-    const made = await all.start(name, runs ?? 0);
+    const made = await all.start(name, runs, sealed);
     setStarting(false);
     if (!made) return;
     setId(made.id);
@@ -55,28 +54,13 @@ export function EvaluatePanel() {
                 onChange={({ currentTarget: { value } }) => setWanted(value)}
               />
               {canStart ? (
-                <Group gap={6} align="flex-end" wrap="nowrap">
-                  <NumberInput
-                    size="xs"
-                    style={{ minWidth: 0 }}
-                    label={t('runs')}
-                    placeholder={t('runsAsFile')}
-                    min={1}
-                    max={10_000}
-                    allowDecimal={false}
-                    value={runs ?? ''}
-                    onChange={(value) => setRuns(typeof value === 'number' && value > 0 ? value : null)}
-                  />
-                  <Button
-                    size="xs"
-                    style={{ flexShrink: 0 }}
-                    loading={isStarting}
-                    leftSection={<IconPlayerPlay size={14} aria-hidden="true" />}
-                    onClick={() => void start()}
-                  >
-                    {t('start')}
-                  </Button>
-                </Group>
+                <StartForm
+                  key={name}
+                  name={name}
+                  costs={list?.costs ?? []}
+                  isStarting={isStarting}
+                  onStart={(runs, sealed) => void start(runs, sealed)}
+                />
               ) : null}
               <Group gap={6}>
                 {mayStart ? (
@@ -137,7 +121,8 @@ export function EvaluatePanel() {
                 <h2 className={classes['title']}>
                   {shown.name}{' '}
                   <span className={classes['muted']}>
-                    {t('revision', { revision: shown.revision })} · {t(`state.${shown.state}`)}
+                    {t('revision', { revision: shown.revision })}
+                    {shown.sealed ? ` · ${t('sealed.is')}` : ''} · {t(`state.${shown.state}`)}
                   </span>
                 </h2>
                 <EvaluationActions

@@ -21,3 +21,12 @@ it('shows no rate without runs, and no progress at the end', () => {
   expect(screen.queryByTestId('evaluation-rate')).toBeNull();
   expect(screen.queryByRole('progressbar')).toBeNull();
 });
+
+it.each([
+  ['hours', 'processor hours'],
+  ['users', 'users who work go first'],
+  ['turn', 'a free place'],
+] as const)('says that it waits for %s', (waits_for, text) => {
+  show(<RateBar evaluation={evaluation({ state: 'waiting', waits_for })} side={side} />);
+  expect(screen.getByRole('status')).toHaveTextContent(text);
+});

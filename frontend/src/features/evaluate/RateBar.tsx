@@ -47,6 +47,7 @@ export function RateBar({ evaluation, side }: Props) {
         {isLive(evaluation) && evaluation.left_s !== null
           ? ` · ${t('progress.left', { left: duration(evaluation.left_s) })}`
           : ''}
+        {evaluation.waits_for ? ` · ${t(`waits.${evaluation.waits_for}`)}` : ''}
         {others.map(([outcome, count]) => ` · ${count} ${t(`outcome.${outcome}` as 'outcome.failure')}`)}
       </p>
     </div>

@@ -9,7 +9,7 @@ import { earlierOf, isLive, useEvaluations } from './useEvaluations';
 function P() {
   const { found, start } = useEvaluations(true);
   return (
-    <button type="button" onClick={() => void start('room', 3)}>
+    <button type="button" onClick={() => void start('room', 3, true)}>
       {found.data?.items.length ?? 'none'}
     </button>
   );
@@ -19,12 +19,16 @@ it('lists the evaluations of the project, and starts one', async () => {
   openProject({ trees: { Main: { r: { type: 'Sequence' } } } });
   const at = `/projects/${useProjectStore.getState().projectId}/evaluations`;
   const { requests } = fakeServer({
-    [`GET ${at}`]: { items: [evaluation()], may_start: true, may_replay: true, why_not: '' },
+    [`GET ${at}`]: { items: [evaluation()], costs: [], may_start: true, may_replay: true, why_not: '' },
     [`POST ${at}`]: evaluation(),
   });
   show(<P />);
   await user.click(await screen.findByRole('button', { name: '1' }));
-  expect(requests.find(({ method }) => method === 'POST')?.body).toEqual({ name: 'room', runs: 3 });
+  expect(requests.find(({ method }) => method === 'POST')?.body).toEqual({
+    name: 'room',
+    runs: 3,
+    sealed: true,
+  });
 });
 
 it('tells a refusal, and what is live', async () => {

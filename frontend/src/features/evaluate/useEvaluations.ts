@@ -45,10 +45,10 @@ export function useEvaluations(isVisible: boolean) {
   return {
     projectId,
     found,
-    start: (name: string, runs: number) =>
+    start: (name: string, runs: number, sealed: boolean) =>
       did('start', async () => {
         await saveNow(); // what is evaluated is the last revision
-        return evaluations.start(projectId, name, runs);
+        return evaluations.start(projectId, name, runs, sealed);
       }),
     cancel: (id: string) => did('cancel', () => evaluations.cancel(projectId, id)),
     resume: (id: string) => did('resume', () => evaluations.resume(projectId, id)),

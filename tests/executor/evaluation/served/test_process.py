@@ -38,6 +38,9 @@ judge: {success: [{never: collision}]}
 """
 
 
+TREE_ALONE = QUICK.replace(b"{never: collision}", b"{tree: SUCCESS}")
+
+
 def archive(evaluation: bytes = QUICK) -> str:
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w") as made:
@@ -88,9 +91,22 @@ def test_it_runs_what_is_not_known_and_records_a_seed(tmp_path):
     assert file.read_bytes().startswith(b"\x89MCAP")
 
 
+@pytest.mark.simulation
+def test_sealed_runs_come_to_the_same_outcomes():
+    plain = {
+        run.seed: run.line
+        for run in said(StartEvaluation(archive(), "quick", [5], []))
+        if isinstance(run, RunDone)
+    }
+    sealed = said(StartEvaluation(archive(), "quick", [5], [], sealed=True))
+    assert {run.seed: run.line for run in sealed if isinstance(run, RunDone)} == plain
+    assert isinstance(sealed[-1], EvaluationDone)
+
+
 @pytest.mark.parametrize(
     ("job", "text"),
     [
+        (StartEvaluation(archive(TREE_ALONE), "quick", [], [], sealed=True), "actions only claim"),
         (StartEvaluation("x", "quick", [], []), "no base64"),
         (StartEvaluation("eA==", "quick", [], []), "BT0920"),
         (StartEvaluation(archive(), "quikc", [], []), "did you mean 'quick'?"),

@@ -1,4 +1,4 @@
-"""The ROS domains in which programs of this host take part, whoever started them."""
+"""The ROS domains in which programs of this host take part, ours and others."""
 
 from __future__ import annotations
 

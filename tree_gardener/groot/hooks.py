@@ -81,7 +81,7 @@ class Hooks:
                 hook.enabled = on
 
     def unlock(self, answer: Unlock) -> None:
-        """Lets a tree that waits at a breakpoint continue; without one that waits it has no effect.
+        """Continues a tree that waits at a breakpoint; without one that waits it has no effect.
 
         Raises:
             GrootError: there is no such hook.

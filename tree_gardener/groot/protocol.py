@@ -133,7 +133,7 @@ class Hook:
 
 @dataclasses.dataclass(frozen=True)
 class Unlock:
-    """What a client answers to a breakpoint that was reached."""
+    """The answer of a client to a breakpoint that was reached."""
 
     key: HookKey
     desired_status: Status

@@ -30,13 +30,13 @@ ATTACH_S: Final = 0.2
 class Groot2Publisher:
     """Serves a tree to Groot2, and to every client of its protocol, until it is closed.
 
-    Requests are answered on `port`, and breakpoints that are reached are told on the next one. While clients
+    Requests are answered on `port`; the next one carries the news of breakpoints that are reached. While clients
     have hooks, these are the tree's debugger. It may be closed by any thread, also while the tree waits.
 
     Args:
         tree: the tree.
         port: the port; the next one is used too.
-        host: the address to listen at. The protocol has no password: whoever reaches it can stop the tree.
+        host: the address to listen at. The protocol has no password: anyone who reaches it can stop the tree.
 
     Raises:
         GrootError: the ports cannot be used.
@@ -134,7 +134,7 @@ class Groot2Publisher:
             self._mirror.read()
 
     def _soon(self, callback: Callable[[], None]) -> None:
-        """Has a function called by the ticking thread between two ticks."""
+        """Asks the ticking thread to call a function between two ticks."""
         self._tree.timers.start(0.0, callback)
 
     # -- on the ticking thread --------------------------------------------------------------------------
@@ -153,7 +153,7 @@ class Groot2Publisher:
         self._hooks.detach()
 
     def _tell(self, uid: int) -> None:
-        """Tells clients that the hook of a node was reached."""
+        """Notifies clients that the hook of a node was reached."""
         self._numbers += 1
         self._told.send_multipart([Header(RequestType.REACHED, self._numbers).pack(), str(uid).encode()])
 

@@ -1,4 +1,4 @@
-"""What a client of Groot2's protocol sees of random trees: of BehaviorTree.CPP's publisher, and of ours."""
+"""Random trees as a client of Groot2's protocol sees them: of BehaviorTree.CPP's publisher, and of ours."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Client:
         self.scopes = [tree[1]["_fullpath"] or tree[1]["ID"] for tree in self.trees]
 
     def look(self) -> dict[str, Any]:
-        """What can be seen after a tick."""
+        """The answers after a tick."""
         boards = msgpack.unpackb(self.groot.ask("B", ";".join(self.scopes).encode())[0])
         transitions = self.groot.ask("t")[0]
         return {

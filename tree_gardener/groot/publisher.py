@@ -30,8 +30,8 @@ ATTACH_S: Final = 0.2
 class Groot2Publisher:
     """Serves a tree to Groot2, and to every client of its protocol, until it is closed.
 
-    Requests are answered on `port`; the next one carries the news of breakpoints that are reached. While clients
-    have hooks, these are the tree's debugger. It may be closed by any thread, also while the tree waits.
+    Requests are answered on `port`; the next one carries the news of breakpoints that are reached. While
+    clients have hooks, these are the tree's debugger. Any thread may close it, also while the tree waits.
 
     Args:
         tree: the tree.

@@ -5,7 +5,6 @@ attaches and detaches the observer and the hooks, by timers that are due at once
 answers from copies.
 """
 
-import importlib
 import threading
 from collections.abc import Callable
 from types import TracebackType
@@ -44,14 +43,14 @@ class Groot2Publisher:
     """
 
     def __init__(self, tree: "Tree", port: int = PORT, host: str = "127.0.0.1") -> None:
-        self._zmq = _module("zmq")
+        self._zmq, msgpack = _libraries()
         if not 0 < port <= LAST_PORT:
             raise GrootError(f"port {port}: Groot2 needs two ports from 1 to {LAST_PORT + 1}")
         self.port = port
         self._tree = tree
         self._mirror = Mirror(tree)
         self._hooks = Hooks(tree, self._tell, self._mirror.read)
-        self._answers = Answers(tree, self._mirror, self._hooks, _module("msgpack").packb)
+        self._answers = Answers(tree, self._mirror, self._hooks, msgpack.packb)
         self._unobserve: Callable[[], None] | None = None
         self._is_attached = threading.Event()
         self._is_asked = False
@@ -158,9 +157,12 @@ class Groot2Publisher:
         self._told.send_multipart([Header(RequestType.REACHED, self._numbers).pack(), str(uid).encode()])
 
 
-def _module(name: str) -> Any:
+def _libraries() -> tuple[Any, Any]:
+    """Returns pyzmq and msgpack, which only this package needs."""
     try:
-        return importlib.import_module(name)
+        import msgpack  # noqa: PLC0415
+        import zmq  # noqa: PLC0415
     except ModuleNotFoundError as error:
-        package = {"zmq": "pyzmq"}.get(name, name)
-        raise ModuleNotFoundError(f"Groot2's protocol needs {package}: pip install {package}") from error
+        text = f"Groot2's protocol needs pyzmq and msgpack: pip install pyzmq msgpack ({error})"
+        raise ModuleNotFoundError(text) from error
+    return zmq, msgpack

@@ -8,7 +8,15 @@ from functools import lru_cache
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Any
 
-from translator.action_kind import KINDS, children_of, is_loop, kind_by_bases, qualified_bases
+from translator.action_kind import (
+    KINDS,
+    LIMITS,
+    children_of,
+    is_loop,
+    kind_by_bases,
+    qualified_bases,
+    without_effect,
+)
 from translator.action_ports import Declarations, assigned, declared_ports, last_name, loop_ports, ports_used
 from translator.diagnostic import Diagnostic, Place, diagnostic
 from translator.limits import ACTION_BYTES, megabytes
@@ -146,12 +154,14 @@ class _Inspector:
             return self.result(imports=imports)
         lineage = self.lineage(cls)
         bases = qualified_bases(self.module, lineage)
-        kind = self.kind(lineage, kind_by_bases(bases))
+        kind = self.kind(lineage, *kind_by_bases(bases))
         loops = is_loop(bases)
         if not self.is_behaviour(cls):
             self.report("BT0603", cls, name=self.name)
         elif not loops and not self.has_update(cls):
             self.report("BT0604", cls, name=self.name)
+        if loops:
+            without_effect(lineage, self.report)
         declarations = Declarations.collect(lineage)
         ports = loop_ports(lineage) if loops else declared_ports(declarations, self.report)
         is_open = not loops and not declarations.any
@@ -225,14 +235,19 @@ class _Inspector:
                     return True
         return False
 
-    def kind(self, lineage: list[ast.ClassDef], by_bases: str) -> str:
+    def kind(self, lineage: list[ast.ClassDef], by_bases: str, base: str) -> str:
+        """Returns the kind that NODE_KIND names, unless the known `base` is of another kind."""
         for member in lineage:
             for node in member.body:
                 value = assigned(node, "NODE_KIND")
                 if value is None:
                     continue
                 if isinstance(value, ast.Constant) and value.value in KINDS:
-                    return KINDS[value.value]
+                    kind = KINDS[value.value]
+                    if base and (kind in LIMITS or by_bases in LIMITS) and kind != by_bases:
+                        self.report("BT0618", node, kind=value.value, base=base)
+                        return by_bases
+                    return kind
                 self.report("BT0606", node, kinds=", ".join(KINDS))
                 return by_bases
         return by_bases

@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 from typing import TYPE_CHECKING
 
+from translator.action_ports import ATTRIBUTES as PORTS
 from translator.action_ports import assigned
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ _DECORATORS = {
     *("tree_gardener.node.Decorator", *_LOOPS),
 }
 _PY_TREES_DECORATORS = "py_trees.decorators."
+_BEHAVIOURS = {"py_trees.behaviour.Behaviour", "py_trees.Behaviour"}
 
 
 def qualified_bases(module: ast.Module, lineage: Iterable[ast.ClassDef]) -> list[str]:
@@ -57,19 +59,33 @@ def _imported(module: ast.Module) -> Iterator[tuple[str, str]]:
                 yield alias.asname or alias.name, f"{node.module}.{alias.name}"
 
 
-def kind_by_bases(bases: Iterable[str]) -> str:
-    """Returns the kind of a class by its bases."""
+def kind_by_bases(bases: Iterable[str]) -> tuple[str, str]:
+    """Returns the kind of a class by its bases, and the base that decides it; "" if none of them is known."""
+    known = ""
     for base in bases:
         if base in _CONTROLS:
-            return "control"
+            return "control", base
         if base in _DECORATORS or base.startswith(_PY_TREES_DECORATORS):
-            return "decorator"
-    return "action"
+            return "decorator", base
+        if base in _BEHAVIOURS:
+            known = base
+    return "action", known
 
 
 def is_loop(bases: Iterable[str]) -> bool:
     """Returns whether a class is a loop over elements of a type."""
     return not _LOOPS.isdisjoint(bases)
+
+
+def without_effect(lineage: Iterable[ast.ClassDef], report: Callable[..., None]) -> None:
+    """Reports what a loop declares although its rule and its ports are those of LoopNode."""
+    for cls in lineage:
+        for node in cls.body:
+            names = [name for name in PORTS if assigned(node, name) is not None]
+            if isinstance(node, ast.FunctionDef) and node.name == "update":
+                names.append("update")
+            for name in names:
+                report("BT0620", node, attribute=name)
 
 
 def children_of(
@@ -79,8 +95,6 @@ def children_of(
     if kind not in LIMITS:
         return 0, 0
     least, most = LIMITS[kind]
-    if kind == "decorator":
-        return least, most
     given: dict[str, tuple[ast.stmt, ast.expr]] = {}
     for cls in lineage:
         for node in cls.body:
@@ -88,6 +102,11 @@ def children_of(
                 value = assigned(node, name)
                 if value is not None:
                     given.setdefault(name, (node, value))
+    if kind == "decorator":
+        for name, (node, value) in given.items():
+            if not (isinstance(value, ast.Constant) and value.value == 1):
+                report("BT0619", node, attribute=name)
+        return least, most
     least = _number(given, "MIN_CHILDREN", report, least=1) or least
     return least, _number(given, "MAX_CHILDREN", report, least=least)
 

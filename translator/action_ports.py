@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from translator.catalog import PortModel
+from translator.text import is_xml_name
 
 ATTRIBUTES = {"INPUT_PORTS": "input", "OUTPUT_PORTS": "output", "INOUT_PORTS": "inout"}
 TYPES = {
@@ -32,7 +33,13 @@ POSITIONAL = {
     "Port": ("type", "default", "required", "description"),
     "PortInformation": ("data_type", "required", "description", "default_value"),
 }
+RESERVED = frozenset(("name", "ID"))
 Report = Callable[..., None]
+
+
+def is_port_name(name: str) -> bool:
+    """Returns whether a port can have this name: an attribute of XML that means nothing else."""
+    return name not in RESERVED and not name.startswith("_") and is_xml_name(name)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +76,9 @@ def declared_ports(declarations: Declarations, report: Report) -> tuple[PortMode
         for key, item in zip(value.keys, value.values, strict=True):
             if not isinstance(key, ast.Constant) or not isinstance(key.value, str):
                 report("BT0610", key or item, attribute=attribute)
+                continue
+            if not is_port_name(key.value):
+                report("BT0209", key, port=key.value)
                 continue
             ports[key.value] = _port(key.value, ATTRIBUTES[attribute], item, report)
     return tuple(ports.values())

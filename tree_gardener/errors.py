@@ -15,10 +15,14 @@ import sys
 import traceback
 from collections.abc import Iterable, Sequence
 from types import FrameType, TracebackType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
     from tree_gardener.node import Node
+
+
+DOCUMENT: Final = "tree.xml"
+"""The name of a document that has none."""
 
 
 class TreeGardenerError(Exception):
@@ -47,7 +51,7 @@ class Diagnostic:
     message: str
     hint: str = ""
     severity: str = "error"
-    file: str = "tree.xml"
+    file: str = DOCUMENT
     line: int = 0
     column: int = 0
     tree: str = ""
@@ -118,7 +122,8 @@ class TickError(TreeGardenerError):
         node_id: its ``_bts_id``, or "".
         node_type: its tag.
         tree_id: the BehaviorTree that it belongs to.
-        file: where the exception was raised, as near to the user's own code as the traceback shows, or "".
+        file: where the exception was raised, as near to the user's own code as the traceback shows; else
+            where the class of the node is written; or "".
         line: the line in that file, or 0.
         message: type and text of the exception.
         traceback_text: the whole traceback, without the engine's own frames.
@@ -146,13 +151,18 @@ class TickError(TreeGardenerError):
         self.code = code
         self.hint = hint
         self.message = message = f"{message} ({hint})" if hint else message
-        self.file, self.line = _locate(cause.__traceback__) if cause is not None else place
+        if cause is not None:
+            place = _locate(cause.__traceback__)
+            if not place[0]:  # the call itself failed, or no method was there to be called
+                place = class_place(node)
+        self.file, self.line = place
         self.traceback_text = _format(cause)
         at = f" at {self.file}:{self.line}" if self.file else ""
         super().__init__(f"node '{self.path}' [{self.node_type}]: {message}{at}")
 
 
 _PACKAGE = __file__.rsplit("/", 1)[0] + "/"
+_LIBRARIES = frozenset(("tree_gardener", "py_trees", "builtins", "abc"))
 
 
 def _locate(trace: TracebackType | None) -> tuple[str, int]:
@@ -167,6 +177,11 @@ def _nearest(places: Iterable[tuple[str, int]]) -> tuple[str, int]:
     return nearest[-1] if nearest else ("", 0)
 
 
+def raised_at(error: BaseException) -> tuple[str, int]:
+    """Returns file and line of the user's code that raised an exception, or ("", 0)."""
+    return _locate(error.__traceback__)
+
+
 def calling_place() -> tuple[str, int]:
     """Returns file and line of the user's code that called the engine, or ("", 0)."""
     places = []
@@ -175,6 +190,26 @@ def calling_place() -> tuple[str, int]:
         places.append((frame.f_code.co_filename, frame.f_lineno))
         frame = frame.f_back
     return _nearest(reversed(places))
+
+
+def class_place(node: "Node") -> tuple[str, int]:
+    """Returns file and line of the user's class of a node, or ("", 0)."""
+    return place_of(type(getattr(node, "instance_behaviour", None)))
+
+
+def place_of(cls: type) -> tuple[str, int]:
+    """Returns file and line of a user's class, by its `update` or its first method; ("", 0) if unknown."""
+    for base in cls.__mro__:
+        if base.__module__.partition(".")[0] in _LIBRARIES:
+            continue
+        for function in (base.__dict__.get("update"), *base.__dict__.values()):
+            code = getattr(getattr(function, "__func__", function), "__code__", None)
+            if code is not None:
+                return code.co_filename, code.co_firstlineno
+        file = getattr(sys.modules.get(base.__module__), "__file__", None)
+        if file:
+            return file, 1
+    return "", 0
 
 
 def _format(cause: BaseException | None) -> str:

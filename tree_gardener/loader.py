@@ -15,7 +15,7 @@ from tree_gardener.conditions import CONDITIONS, Guard, compile_conditions
 from tree_gardener.controls.custom import CustomControl
 from tree_gardener.decorators.loop import Loop
 from tree_gardener.document import Element
-from tree_gardener.errors import Diagnostic, ScriptError, describe
+from tree_gardener.errors import Diagnostic, ScriptError, describe, raised_at
 from tree_gardener.forest import Forest
 from tree_gardener.leaves.behaviour import BehaviourLeaf
 from tree_gardener.leaves.test_node import TestConfig, TestNode
@@ -263,7 +263,9 @@ class Builder:
         except (Exception, SystemExit) as error:
             _LOG.debug("the action %s cannot be made", kind.name, exc_info=True)
             hint = "look at its __init__: it is called with the node's name"
-            self.report(node.element, "TG604", f"{kind.name} cannot be made: {describe(error)}", hint)
+            file, line = raised_at(error)
+            place = f" at {file}:{line}" if file else ""
+            self.report(node.element, "TG604", f"{kind.name} cannot be made: {describe(error)}{place}", hint)
 
     # -- SubTrees -----------------------------------------------------------------------------------
 

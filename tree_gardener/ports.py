@@ -102,6 +102,9 @@ def manifest_of(cls: type, types: Mapping[str, ValueType] | None = None) -> dict
     """Returns the ports that a class declares; None if it is *open*: it declares none and accepts any.
 
     `types` are those that a port can name, in addition to those of the catalogue.
+
+    Raises:
+        ValueError: a name cannot be that of a port.
     """
     specs: dict[str, PortSpec] = {}
     is_open = True
@@ -111,6 +114,8 @@ def manifest_of(cls: type, types: Mapping[str, ValueType] | None = None) -> dict
             continue
         is_open = False
         for name, port in declared.items():
+            if not isinstance(name, str) or not name or name in IDENTITY or name.startswith("_"):
+                raise ValueError(f"{attribute}: {name!r} cannot be the name of a port")
             both = name in specs and specs[name].direction != direction
             spec = _spec(name, INOUT if both else direction, port)
             given = getattr(port, "type", port)

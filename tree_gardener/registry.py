@@ -28,7 +28,7 @@ from tree_gardener.decorators.run_once import RunOnce
 from tree_gardener.decorators.subtree import SubTree
 from tree_gardener.decorators.timing import Delay, Timeout
 from tree_gardener.decorators.update import SkipUnlessUpdated, WaitValueUpdate
-from tree_gardener.errors import Diagnostic, LoadError
+from tree_gardener.errors import DOCUMENT, Diagnostic, LoadError, place_of
 from tree_gardener.leaves.behaviour import LEAF_KINDS
 from tree_gardener.leaves.constant import AlwaysFailure, AlwaysSuccess
 from tree_gardener.leaves.entries import SetBlackboard, UnsetBlackboard, WasEntryUpdated
@@ -137,7 +137,9 @@ def build_registry(
         try:
             registry[name] = _user_type(name, cls, types or {})
         except (TypeError, ValueError) as error:
-            problems.append(Diagnostic("TG602", f"'{name}' cannot be a node: {error}", node=name))
+            file, line = place_of(cls) if isinstance(cls, type) else ("", 0)
+            message = f"'{name}' cannot be a node: {error}"
+            problems.append(Diagnostic("TG602", message, file=file or DOCUMENT, line=line, node=name))
     if problems:
         raise LoadError(problems)
     return registry
@@ -169,6 +171,12 @@ def _own_type(name: str, cls: type, own: type[ControlNode], types: Mapping[str, 
     """Returns the type of a user's control node or decorator; `own` is `cls`, or the class that adapts it."""
     is_decorator = issubclass(own, DecoratorNode)
     least, most = own.MIN_CHILDREN, own.MAX_CHILDREN
+    kind = getattr(cls, "NODE_KIND", own.NODE_KIND)
+    if kind != ("Decorator" if is_decorator else "Control"):
+        base = "a decorator" if is_decorator else "a control node"
+        raise ValueError(
+            f"its NODE_KIND is {kind!r}, but its base class makes it {base}: leave NODE_KIND out"
+        )
     if is_decorator and (least, most) != (1, 1):
         raise ValueError("a decorator has exactly one child: leave out MIN_CHILDREN and MAX_CHILDREN")
     if type(least) is not int or least < 1:

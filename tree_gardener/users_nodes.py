@@ -19,6 +19,8 @@ def setup(nodes: Sequence[Node], node: Any, kwargs: Mapping[str, Any]) -> None:
     for own in _users(nodes):
         try:
             own.instance_behaviour.setup(node=node, **kwargs)
+        except TickError:
+            raise  # a call that the node must not make now; the error names node, line and remedy
         except (Exception, SystemExit) as error:
             raise TickError(own, describe(error), error) from error
         own.note_early_reads()
@@ -30,6 +32,8 @@ def shutdown(nodes: Sequence[Node]) -> TickError | None:
     for own in _users(nodes):
         try:
             own.instance_behaviour.shutdown()
+        except TickError as error:
+            first = first or error
         except (Exception, SystemExit) as error:
             first = first or TickError(own, describe(error), error)
     return first

@@ -44,6 +44,9 @@ MOVES = frozenset({"pointermove", "wheel"})
 PRESSES = frozenset({"keydown", "click"})
 DROPS = frozenset({"pointerup"})
 TEMPLATE = "laser_bump_and_go"
+# Chromium of Debian rasterises the page by WebGL, which is emulated here: it takes seconds for what the
+# processor does in milliseconds.
+RASTER = ["--disable-gpu-rasterization"]
 
 
 def main() -> None:
@@ -61,7 +64,7 @@ def served_browser() -> Iterator[tuple[Browser, Client]]:
         tempfile.TemporaryDirectory() as folder,
         serving(Path(folder)) as server,
         sync_playwright() as started,
-        started.chromium.launch(executable_path=CHROMIUM, args=[*QUIET, *SOFTWARE_WEBGL]) as browser,
+        started.chromium.launch(executable_path=CHROMIUM, args=[*QUIET, *RASTER, *SOFTWARE_WEBGL]) as browser,
     ):
         yield browser, Client(server)
 

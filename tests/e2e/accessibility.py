@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from playwright.sync_api import TimeoutError as WaitedTooLongError
+
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
@@ -89,9 +91,14 @@ BEYOND = """() => {
 
 
 def expect_to_fit(page: Page, name: str) -> None:
-    """Nothing of a page is outside of its window, where it could not be reached."""
-    beyond = page.evaluate(BEYOND)
-    assert not beyond, f"{name} does not fit into {page.viewport_size}:\n" + "\n".join(beyond)
+    """Nothing of a page is outside of its window, where it could not be reached, once it has its new size."""
+    try:
+        page.wait_for_function(f"() => ({BEYOND})().length === 0")
+    except WaitedTooLongError:
+        beyond = page.evaluate(BEYOND)
+        raise AssertionError(
+            f"{name} does not fit into {page.viewport_size}:\n" + "\n".join(beyond)
+        ) from None
 
 
 # The focused element looks different from its unfocused state: itself, or its outline.

@@ -64,6 +64,9 @@ def test_directions_required_and_description():
         ("    INPUT_PORTS = {'p': make()}\n", "BT0611"),
         ("    INPUT_PORTS = {'p': Port(lambda: int)}\n", "BT0612"),
         ("    NODE_KIND = 'Composite'\n", "BT0606"),
+        ("    INPUT_PORTS = {'name': Port(int)}\n", "BT0209"),
+        ("    OUTPUT_PORTS = {'_x': Port(int)}\n", "BT0209"),
+        ("    INOUT_PORTS = {'1p': Port(int)}\n", "BT0209"),
     ],
 )
 def test_unreadable_source_is_reported_with_its_line(text, code):

@@ -49,7 +49,7 @@ def test_bases_are_named_in_full():
     classes = [node for node in module.body if isinstance(node, ast.ClassDef)]
     bases = qualified_bases(module, classes)
     assert bases == ["tree_gardener.ControlNode", "B", "object"]
-    assert kind_by_bases(bases) == "control"
+    assert kind_by_bases(bases) == ("control", "tree_gardener.ControlNode")
 
 
 def test_a_base_of_another_file_is_named_by_the_kind():
@@ -57,6 +57,43 @@ def test_a_base_of_another_file_is_named_by_the_kind():
         f"from shared import Base\n\n\nclass A(Base):\n    NODE_KIND = 'Decorator'\n{UPDATE}"
     )
     assert (found.kind, found.max_children, codes) == ("decorator", 1, [])
+
+
+@pytest.mark.parametrize(
+    ("base", "given", "kind", "expected"),
+    [
+        ("tree_gardener.DecoratorNode", "Control", "decorator", ["BT0618"]),
+        ("tree_gardener.ControlNode", "Decorator", "control", ["BT0618"]),
+        ("tree_gardener.ControlNode", "Condition", "control", ["BT0618"]),
+        ("tree_gardener.ControlNode", "Control", "control", []),
+        ("py_trees.decorators.Inverter", "Control", "decorator", ["BT0618"]),
+        ("py_trees.behaviour.Behaviour", "Control", "action", ["BT0618"]),
+        ("py_trees.behaviour.Behaviour", "Condition", "condition", []),
+    ],
+)
+def test_a_kind_against_the_base_is_an_error_and_the_base_counts(base, given, kind, expected):
+    found, codes = model(f"import x\n\n\nclass A({base}):\n    NODE_KIND = {given!r}\n{UPDATE}")
+    assert (found.kind, codes) == (kind, expected)
+    assert [item.place.line for item in found.diagnostics] == [5] * len(expected)
+
+
+def test_a_decorator_takes_no_number_of_children():
+    text = "    MIN_CHILDREN = 1\n    MAX_CHILDREN = 3\n"
+    found, codes = model(f"from tree_gardener import *\n\n\nclass A(DecoratorNode):\n{text}{UPDATE}")
+    assert codes == []  # a starred import names no base
+    found, codes = model(
+        f"from tree_gardener import DecoratorNode\n\n\nclass A(DecoratorNode):\n{text}{UPDATE}"
+    )
+    assert (found.min_children, found.max_children, codes) == (1, 1, ["BT0619"])
+    assert found.diagnostics[0].place.line == 6
+
+
+def test_what_a_loop_ignores_is_said():
+    text = f"    INPUT_PORTS = {{'k': Port(int)}}\n{UPDATE}"
+    found, codes = model(f"from tree_gardener import LoopNode, Port\n\n\nclass A(LoopNode):\n{text}")
+    assert codes == ["BT0620", "BT0620"]
+    assert [item.message.split()[0] for item in found.diagnostics] == ["INPUT_PORTS", "update"]
+    assert {port.name for port in found.ports} == {"queue", "value", "if_empty"}
 
 
 @pytest.mark.parametrize(

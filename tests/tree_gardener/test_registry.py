@@ -9,7 +9,8 @@ import pytest
 from py_trees.common import Status as PyTreesStatus
 
 from tests.tree_gardener.trees import LEAVES, Succeeding, document, load
-from tree_gardener import LoadError, Port, Status, Tree
+from tree_gardener import ControlNode, DecoratorNode, LoadError, Port, Status, Tree
+from tree_gardener.actions import load_actions
 from tree_gardener.node import Control, Decorator
 from tree_gardener.registry import BUILT_IN, OLD_NAMES, build_registry, built_in_types
 from tree_gardener.status import SUCCESS
@@ -36,6 +37,38 @@ class NeedsMore(py_trees.behaviour.Behaviour):
 def test_classes_that_cannot_be_nodes_are_refused(name: str, cls: Any, message: str) -> None:
     with pytest.raises(LoadError, match=message):
         Tree.from_xml(document(f"<{name}/>" if name == "X" else "<Succeeding/>"), {**LEAVES, name: cls})
+
+
+def run(self: Any) -> Status:
+    result: Status = self.tick_child(0)
+    return result
+
+
+@pytest.mark.parametrize(
+    ("base", "changes", "message"),
+    [
+        (DecoratorNode, {"NODE_KIND": "Control"}, "makes it a decorator"),
+        (ControlNode, {"NODE_KIND": "Decorator"}, "makes it a control node"),
+        (ControlNode, {"NODE_KIND": "Action"}, "makes it a control node"),
+        (ControlNode, {"INPUT_PORTS": {"name": Port(int)}}, "'name' cannot be the name of a port"),
+        (Succeeding, {"OUTPUT_PORTS": {"_x": Port(int)}}, "OUTPUT_PORTS: '_x' cannot be the name of a port"),
+        (Succeeding, {"INPUT_PORTS": {3: Port(int)}}, "INPUT_PORTS: 3 cannot be the name of a port"),
+    ],
+)
+def test_a_class_against_its_base_is_refused_with_its_file(base: type, changes: Any, message: str) -> None:
+    cls = type("Own", (base,), {"update": run, "__module__": __name__, **changes})
+    with pytest.raises(LoadError, match=message) as refused:
+        build_registry({"Own": cls})
+    [problem] = refused.value.diagnostics
+    assert (problem.code, problem.file) == ("TG602", __file__)
+    assert problem.line == run.__code__.co_firstlineno
+
+
+def test_a_constructor_that_raises_is_named_with_its_line() -> None:
+    source = "import py_trees\n\n\nclass Own(py_trees.behaviour.Behaviour):\n"
+    source += "    def __init__(self, name):\n        1 / 0\n\n    def update(self):\n        pass\n"
+    with pytest.raises(LoadError, match=r"ZeroDivisionError: division by zero at actions/Own\.py:6"):
+        load("<Own/>", nodes=load_actions({"Own": source}))
 
 
 class Both(Control):

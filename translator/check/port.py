@@ -6,17 +6,16 @@ import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from translator.action_ports import is_port_name
 from translator.catalog import NodeModel, PortModel, builtins, did_you_mean, nearest
 from translator.ros_interfaces import full_name, has_package, interface_fields, interface_names
 from translator.ros_nodes import ROS_NODES, with_fields
-from translator.text import is_xml_name
 from translator.tree import BLANKS, Node, Tree, pointer
 from translator.values import Fit, describe, fit, outside, type_label
 
 if TYPE_CHECKING:
     from translator.check.context import Context
 
-RESERVED = {"name", "ID"}
 EXAMPLES = {
     "action": "nav2_msgs/action/NavigateToPose",
     "srv": "std_srvs/srv/Trigger",
@@ -49,7 +48,7 @@ def _check_names(context: Context, tree: Tree, node: Node, model: NodeModel) -> 
             known = ", ".join(model.ports) or "none"
             suggestion = did_you_mean(name, model.ports, otherwise=f"Its ports: {known}.")
             context.report("BT0202", tree, node, name, type=node.type, port=name, suggestion=suggestion)
-        elif name in RESERVED or name.startswith("_") or not is_xml_name(name):
+        elif not is_port_name(name):
             context.report("BT0209", tree, node, name, port=name)
         else:
             check_braces(context, tree, node, name, text)

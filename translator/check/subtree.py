@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from translator.action_ports import is_port_name
 from translator.catalog import did_you_mean
-from translator.check.port import RESERVED, check_braces, check_literal
-from translator.text import is_xml_name
+from translator.check.port import check_braces, check_literal
 from translator.tree import AUTOREMAP, pointer
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ def _check_call(context: Context, tree: Tree, node: Node) -> None:
         context.report("BT0505", tree, node, value=autoremap)
     declared = {port.name: port for port in trees[node.tree].ports}
     for name, text in node.ports.items():
-        if name in RESERVED or name.startswith("_") or not is_xml_name(name):
+        if not is_port_name(name):
             context.report("BT0209", tree, node, name, port=name)
         if check_braces(context, tree, node, name, text) and name in declared:
             _check_value(context, tree, node, declared[name], text)

@@ -19,7 +19,7 @@ from py_trees.common import Status as PyTreesStatus
 
 from tree_gardener.clock import Timer
 from tree_gardener.control_node import ControlNode
-from tree_gardener.errors import TickError, calling_place, describe
+from tree_gardener.errors import TickError, calling_place, class_place, describe
 from tree_gardener.node import Control, Kind, Node
 from tree_gardener.ports import Manifest
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
@@ -110,12 +110,11 @@ class CustomControl(Control):
             status = None
         if status is None:
             what = "nothing" if returned is None else repr(returned)
-            code = getattr(self.update, "__code__", None)
             raise TickError(
                 *(self, f"{self.type}.update() returned {what}, which is no result of a tick"),
                 code="TG702",
                 hint="return Status.SUCCESS, FAILURE, RUNNING or SKIPPED",
-                place=(code.co_filename, code.co_firstlineno) if code is not None else ("", 0),
+                place=class_place(self),
             )
         if status is SUCCESS or status is FAILURE:
             for child in self.children:

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Final, NoReturn
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status as PyTreesStatus
 
-from tree_gardener.errors import TickError, describe
+from tree_gardener.errors import TickError, class_place, describe
 from tree_gardener.node import Kind, Leaf
 from tree_gardener.ports import Manifest
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status, to_py_trees
@@ -77,10 +77,10 @@ class BehaviourLeaf(Leaf):
             return FAILURE
         name = self.type
         if returned is None:
-            raise TickError(
-                self, f"{name}.update() returned nothing; it must return a py_trees.common.Status"
-            )
-        raise TickError(self, f"{name}.update() returned {returned!r}, which is no result of a tick")
+            message = f"{name}.update() returned nothing; it must return a py_trees.common.Status"
+        else:
+            message = f"{name}.update() returned {returned!r}, which is no result of a tick"
+        raise TickError(self, message, place=class_place(self))
 
     def failed(self, error: Exception | SystemExit) -> Status:
         """Handles an exception. The tick ends with an error, or the node fails, as the tree is configured."""
@@ -178,7 +178,8 @@ class ImmediateLeaf(BehaviourLeaf):
             self.start()
         if not self.ALLOWS_RUNNING:
             hint = "leave out NODE_KIND to let it run over several ticks"
-            return self.failed(TickError(self, f"a SyncAction must not return RUNNING ({hint})"))
+            message = f"a SyncAction must not return RUNNING ({hint})"
+            return self.failed(TickError(self, message, place=class_place(self)))
         return RUNNING
 
 

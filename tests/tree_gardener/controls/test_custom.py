@@ -233,6 +233,35 @@ def test_kinds_and_types() -> None:
     assert tree.root.name == "Own"
 
 
+OWN = "from tree_gardener import ControlNode, Status\n\n\nclass Own(ControlNode):\n"
+
+
+@pytest.mark.parametrize(
+    ("body", "line", "message"),
+    [
+        ("    def update(self, again):\n        return Status.SUCCESS\n", 5, "missing 1 required positional"),
+        ("    def tick(self):\n        return Status.SUCCESS\n", 5, "Own has no method update"),
+        ("    update = None\n", 1, "object is not callable"),
+    ],
+)
+def test_a_call_that_fails_names_the_class(body: str, line: int, message: str) -> None:
+    error = fault(load("<Own><Running/></Own>", nodes=load_actions({"Own": OWN + body})))
+    assert message in error.message
+    assert (error.file, error.line) == ("actions/Own.py", line)
+
+
+def test_a_child_ticked_in_setup_is_refused_once_with_its_line() -> None:
+    body = "    def setup(self, **kwargs):\n        self.tick_child(0)\n"
+    body += "    def shutdown(self):\n        self.tick_child(0)\n"
+    tree = load("<Own><Running/></Own>", nodes=load_actions({"Own": OWN + body}))
+    for call, line in ((tree.setup, 6), (tree.shutdown, 8)):
+        with pytest.raises(TickError) as raised:
+            call()
+        error = raised.value
+        assert (error.code, error.file, error.line) == ("TG703", "actions/Own.py", line)
+        assert str(error).count("outside of its own tick") == 1
+
+
 def test_a_class_without_update_says_so() -> None:
     error = fault(load("<Own><Running/></Own>", nodes={"Own": ControlNode}))
     assert "ControlNode has no method update" in error.message

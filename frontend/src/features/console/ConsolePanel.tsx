@@ -1,6 +1,6 @@
 import { ActionIcon, NativeSelect, TextInput, Tooltip } from '@mantine/core';
 import { IconArrowDown, IconEraser, IconSearch } from '@tabler/icons-react';
-import { useVirtualizer } from '@tanstack/react-virtual';
+import { useVirtualizer, type Virtualizer } from '@tanstack/react-virtual';
 import { useEffect, useMemo, useRef, useState, type PointerEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { LogLevel } from '@/generated/messages';
@@ -42,6 +42,7 @@ export function ConsolePanel() {
     getScrollElement: () => scroller.current,
     estimateSize: () => LINE_HEIGHT,
     getItemKey: (index) => lines[index]?.id ?? index,
+    measureElement: heightOf,
     overscan: 12,
     initialRect: { width: 600, height: 200 },
   });
@@ -152,6 +153,20 @@ export function ConsolePanel() {
       </div>
     </div>
   );
+}
+
+/**
+ * Returns the height of a row: as the browser reports it, or as it is expected until then. To ask for it at once
+ * would make the browser lay out the whole page for each new row.
+ */
+function heightOf(
+  row: HTMLDivElement,
+  entry: ResizeObserverEntry | undefined,
+  { indexFromElement, options, itemSizeCache }: Virtualizer<HTMLDivElement, HTMLDivElement>,
+): number {
+  const [box] = entry?.borderBoxSize ?? [];
+  if (box) return Math.round(box.blockSize);
+  return itemSizeCache.get(options.getItemKey(indexFromElement(row))) ?? LINE_HEIGHT;
 }
 
 /** The time in ms after a wheel or key event in which scrolling counts as the user's. */

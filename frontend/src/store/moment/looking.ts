@@ -1,4 +1,3 @@
-import type { NodeStatus } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
 import { usePastLive } from '@/store/project/live';
 import { earlierSource, runsOf } from '@/store/recording/liveSource';
@@ -316,17 +315,12 @@ function show(moment: Moment): void {
   }
   const live = usePastLive.getState();
   if (moment.tree || !before.shown) live.setTree(tree);
-  const statuses = new Map(moment.statuses);
-  live.setStatuses(tree.map(({ uid }): [number, NodeStatus] => [uid, statuses.get(uid) ?? 'IDLE']));
-  live.setPast(moment.flashes.filter(([uid]) => !statuses.has(uid)));
-  if (moment.tickT !== before.shown?.tickT) live.flash(moment.flashes);
   const faults = (before.overview?.faults ?? []).filter((fault) => fault.t <= moment.t);
-  // Every block listens to the map: it is replaced only where there is a fault.
-  if (usePastLive.getState().faults.size > 0) usePastLive.setState({ faults: new Map() });
-  for (const { uid, message } of faults) {
-    const node = tree.find((each) => each.uid === uid);
-    if (node?.node_id) live.setFault(node.node_id, node.tree_id, message);
-  }
+  live.setMoment({
+    statuses: moment.statuses,
+    flashed: moment.flashes,
+    faults: faults.map(({ uid, message }) => [uid, message]),
+  });
   usePastSession.setState(
     {
       ...useSessionStore.getState(),

@@ -68,4 +68,38 @@ describe('live status', () => {
     live().clear();
     expect([live().active, live().statuses.size, live().faults.size]).toEqual([false, 0, 0]);
   });
+
+  it('is replaced by that of a moment at once', () => {
+    live().setStatuses([[1, 'RUNNING']]);
+    let draws = 0;
+    const stop = useLiveStore.subscribe(() => (draws += 1));
+    const moment = {
+      statuses: [[2, 'RUNNING']],
+      flashed: [
+        [1, 'FAILURE'],
+        [2, 'SUCCESS'],
+      ],
+      faults: [[3, 'no way']],
+    } as const;
+    live().setMoment(moment);
+    expect(draws).toBe(1);
+    expect([status('a'), status('b'), pastOf(live(), liveKey('T', 'a'))]).toEqual([
+      undefined,
+      'RUNNING',
+      'FAILURE',
+    ]);
+    expect([...live().flashes.keys(), ...live().faults.keys()]).toEqual([
+      liveKey('T', 'b'),
+      liveKey('T', 'b'),
+    ]);
+    const { past, flashes, faults } = live();
+    live().setMoment(moment);
+    expect([live().past === past, live().faults === faults]).toEqual([true, true]);
+    expect([...live().flashes]).toEqual([...flashes]);
+    live().setMoment({ statuses: [], flashed: [], faults: [] });
+    expect([live().statuses.size, live().past.size, live().flashes.size, live().faults.size]).toEqual([
+      0, 0, 0, 0,
+    ]);
+    stop();
+  });
 });

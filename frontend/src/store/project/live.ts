@@ -19,6 +19,18 @@ interface Flash {
  */
 const REFLASH_MS = 350;
 
+type Pairs = readonly (readonly [uid: number, status: NodeStatus])[];
+
+/** The state of a tree at a past moment. */
+export interface MomentOfTree {
+  /** The nodes that are not idle. */
+  readonly statuses: Pairs;
+  /** Results within the last tick that did not stay. */
+  readonly flashed: Pairs;
+  /** The faults up to the moment, by uid. */
+  readonly faults: readonly (readonly [uid: number, message: string])[];
+}
+
 export interface LiveState {
   /** Whether a tree is running, or its last statuses are still shown. */
   readonly active: boolean;
@@ -28,10 +40,14 @@ export interface LiveState {
   readonly flashes: ReadonlyMap<LiveKey, Flash>;
   readonly faults: ReadonlyMap<LiveKey, string>;
   setTree(nodes: readonly TreeNode[]): void;
-  setStatuses(changed: readonly (readonly [uid: number, status: NodeStatus])[]): void;
+  setStatuses(changed: Pairs): void;
+  /** Returns the status of each node that has changed since the tree began. */
+  uidStatuses(): ReadonlyMap<number, NodeStatus>;
   /** Replaces the statuses of the last tick. */
-  setPast(past: readonly (readonly [uid: number, status: NodeStatus])[]): void;
-  flash(flashed: readonly (readonly [uid: number, status: NodeStatus])[]): void;
+  setPast(past: Pairs): void;
+  flash(flashed: Pairs): void;
+  /** Replaces everything by the state of a moment, at once, so that each block is drawn at most once. */
+  setMoment(moment: MomentOfTree): void;
   setFault(node: string, tree: string, message: string): void;
   clear(): void;
 }
@@ -61,6 +77,18 @@ function liveStore() {
     const merged = (key: LiveKey): NodeStatus =>
       busiest((instances.get(key) ?? []).map((uid) => byUid.get(uid) ?? 'IDLE'));
 
+    const pastBy = (pairs: Pairs): Map<LiveKey, NodeStatus> => {
+      const past = new Map<LiveKey, NodeStatus>();
+      for (const [uid, status] of pairs) put(past, uid, (key) => busiest([past.get(key) ?? 'IDLE', status]));
+      return past;
+    };
+
+    /** Sets the value of the block that a node belongs to. */
+    function put<T>(map: Map<LiveKey, T>, uid: number, value: (key: LiveKey) => T): void {
+      const key = keys.get(uid);
+      if (key !== undefined) map.set(key, value(key));
+    }
+
     return {
       active: false,
       statuses: new Map(),
@@ -89,12 +117,9 @@ function liveStore() {
         }
         set({ statuses });
       },
+      uidStatuses: () => byUid,
       setPast: (pairs) => {
-        const past = new Map<LiveKey, NodeStatus>();
-        for (const [uid, status] of pairs) {
-          const key = keys.get(uid);
-          if (key !== undefined) past.set(key, busiest([past.get(key) ?? 'IDLE', status]));
-        }
+        const past = pastBy(pairs);
         // Most ticks end like the previous one, and then nothing needs to be drawn again.
         if (!isEqual(past, get().past)) set({ past });
       },
@@ -113,6 +138,29 @@ function liveStore() {
         }
         if (changed) set({ flashes });
       },
+      setMoment: ({ statuses: active, flashed, faults: messages }) => {
+        byUid = new Map(active);
+        const before = get();
+        const statuses = new Map<LiveKey, NodeStatus>();
+        for (const [uid] of active) put(statuses, uid, merged);
+        const idle = flashed.filter(([uid]) => !byUid.has(uid));
+        const others = flashed.filter(([uid]) => byUid.has(uid));
+        const flashes = new Map<LiveKey, Flash>();
+        for (const [uid, status] of others) {
+          put(flashes, uid, (key) => {
+            const last = before.flashes.get(key);
+            return last?.status === status ? last : { status, count: (flashCount += 1), since: 0 };
+          });
+        }
+        const faults = new Map<LiveKey, string>();
+        for (const [uid, message] of messages) put(faults, uid, () => message);
+        set({
+          statuses,
+          past: same(before.past, pastBy(idle)),
+          flashes: same(before.flashes, flashes),
+          faults: same(before.faults, faults),
+        });
+      },
       setFault: (node, tree, message) => {
         set((state) => ({ faults: new Map(state.faults).set(liveKey(tree, node), message) }));
       },
@@ -127,9 +175,13 @@ function liveStore() {
 
 const nothing = () => ({ statuses: new Map(), past: new Map(), flashes: new Map(), faults: new Map() });
 
-function isEqual(a: ReadonlyMap<LiveKey, NodeStatus>, b: ReadonlyMap<LiveKey, NodeStatus>): boolean {
-  return a.size === b.size && [...a].every(([key, status]) => b.get(key) === status);
+function isEqual<T>(a: ReadonlyMap<LiveKey, T>, b: ReadonlyMap<LiveKey, T>): boolean {
+  return a.size === b.size && [...a].every(([key, value]) => b.get(key) === value);
 }
+
+/** Returns the map from before if the new one holds the same. */
+const same = <T>(before: ReadonlyMap<LiveKey, T>, now: ReadonlyMap<LiveKey, T>): ReadonlyMap<LiveKey, T> =>
+  isEqual(before, now) ? before : now;
 
 /** Returns a block's status in the last tick if the block is idle again. */
 export function pastOf({ statuses, past }: LiveState, key: LiveKey): NodeStatus | undefined {

@@ -135,7 +135,7 @@ def the_repair_is_compared(studio: Studio, before: str) -> None:
 
 
 def it_is_used_by_keys_in_a_narrow_dark_window(studio: Studio) -> None:
-    """The focus never gets lost: where a control goes away, the keys go on at what came in its place."""
+    """The focus never gets lost: where a control goes away, the keys continue at what came in its place."""
     panel, page = studio.at("evaluate"), studio.page
     page.set_viewport_size({"width": 390, "height": 844})
     studio.command("Evaluate")

@@ -5,7 +5,7 @@ const TARGETS =
 
 /**
  * Keeps the focus in a part of the page when its focused element goes away: it goes to the first control of what
- * came in that place, so that the keys go on there. Without it the browser would begin at the top of the page.
+ * came in that place, so that the keys continue there. Without it the browser would begin at the top of the page.
  */
 export function useKeptFocus(part: RefObject<HTMLElement | null>): void {
   useEffect(() => {

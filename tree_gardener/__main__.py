@@ -4,13 +4,16 @@ Exit status: 0 the root succeeded, 1 it failed or could not run, 2 bad arguments
 """
 
 import argparse
+import contextlib
 import pathlib
 import sys
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
 
 from tree_gardener.actions import load_actions
 from tree_gardener.clock import SystemClock
 from tree_gardener.errors import LoadError, TickError
+from tree_gardener.groot import PORT, GrootError
 from tree_gardener.observe import TickChanges
 from tree_gardener.runner import Overrun, Runner
 from tree_gardener.status import SUCCESS, Status
@@ -31,7 +34,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"{options.tree}: {error.strerror}", file=sys.stderr)
         return 2
     try:
-        return _run(tree, options)
+        with _published(tree, options):
+            return _run(tree, options)
+    except (GrootError, ModuleNotFoundError) as error:
+        print(error, file=sys.stderr)
+        return 2
     except TickError as error:
         print(error, error.traceback_text, sep="\n", file=sys.stderr)
         return 1
@@ -49,7 +56,19 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--max-ticks", type=int, default=0, help="end after so many ticks")
     run.add_argument("--trace", action="store_true", help="print what changes at each tick")
     run.add_argument("--ros", action="store_true", help="give the actions an rclpy node and tick by ROS time")
+    run.add_argument(
+        "--groot2",
+        type=int,
+        nargs="?",
+        const=PORT,
+        metavar="PORT",
+        help=f"let Groot2 follow and hold the tree; the port is {PORT} if none is given",
+    )
     return parser
+
+
+def _published(tree: Tree, options: argparse.Namespace) -> AbstractContextManager[object]:
+    return contextlib.nullcontext() if options.groot2 is None else tree.publish_groot2(options.groot2)
 
 
 def _run(tree: Tree, options: argparse.Namespace) -> int:

@@ -16,6 +16,7 @@ from tree_gardener.deep import DEEP, DEEP_ASKING, call_deep
 from tree_gardener.enums import Enums, constants, types
 from tree_gardener.errors import LoadError, TickError
 from tree_gardener.forest import Forest
+from tree_gardener.groot import Groot2Publisher
 from tree_gardener.hooks import After, Before, Hook, Hooks, ResultCount
 from tree_gardener.loader import Builder
 from tree_gardener.node import Execute, Node
@@ -458,6 +459,10 @@ class Tree:
         self.rewire()
         if self._hooks.wiring is not None and agent is not None:
             agent.attach(self._hooks.wiring)
+
+    def publish_groot2(self, port: int = 1667, host: str = "127.0.0.1") -> Groot2Publisher:
+        """Serves the tree to Groot2, and to other clients of its protocol, until the result is closed."""
+        return Groot2Publisher(self, port, host)
 
     @property
     def is_ticking(self) -> bool:

@@ -29,6 +29,7 @@ from backend.sessions.launchers.base import Launcher, Spec
 from backend.sessions.launchers.docker import DockerLauncher
 from backend.sessions.launchers.process import ProcessLauncher
 from backend.sessions.models import LIVE_STATES, RUNNING_STATES, Session
+from backend.sessions.ros_domains import domains_on_this_host
 from backend.sessions.signals import session_ends
 
 if TYPE_CHECKING:
@@ -424,8 +425,9 @@ def _free_domain() -> int:
     taken = set(Session.objects.filter(state__in=LIVE_STATES).values_list("ros_domain_id", flat=True))
     # The first domain differs among servers on one host, so that their first sessions do not collide.
     offset = os.getpid() % len(ROS_DOMAINS)
-    candidates = [*ROS_DOMAINS[offset:], *ROS_DOMAINS[:offset]]
-    free: int | None = next((domain for domain in candidates if domain not in taken), None)
-    if free is None:
+    candidates = [domain for domain in [*ROS_DOMAINS[offset:], *ROS_DOMAINS[:offset]] if domain not in taken]
+    if not candidates:
         raise HostFullError("Every ROS domain of this host is in use.", hint="End a session and try again.")
+    others = domains_on_this_host()
+    free: int = next((domain for domain in candidates if domain not in others), candidates[0])
     return free

@@ -25,7 +25,7 @@ DIALOGUES = {
     "shortcuts": "Control+Slash",
 }
 PANELS = (
-    *("Timeline", "Topics", "Problems", "Blackboard", "Library", "Outline"),
+    *("Timeline", "Topics", "Breakpoints", "Problems", "Blackboard", "Library", "Outline"),
     *("History", "Nodes", "Search", "Camera"),
 )
 
@@ -73,7 +73,7 @@ def everything_is_within_reach_of_a_narrow_window_in_spanish(studio: Studio) -> 
     studio.menu("More").get_by_role("menuitem", name="Español").click()
     page.set_viewport_size({"width": 480, "height": 850})
     tabs = page.locator(".flexlayout__tabset_tabbar_outer").last.get_by_role("tab")
-    expect(tabs).to_have_count(17)
+    expect(tabs).to_have_count(18)
     for name in tabs.all_inner_texts():
         tab = tabs.filter(has_text=re.compile(f"^{name}$"))
         tab.evaluate("tab => tab.scrollIntoView()")

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import json
+import threading
 from typing import TYPE_CHECKING
 
 import pytest
 
 from backend.cli import conformance as verb
 from backend.cli.shared.errors import CliError
+from tests.tree_gardener.debugging.hooked import free_port, hook_of
+from tests.tree_gardener.groot.zmtp import Groot2
 from tests.tree_gardener.trees import subtree
+from tree_gardener import Status
 from tree_gardener.__main__ import main
+from tree_gardener.debugging import Force
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -47,6 +52,26 @@ def test_a_tree_runs_to_its_end(tree: Path, capsys: pytest.CaptureFixture[str]) 
 def test_ticks_can_be_limited(tree: Path) -> None:
     assert run(tree, "RUNNING", "--max-ticks", "3") == 1
     assert run(tree, "SUCCESS", "--repeat", "--max-ticks", "3") == 0
+
+
+def test_a_run_is_followed_by_groot2(tree: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    port = free_port()
+    seen: list[bytes] = []
+
+    def follow() -> None:
+        client = Groot2.as_soon_as_served(port)
+        seen.extend([client.ask("T")[0], client.ask("S")[0]])
+        client.insert_hooks([hook_of(Force(1, Status.SUCCESS), 0)])
+        client.close()
+
+    thread = threading.Thread(target=follow)
+    thread.start()
+    assert run(tree, "RUNNING", "--groot2", str(port)) == 0
+    thread.join()
+    assert b"<Go " in seen[0]
+    assert len(seen[1]) == 9
+    assert main(["run", str(tree), "--actions", str(tree.parent / "actions"), "--groot2", "70000"]) == 2
+    assert "port 70000" in capsys.readouterr().err
 
 
 def test_what_cannot_run_says_why(tree: Path, capsys: pytest.CaptureFixture[str]) -> None:

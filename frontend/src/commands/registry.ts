@@ -21,6 +21,11 @@ export interface UserCommand {
    * Runs the command. `page` is the document where the user called it: a panel can be in a window of its own.
    */
   run: (page?: Document) => void;
+  /**
+   * The state in which the command has its shortcut before others with the same one: a debugger's keys mean
+   * something else while it holds the tree. The command is enabled in that state alone.
+   */
+  when?: 'held';
   /** Whether the command palette leaves it out. */
   hidden?: boolean;
   /** Whether the shortcut also works while a text field has the focus. */
@@ -39,7 +44,8 @@ export function registerCommands(rows: readonly UserCommand[]): () => void {
     const next = { ...commands };
     for (const row of rows) {
       const rival = Object.values(next).find(
-        (other) => row.shortcut && other.shortcut === row.shortcut && other.id !== row.id,
+        (other) =>
+          row.shortcut && other.shortcut === row.shortcut && other.when === row.when && other.id !== row.id,
       );
       if (rival) throw new Error(`${row.id} and ${rival.id} both claim ${row.shortcut}`);
       next[row.id] = row;

@@ -32,8 +32,15 @@ function handler(command: UserCommand) {
 
 function bind(target: Window, commands: readonly UserCommand[]): () => void {
   const bindings: Record<string, (event: KeyboardEvent) => void> = {};
-  for (const command of commands) {
-    if (command.shortcut) bindings[command.shortcut] = handler(command);
+  // The first handler that is enabled prevents the default, and the others leave such an event alone.
+  const inOrder = [...commands].sort((a, b) => Number(b.when !== undefined) - Number(a.when !== undefined));
+  for (const command of inOrder) {
+    if (!command.shortcut) continue;
+    const [first, then] = [bindings[command.shortcut], handler(command)];
+    bindings[command.shortcut] = (event) => {
+      first?.(event);
+      then(event);
+    };
   }
   const handle = createKeybindingsHandler(bindings);
   const listen = (event: KeyboardEvent): void => {

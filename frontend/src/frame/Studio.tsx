@@ -6,10 +6,13 @@ import { useTranslation } from 'react-i18next';
 import { ApiError } from '@/api/errors';
 import { closePalette } from '@/commands/palette';
 import { useShortcuts } from '@/commands/shortcuts';
+import { useMe } from '@/features/accounts/useMe';
 import { registerTestCommands } from '@/features/behaviourTests/commands';
 import { registerCanvasCommands } from '@/features/canvas/commands/canvasCommands';
 import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
+import { registerDebugCommands } from '@/features/debug/commands';
+import { HeldBanner } from '@/features/debug/HeldBanner';
 import { ExportDialog } from '@/features/export/ExportDialog';
 import { RunsDialog } from '@/features/runs/RunsDialog';
 import { ArrivalsDialog } from '@/features/library/ArrivalsDialog';
@@ -38,6 +41,9 @@ import { hasWebGl } from '@/features/viewer/webgl';
 import { followAddress } from '@/store/moment/address';
 import { followPresent } from '@/store/moment/looking';
 import { followPast } from './followPast';
+import { followProject } from '@/store/debug/breakpoints';
+import { followMarks } from '@/store/debug/marks';
+import { followBreakpoints } from '@/store/debug/sync';
 import { useIsBack } from '@/store/moment/store';
 import { useProjectStore } from '@/store/project';
 import { setNavigator } from '@/store/project/navigation';
@@ -113,6 +119,9 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
   useShortcuts();
   useRunReactions({ showPanel, openFile: (path, line) => openTab({ kind: 'file', path }, line) });
 
+  const user = useMe()?.user;
+  useEffect(() => (user === undefined ? undefined : followProject(user)), [user]);
+
   useEffect(() => {
     document.title = `${name} — BT Studio`;
   }, [name]);
@@ -121,6 +130,9 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
     const unregister = [
       registerCanvasCommands(),
       registerRunCommands(),
+      registerDebugCommands(),
+      followBreakpoints(),
+      followMarks(),
       registerAxisCommands(),
       followPresent(),
       followPast(),
@@ -175,6 +187,7 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
     >
       <TopBar />
       <RunStrip />
+      <HeldBanner />
       <main className={classes['dock']}>
         {/* The top bar, which has the heading of the page, is hidden then. */}
         {presenting === 'off' ? null : <VisuallyHidden component="h1">{name}</VisuallyHidden>}

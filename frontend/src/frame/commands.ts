@@ -280,6 +280,7 @@ const PANELS: readonly PanelId[] = [
   'evaluate',
   'timeline',
   'topics',
+  'breakpoints',
 ];
 
 const panels = PANELS.map((id): UserCommand => ({

@@ -3,6 +3,7 @@ import type { TabNode } from 'flexlayout-react';
 import { BlackboardPanel } from '@/features/blackboard/BlackboardPanel';
 import { Canvas } from '@/features/canvas/Canvas';
 import { ConsolePanel } from '@/features/console/ConsolePanel';
+import { BreakpointsPanel } from '@/features/debug/BreakpointsPanel';
 import { LessonPanel } from '@/features/lesson/LessonPanel';
 import { Inspector } from '@/features/inspector/Inspector';
 import { Library } from '@/features/library/Library';
@@ -75,6 +76,7 @@ const panels: Record<PanelId, (node: TabNode) => ReactNode> = {
   ),
   timeline: () => <TimelinePanel />,
   topics: () => <TopicsPanel />,
+  breakpoints: () => <BreakpointsPanel />,
   history: () => (
     <Suspense fallback={<Waiting reason="loadingEditor" />}>
       <RevisionsPanel />

@@ -24,6 +24,7 @@ export type PanelId =
   | 'tests'
   | 'evaluate'
   | 'timeline'
+  | 'breakpoints'
   | 'topics'
   | 'history'
   | 'xml'
@@ -35,6 +36,7 @@ const NEW_PANELS: readonly (readonly [PanelId, PanelId])[] = [
   ['tests', 'problems'],
   ['evaluate', 'tests'],
   ['topics', 'console'],
+  ['breakpoints', 'timeline'],
   ['library', 'palette'],
   ['history', 'explorer'],
   ['search', 'explorer'],
@@ -158,6 +160,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
               'evaluate',
               'timeline',
               'topics',
+              'breakpoints',
               'blackboard',
               'explorer',
               'search',
@@ -188,7 +191,15 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
           weight: 53,
           children: [
             tabset(EDITORS, 74, []),
-            tabset('output', 26, ['console', 'problems', 'tests', 'evaluate', 'timeline', 'topics']),
+            tabset('output', 26, [
+              'console',
+              'problems',
+              'tests',
+              'evaluate',
+              'timeline',
+              'topics',
+              'breakpoints',
+            ]),
           ],
         },
         {

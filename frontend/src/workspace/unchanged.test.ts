@@ -17,6 +17,7 @@ const STORAGE_KEYS = [
   "'bts.statusRate'",
   "'bts.viewer'",
   "'bts.xml.metadata'",
+  '`bts.breakpoints.${user}.${projectId}`',
   '`bts.draft.${projectId}`',
   '`bts.layout.${VERSION}.${width}`',
   '`bts.open.${projectId}`',
@@ -25,6 +26,7 @@ const STORAGE_KEYS = [
 ];
 const PANELS = [
   'blackboard',
+  'breakpoints',
   'camera',
   'console',
   'evaluate',

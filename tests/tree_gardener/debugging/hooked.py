@@ -12,13 +12,15 @@ import socket
 import sys
 from typing import TYPE_CHECKING, Any
 
-from tests.tree_gardener.debugging.zmtp import Groot2
 from tests.tree_gardener.fuzz.generate import Case, Spec, generate
 from tests.tree_gardener.fuzz.trace import Line, run_ours, run_reference
+from tests.tree_gardener.groot.zmtp import Groot2
 from tree_gardener import LoadError, Status
 from tree_gardener.debugging import Debugger, Force, Stop
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from tree_gardener import Tree
 
 ENDLESS_S = 4
@@ -86,7 +88,7 @@ def theirs(wanted: Forced) -> list[Line]:
     def prepare(tree: Any) -> Any:
         import behaviortreepy as cpp
 
-        port = _free_port()
+        port = free_port()
         publisher = cpp.Groot2Publisher(tree, port)
         client = Groot2(port)
         client.insert_hooks([hook_of(force, position) for force, position in wanted.forces])
@@ -114,7 +116,7 @@ def ours(wanted: Forced) -> list[Line]:
         return [{"load": "refused"}]
 
 
-def _free_port() -> int:
+def free_port() -> int:
     """A port that is free, with the next one."""
     while True:
         with socket.socket() as first, socket.socket() as second:
@@ -127,7 +129,7 @@ def _free_port() -> int:
             return port
 
 
-def main() -> None:
+def run_batch(theirs: Callable[[Any], list[Line]]) -> None:
     """Runs a batch of cases in BehaviorTree.CPP, as `tests.tree_gardener.fuzz.child` does."""
     out = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)
@@ -138,4 +140,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    run_batch(theirs)

@@ -50,10 +50,13 @@ class Scripts:
         return events
 
 
-def run_reference(case: Case, prepare: Callable[[Any], object] = id) -> list[Line]:
+def run_reference(
+    case: Case, prepare: Callable[[Any], Any] = id, look: Callable[[Any], object] | None = None
+) -> list[Line]:
     """Runs a case in BehaviorTree.CPP; call it in a process that may crash.
 
-    `prepare` is called with the tree, and what it returns is kept until the end of the run.
+    `prepare` is called with the tree, and what it returns is kept until the end of the run. `look` is called
+    with that after each tick; what it returns is a part of the line.
     """
     import behaviortreepy as cpp
 
@@ -96,6 +99,8 @@ def run_reference(case: Case, prepare: Callable[[Any], object] = id) -> list[Lin
             lines.append({"root": "exception", "events": scripts.take()})
             return lines
         lines.append({"root": root.name, "events": scripts.take(), "board": _read_cpp(board)})
+        if look is not None:
+            lines[-1]["seen"] = look(kept)
     tree.halt_tree()
     lines.append({"root": "halt", "events": scripts.take(), "board": _read_cpp(board)})
     del kept
@@ -115,8 +120,10 @@ def _read_cpp(board: Any) -> dict[str, Any]:
     return found
 
 
-def run_ours(case: Case, prepare: Callable[[Tree], object] = id) -> list[Line]:
-    """Runs a case in our engine; `prepare` is called with the tree."""
+def run_ours(  # noqa: C901 - the loop is that of run_reference
+    case: Case, prepare: Callable[[Tree], Any] = id, look: Callable[[Any], object] | None = None
+) -> list[Line]:
+    """Runs a case in our engine; `prepare` and `look` are as in `run_reference`."""
     scripts = Scripts()
     results = {
         "S": PyTreesStatus.SUCCESS,
@@ -153,7 +160,7 @@ def run_ours(case: Case, prepare: Callable[[Tree], object] = id) -> list[Line]:
         board.set(key, 1, INT)
     nodes = {"Leaf": Leaf, "SyncLeaf": SyncLeaf, "Cond": Cond}
     tree = Tree.from_xml(case.xml(), nodes, blackboard=board)
-    prepare(tree)
+    kept = prepare(tree)
     lines: list[Line] = []
     for tick in range(case.ticks):
         if tick in case.halts:
@@ -167,6 +174,8 @@ def run_ours(case: Case, prepare: Callable[[Tree], object] = id) -> list[Line]:
             lines.append({"root": "exception", "events": scripts.take()})
             return lines
         lines.append({"root": root.name, "events": scripts.take(), "board": _read(board)})
+        if look is not None:
+            lines[-1]["seen"] = look(kept)
     tree.halt()
     lines.append({"root": "halt", "events": scripts.take(), "board": _read(board)})
     return lines

@@ -52,12 +52,13 @@ describe('BlockMenu', () => {
     open(['a']);
     const menu = screen.getByRole('menu', { name: 'Commands on the block' });
     expect(menu.querySelector('[role=presentation][tabindex]')).toBeNull();
-    expect(groups()).toEqual([['addAfter', 'wrap', 'morph'], ...COMMON]);
+    expect(groups()).toEqual([['breakpoint'], ['addAfter', 'wrap', 'morph'], ...COMMON]);
   });
 
   it('has the commands for a decorator', () => {
     open(['i']);
     expect(groups()).toEqual([
+      ['breakpoint'],
       ['addAfter', 'wrap', 'unwrap', 'morph', 'extract'],
       ['rename', 'comment', 'disable', 'fold'],
       ...COMMON.slice(1),
@@ -67,6 +68,7 @@ describe('BlockMenu', () => {
   it('has the commands for a subtree', () => {
     open(['s']);
     expect(groups()).toEqual([
+      ['breakpoint'],
       ['lookInside'],
       ['openTree'],
       ['addAfter', 'wrap', 'morph', 'inline'],
@@ -77,6 +79,7 @@ describe('BlockMenu', () => {
   it('has the commands for several blocks', () => {
     open(['a', 'i']);
     expect(groups()).toEqual([
+      ['breakpoint'],
       ['wrap', 'wrapSequence', 'wrapFallback', 'extract'],
       ['disable'],
       ['cut', 'copy', 'paste', 'duplicate'],
@@ -86,7 +89,7 @@ describe('BlockMenu', () => {
 
   it('does not extract blocks that are not consecutive', () => {
     open(['a', 's']);
-    expect(groups()[0]).toEqual(['wrap', 'wrapSequence', 'wrapFallback']);
+    expect(groups()[1]).toEqual(['wrap', 'wrapSequence', 'wrapFallback']);
   });
 
   it('adds and pastes on the empty canvas', () => {

@@ -4,6 +4,7 @@ import { useTranslation } from 'react-i18next';
 import { keysOf } from '@/commands/shortcuts';
 import { PointTarget } from '@/ui/PointTarget';
 import { blockCommands, type BlockCommand } from './commands/blockCommands';
+import { debugCommands } from './commands/debugCommands';
 import { levelCommands } from './commands/levelCommands';
 
 export interface MenuPoint {
@@ -15,6 +16,7 @@ export interface MenuPoint {
 /** The groups of a block's menu, by the `id` of the commands. */
 const ON_BLOCK = [
   ['canvas.fix', 'canvas.why'],
+  debugCommands.map(({ id }) => id),
   ['canvas.look'],
   ['canvas.open'],
   [
@@ -40,7 +42,9 @@ interface Item {
   readonly action: BlockCommand;
 }
 
-const byId = new Map([...blockCommands, ...levelCommands].map((action) => [action.id, action]));
+const byId = new Map(
+  [...blockCommands, ...debugCommands, ...levelCommands].map((action) => [action.id, action]),
+);
 
 /** Returns the commands that are available now, in groups. */
 function itemsFor(isOnBlock: boolean): Item[][] {

@@ -2,6 +2,7 @@ import { memo, useDeferredValue, useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { Diagram, NodeId } from '@/model/diagram';
 import { NodeCoverage } from '@/features/behaviourTests/NodeCoverage';
+import { DebugSection } from '@/features/debug/DebugSection';
 import { NodeStatistics } from '@/features/timeline/NodeStatistics';
 import { WhySection } from '@/features/why/WhySection';
 import { useProjectStore } from '@/store/project';
@@ -70,6 +71,7 @@ const Fields = memo(function Fields({ diagram, count, id }: Shown) {
     <section className={classes['inspector']} aria-label={node.name ?? node.type} data-testid="inspector">
       <NodeHeader {...target} />
       <NodeProblems diagram={target.diagram} id={target.id} />
+      <DebugSection tree={tree} node={target.id} />
       <WhySection tree={tree} node={target.id} />
       <SilencedList {...target} />
       {node.type === 'SubTree' && <TreeField {...target} />}

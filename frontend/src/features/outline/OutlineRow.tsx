@@ -5,6 +5,8 @@ import { displayName, type DiagramNode, type NodeId } from '@/model/diagram';
 import { setCollapsed } from '@/model/edits';
 import type { OutlineLine, OutlineSlot } from '@/model/outline';
 import type { NodeSpec } from '@/model/vocabulary';
+import { breakpointOf, useBreakpoints } from '@/store/debug/breakpoints';
+import { useDebugMarks } from '@/store/debug/marks';
 import { change } from '@/store/project/edits/blocks';
 import { liveKey, pastOf } from '@/store/project/live';
 import { useShownLive } from '@/store/moment/store';
@@ -31,6 +33,10 @@ export function OutlineRow(props: OutlineRowProps) {
   const { t } = useTranslation('outline');
   const status = useShownLive((state) => state.statuses.get(liveKey(tree, row.id)) ?? 'IDLE');
   const past = useShownLive((state) => pastOf(state, liveKey(tree, row.id)));
+  const held = useDebugMarks((state) => state.held.get(liveKey(tree, row.id)));
+  const forced = useDebugMarks((state) => state.forced.get(liveKey(tree, row.id)));
+  const breakpoint = useBreakpoints((state) => breakpointOf(state, tree, row.id));
+  const areOn = useBreakpoints((state) => state.areOn);
   const name = displayName(node);
   return (
     // eslint-disable-next-line jsx-a11y/click-events-have-key-events
@@ -44,6 +50,7 @@ export function OutlineRow(props: OutlineRowProps) {
       className={classes['row']}
       data-status={past ?? status}
       data-past={past === undefined ? undefined : ''}
+      data-held={held}
       data-disabled={node.disabled || undefined}
       data-mark={mark ?? undefined}
       style={{ transform: `translateY(${top}px)`, paddingLeft: 6 + row.depth * 14 }}
@@ -72,6 +79,15 @@ export function OutlineRow(props: OutlineRowProps) {
       <FamilyTile type={node.type} family={spec?.family ?? null} size={18} />
       <span className={classes['name']}>{name}</span>
       {name !== node.type && <span className={classes['type']}>{node.type}</span>}
+      {forced && <span className={classes['type']}>{t('forced', { status: forced.status })}</span>}
+      {breakpoint && (
+        <span
+          className={classes['breakpoint']}
+          data-off={areOn && breakpoint.on ? undefined : ''}
+          role="img"
+          aria-label={t('breakpoint')}
+        />
+      )}
       {row.isDraft && <span className={classes['draft']}>{t('drafts')}</span>}
     </div>
   );

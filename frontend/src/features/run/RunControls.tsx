@@ -23,7 +23,8 @@ export function RunControls() {
   const connection = useSessionStore((state) => state.connection);
   const isRunning = executor === 'application_running';
   const isPaused = executor === 'paused';
-  const hasApplication = isRunning || isPaused;
+  const isHeld = executor === 'held';
+  const hasApplication = isRunning || isPaused || isHeld;
   const worldRuns = useSessionStore(doesWorldRunAlone);
   const runBlocker = useRunBlocker();
   const isBlocked = runBlocker !== null;
@@ -70,7 +71,7 @@ export function RunControls() {
       ) : (
         <CommandButton command="run.pause" testId="pause" isDisabled={!isRunning || isBlocked} />
       )}
-      <CommandButton command="run.step" testId="step" isDisabled={!hasApplication || isBlocked} />
+      <CommandButton command="run.step" testId="step" isDisabled={!hasApplication || isHeld || isBlocked} />
       <RunMenu isDisabled={isBlocked} />
       <CommandButton
         command="run.stop"

@@ -41,6 +41,8 @@ export interface LiveState {
   readonly faults: ReadonlyMap<LiveKey, string>;
   setTree(nodes: readonly TreeNode[]): void;
   setStatuses(changed: Pairs): void;
+  /** Returns the status of each node that has changed since the tree began. */
+  uidStatuses(): ReadonlyMap<number, NodeStatus>;
   /** Replaces the statuses of the last tick. */
   setPast(past: Pairs): void;
   flash(flashed: Pairs): void;
@@ -115,6 +117,7 @@ function liveStore() {
         }
         set({ statuses });
       },
+      uidStatuses: () => byUid,
       setPast: (pairs) => {
         const past = pastBy(pairs);
         // Most ticks end like the previous one, and then nothing needs to be drawn again.

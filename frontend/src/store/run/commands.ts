@@ -6,7 +6,7 @@ import { useSessionStore } from '@/store/session/store';
 import { useRunStore } from './store';
 
 /** Reports the error of a refused command in the banner. */
-async function reported(doing: Promise<unknown>): Promise<void> {
+export async function reported(doing: Promise<unknown>): Promise<void> {
   try {
     await doing;
   } catch (error) {

@@ -66,3 +66,28 @@ it('shows the last tick until another one comes', () => {
   vi.advanceTimersByTime(600);
   expect(useLiveStore.getState().past.size).toBe(0);
 });
+
+it('shows the statuses within a held tick, and gives the end of the tick those before it', () => {
+  tick('RUNNING');
+  hear('held', { statuses: [[1, 'FAILURE']] });
+  expect(shown()).toBe('FAILURE');
+  hear('held', { statuses: [] });
+  expect(shown()).toBe('IDLE');
+  // The tick ends without a change of the node: it is as it was before.
+  hear('tick', { n: 2, changed: [], flashed: [], duration_ms: 1, past: [] });
+  expect(shown()).toBe('RUNNING');
+  hear('held', { statuses: [[1, 'SUCCESS']] });
+  hear('released', {});
+  expect(shown()).toBe('RUNNING');
+});
+
+it('shows the statuses of a held tick to who joins then', () => {
+  hear('snapshot', {
+    tree: { nodes: [{ ...NODE, tree_id: 'Main', node_id: 'n1' }] },
+    statuses: [[1, 'RUNNING']],
+    past: [],
+    faults: [],
+    held: { statuses: [[1, 'SUCCESS']] },
+  });
+  expect(shown()).toBe('SUCCESS');
+});

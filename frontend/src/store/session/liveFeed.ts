@@ -1,10 +1,12 @@
-import type { Fault, NodeStatus, ServerMessage, Snapshot, Tick, Tree } from '@/generated/messages';
+import type { Fault, Held, NodeStatus, ServerMessage, Snapshot, Tick, Tree } from '@/generated/messages';
 import { useLiveStore } from '@/store/project/live';
 import { useStatusRate } from './statusRate';
 
 const pending = new Map<number, NodeStatus>();
 const flashes = new Map<number, NodeStatus>();
 let past: Tick['past'] | null = null;
+/** The statuses before a held tick, to which the changes of that tick refer; null while none is held. */
+let beforeHold: ReadonlyMap<number, NodeStatus> | null = null;
 let shownAt = 0;
 let timer: ReturnType<typeof setTimeout> | undefined;
 
@@ -14,20 +16,43 @@ export function feedLive({ command, data }: ServerMessage): void {
   switch (command) {
     case 'tree':
       forgetPending();
+      beforeHold = null;
       return live.setTree((data as Tree).nodes);
     case 'snapshot': {
       forgetPending();
       const snapshot = data as Snapshot;
       live.setTree(snapshot.tree?.nodes ?? []);
       live.setStatuses(snapshot.statuses);
+      beforeHold = null;
+      if (snapshot.held) feedLive({ id: '', command: 'held', data: snapshot.held, seq: 0, t: 0 });
       live.setPast(snapshot.past);
       return snapshot.faults.forEach(showFault);
     }
     case 'tick': {
+      // The tick ends: its changes refer to the statuses before it.
+      if (beforeHold) feedLive({ id: '', command: 'released', data: {}, seq: 0, t: 0 });
       const { changed, flashed } = data as Tick;
       past = (data as Tick).past;
       for (const [uid, status] of changed) pending.set(uid, status);
       for (const [uid, status] of flashed) flashes.set(uid, status);
+      return;
+    }
+    case 'held': {
+      showStatuses();
+      const { statuses } = data as Held;
+      const now = new Map<number, NodeStatus>(statuses);
+      beforeHold ??= new Map(live.uidStatuses());
+      return live.setStatuses(
+        [...new Set([...now.keys(), ...live.uidStatuses().keys()])].map((uid) => [
+          uid,
+          now.get(uid) ?? 'IDLE',
+        ]),
+      );
+    }
+    case 'released': {
+      if (beforeHold)
+        live.setStatuses([...live.uidStatuses().keys()].map((uid) => [uid, beforeHold?.get(uid) ?? 'IDLE']));
+      beforeHold = null;
       return;
     }
     // A stopped tree shows its last statuses at once, without the delay of the rate.

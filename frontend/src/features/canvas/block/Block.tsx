@@ -13,12 +13,15 @@ import { useProjectStore } from '@/store/project';
 import { liveKey, pastOf } from '@/store/project/live';
 import { useShownLive } from '@/store/moment/store';
 import { usePortMarks } from '@/store/run/portMarks';
+import { useDebugMarks } from '@/store/debug/marks';
 import { NodeSymbol } from '@/ui/NodeSymbol';
 import type { BlockNode } from '../flow';
 import { openQuickAddBelow } from '../quickAdd/open';
 import { BlockPorts } from './BlockPorts';
+import { BreakpointMark } from './BreakpointMark';
 import { BlockShape } from './BlockShape';
 import { BlockTitle } from './BlockTitle';
+import { ForcedMark } from './ForcedMark';
 import { ProblemMark } from './ProblemMark';
 import { StatusMark } from './StatusMark';
 import classes from './Block.module.css';
@@ -34,6 +37,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
   const level = useCoverage((state) => state.blocks.get(key)?.level);
   const failures = useFailuresOf(key);
   const marks = usePortMarks(inside?.tree ?? tree, inside?.node ?? id, node.ports);
+  const held = useDebugMarks((state) => state.held.get(key));
   const isTarget = useEditorStore((state) => state.slot?.kind === 'onto' && state.slot.parent === id);
   const family = spec?.family ?? null;
   const color: CSSProperties = node.color ? { ['--family' as string]: node.color } : {};
@@ -51,6 +55,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
       data-family={family ?? 'unknown'}
       data-status={status}
       data-past={past}
+      data-held={held}
       data-selected={selected || undefined}
       data-disabled={node.disabled || undefined}
       data-inside={inside ? '' : undefined}
@@ -66,6 +71,8 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
       </span>
       <BlockTitle id={id} node={node} t={t} />
       <BlockPorts place={inside ?? { tree, node: id }} node={node} spec={spec} marks={marks} t={t} />
+      <BreakpointMark tree={inside?.tree ?? tree} node={inside?.node ?? id} isSelected={selected} t={t} />
+      <ForcedMark block={key} t={t} />
       <StatusMark status={fault === undefined ? status : 'FAILURE'} past={past} flash={flash} />
       {fault !== undefined && (
         <ProblemMark

@@ -20,6 +20,7 @@ import { isMinimapShown, setEditor } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
 import { toggleCompact } from '../view/compact';
 import { blockCommands } from './blockCommands';
+import { debugCommands } from './debugCommands';
 import { levelCommands } from './levelCommands';
 import { valuesCommand } from './shownValues';
 import { followClipboard } from '../gestures/clipboard';
@@ -176,6 +177,9 @@ const views: readonly UserCommand[] = [
 
 /** Registers the commands of the canvas and listens to the clipboard; returns a function that undoes both. */
 export function registerCanvasCommands(): () => void {
-  const ends = [registerCommands([...rows, ...blockCommands, ...levelCommands, ...views]), followClipboard()];
+  const ends = [
+    registerCommands([...rows, ...blockCommands, ...debugCommands, ...levelCommands, ...views]),
+    followClipboard(),
+  ];
   return () => ends.forEach((end) => end());
 }

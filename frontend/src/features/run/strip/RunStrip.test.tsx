@@ -1,6 +1,6 @@
 import { act, screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
-import type { Fault } from '@/generated/messages';
+import type { Fault, Held } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
 import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
@@ -38,6 +38,14 @@ beforeEach(async () => {
 });
 
 describe('RunStrip', () => {
+  it('leaves its place to the banner of a held tree, unless there is a message', () => {
+    executor.emit('held', { uid: 1, path: [1], ahead: [], statuses: [] } as unknown as Held);
+    executor.emit('state-changed', { state: 'held', reason: '' });
+    expect(screen.queryByTestId('run-strip')).toBeNull();
+    executor.emit('fault', fault({}));
+    expect(screen.getByTestId('run-strip')).toHaveTextContent('division by zero');
+  });
+
   it('shows the state of the executor if there is no message, at the same height', () => {
     expect(screen.queryByTestId('banner')).toBeNull();
     expect(screen.getByRole('region', { name: 'Messages of the run' })).not.toBeEmptyDOMElement();

@@ -1,0 +1,41 @@
+"""Copies of a tree: statuses, scopes and transitions."""
+
+from __future__ import annotations
+
+from tests.tree_gardener.trees import subtree
+from tree_gardener import Tree
+from tree_gardener.groot.mirror import MOST_TRANSITIONS, Mirror
+
+BODY = subtree("Body", '<Script code="a := 1; b := 2"/>')
+MAIN = subtree("Main", '<Sequence><SubTree ID="Body" name="in"/><UnsetBlackboard key="c"/></Sequence>')
+XML = f"<root main_tree_to_execute='Main'>{BODY}{MAIN}</root>"
+
+
+def test_a_mirror_that_follows_ticks_is_as_one_that_reads_the_tree() -> None:
+    tree = Tree.from_xml(XML)
+    follows, reads = Mirror(tree), Mirror(tree)
+    tree.observe(follows.ticked)
+    tree.blackboard.set("c", 3)
+    follows.read()
+    assert follows.blackboards(["Main", "in", "", "none"]) == {"Main": {"c": 3}, "in": None, "": {"c": 3}}
+    tree.tick_exactly_once()
+    reads.read()
+    assert (
+        follows.blackboards(["Main", "in"])
+        == reads.blackboards(["Main", "in"])
+        == {
+            "Main": None,
+            "in": {"a": 1, "b": 2},
+        }
+    )
+    assert follows.statuses().hex() == "01000c02000c04000c03000c"
+
+
+def test_the_last_transitions_are_kept() -> None:
+    tree = Tree.from_xml(XML)
+    mirror = Mirror(tree)
+    tree.observe(mirror.ticked)
+    mirror.start_recording()
+    for _ in range(MOST_TRANSITIONS):
+        tree.tick_exactly_once()
+    assert len(mirror.take_transitions()) == 9 * MOST_TRANSITIONS

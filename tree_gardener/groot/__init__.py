@@ -1,0 +1,16 @@
+"""Groot2's protocol: a tree that runs here is followed, held and forced by Groot2.
+
+* `protocol` has the messages, `document` the description of a tree, `mirror` the copies of its state.
+* `hooks` holds the tree at breakpoints and forces results.
+* `answers` answers requests, and `publisher` serves them.
+
+```python
+with tree.publish_groot2():
+    tree.tick_while_running()
+```
+"""
+
+from tree_gardener.groot.protocol import GrootError
+from tree_gardener.groot.publisher import PORT, Groot2Publisher
+
+__all__ = ["PORT", "Groot2Publisher", "GrootError"]

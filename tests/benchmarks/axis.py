@@ -20,7 +20,10 @@ from mcap.reader import make_reader
 from sensor_msgs.msg import CompressedImage
 
 from executor.headless.lockstep import LockstepOptions, run_lockstep
-from executor.recorder.cdr import encode_object
+from executor.recorder.cdr import decode, encode_object
+from executor.recorder.definitions import OURS
+from executor.recorder.moment import Moment
+from executor.recorder.run_writer import SEGMENT_NS
 from executor.recorder.writer import FORMAT_VERSION, RecordingWriter
 from executor.render.jpeg import to_jpeg
 from tests.benchmarks.browser import TEMPLATE, busy_tree, p95, page_of, served_browser
@@ -186,20 +189,30 @@ def ten_minutes(folder: Path) -> Path:
 
 
 def with_pictures(run: Path, out: Path) -> None:
-    """Writes a recording again, with pictures of a camera: in the last minute as drawn, before thinned."""
+    """Writes a recording again as a session keeps it: with the state at the begin of segments, and pictures.
+
+    Those of the last minute are as drawn, those before are thinned.
+    """
     with run.open("rb") as source, out.open("wb") as target:
         writer = RecordingWriter(target, {"project": "ten minutes"})
         reader = make_reader(source)
         for attached in reader.iter_attachments():
             writer.attach(attached.name, attached.media_type, attached.data)
         pictures, due_s = drawn(), 0.0
+        state, begin_ns = Moment(), SEGMENT_NS
         for schema, channel, message in reader.iter_messages():
             assert schema is not None
             now_s = message.log_time * 1e-9
             if now_s >= due_s:
                 due_s = now_s + (RECENT_PERIOD_S if now_s > LENGTH_S - RECENT_S else PICTURE_PERIOD_S)
                 writer.write(PICTURES, PICTURE_TYPE, message.log_time, next(pictures))
+            if message.log_time >= begin_ns:
+                begin_ns += SEGMENT_NS
+                for topic, name, fields in state.head(message.log_time):
+                    writer.record(topic, name, fields)
             writer.write(channel.topic, schema.name, message.log_time, message.data)
+            if schema.name.startswith(OURS):
+                state.take(schema.name.rpartition("/")[2], decode(schema.name, message.data))
         writer.finish()
 
 

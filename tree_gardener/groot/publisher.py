@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from tree_gardener.tree import Tree
 
 PORT: Final = 1667
+LOCALHOST: Final = "127.0.0.1"
 LAST_PORT: Final = 65534
 SILENCE_S: Final = 5.0
 """So long after its last request a client counts as gone: hooks are off, and a tree that waits continues."""
@@ -42,7 +43,7 @@ class Groot2Publisher:
         ModuleNotFoundError: pyzmq or msgpack is not installed.
     """
 
-    def __init__(self, tree: "Tree", port: int = PORT, host: str = "127.0.0.1") -> None:
+    def __init__(self, tree: "Tree", port: int = PORT, host: str = LOCALHOST) -> None:
         self._zmq, msgpack = _libraries()
         if not 0 < port <= LAST_PORT:
             raise GrootError(f"port {port}: Groot2 needs two ports from 1 to {LAST_PORT + 1}")

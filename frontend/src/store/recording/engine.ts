@@ -1,5 +1,7 @@
 import type { Segment } from '@/generated/messages';
+import { Glimpse } from './glimpse';
 import { RunIndex } from './runIndex';
+import { indexBegin, SeekIndex, type Range } from './seekIndex';
 import { SegmentReader } from './segmentReader';
 import type { Story } from './story';
 import type { Changes, Moment, Overview, TickAt, WriteAt } from './types';
@@ -22,6 +24,11 @@ export type Ask =
     }
   | { readonly what: 'story'; readonly t: number; readonly tick: number | null }
   | { readonly what: 'trail' }
+  /** Answered after all that was sent before. */
+  | { readonly what: 'ready' }
+  | { readonly what: 'index'; readonly bytes: Uint8Array; readonly size: number }
+  | { readonly what: 'ranges'; readonly t: number; readonly back: number }
+  | { readonly what: 'glimpse'; readonly t: number; readonly pieces: readonly Uint8Array[] }
   | { readonly what: 'writes'; readonly scope: string; readonly key: string }
   | { readonly what: 'changes'; readonly from: number; readonly to: number };
 
@@ -31,13 +38,25 @@ export interface Answers {
   change: TickAt | null;
   story: Story | null;
   trail: Float32Array | null;
+  ready: null;
+  /** Where the index of the file begins, if more than the given bytes are needed; 0 if it was read. */
+  index: number | null;
+  /** The bytes that show a moment; null where it cannot be shown without those before. */
+  ranges: readonly Range[] | null;
+  /** The moments that can be shown now; null if the wanted one is not among them. */
+  glimpse: readonly [from: number, to: number] | null;
   writes: readonly WriteAt[] | null;
   changes: Changes | null;
 }
 
 export type ToEngine =
   | { readonly kind: 'begin'; readonly run: string }
-  | { readonly kind: 'part'; readonly segment: Segment; readonly bytes: Uint8Array }
+  | {
+      readonly kind: 'part';
+      readonly segment: Segment;
+      readonly bytes: Uint8Array;
+      readonly isLast?: boolean;
+    }
   | { readonly kind: 'drop'; readonly number: number }
   | { readonly kind: 'ask'; readonly id: number; readonly ask: Ask };
 
@@ -51,6 +70,8 @@ export class Engine {
   private index = new RunIndex('');
   private readers = new Map<number, SegmentReader>();
   private readonly failed = new Set<number>();
+  private seek: SeekIndex | null = null;
+  private glimpse: Glimpse | null = null;
 
   constructor(private readonly post: (message: FromEngine) => void) {}
 
@@ -60,9 +81,11 @@ export class Engine {
         this.index = new RunIndex(message.run);
         this.readers = new Map();
         this.failed.clear();
+        this.seek = null;
+        this.glimpse = null;
         return;
       case 'part':
-        return this.take(message.segment, message.bytes);
+        return this.take(message);
       case 'drop':
         this.index.drop(message.number);
         this.readers.delete(message.number);
@@ -72,7 +95,8 @@ export class Engine {
     }
   }
 
-  private take({ number, from_t, to_t, complete, bytes: size }: Segment, bytes: Uint8Array): void {
+  private take({ segment, bytes, isLast = true }: ToEngine & { kind: 'part' }): void {
+    const { number, from_t, to_t, complete, bytes: size } = segment;
     if (this.failed.has(number)) return;
     const index = this.index.segment(number, from_t);
     let reader = this.readers.get(number);
@@ -97,6 +121,7 @@ export class Engine {
     }
     // A complete segment needs no reader, which keeps its schemas.
     if (complete && reader.offset >= size) this.readers.delete(number);
+    if (!isLast) return;
     this.index.trim();
     this.tell();
   }
@@ -109,7 +134,15 @@ export class Engine {
     try {
       switch (ask.what) {
         case 'moment':
-          return this.index.momentAt(ask.t, ask.known, ask.tick, ask.scene);
+          return this.momentAt(ask);
+        case 'ready':
+          return null;
+        case 'index':
+          return this.readIndex(ask.bytes, ask.size);
+        case 'ranges':
+          return this.seek?.ranges(ask.t, ask.back) ?? null;
+        case 'glimpse':
+          return this.look(ask.t, ask.pieces);
         case 'tick':
           return this.index.tickFrom(ask.t, ask.by, ask.tick);
         case 'change':
@@ -125,6 +158,38 @@ export class Engine {
       }
     } catch (error) {
       this.post({ kind: 'failed', number: -1, message: (error as Error).message });
+      return null;
+    }
+  }
+
+  private momentAt({ t, known, tick, scene }: Ask & { what: 'moment' }): Moment | null {
+    return (
+      this.index.momentAt(t, known, tick, scene) ?? this.glimpse?.momentAt(t, known, tick, scene) ?? null
+    );
+  }
+
+  /** The index speeds reading up; one that is damaged is left out, since the parts are read without it. */
+  private readIndex(bytes: Uint8Array, size: number): number | null {
+    try {
+      const begin = indexBegin(bytes, size);
+      if (begin < size - bytes.length) return begin;
+      this.seek = new SeekIndex(bytes.subarray(begin - size + bytes.length), size);
+      return 0;
+    } catch {
+      return null;
+    }
+  }
+
+  private look(t: number, pieces: readonly Uint8Array[]): Answers['glimpse'] {
+    if (!this.seek) return null;
+    try {
+      const found = Glimpse.of(this.index.beside(), this.seek, t, pieces);
+      if (!found) return null;
+      this.glimpse = found;
+      this.tell();
+      return found.range;
+    } catch {
+      // The damage is reported when the part is read in its order.
       return null;
     }
   }

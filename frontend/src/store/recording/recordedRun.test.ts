@@ -1,6 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect, it, vi } from 'vitest';
 import type { Segment } from '@/generated/messages';
+import { longRecording } from '../../../harness/recordings';
 import { Engine } from './engine';
 import { RecordedRun, type EngineLink } from './recordedRun';
 import type { Overview } from './types';
@@ -107,6 +108,11 @@ it('begins again with another run', async () => {
 it('reads a small part of a long file first, then as large ones as its source allows', async () => {
   const bytes = 12 << 20;
   const lengths: number[] = [];
+  const link: EngineLink = {
+    post: (message) =>
+      message.kind === 'ask' && link.onMessage({ kind: 'answer', id: message.id, answer: null }),
+    onMessage: () => {},
+  };
   const run = new RecordedRun(
     {
       segments: () => [segment(0, { bytes })],
@@ -117,11 +123,50 @@ it('reads a small part of a long file first, then as large ones as its source al
         return Promise.resolve(new Uint8Array(length));
       },
     },
-    { post: () => {}, onMessage: () => {} },
+    link,
     () => {},
     () => {},
   );
   run.want(5);
   await vi.waitFor(() => expect(lengths.reduce((sum, each) => sum + each, 0)).toBe(bytes));
   expect(lengths).toEqual([1 << 20, 4 << 20, 4 << 20, 3 << 20]);
+});
+
+it('shows a moment of a long file before the parts up to it are read', async () => {
+  const long = await longRecording(12);
+  const read: [number, number][] = [];
+  const link: EngineLink = { post: (message) => engine.receive(message), onMessage: () => {} };
+  const engine = new Engine((message) => link.onMessage(message));
+  const parts = new EventTarget();
+  const run = new RecordedRun(
+    {
+      segments: () => [segment(0, { bytes: long.length, to_t: 12 })],
+      subscribe: () => () => {},
+      isOneFile: true,
+      read: async (_, offset, length) => {
+        read.push([offset, length]);
+        // The parts in their order do not come.
+        if (offset === 0) await new Promise((resolve) => parts.addEventListener('come', resolve));
+        return long.slice(offset, offset + length);
+      },
+    },
+    link,
+    () => {},
+    () => {},
+    1,
+  );
+  const tickAt = async (t: number) =>
+    (await run.ask({ what: 'moment', t, tick: null, known: -1 }))?.tick ?? null;
+  run.want(8.5);
+  await vi.waitFor(async () => expect(await tickAt(8.5)).toBeGreaterThan(5));
+  expect(await tickAt(3.5)).toBeNull();
+  const asked = read.length;
+  run.want(8.45);
+  run.want(8.5);
+  expect(read.length).toBe(asked);
+  run.want(3.5);
+  await vi.waitFor(async () => expect(await tickAt(3.5)).toBeGreaterThan(5));
+  parts.dispatchEvent(new Event('come'));
+  await vi.waitFor(() => expect(run.hasUntil(12)).toBe(true));
+  expect(await tickAt(11.5)).toBeGreaterThan(5);
 });

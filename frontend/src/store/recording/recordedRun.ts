@@ -3,6 +3,10 @@ import type { Answers, Ask, FromEngine, ToEngine } from './engine';
 import type { Overview, RecordingSource } from './types';
 
 const PART_BYTES = 1 << 20;
+/** What is read from the end of a file for its index; a longer index is read once more. */
+const END_BYTES = 1 << 18;
+/** From how many earlier begins a moment is tried. */
+const MOST_BACK = 2;
 /** A part may be refused while the page connects, so the request is repeated for some seconds. */
 const MOST_TRIES = 12;
 const TRY_AGAIN_MS = 500;
@@ -34,6 +38,13 @@ export class RecordedRun {
   private readonly tries = new Map<number, number>();
   private readonly waiting = new Map<number, (answer: Answers[keyof Answers]) => void>();
   private nextId = 1;
+  private isSeeking = false;
+  /** The moments that were looked for by the index of their file. */
+  private sought = new Set<number>();
+  /** The moments that can be shown although the parts before them are not read. */
+  private glimpsed: Answers['glimpse'] = null;
+  /** Whether the index of the file was read; null: it has none. */
+  private hasIndex: boolean | null = false;
   private readonly stop: () => void;
 
   constructor(
@@ -86,6 +97,9 @@ export class RecordedRun {
       this.broken.clear();
       this.tries.clear();
       this.overview = null;
+      this.hasIndex = false;
+      this.sought = new Set();
+      this.glimpsed = null;
       this.link.post({ kind: 'begin', run });
     }
     for (const number of this.held.keys()) {
@@ -93,7 +107,58 @@ export class RecordedRun {
       this.held.delete(number);
       this.link.post({ kind: 'drop', number });
     }
-    if (this.wanted !== null && !this.isFetching) void this.fetch();
+    if (this.wanted === null) return;
+    if (!this.isSeeking) void this.seek();
+    if (!this.isFetching) void this.fetch();
+  }
+
+  /** Shows the wanted moment of a long file before the parts up to it are read. */
+  private async seek(): Promise<void> {
+    this.isSeeking = true;
+    try {
+      for (let t = this.unread(); t !== null; t = this.unread()) {
+        this.sought.add(t);
+        const [segment] = this.source.segments();
+        if (segment) this.glimpsed = await this.glimpse(segment, t);
+      }
+    } catch {
+      // The parts that are read in their order tell what is wrong.
+      this.hasIndex = null;
+    } finally {
+      this.isSeeking = false;
+    }
+  }
+
+  /** Returns the wanted moment if it is to be looked for by the index of the file. */
+  private unread(): number | null {
+    const { wanted: t, overview } = this;
+    if (t === null || this.hasIndex === null || this.source.isOneFile !== true) return null;
+    if (this.sought.has(t)) return null;
+    const shown = [...(overview?.read ?? []), this.glimpsed ?? []];
+    return shown.some(([from = 0, to = -1]) => from <= t && t <= to) ? null : t;
+  }
+
+  private async glimpse(segment: Segment, t: number): Promise<Answers['glimpse']> {
+    if (this.hasIndex === false) this.hasIndex = (await this.readIndex(segment)) ? true : null;
+    for (let back = 0; this.hasIndex && back < MOST_BACK; back += 1) {
+      const ranges = await this.ask({ what: 'ranges', t, back });
+      if (ranges === null) break;
+      const read = ranges.map(([offset, length]) => this.source.read(segment, offset, length));
+      const found = await this.ask({ what: 'glimpse', t, pieces: await Promise.all(read) });
+      if (found) return found;
+    }
+    return null;
+  }
+
+  private async readIndex(segment: Segment): Promise<boolean> {
+    const { bytes: size } = segment;
+    for (let length = Math.min(END_BYTES, size); ;) {
+      const bytes = await this.source.read(segment, size - length, length);
+      const begin = await this.ask({ what: 'index', bytes, size });
+      if (begin === null || begin === 0) return begin === 0;
+      if (size - begin <= length) return false;
+      length = size - begin;
+    }
   }
 
   private async fetch(): Promise<void> {
@@ -119,7 +184,7 @@ export class RecordedRun {
       held.isWhole = segment.complete && held.bytes >= segment.bytes;
       this.held.set(segment.number, held);
       this.tries.delete(segment.number);
-      this.link.post({ kind: 'part', segment, bytes });
+      await this.take(segment, bytes, () => run === this.run && this.held.get(segment.number) === held);
     } catch (error) {
       if (run !== this.run) return;
       const current = this.source.segments().find(({ number }) => number === segment.number);
@@ -131,6 +196,15 @@ export class RecordedRun {
         this.broken.add(segment.number);
         this.onFailed((error as Error).message);
       } else await new Promise((resolve) => setTimeout(resolve, this.tryAgainMs));
+    }
+  }
+
+  /** Gives a part to the engine in small pieces, so that it can answer between them. */
+  private async take(segment: Segment, bytes: Uint8Array, isWanted: () => boolean): Promise<void> {
+    for (let at = 0; at < bytes.length && isWanted(); at += PART_BYTES) {
+      const piece = bytes.subarray(at, at + PART_BYTES);
+      this.link.post({ kind: 'part', segment, bytes: piece, isLast: at + PART_BYTES >= bytes.length });
+      await this.ask({ what: 'ready' });
     }
   }
 

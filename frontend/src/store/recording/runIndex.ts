@@ -34,9 +34,16 @@ function flagsOf(segments: readonly SegmentIndex[]): FlagMark[] {
 /** All parts of a recording that were read, with the state at each moment. */
 export class RunIndex {
   private readonly segments = new Map<number, SegmentIndex>();
-  private readonly scenes = new Scenes();
 
-  constructor(readonly run: string) {}
+  constructor(
+    readonly run: string,
+    private readonly scenes = new Scenes(),
+  ) {}
+
+  /** Returns an empty index for other parts of the run; both number the worlds alike. */
+  beside(): RunIndex {
+    return new RunIndex(this.run, this.scenes);
+  }
 
   segment(number: number, from: number): SegmentIndex {
     let found = this.segments.get(number);

@@ -173,6 +173,20 @@ export class SegmentIndex {
     return state;
   }
 
+  /**
+   * Returns whether all is known of a moment if nothing before the first tree of this index was read: that tree
+   * and enough ticks precede it.
+   */
+  isSettledAt(t: number): boolean {
+    const first = this.begins[0]?.at;
+    if (first === undefined) return false;
+    const until = countUntil(this.steps, t);
+    let ticks = 0;
+    for (let at = first; at < until && ticks < LEAST_TICKS; at += 1)
+      if (this.steps[at]?.kind === 'tick') ticks += 1;
+    return ticks >= LEAST_TICKS;
+  }
+
   /** Returns the last write of a key up to a step, also of a tree that is written again since. */
   lastWrite(id: string, last = Infinity): LastWrite | null {
     return this.writes.get(id)?.findLast(({ at }) => at <= last) ?? null;

@@ -43,8 +43,11 @@ export class SegmentReader {
     private readonly name: string,
     private readonly take: (read: Read) => void,
     private readonly attach: (name: string, data: Uint8Array) => void = () => undefined,
+    /** Whether the bytes are records from within a file, without its begin. */
+    isFragment = false,
   ) {
     this.stream = new McapStreamReader({
+      noMagicPrefix: isFragment,
       decompressHandlers: { zstd: (data, size) => this.unpack(data, Number(size)) },
     });
   }

@@ -20,6 +20,7 @@ export function storedSource(projectId: string, run: StoredRun): RecordingSource
   return {
     segments: () => [segment],
     partBytes: PART_BYTES,
+    isOneFile: true,
     subscribe: () => () => undefined,
     read: async (_, offset, length) => {
       const range = `bytes=${offset}-${offset + length - 1}`;

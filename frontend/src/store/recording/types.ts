@@ -11,6 +11,8 @@ export interface RecordingSource {
   read(segment: Segment, offset: number, length: number): Promise<Uint8Array>;
   /** The most bytes of a read after the first of a segment; without it, 1 MiB, as of a session. */
   readonly partBytes?: number;
+  /** Whether all is one complete file that can be read at any place. */
+  readonly isOneFile?: boolean;
   /** Calls back when segments came, grew or went; returns a function that stops it. */
   subscribe(changed: () => void): () => void;
 }

@@ -126,7 +126,7 @@ def replying(content: bytes) -> Callable[[list[bytes]], list[bytes]]:
         (replying(b"<root><BehaviorTree ID='M'><A _uid='99999'/></BehaviorTree></root>"), "no uid"),
         (replying(b"<root><BehaviorTree><SubTree _uid='1' _fullpath=''/></BehaviorTree></root>"), "not once"),
         (
-            replying(b"<root><BehaviorTree><SubTree _uid='1' _fullpath='x'/></BehaviorTree>"),
+            replying(b"<root><BehaviorTree><SubTree _uid='1' _fullpath='x'/></BehaviorTree></root>"),
             "not once",
         ),
     ],

@@ -35,7 +35,7 @@ def app_files(project: Project) -> dict[str, bytes]:
 
     All Python travels along: actions import it, and launch files start it.
     """
-    return files_beside_engine(project) | engine_files()
+    return {**files_beside_engine(project), **engine_files()}
 
 
 def files_beside_engine(project: Project) -> dict[str, bytes]:

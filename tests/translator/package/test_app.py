@@ -32,7 +32,7 @@ def test_app_holds_all_that_runs(example):
 def test_the_app_is_the_engine_and_the_files_beside_it(example):
     beside = files_beside_engine(example)
     assert not [name for name in beside if name.startswith("tree_gardener/")]
-    assert app_files(example) == beside | engine_files()
+    assert app_files(example) == {**beside, **engine_files()}
     assert {f"actions/{name}.py" for name in example.actions} <= set(beside)
 
 

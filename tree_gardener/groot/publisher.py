@@ -50,7 +50,7 @@ class Groot2Publisher:
             raise GrootError(f"port {port}: Groot2 needs two ports from 1 to {LAST_PORT + 1}")
         self.port = port
         self._tree = tree
-        self._mirror = Mirror(tree)
+        self._mirror = Mirror(tree, msgpack.packb)
         self._hooks = Hooks(tree, self._tell, self._mirror.read)
         self._answers = Answers(tree, self._mirror, self._hooks, msgpack.packb)
         self._unobserve: Callable[[], None] | None = None

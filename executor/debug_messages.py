@@ -106,7 +106,12 @@ class Held(Struct):
 
 
 class Released(Struct):
-    """The tree is not held any more."""
+    """The tree is not held any more.
+
+    With `off` all breakpoints are off now, as after a hold that lasted too long.
+    """
+
+    off: bool = False
 
 
 class ForcedNode(Struct):

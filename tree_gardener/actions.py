@@ -60,18 +60,35 @@ class _Loader(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         self.package = types.ModuleType(PACKAGE)
         self.package.__path__ = []
         sys.modules[PACKAGE] = self.package
-        for name in sources:
-            sys.modules.pop(f"{PACKAGE}.{name}", None)
         # Only one set of actions can be imported at a time: that of the running program.
-        sys.meta_path[:] = [finder for finder in sys.meta_path if not isinstance(finder, _Loader)]
-        sys.meta_path.append(self)
+        earlier = [finder for finder in sys.meta_path if isinstance(finder, _Loader)]
+        for name in {*sources, *(name for finder in earlier for name in finder.sources)}:
+            own = f"{PACKAGE}.{name}"
+            sys.modules.pop(own, None)
+            if getattr(sys.modules.get(name), "__name__", "") == own:  # imported by its bare name
+                del sys.modules[name]
+        sys.meta_path[:] = [self, *(finder for finder in sys.meta_path if finder not in earlier)]
 
     def find_spec(
         self, fullname: str, path: object = None, target: object = None
     ) -> importlib.machinery.ModuleSpec | None:
         """Finds the module specification of an action, for imports; None for other modules."""
         name = fullname.removeprefix(f"{PACKAGE}.")
-        return importlib.machinery.ModuleSpec(fullname, self) if name in self.sources else None
+        if name not in self.sources or (name == fullname and self.is_elsewhere(name)):
+            return None
+        return importlib.machinery.ModuleSpec(fullname, self)
+
+    def is_elsewhere(self, name: str) -> bool:
+        """Returns whether a bare name is that of another module, which goes first.
+
+        The file of the action itself does not count: where its folder is in Python's path, it would run a
+        second time, with classes that are not those of the tree.
+        """
+        for finder in sys.meta_path:
+            spec = None if finder is self else finder.find_spec(name, None)
+            if spec is not None:
+                return pathlib.Path(spec.origin or "").parent.name != PACKAGE
+        return False
 
     def create_module(self, spec: importlib.machinery.ModuleSpec) -> types.ModuleType:
         """Returns the module of an action, for imports; both names give the same module."""

@@ -15,6 +15,7 @@ from lxml import etree
 
 from tree_gardener.actions import load_actions
 from tree_gardener.errors import LoadError, TickError
+from tree_gardener.groot import GrootError
 from tree_gardener.ros import RosClock, RosRunner
 from tree_gardener.ros_parameters import (
     ParameterError,
@@ -60,9 +61,9 @@ def run_tree(  # noqa: PLR0913 - what main.py states of one package
 ) -> int:
     """Ticks a tree by ROS time until it ends, or the process receives a signal.
 
-    The node has the parameters ``tick_hz``, ``tree`` (path of the file), ``on_finish`` and ``on_error``, and
-    ROS 2's own ``use_sim_time``. The arguments of this function are their defaults; arguments such as
-    ``--tick_hz=5.0`` on the command line override all others.
+    The node has the parameters ``tick_hz``, ``tree`` (path of the file), ``on_finish``, ``on_error``,
+    ``groot2_port`` and ``groot2_host``, and ROS 2's own ``use_sim_time``. The arguments of this function are
+    their defaults; arguments such as ``--tick_hz=5.0`` on the command line override all others.
 
     Args:
         tree_file: the document; a self-contained one brings the sources of its actions.
@@ -207,10 +208,11 @@ def _in_one_line(error: Exception) -> str:
 
 
 def _run(node: Any, settings: RunParameters, actions: "str | pathlib.Path | None") -> int:
-    with _spinning(node) as (stop, spin):
+    with _spinning(node) as (stop, spin), _groot2(node, settings) as follow:
         runner = _load(node, settings, actions, stop)
         if runner is None:
             return 1
+        follow(runner.runner.tree)
         while spin():
             pass
         failed = runner.runner.error is not None
@@ -223,9 +225,9 @@ def _serve(node: Any, settings: ServerParameters, actions: "str | pathlib.Path |
     from tree_gardener.ros_server import TreeServer  # noqa: PLC0415
 
     def load(name: str, board: "Blackboard") -> Tree:
-        return _tree(node, settings.tree, actions, main_tree=name or None, blackboard=board)
+        return follow(_tree(node, settings.tree, actions, main_tree=name or None, blackboard=board))
 
-    with _spinning(node) as (_, spin):
+    with _spinning(node) as (_, spin), _groot2(node, settings) as follow:
         try:
             server = TreeServer(
                 node,
@@ -255,19 +257,42 @@ def _serve(node: Any, settings: ServerParameters, actions: "str | pathlib.Path |
 def _live(node: Any, settings: RunParameters, actions: "str | pathlib.Path | None") -> int:
     from tree_gardener.ros_lifecycle import TreeLife  # noqa: PLC0415 - the engine works without ROS
 
-    life = TreeLife(
-        node,
-        lambda: _tree(node, settings.tree, actions),
-        tick_hz=settings.tick_hz,
-        on_finish=settings.on_finish,
-        on_error=settings.on_error,
-    )
-    node.manage(life)
-    with _spinning(node) as (_, spin):
+    with _spinning(node) as (_, spin), _groot2(node, settings) as follow:
+        life = TreeLife(
+            node,
+            lambda: follow(_tree(node, settings.tree, actions)),
+            tick_hz=settings.tick_hz,
+            on_finish=settings.on_finish,
+            on_error=settings.on_error,
+        )
+        node.manage(life)
         while spin():
             life.step()
         life.cleanup()
         return 0
+
+
+@contextlib.contextmanager
+def _groot2(node: Any, settings: "RunParameters | ServerParameters") -> "Iterator[Callable[[Tree], Tree]]":
+    """Yields the function that serves a tree to Groot2, in place of the one before, and returns it.
+
+    Without a port it does nothing. A tree that cannot be served runs all the same; the log says why.
+    """
+    log = node.get_logger()
+    served = contextlib.ExitStack()
+
+    def follow(tree: Tree) -> Tree:
+        served.close()
+        if settings.groot2_port:
+            try:
+                served.enter_context(tree.publish_groot2(settings.groot2_port, settings.groot2_host))
+                log.info(f"Groot2 can follow the tree at {settings.groot2_host}:{settings.groot2_port}")
+            except (GrootError, ModuleNotFoundError) as error:
+                log.error(f"Groot2 cannot follow the tree: {error}")
+        return tree
+
+    with served:
+        yield follow
 
 
 @contextlib.contextmanager

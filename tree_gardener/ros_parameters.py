@@ -12,6 +12,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any, Final, TypeVar
 
+from tree_gardener.groot.publisher import LAST_PORT, LOCALHOST
 from tree_gardener.runner import ON_ERROR, ON_FINISH
 
 SIM_TIME = "use_sim_time"
@@ -34,12 +35,16 @@ class RunParameters:
         tick_hz: ticks a second.
         on_finish: ``stop`` or ``repeat``.
         on_error: ``stop`` or ``failure``.
+        groot2_port: the port at which Groot2 can follow the tree; 0 for none.
+        groot2_host: the address to listen at for it.
     """
 
     tree: pathlib.Path
     tick_hz: float
     on_finish: str
     on_error: str
+    groot2_port: int = 0
+    groot2_host: str = LOCALHOST
 
 
 @dataclasses.dataclass(frozen=True)
@@ -52,6 +57,7 @@ class ServerParameters:
         on_error: ``stop`` or ``failure``.
         action_name: the name of its action.
         on_new_goal: ``preempt``, ``queue`` or ``reject``.
+        groot2_port, groot2_host: as of `RunParameters`, for the tree that runs.
     """
 
     tree: pathlib.Path
@@ -59,6 +65,8 @@ class ServerParameters:
     on_error: str
     action_name: str
     on_new_goal: str
+    groot2_port: int = 0
+    groot2_host: str = LOCALHOST
 
 
 Parameters = TypeVar("Parameters", RunParameters, ServerParameters)
@@ -89,6 +97,8 @@ def read_arguments(
         values[name] = text
     if "tick_hz" in values:
         values["tick_hz"] = _number(values["tick_hz"])
+    if values.get("groot2_port", "").isdecimal():
+        values["groot2_port"] = int(values["groot2_port"])
     if SIM_TIME in values:
         if values[SIM_TIME].lower() not in {"true", "false"}:
             raise ParameterError(f"the argument --{SIM_TIME}={values[SIM_TIME]} has to be true or false")
@@ -119,7 +129,11 @@ def declare_parameters(node: Any, defaults: Parameters, words: Sequence[str]) ->
     ]
     if problems:
         raise ParameterError("; ".join(problems))
-    values |= {"tree": pathlib.Path(values["tree"]), "tick_hz": float(values["tick_hz"])}
+    values |= {
+        "tree": pathlib.Path(values["tree"]),
+        "tick_hz": float(values["tick_hz"]),
+        "groot2_port": int(values["groot2_port"]),
+    }
     return dataclasses.replace(defaults, **values)
 
 
@@ -146,6 +160,11 @@ def _problems(values: Mapping[str, Any]) -> list[tuple[str, str]]:
         found.append(("tree", "the path of a file"))
     if "action_name" in values and (not isinstance(values["action_name"], str) or not values["action_name"]):
         found.append(("action_name", "the name of an action"))
+    port, host = values["groot2_port"], values["groot2_host"]
+    if isinstance(port, bool) or port not in range(LAST_PORT + 1):
+        found.append(("groot2_port", f"a port from 1 to {LAST_PORT}, or 0"))
+    if not isinstance(host, str) or not host:
+        found.append(("groot2_host", "an address of this computer"))
     for name, choices in (("on_finish", ON_FINISH), ("on_error", ON_ERROR), ("on_new_goal", ON_NEW_GOAL)):
         if name in values and values[name] not in choices:
             found.append((name, _listed(choices)))

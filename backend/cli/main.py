@@ -30,6 +30,7 @@ VERBS: Final[dict[str, Verb]] = {
     "open": Verb("open_log", "open_log"),
     "run": Verb("run", "run"),
     "debug": Verb("debug", "debug"),
+    "attach": Verb("attach", "attach"),
     "check": Verb("check", "check"),
     "test": Verb("behaviour_tests", "run_tests"),
     "evaluate": Verb("evaluating.evaluate", "evaluate"),

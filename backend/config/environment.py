@@ -87,6 +87,11 @@ class Environment(TeamSettings):
         ge=0,
         description="Processor hours that the evaluations of one user may take in 24 hours. 0: no limit.",
     )
+    max_outcome_bytes: int = Field(
+        default=512 << 20,
+        gt=0,
+        description="Size of all outcomes of a project's evaluations; one that would exceed it ends.",
+    )
     session_start_timeout_s: float = Field(
         default=30.0, gt=0, description="How long an executor may take to report that it is ready."
     )

@@ -42,5 +42,13 @@ class WaitsFor(TextChoices):
     TURN = "turn"
 
 
+class Obstacle(TextChoices):
+    """The reason for which nobody can start an evaluation of a project."""
+
+    NONE = "", "nothing"
+    ONE_PLACE = "one_place", "This server has one place for robots, and that is kept for users who work."
+    ARCHIVED = "archived", "The project is archived."
+
+
 LIVE: Final = (JobState.WAITING, JobState.RUNNING)
 NOT_COUNTED: Final = (Result.INVALID, Result.LOST, Result.CANCELLED)

@@ -201,6 +201,8 @@ class Collector:
             self._look()
             if not Replay.objects.filter(id=item.id).exists():
                 return False
+        if not Replay.objects.filter(id=item.id).exists():
+            return False  # nobody waits for it
         if message.end != "complete" or not message.run:
             writes.replayed(item, JobState.FAILED, message.message or "The run could not be recorded.")
             return True

@@ -25,6 +25,7 @@ class Evaluation(models.Model):
         sealed: whether tree and actions run in a process that sees nothing of the judge.
         sequential: whether the outcomes decide the number of runs.
         results: by revision, `done`, `wanted`, `rate`, `low` and `high`.
+        line_bytes: the size of its outcomes.
         plan: outlines of the world, for the report.
         attempt: counts how often it was begun.
     """
@@ -39,6 +40,7 @@ class Evaluation(models.Model):
     seed = models.BigIntegerField(null=True)
     wanted = models.PositiveIntegerField(null=True)
     sealed = models.BooleanField(default=False)
+    line_bytes = models.BigIntegerField(default=0)
     sequential = models.BooleanField(default=False)
     duration_s = models.FloatField(default=0)
     workers = models.PositiveSmallIntegerField(default=0)

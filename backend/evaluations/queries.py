@@ -60,6 +60,12 @@ def counts(found: list[Evaluation]) -> dict[tuple[UUID, int], dict[str, int]]:
     return by
 
 
+def line_bytes(project_id: UUID) -> int:
+    """Returns the size of all outcomes of a project's evaluations."""
+    rows = Evaluation.objects.filter(project=project_id)
+    return rows.aggregate(size=Sum("line_bytes"))["size"] or 0
+
+
 def costs(rows: list[Evaluation]) -> list[dict[str, Any]]:
     """Returns what a run takes, by the last of these evaluations of each name that has outcomes."""
     last: dict[str, Evaluation] = {}

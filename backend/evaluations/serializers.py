@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from rest_framework import serializers
 
 from backend.core.rest.fields import ObjectField, StrictIntegerField, StrictSerializer
-from backend.evaluations.choices import JobState, Result, WaitsFor
+from backend.evaluations.choices import JobState, Obstacle, Result, WaitsFor
 from backend.evaluations.models import MAX_NAME_LENGTH
 from backend.projects.choices import Role
 
@@ -77,7 +77,11 @@ class EvaluationListSerializer(serializers.Serializer[Any]):
     costs = CostSerializer(many=True, help_text="By the last evaluation of each name that has outcomes.")
     may_start = serializers.BooleanField(help_text="Whether you may start evaluations of this project.")
     may_replay = serializers.BooleanField(help_text="Whether you may play a run again.")
-    why_not = serializers.CharField(help_text="Why this server runs none; else empty.")
+    why_not = serializers.ChoiceField(
+        choices=[(each.value, each.value) for each in Obstacle],
+        help_text="Why none can be started: the server has one place for robots, or the project is archived. "
+        "Else empty.",
+    )
 
 
 class StartEvaluationSerializer(StrictSerializer):

@@ -5,6 +5,7 @@ PostgreSQL stores no NUL, neither in text nor in JSON: none passes.
 
 from __future__ import annotations
 
+import re
 from typing import Annotated, Any, Final, Literal, TypeVar
 
 import msgspec
@@ -12,9 +13,13 @@ from msgspec import Meta
 
 from backend.evaluations.choices import Result  # noqa: TC001 - msgspec reads the annotations
 
+_TEXTS: Final = re.compile(rb'"(?:[^"\\]|\\.)*+"')
+_BRACKETS: Final = re.compile(rb"[\[\]{}]")
 _Kind = TypeVar("_Kind", bound=msgspec.Struct)
 MOST_LINE: Final = 64 << 10
 MOST_PLAN: Final = 1 << 20
+MOST_DEPTH: Final = 32
+"""An outcome is answered as JSON, whose writers call themselves for each level."""
 _Count = Annotated[int, Meta(ge=0, le=100_000)]
 _Number = Annotated[float, Meta(ge=-1e12, le=1e12)]
 _Share = Annotated[float, Meta(ge=0, le=1)]
@@ -35,7 +40,7 @@ class Begun(msgspec.Struct):
 
     def __post_init__(self) -> None:
         encoded = msgspec.json.encode(self.plan)
-        if len(encoded) > MOST_PLAN or rb"\u0000" in encoded:
+        if len(encoded) > MOST_PLAN or rb"\u0000" in encoded or depth_of(encoded) > MOST_DEPTH:
             self.plan = {}
 
 
@@ -138,12 +143,23 @@ def read_line(done: Done) -> Line:
     """Returns the outcome of a run.
 
     Raises:
-        ValueError: it is no outcome, or of another seed.
+        ValueError: it is no outcome, nested too deeply, or of another seed.
     """
     line = _decode(done.line, Line)
+    if depth_of(done.line.encode()) > MOST_DEPTH:
+        raise ValueError("it is nested too deeply")
     if line.seed != done.seed or "\n" in done.line:
         raise ValueError("the line is of another seed")
     return line
+
+
+def depth_of(document: bytes) -> int:
+    """Returns how deeply lists and objects are nested in valid JSON."""
+    depth = most = 0
+    for mark in _BRACKETS.findall(_TEXTS.sub(b"", document)):
+        depth += 1 if mark in b"[{" else -1
+        most = max(most, depth)
+    return most
 
 
 def _decode(data: str | bytes | msgspec.Raw, kind: type[_Kind]) -> _Kind:

@@ -55,7 +55,7 @@ class Evaluations(ResourceViewSet):
             "costs": queries.costs(rows),
             "may_start": s.may_start(project.role, is_guest=user.is_guest),
             "may_replay": not user.is_guest,
-            "why_not": writes.why_not(project),
+            "why_not": writes.why_not(project).value,
         }
         return Response(answer)
 
@@ -184,6 +184,15 @@ class Evaluations(ResourceViewSet):
         user = user_of(request)
         found = queries.evaluation(project_id, evaluation_id, user=user)
         return Response(s.presented_replay(queries.replay(found, replay_id, user=user)))
+
+    @extend_schema(operation_id="cancel_replay", request=None, responses={204: None}, tags=["evaluations"])
+    @replay.mapping.delete
+    def cancel_replay(
+        self, request: Request, project_id: UUID, evaluation_id: UUID, replay_id: UUID
+    ) -> Response:
+        """Takes the wish for a replay back; one that runs ends."""
+        writes.cancel_replay(project_id, evaluation_id, replay_id, acting_user=user_of(request))
+        return Response(status=204)
 
     @extend_schema(
         operation_id="download_outcomes",

@@ -5,18 +5,21 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from django.db import transaction
+from django.db.models import Sum
+from django.db.models.functions import Length
 from django.utils import timezone
 
 from backend.config.environment import environment
 from backend.core.locks import transaction_lock
 from backend.evaluations import queries
-from backend.evaluations.choices import LIVE, NOT_COUNTED, JobState
+from backend.evaluations.choices import LIVE, NOT_COUNTED, JobState, Obstacle
 from backend.evaluations.errors import NoEvaluationError, WrongStateError
 from backend.evaluations.models import Evaluation, Outcome, Replay
 from backend.evaluations.queries import ENDING, FOLDER
 from backend.projects.storage import queries as projects
 from backend.projects.storage.access import Need
 from backend.sessions.writes import has_room_for_evaluations
+from translator.limits import megabytes
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,14 +35,19 @@ MOST_WAITING: Final = 20
 MOST_ERROR: Final = 20_000
 MOST_WHY: Final = 2000
 MOST_TRIES: Final = 3
+DELETE_SOME: Final = "Delete an older evaluation of the project, then run the rest."
+_HINTS: Final = {
+    Obstacle.ONE_PLACE: "Use `bt-studio evaluate` on the command line.",
+    Obstacle.ARCHIVED: "Take it out of the archive first.",
+}
 _TURN: Final = "evaluations of {}"
 
 
-def why_not(project: Project) -> str:
-    """Returns why nobody can start an evaluation on this server; "" if one can."""
+def why_not(project: Project) -> Obstacle:
+    """Returns why nobody can start an evaluation of a project; `NONE` if one can."""
     if not has_room_for_evaluations():
-        return "This server has one place for robots, and that is kept for users who work."
-    return "The project is archived." if project.archived_at else ""
+        return Obstacle.ONE_PLACE
+    return Obstacle.ARCHIVED if project.archived_at else Obstacle.NONE
 
 
 def start(project_id: UUID, name: str, runs: int, *, acting_user: User, sealed: bool = False) -> Evaluation:
@@ -58,6 +66,7 @@ def start(project_id: UUID, name: str, runs: int, *, acting_user: User, sealed: 
             raise NoEvaluationError(
                 f"The project has no evaluation “{name}”.", hint=f"Save it as {FOLDER}{name}{ENDING}."
             )
+        _require_room(project)
         if Evaluation.objects.filter(project=project, state__in=LIVE).count() >= MOST_WAITING:
             raise WrongStateError(
                 f"{MOST_WAITING} evaluations of this project wait or run.", hint="Cancel one of them first."
@@ -138,6 +147,8 @@ def _begin_again(
     Outcome.objects.filter(evaluation=found, outcome__in=NOT_COUNTED).delete()
     if "older" in changes and found.older not in (None, changes["older"]):
         Outcome.objects.filter(evaluation=found, revision=found.older).delete()
+    _measure(found.id)
+    _require_room(found.project)
     return queries.evaluation(project_id, evaluation_id, user=acting_user)
 
 
@@ -163,6 +174,12 @@ def ask_replay(
     return Replay.objects.create(
         evaluation=found, user=acting_user, revision=revision, seed=seed, created_at=timezone.now()
     )
+
+
+def cancel_replay(project_id: UUID, evaluation_id: UUID, replay_id: UUID, *, acting_user: User) -> None:
+    """Takes the wish for a replay back; one that runs ends. What is recorded already stays."""
+    found = queries.evaluation(project_id, evaluation_id, user=acting_user, need=Need.RUN)
+    queries.replay(found, replay_id, user=acting_user).delete()
 
 
 # --- what the collector writes --------------------------------------------------------------------
@@ -200,8 +217,31 @@ def store(found: Evaluation, revision: int, told: Sequence[tuple[Done, Line]]) -
         about = {name: getattr(last, name) for name in ("done", "wanted", "rate", "low", "high")}
         locked.results = {**locked.results, str(revision): about}
         locked.left_s, locked.tries = last.left_s, 0
-        locked.save(update_fields=["results", "left_s", "tries"])
+        locked.line_bytes += sum(len(done.line) for done, _ in told)
+        locked.save(update_fields=["results", "left_s", "tries", "line_bytes"])
+        if locked.state in LIVE and (text := _size_problem(locked.project_id)):
+            finish(locked, JobState.FAILED, f"{text} What is done is kept. {DELETE_SOME}")
+            return False
     return locked.state in LIVE and locked.attempt == found.attempt
+
+
+def _size_problem(project_id: UUID) -> str:
+    """Returns what is wrong with the size of the outcomes of a project; "" if it is within its bound."""
+    used = queries.line_bytes(project_id)
+    limit = environment().max_outcome_bytes
+    if used < limit:
+        return ""
+    return f"The outcomes of this project's evaluations take {megabytes(used)} of {megabytes(limit)}."
+
+
+def _measure(evaluation_id: UUID) -> None:
+    size = Outcome.objects.filter(evaluation=evaluation_id).aggregate(size=Sum(Length("line")))["size"]
+    Evaluation.objects.filter(id=evaluation_id).update(line_bytes=size or 0)
+
+
+def _require_room(project: Project) -> None:
+    if text := _size_problem(project.id):
+        raise WrongStateError(text, hint=DELETE_SOME)
 
 
 def _outcome(found: Evaluation, revision: int, done: Done, line: Line) -> dict[str, Any]:
@@ -234,6 +274,7 @@ def side_done(found: Evaluation, revision: int, wanted: int) -> None:
     about = locked.results.get(str(revision), {}) | {"done": min(wanted, len(known)), "wanted": wanted}
     locked.results = {**locked.results, str(revision): about}
     locked.save(update_fields=["results"])
+    _measure(locked.id)
 
 
 def finish(found: Evaluation, state: JobState, error: str = "") -> None:
@@ -269,8 +310,9 @@ def replayed(found: Replay, state: JobState, error: str = "", run: Run | None = 
 
 
 def _require_possible(project: Project) -> None:
-    if reason := why_not(project):
-        raise NoEvaluationError(reason, hint="Use `bt-studio evaluate` on the command line.")
+    obstacle = why_not(project)
+    if obstacle != Obstacle.NONE:
+        raise NoEvaluationError(str(obstacle.label), hint=_HINTS[obstacle])
 
 
 def hours_left(user: User) -> bool:

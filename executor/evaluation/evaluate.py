@@ -36,6 +36,7 @@ LIBRARIES: Final = (
     "executor.headless.recorder",
     "executor.headless.recording",
     "executor.headless.waiting",
+    "executor.navigation.node",
     "executor.navigation.start",
     "executor.render.choose",
     "executor.ros.default_context",
@@ -44,10 +45,27 @@ LIBRARIES: Final = (
     "executor.ros.shared_topics",
     "executor.ros.spin",
     "executor.world.sensing.sensors",
+    "numpy.random",
+    "rclpy.action",
     "tree_gardener.ros_node",
     "tree_gardener.runner",
 )
 """What every run imports; the parent of all runs has it loaded."""
+
+
+MESSAGES: Final = (
+    "builtin_interfaces.msg.Time",
+    "geometry_msgs.msg.Twist",
+    "nav_msgs.msg.Odometry",
+    "rcl_interfaces.msg.ParameterEvent",
+    "rosgraph_msgs.msg.Clock",
+    "sensor_msgs.msg.LaserScan",
+    "service_msgs.msg.ServiceEventInfo",
+    "std_msgs.msg.Empty",
+    "tf2_msgs.msg.TFMessage",
+    "type_description_interfaces.msg.TypeDescription",
+)
+"""A message of each package whose native library every run loads with its first message."""
 
 
 class ThreadsError(RuntimeError):
@@ -128,6 +146,10 @@ def load_libraries() -> None:
     use_lockstep_environment()
     for name in LIBRARIES:
         importlib.import_module(name)
+    supports = importlib.import_module("rclpy.type_support")
+    for name in MESSAGES:
+        package, _, message = name.rpartition(".")
+        supports.check_for_type_support(getattr(importlib.import_module(package), message))
     importlib.import_module("executor.application.host").prepare()
     importlib.import_module("cv2").setNumThreads(1)
     gc.collect()

@@ -16,6 +16,8 @@ import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from executor.evaluation.summary import Apart
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -77,7 +79,7 @@ def report_data(  # noqa: PLR0913 - the parts of the report
     path: str,
     evaluation: str,
     gates: Sequence[tuple[str, bool]] = (),
-    pairs: Pairs | None = None,
+    pairs: Pairs | Apart | None = None,
     fingerprints: Sequence[str] = (),
     judged_by: str | None = None,
 ) -> dict[str, Any]:
@@ -194,5 +196,8 @@ def _run(outcome: Outcome) -> dict[str, Any]:
     }
 
 
-def _against(pairs: Pairs) -> dict[str, Any]:
-    return {"lines": list(pairs.lines()), "only_older": pairs.only_older, "only_newer": pairs.only_newer}
+def _against(pairs: Pairs | Apart) -> dict[str, Any]:
+    lines = list(pairs.lines())
+    if isinstance(pairs, Apart):
+        return {"lines": lines, "only_older": (), "only_newer": ()}
+    return {"lines": lines, "only_older": pairs.only_older, "only_newer": pairs.only_newer}

@@ -131,6 +131,23 @@ def newcombe_paired(
     )
 
 
+def newcombe(first: int, first_runs: int, second: int, second_runs: int) -> Difference:
+    """Returns the difference of two independent rates, first minus second, with its 95 % interval.
+
+    Newcombe 1998, Statistics in Medicine 17:873, method 10: Wilson's intervals squared and added.
+    """
+    if first_runs == 0 or second_runs == 0:
+        return Difference(0.0, -1.0, 1.0)
+    (low1, high1), (low2, high2) = wilson(first, first_runs), wilson(second, second_runs)
+    rate1, rate2 = first / first_runs, second / second_runs
+    value = rate1 - rate2
+    return Difference(
+        value,
+        value - math.hypot(rate1 - low1, high2 - rate2),
+        value + math.hypot(high1 - rate1, rate2 - low2),
+    )
+
+
 def bootstrap_paired(differences: Sequence[float], confidence: float = 0.95) -> Difference:
     """Returns the mean of paired differences with its percentile interval, from 10,000 draws of a fixed seed.
 

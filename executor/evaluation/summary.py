@@ -13,6 +13,7 @@ from executor.evaluation.statistics import (
     bootstrap_paired,
     confidence_sequence,
     mcnemar,
+    newcombe,
     newcombe_paired,
     quantile,
     wilson,
@@ -157,6 +158,28 @@ class Pairs:
                 f"    {name}: {mean:+.4g} (95 % interval {lowest:+.4g} to {highest:+.4g}, {count} pairs,"
                 " not corrected for many comparisons)"
             )
+
+
+@dataclass(frozen=True)
+class Apart:
+    """Two versions, each in its own world: their runs are no pairs, whatever their seeds are."""
+
+    older: Summary
+    newer: Summary
+
+    def lines(self) -> Iterator[str]:
+        """Yields the lines that the terminal shows for the comparison."""
+        older, newer = self.older, self.newer
+        value, low, high = newcombe(newer.successes, newer.counted, older.successes, older.counted)
+        yield (
+            f"against the older version, each in its own world: {value:+.1%} (95 % interval {low:+.1%} to"
+            f" {high:+.1%}, not paired); the older one: {older.successes} of {older.counted}"
+        )
+        before = older.measures
+        for name, values in newer.measures.items():
+            if name in before:
+                then, now = quantile(before[name], 0.5), quantile(values, 0.5)
+                yield f"    {name}: median {then:.4g} before, {now:.4g} now"
 
 
 def pair(older: Sequence[Outcome], newer: Sequence[Outcome]) -> Pairs:

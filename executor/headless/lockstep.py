@@ -287,14 +287,14 @@ class LockstepRun:
         from executor.application.locate import Locator  # noqa: PLC0415
         from executor.application.randomness import seed_randomness  # noqa: PLC0415
         from translator import self_contained  # noqa: PLC0415
-        from translator.package.app import app_files  # noqa: PLC0415
+        from translator.package.app import files_beside_engine  # noqa: PLC0415
         from tree_gardener import Tree  # noqa: PLC0415
 
         app = project.files.get(TREE_FILE)
         text = app.decode("utf-8") if app is not None else self_contained(project)
         folder = Scratch()
         self._stack.append(folder.remove)
-        write_files(folder.path, app_files(project))
+        write_files(folder.path, files_beside_engine(project))
         prepare()
         self._stack.append(enter(folder.path))
         options = self._options

@@ -289,6 +289,7 @@ def _evaluate(story, teacher, one):
     story.ask(teacher, "GET", f"{own}/report.html")
     replay = story.ask(teacher, "POST", f"{own}/replays", {"revision": found.revision, "seed": 0}, status=201)
     story.ask(teacher, "GET", f"{own}/replays/{replay['id']}")
+    story.ask(teacher, "DELETE", f"{own}/replays/{replay['id']}", status=204)
     story.ask(teacher, "POST", f"{own}/cancel")
     story.ask(teacher, "POST", f"{own}/compare", {"revision": found.revision - 1})
     story.ask(teacher, "POST", f"{own}/resume", status=409)

@@ -115,6 +115,7 @@ POLICY = {
     ("get", f"{E}/outcomes/{{seed}}"): READ,
     ("post", f"{E}/replays"): (401, 403, 404, 201, 201, 201),
     ("get", f"{E}/replays/{{replay_id}}"): (401, 404, 404, 404, 404, 404),  # the teacher's
+    ("delete", f"{E}/replays/{{replay_id}}"): (401, 403, 404, 404, 404, 404),  # the teacher's
     ("get", f"{E}/runs.jsonl"): READ,
     ("get", f"{E}/report.html"): (401, 409, 404, 409, 409, 409),  # nothing is done
     ("get", "/api/v1/runs"): PERSONAL,

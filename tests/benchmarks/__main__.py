@@ -10,6 +10,7 @@ import sys
 BENCHMARKS = (
     "engine",
     "debugger",
+    "groot",
     "translator",
     "behaviours",
     "difference",

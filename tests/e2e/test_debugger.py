@@ -24,6 +24,7 @@ def test_why_turn_never_ends_is_found_with_a_breakpoint(studio: Studio) -> None:
     its_result_is_seen_by_keys(studio)
     a_result_is_forced_and_released(studio)
     breakpoints_outlast_a_reload(studio)
+    the_past_of_a_held_run_is_looked_at(studio)
     it_is_corrected_and_run_again(studio)
     all_breakpoints_are_switched_off_by_a_key(studio)
     studio.end_session()
@@ -62,6 +63,18 @@ def a_result_is_forced_and_released(studio: Studio) -> None:
     held_at(studio, CHECK, "it returned FAILURE")
     studio.at("release").click()
     expect(studio.at(f"forced-MainTree/{CHECK}")).to_have_count(0)
+
+
+def the_past_of_a_held_run_is_looked_at(studio: Studio) -> None:
+    studio.at("axis-strip").click(position={"x": 5, "y": 5})
+    expect(studio.at("time-axis")).to_have_attribute("data-past", "true")
+    expect(studio.at("held-banner")).to_have_count(0)
+    expect(studio.page.locator("[data-held]")).to_have_count(0)
+    past = studio.at("recorded-canvas")
+    expect(past.get_by_test_id(f"node-{TURN}")).to_have_attribute("data-status", "RUNNING")
+    studio.page.keyboard.press("Escape")
+    expect(past).to_have_count(0)
+    held_at(studio, CHECK, "it returned FAILURE")
 
 
 def breakpoints_outlast_a_reload(studio: Studio) -> None:

@@ -9,6 +9,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.budget import count
+from tests.e2e.accessibility import expect_accessible, expect_no_findings, expect_to_fit
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -52,6 +53,7 @@ def test_a_fault_is_found_by_runs_seen_in_the_worst_repaired_and_compared(
     repaired = runs_are_evaluated(studio, before)
     assert repaired > faulty + 30
     the_repair_is_compared(studio, before)
+    it_is_used_by_keys_in_a_narrow_dark_window(studio)
 
 
 def an_evaluation_is_written(studio: Studio) -> None:
@@ -130,3 +132,44 @@ def the_repair_is_compared(studio: Studio, before: str) -> None:
     expect(comparison).to_contain_text("succeeds more often", timeout=SLOW_MS)
     expect(comparison.get_by_text("Only the newer one succeeds on the seeds")).to_be_visible()
     studio.picture("evaluate-compared")
+
+
+def it_is_used_by_keys_in_a_narrow_dark_window(studio: Studio) -> None:
+    """The focus never gets lost: where a control goes away, the keys continue at what came in its place."""
+    panel, page = studio.at("evaluate"), studio.page
+    page.set_viewport_size({"width": 390, "height": 844})
+    studio.command("Evaluate")
+    expect_accessible(studio, "dark")
+    expect_to_fit(page, "evaluations")
+    studio.picture("evaluate-narrow")
+    panel.get_by_role("button", name="More about this evaluation").focus()
+    page.keyboard.press("Enter")
+    page.get_by_role("menuitem", name="Delete").press("Enter")
+    expect(panel.get_by_role("button", name="Keep", exact=True)).to_be_focused()
+    expect_no_findings(page, "evaluations, the question", "[data-testid=evaluate]")
+    page.keyboard.press("Enter")
+    expect(panel.locator(":focus")).to_have_count(1)
+    a_replay_is_cancelled(studio)
+    panel.get_by_role("button", name="New…").press("Enter")
+    expect(panel.get_by_role("textbox", name="Name")).to_be_focused()
+    page.keyboard.type("narrow")
+    page.keyboard.press("Enter")
+    expect(panel.get_by_role("button", name="Open the YAML beside")).to_be_focused()
+    expect_no_findings(page, "evaluations, the form", "[data-testid=evaluate]")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    expect(panel.get_by_test_id("evaluation-form")).to_have_count(0)
+    expect(panel.locator(":focus")).to_have_count(1)
+    studio.saved()
+
+
+def a_replay_is_cancelled(studio: Studio) -> None:
+    panel, page = studio.at("evaluate"), studio.page
+    panel.get_by_role("slider", name="Runs by seed").focus()
+    page.keyboard.press("End")
+    page.keyboard.press("Enter")
+    panel.get_by_role("button", name="Cancel the replay").first.press("Enter")
+    expect(panel.get_by_role("button", name="Cancel the replay")).to_have_count(0)
+    expect(panel.locator(":focus")).to_have_count(1)
+    page.wait_for_timeout(300)  # what was under way would still arrive
+    assert "?run=" not in page.url

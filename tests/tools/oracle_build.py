@@ -8,10 +8,8 @@ case gives the same trace on any machine: a step ``sleep`` advances it.
 from __future__ import annotations
 
 import subprocess
-from typing import TYPE_CHECKING, Final
-
-if TYPE_CHECKING:
-    from pathlib import Path
+from pathlib import Path
+from typing import Final
 
 NICE: Final = ("nice", "-n", "19")
 PRELUDE: Final = """
@@ -37,6 +35,14 @@ NODES: Final = {
     "NonblockingSequence": ("control/nonblocking_sequence", "NonblockingSequence"),
     "RateController": ("decorator/rate_controller", "RateController"),
 }
+CONTRACT_NODES: Final = Path(__file__).with_name("contract_nodes.hpp")
+PROGRAMMED: Final = {
+    "Own": ("Control", "false"),
+    "OwnMarked": ("Control", "true"),
+    "OwnDecorator": ("Decorator", "false"),
+    "OwnDecoratorMarked": ("Decorator", "true"),
+}
+BEFORE_NODES: Final = "static json num"
 LEFT_OUT: Final = {"manual_node", "shared_library_WIN"}
 DEFINED: Final = '-DBTCPP_LIBRARY_VERSION="4.10.0"'
 MARK: Final = 'f.registerNodeType<Leaf>("Leaf");'
@@ -57,13 +63,8 @@ def build(folder: Path, program: Path, btcpp: Path, nav2: Path) -> Path:
     prelude = folder / "prelude.hpp"
     _write(prelude, PRELUDE)
     _write(folder / "cases.cpp", _with_nodes(program.read_text()))
-    third = btcpp / "3rdparty"
-    own = [btcpp / "include", third, *(third / name for name in ("tinyxml2", "minicoro", "minitrace"))]
+    objects, own = _library(folder, btcpp)
     theirs = [*own, nav2 / "nav2_behavior_tree" / "include"]
-    objects = [
-        _compile(source, folder / f"{source.stem}.o", own)
-        for source in (*_sources(btcpp), third / "tinyxml2" / "tinyxml2.cpp")
-    ]
     plugins = nav2 / "nav2_behavior_tree" / "plugins"
     for path, _ in NODES.values():
         source = plugins / f"{path}.cpp"
@@ -72,6 +73,35 @@ def build(folder: Path, program: Path, btcpp: Path, nav2: Path) -> Path:
     result = folder / "cases"
     _run("g++", *map(str, objects), "-o", str(result), "-lpthread", "-ldl")
     return result
+
+
+def build_contract(folder: Path, program: Path, btcpp: Path) -> Path:
+    """Does the same with the nodes of `contract_nodes.hpp` in place of Nav2's."""
+    folder.mkdir(parents=True, exist_ok=True)
+    objects, own = _library(folder, btcpp)
+    lines = "".join(
+        f'f.registerNodeType<Programmed<Own{base},{marks}>>("{tag}");'
+        for tag, (base, marks) in PROGRAMMED.items()
+    )
+    include = f'#include "{CONTRACT_NODES}"\n{BEFORE_NODES}'
+    text = program.read_text()
+    for mark in (MARK, BEFORE_NODES):
+        if mark not in text:
+            raise ValueError(f"the program has no '{mark}'")
+    source = folder / "contract.cpp"
+    _write(source, text.replace(MARK, MARK + lines).replace(BEFORE_NODES, include, 1))
+    objects.append(_compile(source, folder / "contract.o", own))
+    result = folder / "contract"
+    _run("g++", *map(str, objects), "-o", str(result), "-lpthread", "-ldl")
+    return result
+
+
+def _library(folder: Path, btcpp: Path) -> tuple[list[Path], list[Path]]:
+    """Compiles BehaviorTree.CPP; returns its objects and the folders of its headers."""
+    third = btcpp / "3rdparty"
+    own = [btcpp / "include", third, *(third / name for name in ("tinyxml2", "minicoro", "minitrace"))]
+    sources = (*_sources(btcpp), third / "tinyxml2" / "tinyxml2.cpp")
+    return [_compile(source, folder / f"{source.stem}.o", own) for source in sources], own
 
 
 def _sources(btcpp: Path) -> list[Path]:

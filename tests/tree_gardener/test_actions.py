@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import importlib
 import linecache
+import sys
 from typing import TYPE_CHECKING
 
 import pytest
@@ -60,6 +62,25 @@ def test_a_folder_of_actions_that_import_one_another(tmp_path: Path) -> None:
     assert sorted(classes) == ["Again", "Alias", "Go"]
     assert issubclass(classes["Again"], classes["Go"])
     assert issubclass(classes["Alias"], classes["Go"])
+
+
+def test_an_action_whose_folder_is_in_pythons_path_is_run_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "actions"
+    folder.mkdir()
+    (folder / "Go.py").write_text(GO)
+    (folder / "Alias.py").write_text("from Go import Go\n\nclass Alias(Go):\n    pass\n")
+    (folder / "shelve.py").write_text("raise SystemExit")
+    monkeypatch.syspath_prepend(tmp_path)
+    sys.path.append(str(folder))
+    for _ in range(2):  # another set of actions has modules of its own
+        classes = load_actions(folder, only=("Alias", "Go"))
+        assert issubclass(classes["Alias"], classes["Go"])
+        assert sys.modules["Go"] is sys.modules["actions.Go"]
+    assert importlib.import_module("shelve").__name__ == "shelve"  # Python's own module goes first
+    load_actions({})
+    assert {"Go", "actions.Go"}.isdisjoint(sys.modules)
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import threading
-import time
 from typing import TYPE_CHECKING
 
 import pytest
@@ -12,7 +11,7 @@ import pytest
 from backend.cli import conformance as verb
 from backend.cli.shared.errors import CliError
 from tests.tree_gardener.debugging.hooked import free_port, hook_of
-from tests.tree_gardener.debugging.zmtp import Groot2
+from tests.tree_gardener.groot.zmtp import Groot2
 from tests.tree_gardener.trees import subtree
 from tree_gardener import Status
 from tree_gardener.__main__ import main
@@ -60,7 +59,7 @@ def test_a_run_is_followed_by_groot2(tree: Path, capsys: pytest.CaptureFixture[s
     seen: list[bytes] = []
 
     def follow() -> None:
-        client = waiting_for(port)
+        client = Groot2.as_soon_as_served(port)
         seen.extend([client.ask("T")[0], client.ask("S")[0]])
         client.insert_hooks([hook_of(Force(1, Status.SUCCESS), 0)])
         client.close()
@@ -73,17 +72,6 @@ def test_a_run_is_followed_by_groot2(tree: Path, capsys: pytest.CaptureFixture[s
     assert len(seen[1]) == 9
     assert main(["run", str(tree), "--actions", str(tree.parent / "actions"), "--groot2", "70000"]) == 2
     assert "port 70000" in capsys.readouterr().err
-
-
-def waiting_for(port: int) -> Groot2:
-    """A client, as soon as the publisher is there."""
-    end_s = time.monotonic() + 60
-    while True:
-        try:
-            return Groot2(port)
-        except OSError:
-            assert time.monotonic() < end_s
-            time.sleep(0.01)
 
 
 def test_what_cannot_run_says_why(tree: Path, capsys: pytest.CaptureFixture[str]) -> None:

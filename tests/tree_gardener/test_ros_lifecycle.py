@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from tests.tree_gardener.debugging.hooked import free_port
+from tests.tree_gardener.groot.zmtp import Groot2
 from tests.tree_gardener.programs import Peer, program
 from tree_gardener.ros_lifecycle import LifecycleActionNode
 
@@ -141,6 +143,15 @@ def test_the_states_load_tick_halt_and_close(manage: Any) -> None:
     assert manager.change(ACTIVE_SHUTDOWN)
     assert manager.state() == FINALIZED
     assert manager.marks()[-2:] == ["INVALID", "shutdown"]
+
+
+def test_groot2_follows_the_configured_tree(manage: Any) -> None:
+    port = free_port()
+    manager = manage(f"--groot2_port={port}")
+    assert manager.change(CONFIGURE)
+    groot = Groot2.as_soon_as_served(port)
+    assert b"<Mark " in groot.ask("T")[0]
+    groot.close()
 
 
 def test_a_tree_that_ends_deactivates_the_node(manage: Any) -> None:

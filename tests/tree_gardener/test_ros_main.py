@@ -5,13 +5,19 @@ from __future__ import annotations
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
+import threading
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from tests.tree_gardener.debugging.hooked import free_port, hook_of
+from tests.tree_gardener.groot.zmtp import Groot2
+from tree_gardener import Status
+from tree_gardener.debugging import Force
 from tree_gardener.ros_main import run_tree
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -85,6 +91,33 @@ def test_what_is_not_given_is_what_the_package_says(run: Any) -> None:
     }
 
 
+def test_groot2_follows_and_ends_a_run(run: Any, tmp_path: Path) -> None:
+    endless = "<Sequence><Note/><Sleep msec='600000'/></Sequence>"
+    (tmp_path / "tree.xml").write_text(TREE.replace("<Note/>", endless))
+    port = free_port()
+
+    def end() -> None:
+        client = Groot2.as_soon_as_served(port)
+        client.insert_hooks([hook_of(Force(3, Status.SUCCESS), 0)])
+        client.close()
+
+    client = threading.Thread(target=end)
+    client.start()
+    status, _, said = run(under("/**", groot2_port=str(port), tick_hz="50"))
+    client.join()
+    assert status == 0
+    assert f"Groot2 can follow the tree at 127.0.0.1:{port}" in said
+
+
+def test_a_tree_runs_without_groot2_where_its_port_is_taken(run: Any) -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        port = taken.getsockname()[1]
+        status, _, said = run(under("/**", gain="1.0"), f"--groot2_port={port}")
+    assert status == 0
+    assert f"Groot2 cannot follow the tree: Groot2 needs the ports {port}" in said
+
+
 @pytest.mark.parametrize("header", ["/**", "/noting", "noting", "/*"])
 def test_a_file_of_parameters_goes_before_that(run: Any, header: str) -> None:
     _, values, _ = run(under(header, tick_hz="40", on_error="failure"), tick_hz=50.0)
@@ -106,6 +139,9 @@ def test_an_argument_goes_before_the_file_whatever_its_sections_and_types(run: A
             [],
             "tick_hz is 'fast', but has to be a number above 0 (FILE, line 3)",
         ),
+        (under("/**", gain="1.0"), ["--groot2_port=70000"], "groot2_port is 70000, but has to be a port"),
+        (under("/**", groot2_port="high"), [], "groot2_port is 'high', but has to be a port"),
+        (under("/**", groot2_host="7"), [], "groot2_host is 7, but has to be an address"),
         (under("/**", tick_hz="true"), [], "tick_hz is true, but has to be a number above 0 (FILE, line 3)"),
         (under("/**", tick_hz="0"), [], "tick_hz is 0, but"),
         (under("/**", tick_hz=".inf"), [], "tick_hz is inf, but"),

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from tests.tree_gardener.debugging.hooked import free_port
+from tests.tree_gardener.groot.zmtp import Groot2
 from tests.tree_gardener.programs import Peer, program
 from tree_gardener.ros_server import CANCELLED, FINISHED, PREEMPTED, SHUT_DOWN
 
@@ -165,6 +167,19 @@ def test_trees_run_by_name_with_the_results_of_tree_execution_server(serve: Any)
     assert "no arm" in message
     assert "Breaks" in message
     assert "Traceback" in client.said(), "for the author of the action"
+
+
+def test_groot2_follows_the_tree_that_runs(serve: Any) -> None:
+    port = free_port()
+    client = serve(f"--groot2_port={port}")
+    seen = []
+    for tree in ("Main", "Fails"):
+        client.run(tree)
+        groot = Groot2.as_soon_as_served(port)
+        seen.append(groot.ask("T")[0])
+        groot.close()
+    assert [b'ID="Main"' in seen[0], b'ID="Fails"' in seen[1]] == [True, True]
+    assert f"at 127.0.0.1:{port}" in client.said()
 
 
 def test_the_payload_is_on_the_blackboard(serve: Any) -> None:

@@ -35,10 +35,14 @@ def app_files(project: Project) -> dict[str, bytes]:
 
     All Python travels along: actions import it, and launch files start it.
     """
+    return {**files_beside_engine(project), **engine_files()}
+
+
+def files_beside_engine(project: Project) -> dict[str, bytes]:
+    """Returns the files of the app without the engine, for a process that has loaded it."""
     files = {
         path: raw for path, raw in project.files.items() if path.startswith(FOLDERS) or path.endswith(".py")
     }
-    files.update(engine_files())
     files[PROJECT_FILE] = (
         json.dumps(project.settings.to_json(), ensure_ascii=False, indent=2) + "\n"
     ).encode()

@@ -6,7 +6,7 @@ import gzip
 import json
 import math
 import pathlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from tree_gardener.blackboard import EMPTY, Blackboard, Entry
@@ -62,12 +62,12 @@ def run_file(path: str | pathlib.Path) -> Iterator[Outcome]:
             yield run_case(json.loads(line))
 
 
-def run_case(case: dict[str, Any]) -> Outcome:
-    """Runs one case of any kind."""
+def run_case(case: dict[str, Any], nodes: Callable[[Trace], Mapping[str, Any]] | None = None) -> Outcome:
+    """Runs one case of any kind; `nodes` makes classes that its trees use beside the usual ones."""
     if "rejected_410" in case:
         return _run_load_case(case)
     try:
-        run = _Run(case)
+        run = _Run(case, nodes)
         return _outcome(case["name"], tuple(run.differences()), run)
     except LoadError as error:
         if case.get("load_error"):
@@ -104,7 +104,9 @@ def _run_load_case(case: dict[str, Any]) -> Outcome:
 class _Run:
     """One case in progress."""
 
-    def __init__(self, case: dict[str, Any]) -> None:
+    def __init__(
+        self, case: dict[str, Any], nodes: Callable[[Trace], Mapping[str, Any]] | None = None
+    ) -> None:
         self.case = case
         self.trace = Trace()
         self.clock = ManualClock()
@@ -116,7 +118,7 @@ class _Run:
             compile_script(case["init_script"]).run(Environment(board, self.enums))
         self.tree = Tree.from_xml(
             case["xml"],
-            {**NODES, **leaves(self.trace)},
+            {**NODES, **leaves(self.trace), **(nodes(self.trace) if nodes is not None else {})},
             self.clock,
             blackboard=board,
             enums=self.enums,

@@ -11,6 +11,7 @@ contract are TickErrors with a code:
 * TG705: the node, or one of its children, was ticked while it was being ticked.
 """
 
+import contextlib
 from collections.abc import Callable, Mapping
 from threading import get_ident
 from typing import Any
@@ -149,7 +150,10 @@ class CustomControl(Control):
     # -- halting ------------------------------------------------------------------------------------
 
     def halt(self) -> None:
-        """Runs the user's `halt`, then halts the children, even after an exception."""
+        """Runs the user's `halt`, then halts the children, even after an exception, and makes the node IDLE.
+
+        If the children alone raise an exception, the status stays, as that of every control node.
+        """
         self.was_halted = self.is_ticking
         first: TickError | None = None
         if self.own_halt is not None:
@@ -157,13 +161,14 @@ class CustomControl(Control):
                 self.call(self.own_halt)
             except TickError as error:
                 first = error
-        try:
+        if first is None:
             self.reset_children()
-        except TickError as error:
-            first = first or error
+            self.status = IDLE
+            return
+        with contextlib.suppress(TickError):
+            self.reset_children()
         self.status = IDLE
-        if first is not None:
-            raise first from first.cause
+        raise first from first.cause
 
     def halt_by_itself(self) -> None:
         """Halts the children and makes the node IDLE, at the request of the node's own code."""

@@ -49,8 +49,11 @@ class TryCatch(Control):
     def catch(self) -> Status:
         if self.ticks[-1]() is RUNNING:
             return RUNNING
-        self.forget()
-        return self.finish(FAILURE)
+        self.index = 0
+        self.catching = False
+        return self.finish(
+            FAILURE
+        )  # as there, a parent that does not reset the node keeps its count of skips
 
     def halt(self) -> None:
         if not self.catching and self.status is RUNNING and self.get("catch_on_halt"):

@@ -3,11 +3,11 @@
 import json
 import uuid
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 from tree_gardener.groot.document import document_of
 from tree_gardener.groot.hooks import Hooks
-from tree_gardener.groot.mirror import Mirror
+from tree_gardener.groot.mirror import Mirror, Pack
 from tree_gardener.groot.protocol import (
     LONGEST_REQUEST,
     GrootError,
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from tree_gardener.tree import Tree
 
 Content = bytes | None
-Pack = Callable[[Any], bytes]
 
 
 class Answers:

@@ -3,9 +3,10 @@
 import collections
 import threading
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final
 
-from tree_gardener.board_json import blackboard_to_json, value_to_json
+from tree_gardener.board_json import value_to_json
 from tree_gardener.groot.document import instances
 from tree_gardener.groot.protocol import pack_statuses, pack_transition, wire_status
 from tree_gardener.observe import TickChanges
@@ -14,14 +15,21 @@ from tree_gardener.status import SKIPPED, Status
 if TYPE_CHECKING:
     from tree_gardener.tree import Tree
 
+Pack = Callable[[Any], bytes]
 MOST_TRANSITIONS: Final = 1000
 
 
 class Mirror:
-    """The state of a tree after its last tick, as clients see it."""
+    """The state of a tree after its last tick, as clients see it.
 
-    def __init__(self, tree: "Tree") -> None:
+    Args:
+        tree: the tree.
+        pack: writes a value as MessagePack.
+    """
+
+    def __init__(self, tree: "Tree", pack: Pack) -> None:
         self._tree = tree
+        self._pack = pack
         self._lock = threading.Lock()
         self._order = [node.uid for nodes in instances(tree) for node in nodes]
         self._statuses = dict.fromkeys(self._order, 0)
@@ -36,7 +44,10 @@ class Mirror:
         with self._lock:
             for node in self._tree.nodes:
                 self._statuses[node.uid] = wire_status(node.status, self._statuses[node.uid])
-            self._boards = {board.path: blackboard_to_json(board) for board in self._tree.boards}
+            self._boards = {
+                board.path: {key: self._form(entry.value) for key, entry in sorted(board.entries.items())}
+                for board in self._tree.boards
+            }
 
     def ticked(self, changes: TickChanges) -> None:
         """Copies the changes of a tick.
@@ -56,7 +67,16 @@ class Mirror:
                 if entry.removed:
                     board.pop(entry.key, None)
                 else:
-                    board[entry.key] = value_to_json(entry.value)
+                    board[entry.key] = self._form(entry.value)
+
+    def _form(self, value: Any) -> Any:
+        """Returns the form in which a value is sent; None if it has none."""
+        try:
+            form = value_to_json(value)
+            self._pack(form)
+        except Exception:  # noqa: BLE001, RUF100 - the conversion of a user's type, or a number of any size
+            return None
+        return form
 
     def _set(self, uid: int, status: Status) -> None:
         before = self._statuses[uid]

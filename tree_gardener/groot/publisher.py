@@ -8,10 +8,11 @@ answers from copies.
 import threading
 from collections.abc import Callable
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 from tree_gardener.groot.answers import Answers
 from tree_gardener.groot.hooks import Hooks
+from tree_gardener.groot.libraries import libraries
 from tree_gardener.groot.mirror import Mirror
 from tree_gardener.groot.protocol import LONGEST_REQUEST, GrootError, Header, RequestType
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from tree_gardener.tree import Tree
 
 PORT: Final = 1667
+LOCALHOST: Final = "127.0.0.1"
 LAST_PORT: Final = 65534
 SILENCE_S: Final = 5.0
 """So long after its last request a client counts as gone: hooks are off, and a tree that waits continues."""
@@ -42,13 +44,13 @@ class Groot2Publisher:
         ModuleNotFoundError: pyzmq or msgpack is not installed.
     """
 
-    def __init__(self, tree: "Tree", port: int = PORT, host: str = "127.0.0.1") -> None:
-        self._zmq, msgpack = _libraries()
+    def __init__(self, tree: "Tree", port: int = PORT, host: str = LOCALHOST) -> None:
+        self._zmq, msgpack = libraries()
         if not 0 < port <= LAST_PORT:
             raise GrootError(f"port {port}: Groot2 needs two ports from 1 to {LAST_PORT + 1}")
         self.port = port
         self._tree = tree
-        self._mirror = Mirror(tree)
+        self._mirror = Mirror(tree, msgpack.packb)
         self._hooks = Hooks(tree, self._tell, self._mirror.read)
         self._answers = Answers(tree, self._mirror, self._hooks, msgpack.packb)
         self._unobserve: Callable[[], None] | None = None
@@ -155,14 +157,3 @@ class Groot2Publisher:
         """Notifies clients that the hook of a node was reached."""
         self._numbers += 1
         self._told.send_multipart([Header(RequestType.REACHED, self._numbers).pack(), str(uid).encode()])
-
-
-def _libraries() -> tuple[Any, Any]:
-    """Returns pyzmq and msgpack, which only this package needs."""
-    try:
-        import msgpack  # noqa: PLC0415
-        import zmq  # noqa: PLC0415
-    except ModuleNotFoundError as error:
-        text = f"Groot2's protocol needs pyzmq and msgpack: pip install pyzmq msgpack ({error})"
-        raise ModuleNotFoundError(text) from error
-    return zmq, msgpack

@@ -35,6 +35,18 @@ def open_older(newer: Project, project: str, against: str) -> Project:
     return load_in_worlds_of(newer, _files(project, against))
 
 
+def open_older_alone(project: str, against: str) -> Project:
+    """Returns the older version with its own worlds and judges.
+
+    Raises:
+        CliError: there is nothing of this name.
+        TranslatorError: it cannot be read.
+    """
+    from translator import load
+
+    return load(_files(project, against))
+
+
 def load_in_worlds_of(judge: Project, files: Mapping[str, bytes]) -> Project:
     """Returns the trees and actions of some files, with the worlds and judges of another project.
 

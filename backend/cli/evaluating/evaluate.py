@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from executor.evaluation.plan import Plan
     from executor.evaluation.pool.worker import Done
     from executor.evaluation.results import Results
-    from executor.evaluation.summary import Pairs, Summary
+    from executor.evaluation.summary import Apart, Pairs, Summary
 
 ONLY_FAILED = "only-failed"
 AGAINST = "against"
@@ -52,6 +52,12 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
         str | None,
         typer.Option(help="An older version to compare with: a folder, a revision of git, or NAME@7."),
     ] = None,
+    own_world: Annotated[  # noqa: FBT002
+        bool,
+        typer.Option(
+            "--own-world", help="With --against: each version in its own world; nothing is paired then."
+        ),
+    ] = False,
     gate: Annotated[
         list[str] | None,
         typer.Option(help="success>=0.95, rate(success)>=0.95, p95(MEASURE)<=12 or no-worse."),
@@ -84,7 +90,7 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
     from backend.cli.evaluating.one_run import evaluations_of
     from backend.cli.run import fix_hashes
     from backend.cli.shared.errors import CliError
-    from executor.evaluation.summary import pair
+    from executor.evaluation.summary import Apart, pair
     from executor.supervision.single_threaded import SINGLE_THREADED
 
     fix_hashes(SINGLE_THREADED)
@@ -106,20 +112,22 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
         report = report / ONLY_FAILED if only_failed else report
         if not (resume or only_failed):
             _require_new(report)
-    older = None if against is None else _older_plan(plan, project, against)
-    if older is None and any(each.kind == "no-worse" for each in gates):
-        raise typer.BadParameter("name the older version with --against", param_hint="--gate no-worse")
+    is_part = runs is not None or seeds is not None or only_failed
+    older = None if against is None else _older_plan(plan, project, against, own_world=own_world)
+    _require_pairs(gates, against, judged_by, own_world=own_world)
     _warn(gates, plan, len(chosen))
     results, kept = _open_results(plan, report, chosen, resume=resume, strict=strict)
     where = _Where(workers, cluster)
     progress, is_interrupted = _run(plan, chosen, where, kept, results)
     summary = progress.summary(chosen, sequential=plan.evaluation.until is not None)
-    pairs: Pairs | None = None
+    pairs: Pairs | Apart | None = None
     if older is not None and not is_interrupted:
         folder = None if report is None else report / AGAINST
         seeds_run = [outcome.seed for outcome in summary.outcomes]
+        if own_world and not is_part:
+            seeds_run = _seeds(older, None, None)
         before, is_interrupted = _run_older(older, seeds_run, where, folder, resume=resume, strict=strict)
-        pairs = pair(before, summary.outcomes)
+        pairs = Apart(before, summary) if own_world else pair(before.outcomes, summary.outcomes)
     verdicts = _finish(plan, project, summary, gates, results, pairs)
     if junit is not None:
         from backend.cli.evaluating.junit import junit_xml
@@ -184,29 +192,53 @@ def _sealed(plan: Plan) -> Plan:
         raise CliError(f"bt-studio: {error}", status=BAD_ARGUMENTS) from error
 
 
-def _older_plan(plan: Plan, project: str, against: str) -> Plan:
-    """Returns the plan of the older version, in the worlds of the newer one."""
-    from backend.cli.evaluating.against import open_older
+def _require_pairs(
+    gates: Sequence[Gate], against: str | None, judged_by: str | None, *, own_world: bool
+) -> None:
+    """Refuses what only pairs could answer, and what has no older version."""
+    if against is None and own_world:
+        raise typer.BadParameter("name the older version with --against", param_hint="--own-world")
+    if own_world and judged_by is not None:
+        raise typer.BadParameter("leave out one of both", param_hint="--own-world / --judged-by")
+    if not any(each.kind == "no-worse" for each in gates):
+        return
+    if against is None:
+        raise typer.BadParameter("name the older version with --against", param_hint="--gate no-worse")
+    if own_world:
+        raise typer.BadParameter(
+            "it needs pairs, and runs in different worlds are none: leave out --own-world",
+            param_hint="--gate no-worse",
+        )
+
+
+def _older_plan(plan: Plan, project: str, against: str, *, own_world: bool) -> Plan:
+    """Returns the plan of the older version, in the worlds of the newer one or in its own."""
+    from backend.cli.evaluating.against import open_older, open_older_alone
     from backend.cli.evaluating.one_run import explained
+    from executor.evaluation.plan import make_plan
 
     with explained():
-        older = plan.with_project(open_older(plan.project, project, against))
+        if own_world:
+            older = make_plan(open_older_alone(project, against), plan.name)
+            older = dataclasses.replace(older, to_the_end=plan.to_the_end, sealed=plan.sealed)
+        else:
+            older = plan.with_project(open_older(plan.project, project, against))
     evaluation = older.evaluation.model_copy(update={"until": None, "runs": older.evaluation.most_runs})
     return dataclasses.replace(older, evaluation=evaluation)
 
 
 def _run_older(  # noqa: PLR0913 - as the options say
     plan: Plan, seeds: Sequence[int], where: _Where, folder: Path | None, *, resume: bool, strict: bool
-) -> tuple[list[Outcome], bool]:
-    """Runs the older version on the same seeds; returns its outcomes, and whether Ctrl+C ended it."""
+) -> tuple[Summary, bool]:
+    """Runs the older version on seeds; returns its results, and whether Ctrl+C ended it."""
     is_begun = folder is not None and (folder / "evaluation.json").exists()
     results, kept = _open_results(plan, folder, seeds, resume=resume and is_begun, strict=strict)
     print("the older version:", flush=True)
     progress, is_interrupted = _run(plan, seeds, where, kept, results)
-    outcomes = list(progress.summary(seeds, sequential=False).outcomes)
+    summary = progress.summary(seeds, sequential=False)
     if results is not None:
-        results.finish(outcomes)
-    return outcomes, is_interrupted
+        results.finish(summary.outcomes)
+    return summary, is_interrupted
 
 
 def _seeds(plan: Plan, listed: str | None, failed_in: Path | None) -> list[int]:
@@ -329,11 +361,12 @@ def _finish(  # noqa: PLR0913, PLR0917 - all that the results are of
     summary: Summary,
     gates: Sequence[Gate],
     results: Results | None,
-    pairs: Pairs | None,
+    pairs: Pairs | Apart | None,
 ) -> list[Verdict]:
     """Prints and writes the results; returns the verdicts of the gates."""
     from executor.evaluation.gates import check_gate
     from executor.evaluation.report import command_of, report_data, report_html
+    from executor.evaluation.summary import Pairs
 
     for line in summary.lines(plan.name):
         print(line)
@@ -342,7 +375,8 @@ def _finish(  # noqa: PLR0913, PLR0917 - all that the results are of
         print(f"        {command_of(project, plan.name, outcome.seed, plan.judged_by)}")
     for line in pairs.lines() if pairs is not None else ():
         print(line)
-    verdicts = [check_gate(gate, summary, pairs) for gate in gates]
+    paired = pairs if isinstance(pairs, Pairs) else None
+    verdicts = [check_gate(gate, summary, paired) for gate in gates]
     for verdict in verdicts:
         print(verdict)
     if results is not None:

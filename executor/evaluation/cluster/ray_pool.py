@@ -7,7 +7,9 @@ into the object store; a task is a batch of seeds.
 from __future__ import annotations
 
 import os
+import re
 import secrets
+import socket
 import sys
 import warnings
 from pathlib import Path
@@ -27,6 +29,8 @@ BATCH_S: Final = 30.0
 STORE_BYTES: Final = 200 << 20
 AUTO: Final = "auto"
 NOTED: Final = Path("/tmp/ray/ray_current_cluster")  # noqa: S108 - where Ray keeps it
+REACH_S: Final = 5.0
+_HOST_PORT: Final = re.compile(r"(?:ray://)?\[?([^\[\]/]+?)\]?:(\d{1,5})")
 MISSING: Final = (
     "--cluster needs Ray, which is not installed: {python} -m pip install 'ray~=2.60' (the extra `cluster`)"
 )
@@ -182,6 +186,8 @@ def connect(ray: Any, address: str | None) -> None:
     if address is None:
         options |= {"include_dashboard": False, "object_store_memory": STORE_BYTES}
         options |= {"_node_ip_address": "127.0.0.1"}
+    if problem := _unreachable(address):
+        raise ClusterError(f"--cluster {address}: {problem}")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
@@ -192,6 +198,22 @@ def connect(ray: Any, address: str | None) -> None:
             raise ClusterError(
                 f"--cluster {address or AUTO}: there is no Ray cluster: {text}{stale}"
             ) from error
+
+
+def _unreachable(address: str | None) -> str:
+    """Returns why nothing answers at HOST:PORT; "" if it does, or if the address is of another kind.
+
+    Ray itself tries for over a minute, and says nothing meanwhile.
+    """
+    found = _HOST_PORT.fullmatch(address or "")
+    if found is None:
+        return ""
+    try:
+        socket.create_connection((found[1], int(found[2])), timeout=REACH_S).close()
+    except OSError as error:
+        why = error.strerror or str(error)
+        return f"nothing answers there ({why}). Is it the address of the head node, with the port of Ray?"
+    return ""
 
 
 def _lost(seed: int, why: str) -> Done:

@@ -94,9 +94,9 @@ class SealedRun(EvaluationRun):
         self._load()
 
     def _load(self) -> None:
-        from translator.package.app import TREE_FILE, app_files  # noqa: PLC0415 - slow to load
+        from translator.package.app import TREE_FILE, files_beside_engine  # noqa: PLC0415 - slow to load
 
-        files = app_files(self._project)
+        files = files_beside_engine(self._project)
         shown = {path: data for path, data in files.items() if not path.startswith(HIDDEN)}
         commands = [
             Topic(

@@ -68,7 +68,8 @@ def released(stage: Stage, child: Child, message: child_messages.Released) -> No
     """Handles the message that the tree runs on."""
     child.is_holding = False
     stage.hold.since_s = None
-    stage.output.emit(messages.Released())
+    wanted = stage.hold.breakpoints
+    stage.output.emit(messages.Released(off=wanted is not None and not wanted.on))
     if child.is_stopping or stage.state is not State.HELD:
         return
     if message.paused:

@@ -77,6 +77,12 @@ export const evaluations = {
         params: { path: { ...at(projectId, id).path, replay_id } },
       }),
     ),
+  cancelReplay: (projectId: string, id: string, replay_id: string) =>
+    done(
+      rest.DELETE('/api/v1/projects/{project_id}/evaluations/{evaluation_id}/replays/{replay_id}', {
+        params: { path: { ...at(projectId, id).path, replay_id } },
+      }),
+    ),
   linesUrl: (projectId: string, id: string, revision: number) =>
     urlOf(`/projects/${projectId}/evaluations/${id}/runs.jsonl?revision=${revision}`),
   reportUrl: (projectId: string, id: string) => urlOf(`/projects/${projectId}/evaluations/${id}/report.html`),

@@ -717,7 +717,8 @@ export interface paths {
         get: operations["get_replay"];
         put?: never;
         post?: never;
-        delete?: never;
+        /** @description Takes the wish for a replay back; one that runs ends. */
+        delete: operations["cancel_replay"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1763,8 +1764,8 @@ export interface components {
             may_start: boolean;
             /** @description Whether you may play a run again. */
             may_replay: boolean;
-            /** @description Why this server runs none; else empty. */
-            why_not: string;
+            /** @description Why none can be started: the server has one place for robots, or the project is archived. Else empty. */
+            why_not: components["schemas"]["WhyNotEnum"] | components["schemas"]["BlankEnum"];
         };
         /** @enum {string} */
         EvaluationState: "waiting" | "running" | "done" | "cancelled" | "failed";
@@ -2600,6 +2601,8 @@ export interface components {
                 [key: string]: unknown;
             };
         };
+        /** @enum {string} */
+        WhyNotEnum: "one_place" | "archived";
         /** @description A diagram that is to be converted to XML. */
         WriteTreeRequest: {
             /** @description Diagram JSON, as in trees/<TreeID>.json. */
@@ -4308,6 +4311,38 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["Replay"];
                 };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    cancel_replay: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                evaluation_id: string;
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+                replay_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No response body */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description A problem document. */
             default: {

@@ -128,8 +128,14 @@ export interface Held {
   outside: boolean;
 }
 
-/** The tree is not held any more. */
-export type Released = Record<string, never>;
+/**
+ * The tree is not held any more.
+ *
+ * With `off` all breakpoints are off now, as after a hold that lasted too long.
+ */
+export interface Released {
+  off: boolean;
+}
 
 /** A result that is forced on a node; `skips_to` is the node to which the skips lead, or 0. */
 export interface ForcedNode {

@@ -193,6 +193,23 @@ def test_a_replay_interrupts_an_evaluation_which_then_continues(people, collect)
     assert found.state == JobState.DONE
 
 
+def test_a_replay_that_is_cancelled_ends_its_session_and_keeps_nothing(people, collect):
+    found = wish(people)
+    store(found, done(0))
+    writes.finish(found, JobState.DONE)
+    owner = people.owner.user
+    replay = writes.ask_replay(people.project.id, found.id, 1, 0, acting_user=owner)
+
+    def script(data):
+        writes.cancel_replay(people.project.id, found.id, replay.id, acting_user=owner)
+        yield ended(data["job"], run="0" * 32)
+
+    session, asked = collect(script)
+    assert [data["record"] for data in asked] == [True]
+    assert session.state == "ended"
+    assert not Replay.objects.exists()
+
+
 def test_another_server_that_holds_the_lease_reads_alone(people, collect, monkeypatch):
     found = wish(people)
     monkeypatch.setattr(holder, "hold", lambda *_: False)

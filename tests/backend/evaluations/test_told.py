@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from backend.evaluations.told import MOST_LINE, Begun, Done, Ended, Refusal, read, read_line
+from backend.evaluations.told import MOST_LINE, Begun, Done, Ended, Refusal, depth_of, read, read_line
 from tests.backend.evaluations.conftest import done, line
 
 DONE = {
@@ -84,6 +84,30 @@ def test_what_is_nested_too_deeply_is_refused():
         read(f'{{"id": "a", "command": "evaluation_started", "data": {{"plan": {deep}}}}}')
     with pytest.raises(ValueError, match="nested"):
         read_line(Done("a", 3, f'{{"seed": 3, "x": {deep}}}', 1, 1, 1, 1, 0, 1, 0))
+
+
+@pytest.mark.parametrize(
+    ("text", "depth"),
+    [("1", 0), ("[]", 1), ('{"a": [[1]], "b": {}}', 3), (r'["[[[", "\"[[", "\\", [1]]', 2)],
+)
+def test_the_depth_of_json_counts_no_brackets_in_texts(text, depth):
+    assert depth_of(text.encode()) == depth
+
+
+def test_what_json_could_not_write_again_is_refused():
+    for levels, is_fine in ((20, True), (500, False)):
+        deep = "[" * levels + "]" * levels
+        done_ = Done("a", 3, f'{{"seed": 3, "outcome": "success", "x": {deep}}}', 1, 1, 1, 1, 0, 1, 0)
+        if is_fine:
+            assert read_line(done_).seed == 3
+        else:
+            with pytest.raises(ValueError, match="nested"):
+                read_line(done_)
+        begun = '{"job": "a", "workers": 1, "seed": 0, "wanted": 1, "sequential": false, "duration_s": 1'
+        begun += f', "plan": {{"x": {deep}}}}}'
+        found = read(f'{{"id": "a", "command": "evaluation_started", "data": {begun}}}')
+        assert isinstance(found, Begun)
+        assert bool(found.plan) == is_fine
 
 
 def test_the_nearest_item_is_that_which_decided_by_least():

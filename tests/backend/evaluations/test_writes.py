@@ -13,7 +13,7 @@ from backend.evaluations.choices import JobState
 from backend.evaluations.errors import NoEvaluationError, WrongStateError
 from backend.evaluations.models import Evaluation, Outcome, Replay
 from backend.projects.storage.access import RoleTooLowError
-from tests.backend.evaluations.conftest import begin, done, store, wish
+from tests.backend.evaluations.conftest import begin, done, line, store, wish
 
 
 def again(found):
@@ -121,6 +121,36 @@ def test_the_last_fifty_stay_and_those_that_run(people):
     rows = Evaluation.objects.filter(project=people.project)
     assert rows.filter(id=first.id).exists()
     assert rows.count() == writes.MOST_KEPT + 1
+
+
+def test_outcomes_beyond_their_size_end_an_evaluation_and_what_is_done_stays(people, settings_of):
+    settings_of(max_outcome_bytes=2 * len(line(0)) + 10)
+    first, second = wish(people), wish(people, "editor")
+    begin(first)
+    begin(second)
+    assert store(first, done(0))
+    assert store(second, done(0))
+    assert not store(second, done(1))
+    ended = again(second)
+    assert (ended.state, len(queries.known(ended, 1))) == ("failed", 2)
+    assert "What is done is kept. Delete an older evaluation" in ended.error
+    owner = people.owner.user
+    with pytest.raises(WrongStateError, match="take"):
+        wish(people)
+    with pytest.raises(WrongStateError, match="take"):
+        writes.resume(people.project.id, second.id, acting_user=owner)
+    writes.delete(people.project.id, first.id, acting_user=owner)
+    assert writes.resume(people.project.id, second.id, acting_user=owner).state == "waiting"
+
+
+def test_the_size_of_outcomes_is_measured_again_when_some_go(people):
+    found = wish(people)
+    begin(found)
+    store(found, done(0), done(1, "invalid", 2))
+    assert again(found).line_bytes == len(line(0)) + len(line(1, "invalid"))
+    writes.finish(found, JobState.DONE)
+    writes.resume(people.project.id, found.id, acting_user=people.owner.user)
+    assert again(found).line_bytes == len(line(0))
 
 
 def test_too_many_that_wait_are_refused(people):

@@ -46,6 +46,13 @@ def test_newcombe_without_correlation_is_that_of_independent_rates(row):
     assert found[1:] == close(row["interval"])
 
 
+@pytest.mark.parametrize("row", REFERENCE["newcombe_without_correlation"], ids=lambda row: str(row["runs"]))
+def test_newcombe_of_independent_rates(row):
+    found = statistics.newcombe(row["first"], row["runs"], row["second"], row["runs"])
+    assert found[1:] == close(row["interval"])
+    assert statistics.newcombe(1, 1, 0, 0) == (0, -1, 1)
+
+
 @pytest.mark.parametrize("row", REFERENCE["correlations"], ids=lambda row: str(row["table"]))
 def test_the_correlation_of_pairs_narrows_the_interval(row):
     a, b, c, d = row["table"]

@@ -9,6 +9,8 @@ import zipfile
 import pytest
 
 from translator import TranslatorError, load, self_contained, to_app_zip
+from translator.package.app import app_files, files_beside_engine
+from translator.package.engine import engine_files
 
 
 def unzipped(raw):
@@ -25,6 +27,13 @@ def test_app_holds_all_that_runs(example):
     assert {name for name in example.files if name.startswith("trees/")} <= set(files)
     assert "tree_gardener/catalog.json" in files
     compile(files["execute_docker.py"], "execute_docker.py", "exec")
+
+
+def test_the_app_is_the_engine_and_the_files_beside_it(example):
+    beside = files_beside_engine(example)
+    assert not [name for name in beside if name.startswith("tree_gardener/")]
+    assert app_files(example) == {**beside, **engine_files()}
+    assert {f"actions/{name}.py" for name in example.actions} <= set(beside)
 
 
 def test_assets_and_launch_files_travel_along(make_project):

@@ -277,7 +277,13 @@ def test_the_readme_lists_what_the_actions_open(make_project):
 def test_parameters_reach_every_node_and_are_those_of_the_project(make_project):
     package = to_ros2_package(make_project(LEAF, tick_hz=12.5, on_finish="repeat", on_error="failure"))
     params = yaml.safe_load(package.files["test_bt/config/params.yaml"])
-    values = {"tick_hz": 12.5, "on_finish": "repeat", "on_error": "failure", "use_sim_time": False}
+    values = {
+        "tick_hz": 12.5,
+        "on_finish": "repeat",
+        "on_error": "failure",
+        "groot2_port": 0,
+        "use_sim_time": False,
+    }
     assert params == {"/**": {"ros__parameters": values}}
 
 

@@ -213,6 +213,25 @@ def test_two_errors_in_a_halt_give_the_first() -> None:
     assert all(node.status is Status.IDLE for node in tree.nodes)
 
 
+def test_an_error_of_a_child_in_a_halt_leaves_the_status_as_that_of_a_built_in_node() -> None:
+    class Own(ControlNode):
+        def update(self) -> Status:
+            return self.tick_child(0)
+
+    class Stopping(ControlNode):
+        def update(self) -> Status:
+            self.tick_child(0)
+            self.halt_children()
+            return R
+
+    for middle in ("Own", "Sequence"):
+        body = f"<Stopping><{middle}><Running _onHalted='missing += 1'/></{middle}></Stopping>"
+        tree = load(body, nodes={"Own": Own, "Stopping": Stopping})
+        with pytest.raises(TickError, match="missing"):
+            tree.tick_exactly_once()
+        assert [node.status.letter for node in tree.nodes] == ["I", "R", "I"]
+
+
 def test_observers_hooks_and_times_see_it_as_any_node() -> None:
     lines = ("self.tick_child(0)", "self.halt_children()", "return Status.SUCCESS")
     tree = tree_of(*lines)

@@ -9,8 +9,8 @@ from xml.etree import ElementTree as ET
 import msgpack
 
 from tests.tree_gardener.debugging.hooked import free_port, run_batch
-from tests.tree_gardener.debugging.zmtp import Groot2
 from tests.tree_gardener.fuzz.trace import Line, run_ours, run_reference
+from tests.tree_gardener.groot.zmtp import Groot2
 from tree_gardener import LoadError
 from tree_gardener.groot import Groot2Publisher
 from tree_gardener.groot.protocol import BECAME_IDLE

@@ -22,7 +22,7 @@ HOOK = {"enabled": True, "uid": 1, "mode": 1, "once": False, "desired_status": "
 def answers() -> Answers:
     tree = Tree.from_xml(f"<root>{subtree('Main', '<AlwaysSuccess/>')}</root>")
     tree.blackboard.set("text", "é")
-    mirror = Mirror(tree)
+    mirror = Mirror(tree, msgpack.packb)
     mirror.read()
     return Answers(tree, mirror, Hooks(tree, lambda uid: None, lambda: None), msgpack.packb)
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import msgpack
+import pytest
+
 from tests.tree_gardener.trees import subtree
-from tree_gardener import Tree
+from tree_gardener import Tree, register_type
 from tree_gardener.groot.mirror import MOST_TRANSITIONS, Mirror
 
 BODY = subtree("Body", '<Script code="a := 1; b := 2"/>')
@@ -13,7 +16,7 @@ XML = f"<root main_tree_to_execute='Main'>{BODY}{MAIN}</root>"
 
 def test_a_mirror_that_follows_ticks_is_as_one_that_reads_the_tree() -> None:
     tree = Tree.from_xml(XML)
-    follows, reads = Mirror(tree), Mirror(tree)
+    follows, reads = Mirror(tree, msgpack.packb), Mirror(tree, msgpack.packb)
     tree.observe(follows.ticked)
     tree.blackboard.set("c", 3)
     follows.read()
@@ -33,9 +36,29 @@ def test_a_mirror_that_follows_ticks_is_as_one_that_reads_the_tree() -> None:
 
 def test_the_last_transitions_are_kept() -> None:
     tree = Tree.from_xml(XML)
-    mirror = Mirror(tree)
+    mirror = Mirror(tree, msgpack.packb)
     tree.observe(mirror.ticked)
     mirror.start_recording()
     for _ in range(MOST_TRANSITIONS):
         tree.tick_exactly_once()
     assert len(mirror.take_transitions()) == 9 * MOST_TRANSITIONS
+
+
+class Odd:
+    """A value of a type whose conversion fails."""
+
+
+register_type(Odd, to_json=lambda value: value.missing)
+
+
+@pytest.mark.parametrize("value", [2**70, "\ud800", Odd(), object(), [[1]]])
+def test_a_value_that_cannot_be_sent_is_nothing(value: object) -> None:
+    tree = Tree.from_xml(XML)
+    follows, reads = Mirror(tree, msgpack.packb), Mirror(tree, msgpack.packb)
+    tree.observe(follows.ticked)
+    tree.blackboard.set("odd", value)
+    tree.blackboard.set("text", "é")
+    tree.tick_exactly_once()
+    reads.read()
+    for mirror in (follows, reads):
+        assert mirror.blackboards(["Main"]) == {"Main": {"odd": None, "text": "é"}}

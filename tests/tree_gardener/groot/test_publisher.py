@@ -14,11 +14,11 @@ import zmq
 from tests.budget import count
 from tests.tree_gardener.debugging import hooked
 from tests.tree_gardener.debugging.hooked import free_port
-from tests.tree_gardener.debugging.zmtp import Groot2
 from tests.tree_gardener.fuzz.compare import reference_traces
 from tests.tree_gardener.fuzz.generate import generate
 from tests.tree_gardener.fuzz.trace import run_ours
 from tests.tree_gardener.groot import published
+from tests.tree_gardener.groot.zmtp import Groot2
 from tree_gardener import LoadError, Tree
 from tree_gardener.groot import Groot2Publisher, GrootError, publisher
 from tree_gardener.groot.mirror import Mirror

@@ -26,7 +26,7 @@ export function ForcedList() {
       <ul className={classes['list']}>
         {rows.map((row) => (
           <li key={`${row.uid} ${row.alone}`} className={classes['line']}>
-            <strong>{tree[row.uid - 1]?.path}</strong>
+            <strong title={tree[row.uid - 1]?.path}>{tree[row.uid - 1]?.name}</strong>
             <span className={classes['moment']}>{words(row)}</span>
             {isDriver && (
               <Button size="compact-xs" variant="default" onClick={() => void release([row.uid])}>

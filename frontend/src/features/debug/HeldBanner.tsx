@@ -54,7 +54,7 @@ function Banner({ held, node, tree }: BannerProps) {
           {path.join(' › ')}
         </small>
       </div>
-      {isDriver ? (
+      {isDriver && (
         <Group gap={2} wrap="nowrap">
           {[...heldCommands.map(({ id }) => id), 'debug.to'].map((id) => (
             <CommandButton
@@ -65,8 +65,6 @@ function Banner({ held, node, tree }: BannerProps) {
             />
           ))}
         </Group>
-      ) : (
-        <small className={classes['viewer']}>{t('viewing')}</small>
       )}
     </section>
   );

@@ -45,8 +45,8 @@ it('shows the newest evaluation, and edits the file in a form', async () => {
 });
 
 it('offers viewers to look alone, and says why a server evaluates nothing', async () => {
-  open([evaluation()], { may_start: false, may_replay: true, why_not: 'No place.' });
-  expect(await screen.findByRole('note')).toHaveTextContent('No place.');
+  open([evaluation()], { may_start: false, may_replay: true, why_not: 'one_place' });
+  expect(await screen.findByRole('note')).toHaveTextContent('one place for robots');
   for (const name of ['Evaluate', 'Edit', 'New…', 'Cancel'])
     expect(screen.queryByRole('button', { name })).toBeNull();
 });

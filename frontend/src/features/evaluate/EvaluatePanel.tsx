@@ -4,6 +4,7 @@ import { useTranslation } from 'react-i18next';
 import { evaluationNames, evaluationPath } from '@/model/evaluation/files';
 import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
+import { useKeptFocus } from '@/ui/hooks/useKeptFocus';
 import { useVisible } from '@/ui/hooks/useVisible';
 import classes from './evaluate.module.css';
 import { EvaluationActions } from './EvaluationActions';
@@ -19,6 +20,8 @@ export function EvaluatePanel() {
   const { t } = useTranslation('evaluate');
   const panel = useRef<HTMLDivElement>(null);
   const isVisible = useVisible(panel);
+  const head = useRef<HTMLDivElement>(null);
+  useKeptFocus(panel);
   const files = useProjectStore((state) => state.files);
   const names = evaluationNames(Object.keys(files));
   const all = useEvaluations(isVisible);
@@ -31,6 +34,8 @@ export function EvaluatePanel() {
   const shown = list?.items.find((item) => item.id === id) ?? list?.items[0] ?? null;
   const mayStart = list?.may_start === true;
   const canStart = mayStart && list.why_not === '';
+  // In a narrow panel the results are below the fold.
+  const reveal = () => requestAnimationFrame(() => head.current?.scrollIntoView({ block: 'nearest' }));
   const start = async (runs: number, sealed: boolean) => {
     if (name === null) return;
     setStarting(true);
@@ -39,6 +44,7 @@ export function EvaluatePanel() {
     if (!made) return;
     setId(made.id);
     setMode('results');
+    reveal();
   };
   return (
     <div ref={panel} className={classes['panel']} data-testid="evaluate">
@@ -86,7 +92,7 @@ export function EvaluatePanel() {
           ) : null}
           {list?.why_not ? (
             <Text size="xs" c="dimmed" role="note">
-              {list.why_not}
+              {t(`whyNot.${list.why_not}`)}
             </Text>
           ) : null}
           {list && list.items.length > 0 ? (
@@ -96,6 +102,7 @@ export function EvaluatePanel() {
               onShow={(next) => {
                 setId(next);
                 setMode('results');
+                reveal();
               }}
             />
           ) : null}
@@ -117,7 +124,7 @@ export function EvaluatePanel() {
             <EvaluationForm key={name} name={name} onClose={() => setMode('results')} />
           ) : shown ? (
             <>
-              <div className={classes['head']}>
+              <div ref={head} className={classes['head']}>
                 <h2 className={classes['title']}>
                   {shown.name}{' '}
                   <span className={classes['muted']}>

@@ -53,10 +53,10 @@ export function EvaluationActions({
     return (
       <Group gap="xs" role="alert">
         <span>{t('remove.sure')}</span>
-        <Button size="compact-xs" variant="default" onClick={back}>
+        <Button ref={focus} size="compact-xs" variant="default" onClick={back}>
           {t('remove.keep')}
         </Button>
-        <Button size="compact-xs" color="red" onClick={onRemove}>
+        <Button size="compact-xs" variant="light" color="red" onClick={onRemove}>
           {t('remove.do')}
         </Button>
       </Group>
@@ -121,6 +121,9 @@ export function EvaluationActions({
     </Group>
   );
 }
+
+/** The menu that asked is gone: the focus goes to its question. */
+const focus = (element: HTMLButtonElement | null) => element?.focus();
 
 /** Returns whether some runs said nothing of the project, so that they can be run again. */
 const hasUncounted = ({ sides }: Evaluation): boolean =>

@@ -1,5 +1,5 @@
 import { Button, Group, Text, TextInput } from '@mantine/core';
-import { useState } from 'react';
+import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { evaluationPath, firstEvaluation, isEvaluationName } from '@/model/evaluation/files';
 import { useProjectStore } from '@/store/project';
@@ -22,6 +22,11 @@ export function NewEvaluation({ names, mayMake, onMade, onCancel }: Props) {
   const universe = useProjectStore((state) => state.settings?.universe);
   const addFile = useProjectStore((state) => state.addFile);
   const [name, setName] = useState(names.includes(DEFAULT) ? '' : DEFAULT);
+  const field = useRef<HTMLInputElement>(null);
+  const isAsked = onCancel !== null;
+  useEffect(() => {
+    if (isAsked) field.current?.focus();
+  }, [isAsked]);
   const problem = !isEvaluationName(name) ? t('new.badName') : names.includes(name) ? t('new.taken') : '';
   const isPossible = universe !== 'none';
   if (!mayMake || !isPossible) {
@@ -39,6 +44,7 @@ export function NewEvaluation({ names, mayMake, onMade, onCancel }: Props) {
     >
       <Text size="sm">{t('new.what')}</Text>
       <TextInput
+        ref={field}
         size="xs"
         label={t('new.name')}
         value={name}

@@ -43,6 +43,7 @@ export function Results({ projectId, evaluation, mayReplay }: Props) {
     const found = rows.get(seed);
     if (found && mayReplay) void replay.play(revision, found);
   };
+  const stop = () => void replay.cancel();
   if (!side) return null;
   return (
     <div className={classes['results']}>
@@ -82,7 +83,7 @@ export function Results({ projectId, evaluation, mayReplay }: Props) {
               {row ? <span className={classes['muted']}> {row.why}</span> : null}
             </p>
             {row && mayReplay ? (
-              <PlayButton row={row} waits={replay.seed === row.seed} onPlay={play} />
+              <PlayButton row={row} waits={replay.seed === row.seed} onPlay={play} onCancel={stop} />
             ) : null}
           </Group>
         </>
@@ -100,7 +101,9 @@ export function Results({ projectId, evaluation, mayReplay }: Props) {
                   {outcomeText(t, each.seed, each)}
                 </button>
                 <span className={classes['muted']}>{each.why}</span>
-                {mayReplay ? <PlayButton row={each} waits={replay.seed === each.seed} onPlay={play} /> : null}
+                {mayReplay ? (
+                  <PlayButton row={each} waits={replay.seed === each.seed} onPlay={play} onCancel={stop} />
+                ) : null}
               </li>
             ))}
           </ul>
@@ -111,26 +114,37 @@ export function Results({ projectId, evaluation, mayReplay }: Props) {
   );
 }
 
-function PlayButton({
-  row,
-  waits,
-  onPlay,
-}: {
+interface PlayProps {
   readonly row: Outcome;
   readonly waits: boolean;
   readonly onPlay: (seed: number) => void;
-}) {
+  readonly onCancel: () => void;
+}
+
+function PlayButton({ row, waits, onPlay, onCancel }: PlayProps) {
   const { t } = useTranslation('evaluate');
   return (
-    <Button
-      size="compact-xs"
-      variant="light"
-      loading={waits}
-      leftSection={<IconPlayerPlay size={13} aria-hidden="true" />}
-      aria-label={t(waits ? 'replay.waits' : 'replay.playSeed', { seed: row.seed })}
-      onClick={() => onPlay(row.seed)}
-    >
-      {t('replay.play')}
-    </Button>
+    <>
+      <Button
+        size="compact-xs"
+        variant="light"
+        loading={waits}
+        leftSection={<IconPlayerPlay size={13} aria-hidden="true" />}
+        aria-label={t(waits ? 'replay.waits' : 'replay.playSeed', { seed: row.seed })}
+        onClick={() => onPlay(row.seed)}
+      >
+        {t('replay.play')}
+      </Button>
+      {waits ? (
+        <Button
+          size="compact-xs"
+          variant="default"
+          aria-label={t('replay.cancelSeed', { seed: row.seed })}
+          onClick={onCancel}
+        >
+          {t('replay.cancel')}
+        </Button>
+      ) : null}
+    </>
   );
 }

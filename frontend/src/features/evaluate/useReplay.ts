@@ -8,11 +8,13 @@ import { storedSource } from '@/store/recording/storedSource';
 
 const LOOK_MS = 700;
 
-/** Returns the seed that is being run again, and a function that plays a run at its decision. */
+/** Returns the seed that is being run again, a function that plays a run at its decision, and one that cancels. */
 export function useReplay(projectId: string, evaluationId: string) {
   const { t } = useTranslation('evaluate');
   const [seed, setSeed] = useState<number | null>(null);
   const current = useRef(0);
+  const cancelled = useRef(0);
+  const asked = useRef<string | null>(null);
   useEffect(
     () => () => {
       current.current += 1;
@@ -24,8 +26,12 @@ export function useReplay(projectId: string, evaluationId: string) {
       const number = ++current.current;
       const isCurrent = () => number === current.current;
       setSeed(wanted);
+      asked.current = null;
       try {
         let replay = await evaluations.askReplay(projectId, evaluationId, revision, wanted);
+        if (isCurrent()) asked.current = replay.id;
+        else if (cancelled.current === number)
+          void evaluations.cancelReplay(projectId, evaluationId, replay.id).catch(() => undefined);
         while (isCurrent() && (replay.state === 'waiting' || replay.state === 'running')) {
           await new Promise((resolve) => setTimeout(resolve, LOOK_MS));
           if (isCurrent()) replay = await evaluations.replay(projectId, evaluationId, replay.id);
@@ -47,5 +53,22 @@ export function useReplay(projectId: string, evaluationId: string) {
     },
     [projectId, evaluationId, t],
   );
-  return { seed, play };
+  const cancel = useCallback(async () => {
+    cancelled.current = current.current;
+    current.current += 1;
+    setSeed(null);
+    const id = asked.current;
+    asked.current = null;
+    if (id === null) return;
+    try {
+      await evaluations.cancelReplay(projectId, evaluationId, id);
+    } catch (error) {
+      notifications.show({
+        color: 'red',
+        title: t('failed.cancelReplay'),
+        message: (error as Error).message,
+      });
+    }
+  }, [projectId, evaluationId, t]);
+  return { seed, play, cancel };
 }

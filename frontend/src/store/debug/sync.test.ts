@@ -36,6 +36,17 @@ it('gives none of blocks that do not exist, and nothing that is the same', async
   expect(given(executor)).toEqual([['', true]]);
 });
 
+it('shows them as off after the session has switched them off', async () => {
+  const executor = await openSession();
+  onTestFinished(followBreakpoints());
+  toggleBreakpoint('Main', 'a');
+  executor.emit('released', { off: false });
+  expect(useBreakpoints.getState().areOn).toBe(true);
+  executor.emit('released', { off: true });
+  expect(useBreakpoints.getState().areOn).toBe(false);
+  expect(given(executor).at(-1)).toEqual(['a', false]);
+});
+
 it('keeps why the session refused them', async () => {
   const executor = await openSession();
   onTestFinished(followBreakpoints());

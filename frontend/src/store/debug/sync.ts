@@ -15,6 +15,10 @@ export function followBreakpoints(): () => void {
   const stops = [
     useSessionStore.subscribe((now, before) => {
       if (isDriver(now) && !isDriver(before)) void give();
+      // The session has switched them off: a hold has lasted too long.
+      if (now.areBreakpointsOff && !before.areBreakpointsOff && isDriver(now)) {
+        useBreakpoints.setState({ areOn: false });
+      }
     }),
     useBreakpoints.subscribe(() => void giveChanged()),
     useProjectStore.subscribe((now, before) => {

@@ -77,7 +77,7 @@ it('shows the statuses within a held tick, and gives the end of the tick those b
   hear('tick', { n: 2, changed: [], flashed: [], duration_ms: 1, past: [] });
   expect(shown()).toBe('RUNNING');
   hear('held', { statuses: [[1, 'SUCCESS']] });
-  hear('released', {});
+  hear('released', { off: false });
   expect(shown()).toBe('RUNNING');
 });
 

@@ -30,7 +30,7 @@ export function feedLive({ command, data }: ServerMessage): void {
     }
     case 'tick': {
       // The tick ends: its changes refer to the statuses before it.
-      if (beforeHold) feedLive({ id: '', command: 'released', data: {}, seq: 0, t: 0 });
+      if (beforeHold) feedLive({ id: '', command: 'released', data: { off: false }, seq: 0, t: 0 });
       const { changed, flashed } = data as Tick;
       past = (data as Tick).past;
       for (const [uid, status] of changed) pending.set(uid, status);

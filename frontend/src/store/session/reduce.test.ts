@@ -400,7 +400,8 @@ describe('a held tree', () => {
   it('is known until it is released, or the run is over', () => {
     const began = [message('held', held), message('state-changed', { state: 'held', reason: '' })];
     expect(states(...began).held).toEqual(held);
-    expect(states(...began, message('released', {})).held).toBeNull();
+    expect(states(...began, message('released', { off: false })).held).toBeNull();
+    expect(states(...began, message('released', { off: true })).areBreakpointsOff).toBe(true);
     const over = message('state-changed', { state: 'visualization_ready', reason: '' });
     expect(states(...began, over)).toMatchObject({ held: null, forced: null });
     expect(states(message('snapshot', snapshot({ state: 'held', held }))).held).toEqual(held);

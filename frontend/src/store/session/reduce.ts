@@ -51,6 +51,7 @@ export const initialSession: SessionData = {
   flags: [],
   stops: [],
   held: null,
+  areBreakpointsOff: false,
   forced: null,
   sim: null,
   simTime: 0,
@@ -140,8 +141,8 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
   },
   flag: ({ flags }, data) => ({ flags: withFlag(flags, data) }),
   recording_stopped: ({ stops }, data) => ({ stops: [...stops, data] }),
-  held: (_, data) => ({ held: data, isHanging: false }),
-  released: () => ({ held: null }),
+  held: (_, data) => ({ held: data, isHanging: false, areBreakpointsOff: false }),
+  released: (_, data) => ({ held: null, areBreakpointsOff: data.off }),
   forced: (_, data) => ({ forced: data.nodes.length > 0 || data.alone > 0 ? data : null }),
   sim: (_, data) => ({ sim: data, speed: data.speed }),
   snapshot: (state, data, { seq, t }) => ({

@@ -75,6 +75,8 @@ export interface SessionData {
   stops: RecordingStopped[];
   /** Where the debugger holds the tree; null while it does not. */
   held: Held | null;
+  /** Whether all breakpoints were off when the last hold ended. */
+  areBreakpointsOff: boolean;
   /** What is forced on nodes; null for nothing. */
   forced: Forced | null;
   sim: Sim | null;

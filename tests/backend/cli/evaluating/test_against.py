@@ -45,6 +45,37 @@ def test_a_revision_that_is_not_there_is_refused(tmp_path, against):
 
 @pytest.mark.simulation
 @pytest.mark.timeout(300)
+def test_in_its_own_world_each_version_has_its_own_judge_and_nothing_is_paired(tmp_path):
+    never = TEXT.replace("area: ahead", "area: behind").replace("runs: 6", "runs: 3")
+    assert never.count("behind") == 1
+    newer, older = write(tmp_path / "n", TEXT), write(tmp_path / "o", never)
+    done = studio(
+        "evaluate", newer, "--against", older, "--own-world", "--seeds", "2,3", "--report", tmp_path / "r"
+    )
+    assert "each in its own world: +100.0%" in done.stdout
+    assert "not paired); the older one: 0 of 2" in done.stdout
+    assert "McNemar" not in done.stdout
+    assert "path_length_m: median" in done.stdout
+    assert "in its own world" in (tmp_path / "r" / "report.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("options", "text"),
+    [
+        (["--own-world"], "name the older version with --against"),
+        (["--against", ".", "--own-world", "--gate", "no-worse"], "it needs pairs"),
+        (["--against", ".", "--own-world", "--judged-by", "."], "leave out one of both"),
+    ],
+)
+def test_what_only_pairs_could_answer_is_refused(tmp_path, options, text):
+    folder = str(write(tmp_path / "p", TEXT))
+    done = studio("evaluate", folder, *[folder if each == "." else each for each in options])
+    assert done.returncode == 2
+    assert text in " ".join(done.stderr.replace("│", " ").split())
+
+
+@pytest.mark.simulation
+@pytest.mark.timeout(300)
 def test_a_slower_version_is_worse_on_the_same_seeds(tmp_path):
     newer, older = write(tmp_path / "n", TEXT, action=SLOW), write(tmp_path / "o", TEXT)
     done = studio("evaluate", newer, "--against", older, "--report", tmp_path / "r", "--gate", "no-worse")

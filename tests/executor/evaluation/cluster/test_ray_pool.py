@@ -1,5 +1,6 @@
 """A Ray cluster has the outcomes of this machine's pool, also when a supervisor and a node are killed."""
 
+import socket
 import subprocess
 import sys
 
@@ -76,3 +77,13 @@ def test_a_note_of_a_cluster_that_is_gone_is_named(monkeypatch, tmp_path):
     noted.touch()
     with pytest.raises(ClusterError, match="`ray stop` removes that note"):
         connect(RayWithoutCluster(), "auto")
+
+
+def test_an_address_at_which_nothing_answers_is_named_before_ray_tries_for_a_minute():
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        port = server.getsockname()[1]
+        with pytest.raises(ClusterError, match="there is no Ray cluster"):  # Ray was asked
+            connect(RayWithoutCluster(), f"127.0.0.1:{port}")
+    for address in (f"127.0.0.1:{port}", f"ray://127.0.0.1:{port}", f"no-such-host.invalid:{port}"):
+        with pytest.raises(ClusterError, match=f"^--cluster {address}: nothing answers there"):
+            connect(RayWithoutCluster(), address)

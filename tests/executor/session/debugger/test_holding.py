@@ -36,6 +36,7 @@ def test_a_hold_stops_the_world_and_a_release_lets_it_continue() -> None:
     assert play.session.snapshot().held is not None
     assert play.reply(play.command("continue_run")) == "ack"
     assert play.state is State.APPLICATION_RUNNING
+    assert not play.sent("released")[-1].off
     assert play.told("world")[-1] == "resume"
     assert play.session.snapshot().held is None
 
@@ -125,6 +126,7 @@ def test_a_hold_that_lasts_too_long_ends_with_a_notice() -> None:
     play.later(2)
     assert play.state is State.APPLICATION_RUNNING
     assert "held for 15 min" in play.sent("log")[-1].text
+    assert play.sent("released")[-1].off
     assert play.session.hold.breakpoints is not None
     assert not play.session.hold.breakpoints.on
 

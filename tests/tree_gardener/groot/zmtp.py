@@ -6,6 +6,7 @@ import itertools
 import json
 import socket
 import struct
+import time
 from typing import Any
 
 _GREETING = b"\xff" + bytes(8) + b"\x7f\x03\x00" + b"NULL".ljust(20, b"\0") + bytes(32)
@@ -69,6 +70,17 @@ class Groot2:
     def __init__(self, port: int) -> None:
         self.request = Request(port)
         self.ids = itertools.count(1)
+
+    @classmethod
+    def as_soon_as_served(cls, port: int) -> Groot2:
+        """Waits for a publisher."""
+        end_s = time.monotonic() + 60
+        while True:
+            try:
+                return cls(port)
+            except OSError:
+                assert time.monotonic() < end_s
+                time.sleep(0.01)
 
     def ask(self, kind: str, *parts: bytes) -> list[bytes]:
         """Sends a request of a type; returns the parts of the reply behind its header.

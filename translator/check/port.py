@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,13 @@ from translator.values import Fit, describe, fit, outside, type_label
 if TYPE_CHECKING:
     from translator.check.context import Context
 
+_ROS_NAME = re.compile(r"(?:/|~/|~\Z)?(?:[A-Za-z_]\w*(?:/[A-Za-z_]\w*)*)?", re.ASCII)
+ROS_NAMES = {
+    "action_name": "/navigate_to_pose",
+    "service_name": "/reset",
+    "topic_name": "/cmd_vel",
+    "node_name": "/controller_server",
+}
 EXAMPLES = {
     "action": "nav2_msgs/action/NavigateToPose",
     "srv": "std_srvs/srv/Trigger",
@@ -33,6 +41,7 @@ def check_ports(context: Context) -> None:
                 continue
             typed = with_fields(model, node)
             _check_interface(context, tree, node)
+            _check_ros_names(context, tree, node)
             _check_names(context, tree, node, typed)
             for port in typed.ports.values():
                 _check_port(context, tree, node, port)
@@ -52,6 +61,20 @@ def _check_names(context: Context, tree: Tree, node: Node, model: NodeModel) -> 
             context.report("BT0209", tree, node, name, port=name)
         else:
             check_braces(context, tree, node, name, text)
+
+
+def is_ros_name(name: str) -> bool:
+    """Returns whether a text names a topic, service, action or node of ROS, as the engine decides it."""
+    return name not in {"", "/", "~/"} and _ROS_NAME.fullmatch(name) is not None
+
+
+def _check_ros_names(context: Context, tree: Tree, node: Node) -> None:
+    for port, example in ROS_NAMES.items():
+        text = node.ports.get(port, "").strip() if node.type in ROS_NODES or node.type == "RosParam" else ""
+        name = text.rstrip("/") if port == "node_name" else text
+        if text and pointer(text, port) is None and not is_ros_name(name):
+            wanted = f"a name in ROS, such as {example}"
+            context.report("BT0204", tree, node, port, port=port, value=text, wanted=wanted)
 
 
 def _check_interface(context: Context, tree: Tree, node: Node) -> None:

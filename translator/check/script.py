@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from translator.script_names import MAX_INTEGER, integers_too_large, script_names
@@ -12,6 +13,9 @@ if TYPE_CHECKING:
 
     from translator.check.context import Context
     from translator.tree import Node, Tree
+
+
+_DOTTED = re.compile(r"[A-Za-z_]\w*\.[A-Za-z_]")
 
 
 def scripts_of(context: Context, node: Node) -> Iterator[tuple[str, str]]:
@@ -33,9 +37,20 @@ def check_scripts(context: Context) -> None:
         for node in tree.walk():
             for attribute, code in scripts_of(context, node):
                 _check_script(context, tree, node, attribute, code)
+            if node.type == "RosSubscribe" and (condition := node.ports.get("condition")):
+                _check_field_condition(context, tree, node, condition)
 
 
-def _check_script(context: Context, tree: Tree, node: Node, attribute: str, code: str) -> None:
+def _check_field_condition(context: Context, tree: Tree, node: Node, code: str) -> None:
+    """Checks a script over the fields of a message, whose names are no entries of the blackboard."""
+    if code.strip() and pointer(code, "condition") is None:
+        advice = "Write a field of a field with __: pose__position__x." if _DOTTED.search(code) else ""
+        _check_script(context, tree, node, "condition", code, advice=advice)
+
+
+def _check_script(  # noqa: PLR0913 - the place has three parts
+    context: Context, tree: Tree, node: Node, attribute: str, code: str, *, advice: str = ""
+) -> None:
     if not code.strip():
         if code or node.type != "Script" or attribute in node.conditions:  # a Script's own may be empty
             context.report("BT0301", tree, node, attribute, attribute=attribute)
@@ -53,5 +68,5 @@ def _check_script(context: Context, tree: Tree, node: Node, attribute: str, code
         attribute,
         attribute=attribute,
         problem=f"{message}, at character {problem.offset + 1} of “{code}”",
-        advice=problem.hint or "See the page on the script language.",
+        advice=advice or problem.hint or "See the page on the script language.",
     )

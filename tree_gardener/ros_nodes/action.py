@@ -172,7 +172,7 @@ class RosActionNode(RosLeaf):
             self._type = self.interface("action_type", self.ACTION_TYPE, "action")
 
     def _connect(self) -> None:
-        name = self.text(self.NAME_PORT, self.ACTION_NAME)
+        name = self.ros_name(self.NAME_PORT, self.ACTION_NAME)
         if self._client is not None and name == self._client_name:
             return
         from rclpy.action import ActionClient  # noqa: PLC0415 - the engine works without ROS

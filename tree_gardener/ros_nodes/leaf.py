@@ -9,6 +9,7 @@ from py_trees.behaviour import Behaviour
 from tree_gardener.errors import PortError
 from tree_gardener.ports import get_input, node_of, pointer_key, set_output
 from tree_gardener.ros_nodes.fields import SEPARATOR, assign, interface, path_of, read, type_at
+from tree_gardener.ros_nodes.names import checked_name
 from tree_gardener.status import Status
 from tree_gardener.values import ConversionError, parse_status
 
@@ -62,6 +63,14 @@ class RosLeaf(Behaviour):
         if not value:
             raise PortError(f"port '{name}' was given no value")
         return value
+
+    def ros_name(self, port: str, default: str) -> str:
+        """Returns a port's value, which is a name of ROS, as a text.
+
+        Raises:
+            PortError: there is none, and no default; or it is no name.
+        """
+        return checked_name(port, self.text(port, default))
 
     def seconds(self, name: str, default_ms: float) -> float:
         """Returns a port that holds milliseconds, in seconds; negative forever."""

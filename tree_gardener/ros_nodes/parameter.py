@@ -2,6 +2,7 @@
 
 from typing import Any, Final
 
+from tree_gardener.ros_nodes.names import checked_name
 from tree_gardener.ros_nodes.service import RosServiceNode
 from tree_gardener.status import Status
 
@@ -32,6 +33,11 @@ class RosParam(RosServiceNode):
         if name == "service_type":
             return f"rcl_interfaces/srv/{'Set' if self._sets() else 'Get'}Parameters"
         return super().text(name, default)
+
+    def ros_name(self, port: str, default: str) -> str:
+        """Returns the name of the service; one that is wrong is that of the node."""
+        checked_name("node_name", super().text("node_name", "").rstrip("/"))
+        return self.text(port, default)
 
     def initialise(self) -> None:
         """Begins an activation; the type of the call may have changed."""

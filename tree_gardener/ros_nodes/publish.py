@@ -43,7 +43,7 @@ class RosPublish(RosLeaf):
             self._type = self.interface("topic_type", "", "msg")
 
     def _advertise(self) -> None:
-        wanted = self.text("topic_name", ""), self.flag("latched", default=False)
+        wanted = self.ros_name("topic_name", ""), self.flag("latched", default=False)
         if self._publisher is None or wanted != self._made_for:
             self.shutdown()
             self._publisher = self.joined().create_publisher(

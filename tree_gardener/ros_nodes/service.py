@@ -100,7 +100,7 @@ class RosServiceNode(RosLeaf):
             self._type = self.interface("service_type", self.SERVICE_TYPE, "srv")
 
     def _connect(self) -> None:
-        name = self.text("service_name", self.SERVICE_NAME)
+        name = self.ros_name("service_name", self.SERVICE_NAME)
         if self._client is None or name != self._client_name:
             self.shutdown()
             self._client = self.joined().create_client(self._type, name)

@@ -19,6 +19,7 @@ WAIT: Final = "wait"
 MODES: Final = (LATEST, NEW, WAIT)
 
 _WORD: Final = re.compile(r"[A-Za-z_]\w*")
+_DOTTED: Final = re.compile(r"[A-Za-z_]\w*\.[A-Za-z_]")
 
 
 class RosSubscribe(RosLeaf):
@@ -86,7 +87,7 @@ class RosSubscribe(RosLeaf):
             self._type = self.interface("topic_type", "", "msg")
 
     def _subscribe(self) -> None:
-        name = self.text("topic_name", "")
+        name = self.ros_name("topic_name", "")
         wanted = (name, self.flag("latched", default=False), self.flag("reliable", default=False))
         if self._subscription is None or wanted != self._made_for:
             self.shutdown()
@@ -104,7 +105,10 @@ class RosSubscribe(RosLeaf):
             try:
                 compile_script(text)
             except ScriptError as error:
-                raise PortError(f"port 'condition': {error}") from None
+                nested = (
+                    "; write a field of a field with __: pose__position__x" if _DOTTED.search(text) else ""
+                )
+                raise PortError(f"port 'condition': {error}{nested}") from None
 
     def _suits(self, message: Any) -> bool:
         """Returns whether the message meets the condition: names in it are fields first, then entries."""

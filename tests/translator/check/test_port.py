@@ -10,6 +10,7 @@ from translator.check.port import check_ports
 GOING = "nav2_msgs/action/NavigateToPos"
 GO = {"action_name": "/go", "action_type": "nav2_msgs/action/NavigateToPose"}
 CASES = {
+    "no name in ROS": ("BT0204", {"n1": {"type": "RosAction", "ports": {**GO, "action_name": "/a b"}}}, "n1"),
     "missing port": ("BT0201", {"n1": {"type": "Delay", "children": ["a"]}, "a": LEAF}, "n1"),
     "unknown port": ("BT0202", {"n1": {"type": "Act", "ports": {"sped": "1"}}}, "n1"),
     "brace open": ("BT0203", {"n1": {"type": "Act", "ports": {"speed": "{x"}}}, "n1"),

@@ -209,6 +209,12 @@ def test_a_type_that_is_not_there_is_explained(ros: Graph, type_: str, message: 
         ros.load(f"<RosAction action_name='/a' action_type='{type_}'/>")
 
 
+def test_a_name_that_ros_does_not_take_is_explained(ros: Graph) -> None:
+    with pytest.raises(TickError, match="port 'action_name': '/a b' is no name in ROS") as raised:
+        ros.load(ACTION.replace("'fib'", "'/a b'") + "/>")
+    assert "rclpy" not in str(raised.value)
+
+
 def test_a_tree_without_ros_says_so() -> None:
     tree = Tree.from_xml(document(f"{ACTION}/>"))
     tree.setup()

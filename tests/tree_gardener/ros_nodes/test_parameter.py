@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from rcl_interfaces.msg import ParameterDescriptor
 
-from tree_gardener import Status
+from tree_gardener import Status, TickError
 from tree_gardener.ros_nodes.parameter import RosParam
 
 if TYPE_CHECKING:
@@ -44,6 +44,11 @@ def test_a_refusal_gives_the_reason(ros: Graph) -> None:
 def test_a_parameter_that_nobody_declared_fails(ros: Graph) -> None:
     assert ros.run(param("p", "value='{v}' error='{why}'")) is Status.FAILURE
     assert ros["why"] == "PARAMETER_NOT_DECLARED"
+
+
+def test_a_wrong_name_of_a_node_is_explained(ros: Graph) -> None:
+    with pytest.raises(TickError, match="port 'node_name': 'o ther' is no name in ROS"):
+        ros.run(param("p", "value='{v}'").replace("other", "o ther"))
 
 
 def test_a_missing_node_fails(ros: Graph) -> None:

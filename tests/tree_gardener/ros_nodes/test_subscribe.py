@@ -80,6 +80,7 @@ def test_waiting_ends_after_the_timeout(ros: Graph) -> None:
     [
         ("message__percentag='{p}'", "did you mean percentage"),
         ("condition='percentage &lt;'", "port 'condition'"),
+        ("condition='header.frame_id == 1'", "write a field of a field with __"),
         ("mode='often'", "is not one of latest, new, wait"),
     ],
 )

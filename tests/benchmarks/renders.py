@@ -16,7 +16,7 @@ const walk = (fiber) => {
   const props = fiber.memoizedProps;
   if (typeof fiber.type === 'function' && props && (before === null || fiber.flags & 1)) {
     const { blocks, frames } = window.rendered;
-    if (props.type === 'block' && props.data?.node) blocks.push(props.id);
+    if ('words' in props && props.data?.node) blocks.push(props.id);
     else if (props.nodeTypes?.block && props.resizeObserver && props.id) frames.push(props.id);
   }
   if (before !== null && before.child === fiber.child) return;

@@ -46,6 +46,16 @@ def expect_no_findings(page: Page, name: str, part: str | None = None) -> None:
     assert not small, f"{name}: targets under 24 by 24 px:\n" + "\n".join(small)
 
 
+def expect_a_heading(page: Page, name: str) -> None:
+    """The page has a heading of level one, which axe judges for whole pages alone."""
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    found = page.evaluate(
+        "async () => (await axe.run(document.documentElement, {runOnly: ['page-has-heading-one']}))"
+        ".violations.map(each => each.help)"
+    )
+    assert not found, f"axe-core, {name}: {found}"
+
+
 # Targets under 24 by 24 px. A field's label belongs to it; blocks on the canvas grow with the zoom.
 SMALL = """() => {
   const root = document.querySelector('[role=dialog][aria-modal=true]') ?? document;

@@ -226,6 +226,7 @@ def test_every_route_that_writes_is_here_or_named():
         "resume_evaluation",
         "compare_evaluation",
         "ask_replay",
+        "cancel_replay",
         "delete_evaluation",  # one transaction, and nothing is read for the answer
         # These store nothing.
         "check_project",

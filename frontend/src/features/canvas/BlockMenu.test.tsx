@@ -40,7 +40,12 @@ function groups(): string[][] {
   return found;
 }
 
-const COMMON = [['rename', 'comment', 'disable'], ['cut', 'copy', 'paste', 'duplicate'], ['delete']];
+const COMMON = [
+  ['rename', 'comment', 'disable'],
+  ['breakpoint'],
+  ['cut', 'copy', 'paste', 'duplicate'],
+  ['delete'],
+];
 
 describe('BlockMenu', () => {
   it('is closed without a point', () => {
@@ -52,13 +57,12 @@ describe('BlockMenu', () => {
     open(['a']);
     const menu = screen.getByRole('menu', { name: 'Commands on the block' });
     expect(menu.querySelector('[role=presentation][tabindex]')).toBeNull();
-    expect(groups()).toEqual([['breakpoint'], ['addAfter', 'wrap', 'morph'], ...COMMON]);
+    expect(groups()).toEqual([['addAfter', 'wrap', 'morph'], ...COMMON]);
   });
 
   it('has the commands for a decorator', () => {
     open(['i']);
     expect(groups()).toEqual([
-      ['breakpoint'],
       ['addAfter', 'wrap', 'unwrap', 'morph', 'extract'],
       ['rename', 'comment', 'disable', 'fold'],
       ...COMMON.slice(1),
@@ -68,7 +72,6 @@ describe('BlockMenu', () => {
   it('has the commands for a subtree', () => {
     open(['s']);
     expect(groups()).toEqual([
-      ['breakpoint'],
       ['lookInside'],
       ['openTree'],
       ['addAfter', 'wrap', 'morph', 'inline'],
@@ -79,9 +82,9 @@ describe('BlockMenu', () => {
   it('has the commands for several blocks', () => {
     open(['a', 'i']);
     expect(groups()).toEqual([
-      ['breakpoint'],
       ['wrap', 'wrapSequence', 'wrapFallback', 'extract'],
       ['disable'],
+      ['breakpoint'],
       ['cut', 'copy', 'paste', 'duplicate'],
       ['delete'],
     ]);
@@ -89,7 +92,7 @@ describe('BlockMenu', () => {
 
   it('does not extract blocks that are not consecutive', () => {
     open(['a', 's']);
-    expect(groups()[1]).toEqual(['wrap', 'wrapSequence', 'wrapFallback']);
+    expect(groups()[0]).toEqual(['wrap', 'wrapSequence', 'wrapFallback']);
   });
 
   it('adds and pastes on the empty canvas', () => {

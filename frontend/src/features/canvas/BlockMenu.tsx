@@ -16,7 +16,6 @@ export interface MenuPoint {
 /** The groups of a block's menu, by the `id` of the commands. */
 const ON_BLOCK = [
   ['canvas.fix', 'canvas.why'],
-  debugCommands.map(({ id }) => id),
   ['canvas.look'],
   ['canvas.open'],
   [
@@ -31,6 +30,7 @@ const ON_BLOCK = [
     'canvas.inline',
   ],
   ['canvas.rename', 'canvas.comment', 'canvas.disable', 'canvas.fold'],
+  debugCommands.map(({ id }) => id),
   ['edit.cut', 'edit.copy', 'edit.paste', 'edit.duplicate'],
   ['edit.delete'],
 ];

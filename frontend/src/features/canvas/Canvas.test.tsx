@@ -15,11 +15,19 @@ function running(uid: number, tree_id: string, node_id: string): TreeNode {
 }
 
 const rendered = vi.hoisted((): string[] => []);
+const titles = vi.hoisted((): string[] => []);
 
-// The title is part of every block, so it renders exactly as often as its block.
+// Every block asks for the tests that fail at it, exactly as often as it renders.
+vi.mock('@/store/behaviourTests/failures', async (load) => ({
+  ...(await load()),
+  useFailuresOf: (key: string) => {
+    rendered.push(key.replace('MainTree/', ''));
+    return [];
+  },
+}));
 vi.mock('./block/BlockTitle', () => ({
   BlockTitle: ({ id }: { id: string }) => {
-    rendered.push(id);
+    titles.push(id);
     return <span>{id}</span>;
   },
 }));
@@ -51,6 +59,7 @@ beforeEach(() => {
     </MantineProvider>,
   );
   rendered.length = 0;
+  titles.length = 0;
 });
 
 it('renders the blocks whose status changed in a tick, and no others', () => {
@@ -66,6 +75,7 @@ it('renders the blocks whose status changed in a tick, and no others', () => {
     ]);
   });
   expect(rendered.sort()).toEqual(['n3', 'n7']);
+  expect(titles).toEqual([]);
 });
 
 it('offers the fixes of a block', async () => {

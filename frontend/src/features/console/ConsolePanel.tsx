@@ -10,11 +10,14 @@ import { useExtent } from '@/store/moment/useExtent';
 import { useShownSession } from '@/store/moment/session';
 import { useIsBack } from '@/store/moment/store';
 import { useSessionStore } from '@/store/session/store';
+import type { LogLine } from '@/store/session/types';
 import classes from './console.module.css';
 import { ConsoleLine } from './ConsoleLine';
 import { filterLines, LEVELS, useConsoleFilter, type ConsoleFilter } from './filter';
 
 const LINE_HEIGHT = 21;
+/** A line with a button is as high as a target must be. */
+const TARGET_HEIGHT = 24;
 const SOURCES = ['all', 'action', 'world', 'manager', 'launch'] as const;
 
 /** The output of actions, world and manager. The view follows the end until the user scrolls up. */
@@ -33,6 +36,12 @@ export function ConsolePanel() {
   const lines = useMemo(() => filterLines(logs, filter), [logs, filter]);
   const recordedFrom = useExtent()?.from ?? Infinity;
   const runFrom = useMemo(() => logs.findLast(({ run }) => run !== undefined)?.id ?? -1, [logs]);
+  const isRecorded = ({ id, time }: LogLine) => id > runFrom && time >= recordedFrom;
+  const heightAt = (index: number) => {
+    const line = lines[index];
+    const hasButton = line && (isRecorded(line) || nodeAt.get(line.node_path)?.node_id);
+    return hasButton ? TARGET_HEIGHT : LINE_HEIGHT;
+  };
   const [isFollowing, setFollowing] = useState(true);
   const scroller = useRef<HTMLDivElement>(null);
   // The virtualizer has mutable state, so the compiler must not memoise this component.
@@ -40,7 +49,7 @@ export function ConsolePanel() {
   const rows = useVirtualizer({
     count: lines.length,
     getScrollElement: () => scroller.current,
-    estimateSize: () => LINE_HEIGHT,
+    estimateSize: heightAt,
     getItemKey: (index) => lines[index]?.id ?? index,
     measureElement: heightOf,
     overscan: 12,
@@ -143,7 +152,7 @@ export function ConsolePanel() {
                     files={files}
                     node={nodeAt.get(line.node_path)}
                     launched={names.get(line.launch_node)}
-                    isRecorded={line.id > runFrom && line.time >= recordedFrom}
+                    isRecorded={isRecorded(line)}
                   />
                 </div>
               ) : null;
@@ -166,7 +175,8 @@ function heightOf(
 ): number {
   const [box] = entry?.borderBoxSize ?? [];
   if (box) return Math.round(box.blockSize);
-  return itemSizeCache.get(options.getItemKey(indexFromElement(row))) ?? LINE_HEIGHT;
+  const index = indexFromElement(row);
+  return itemSizeCache.get(options.getItemKey(index)) ?? options.estimateSize(index);
 }
 
 /** The time in ms after a wheel or key event in which scrolling counts as the user's. */

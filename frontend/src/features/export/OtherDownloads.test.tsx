@@ -52,6 +52,19 @@ describe('OtherDownloads', () => {
     expect(screen.getByRole('link', { name })).toHaveAttribute('download');
   });
 
+  it('writes a workflow with the tests and evaluations of the project', async () => {
+    openProject({
+      trees: { Main: { a: { type: 'Sequence' } } },
+      texts: { 'tests/a.test.yaml': '', 'evaluations/room.yaml': '', 'evaluations/no name;.yaml': '' },
+    });
+    show(<OtherDownloads projectId="p1" />);
+    await user.click(button('GitHub workflow'));
+    expect(saved[0]?.name).toBe('trees.yml');
+    expect(await text()).toContain('bt-studio test project');
+    expect(await text()).toContain('evaluate project room --runs 60');
+    expect(await text()).not.toContain('no name');
+  });
+
   it('draws the tree in front, in light colours by default', async () => {
     useProjectStore.getState().setActiveTree('Dock');
     show(<OtherDownloads projectId="p1" />);

@@ -1,10 +1,12 @@
 import { Button, Group, SegmentedControl, Select, Stack, Text } from '@mantine/core';
 import { notifications } from '@mantine/notifications';
-import { IconBrandCpp, IconFileTypeXml, IconFileZip, IconPhoto } from '@tabler/icons-react';
+import { IconBrandCpp, IconBrandGithub, IconFileTypeXml, IconFileZip, IconPhoto } from '@tabler/icons-react';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import { useProjectStore } from '@/store/project';
+import { evaluationNames, isEvaluationName } from '@/model/evaluation/files';
+import { workflowOf } from '@/model/evaluation/workflow';
 import type { Theme } from './palette';
 import { pngOf, saveAs, svgOf } from './picture';
 
@@ -27,6 +29,15 @@ export function OtherDownloads({ projectId }: { readonly projectId: string }) {
     } catch {
       notifications.show({ color: 'red', message: t('pictureFailed') });
     }
+  };
+
+  const workflow = () => {
+    const paths = Object.keys(useProjectStore.getState().files);
+    const text = workflowOf({
+      hasTests: paths.some((path) => /^tests\/[^/]+\.test\.yaml$/.test(path)),
+      evaluations: evaluationNames(paths).filter(isEvaluationName),
+    });
+    saveAs(new Blob([text], { type: 'application/yaml' }), 'trees.yml');
   };
 
   return (
@@ -95,6 +106,15 @@ export function OtherDownloads({ projectId }: { readonly projectId: string }) {
             leftSection={<IconFileTypeXml size={16} />}
           >
             {t('schema')}
+          </Button>
+          <Button
+            variant="default"
+            data-testid="download-workflow"
+            title={t('workflowWhat')}
+            leftSection={<IconBrandGithub size={16} />}
+            onClick={workflow}
+          >
+            {t('workflow')}
           </Button>
         </Group>
         <Text size="sm" fw={600} mt="xs">

@@ -1,7 +1,8 @@
 import { Handle, Position, type NodeProps } from '@xyflow/react';
 import { IconChevronDown, IconChevronUp, IconPlus } from '@tabler/icons-react';
-import { memo, type CSSProperties } from 'react';
+import { memo, type CSSProperties, type ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
+import { useShallow } from 'zustand/react/shallow';
 import { CoverageMark } from '@/features/behaviourTests/CoverageMark';
 import { FailureMark } from '@/features/behaviourTests/FailureMark';
 import { setCollapsed } from '@/model/edits';
@@ -10,7 +11,7 @@ import { useFailuresOf } from '@/store/behaviourTests/failures';
 import { change } from '@/store/project/edits/blocks';
 import { setEditor, toggleExpanded, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
-import { liveKey, pastOf } from '@/store/project/live';
+import { liveKey, pastOf, type LiveKey, type LiveState } from '@/store/project/live';
 import { useShownLive } from '@/store/moment/store';
 import { usePortMarks } from '@/store/run/portMarks';
 import { useDebugMarks } from '@/store/debug/marks';
@@ -28,61 +29,24 @@ import classes from './Block.module.css';
 
 function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<BlockNode>) {
   const { t } = useTranslation('canvas');
-  const { node, spec, problem, tree, isHorizontal, inside } = data;
-  const key = inside ? liveKey(inside.tree, inside.node) : liveKey(tree, id);
-  const status = useShownLive((state) => state.statuses.get(key) ?? 'IDLE');
-  const past = useShownLive((state) => pastOf(state, key));
-  const flash = useShownLive((state) => state.flashes.get(key));
-  const fault = useShownLive((state) => state.faults.get(key));
-  const level = useCoverage((state) => state.blocks.get(key)?.level);
-  const failures = useFailuresOf(key);
+  const { node, spec, tree, isHorizontal, inside } = data;
   const marks = usePortMarks(inside?.tree ?? tree, inside?.node ?? id, node.ports);
-  const held = useDebugMarks((state) => state.held.get(key));
-  const isTarget = useEditorStore((state) => state.slot?.kind === 'onto' && state.slot.parent === id);
   const family = spec?.family ?? null;
-  const color: CSSProperties = node.color ? { ['--family' as string]: node.color } : {};
   // A folded block has its own sign at this place, and a new child would be hidden.
   const grows = data.canGrow && data.folded === 0;
-  const openProblems = () => {
-    useProjectStore.getState().select(tree, [id]);
-    setEditor({ fixing: id });
-  };
-  return (
-    <div
-      className={`${classes['block']} ${isHorizontal ? classes['horizontal'] : ''}`}
-      data-testid={`node-${id}`}
-      data-type={node.type}
-      data-family={family ?? 'unknown'}
-      data-status={status}
-      data-past={past}
-      data-held={held}
-      data-selected={selected || undefined}
-      data-disabled={node.disabled || undefined}
-      data-inside={inside ? '' : undefined}
-      data-draft={data.isDraft || undefined}
-      data-target={isTarget || undefined}
-      data-fault={fault === undefined ? undefined : ''}
-      data-problem={problem?.severity}
-      style={color}
-    >
-      <BlockShape family={family} width={width} height={height} flash={flash} />
+  const words = (
+    <>
       <span className={classes['tile']}>
         <NodeSymbol type={node.type} family={family} size={22} />
       </span>
       <BlockTitle id={id} node={node} t={t} />
       <BlockPorts place={inside ?? { tree, node: id }} node={node} spec={spec} marks={marks} t={t} />
       <BreakpointMark tree={inside?.tree ?? tree} node={inside?.node ?? id} isSelected={selected} t={t} />
-      <ForcedMark block={key} t={t} />
-      <StatusMark status={fault === undefined ? status : 'FAILURE'} past={past} flash={flash} />
-      {fault !== undefined && (
-        <ProblemMark
-          problem={{ source: 'server', severity: 'error', node: id, code: '', message: fault, hint: '' }}
-          {...(inside ? {} : { onOpen: openProblems })}
-        />
-      )}
-      {fault === undefined && problem && <ProblemMark problem={problem} onOpen={openProblems} />}
-      {level && <CoverageMark level={level} width={width} height={height} />}
-      {failures.length > 0 && <FailureMark failures={failures} />}
+      <ForcedMark block={inside ? liveKey(inside.tree, inside.node) : liveKey(tree, id)} t={t} />
+    </>
+  );
+  return (
+    <LiveBlock id={id} data={data} isSelected={selected} width={width} height={height} words={words}>
       {data.look && (
         <button
           type="button"
@@ -133,9 +97,78 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
       >
         {grows && <IconPlus size={13} stroke={3} aria-hidden="true" />}
       </Handle>
+    </LiveBlock>
+  );
+}
+
+interface LiveBlockProps {
+  readonly id: string;
+  readonly data: BlockNode['data'];
+  readonly isSelected: boolean;
+  readonly width: number;
+  readonly height: number;
+  /** Symbol, title and ports. */
+  readonly words: ReactNode;
+  /** What lies over the marks. */
+  readonly children: ReactNode;
+}
+
+/** The frame of a block with its status: a change of it alone draws neither words nor children again. */
+function LiveBlock({ id, data, isSelected, width, height, words, children }: LiveBlockProps) {
+  const { node, spec, problem, tree, isHorizontal, inside } = data;
+  const key = inside ? liveKey(inside.tree, inside.node) : liveKey(tree, id);
+  const { status, past, flash, fault } = useShownLive(useShallow((state) => shownOf(state, key)));
+  const held = useDebugMarks((state) => state.held.get(key));
+  const level = useCoverage((state) => state.blocks.get(key)?.level);
+  const failures = useFailuresOf(key);
+  const isTarget = useEditorStore((state) => state.slot?.kind === 'onto' && state.slot.parent === id);
+  const family = spec?.family ?? null;
+  const color: CSSProperties = node.color ? { ['--family' as string]: node.color } : {};
+  const openProblems = () => {
+    useProjectStore.getState().select(tree, [id]);
+    setEditor({ fixing: id });
+  };
+  return (
+    <div
+      className={`${classes['block']} ${isHorizontal ? classes['horizontal'] : ''}`}
+      data-testid={`node-${id}`}
+      data-type={node.type}
+      data-family={family ?? 'unknown'}
+      data-status={status}
+      data-past={past}
+      data-held={held}
+      data-selected={isSelected || undefined}
+      data-disabled={node.disabled || undefined}
+      data-inside={inside ? '' : undefined}
+      data-draft={data.isDraft || undefined}
+      data-target={isTarget || undefined}
+      data-fault={fault === undefined ? undefined : ''}
+      data-problem={problem?.severity}
+      style={color}
+    >
+      <BlockShape family={family} width={width} height={height} flash={flash} />
+      {words}
+      <StatusMark status={fault === undefined ? status : 'FAILURE'} past={past} flash={flash} />
+      {fault !== undefined && (
+        <ProblemMark
+          problem={{ source: 'server', severity: 'error', node: id, code: '', message: fault, hint: '' }}
+          {...(inside ? {} : { onOpen: openProblems })}
+        />
+      )}
+      {fault === undefined && problem && <ProblemMark problem={problem} onOpen={openProblems} />}
+      {level && <CoverageMark level={level} width={width} height={height} />}
+      {failures.length > 0 && <FailureMark failures={failures} />}
+      {children}
     </div>
   );
 }
+
+const shownOf = (state: LiveState, key: LiveKey) => ({
+  status: state.statuses.get(key) ?? 'IDLE',
+  past: pastOf(state, key),
+  flash: state.flashes.get(key),
+  fault: state.faults.get(key),
+});
 
 /**
  * A block of the canvas. Its wrapper sets the position, so a block renders only when its content, selection

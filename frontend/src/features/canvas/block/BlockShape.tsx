@@ -1,4 +1,4 @@
-import { useId } from 'react';
+import { memo, useId } from 'react';
 import type { NodeStatus } from '@/generated/messages';
 import type { Family } from '@/model/vocabulary';
 import { outline } from '@/ui/shapes';
@@ -14,7 +14,7 @@ interface BlockShapeProps {
 const TILE = 44;
 
 /** The shape of a block: the outline of its family, the coloured side, the ring and the halo. */
-export function BlockShape({ family, width, height, flash }: BlockShapeProps) {
+export const BlockShape = memo(function BlockShape({ family, width, height, flash }: BlockShapeProps) {
   const clip = useId();
   const path = outline(family, width, height);
   return (
@@ -30,4 +30,4 @@ export function BlockShape({ family, width, height, flash }: BlockShapeProps) {
       {flash && <path key={flash.count} className={classes['flash']} data-status={flash.status} d={path} />}
     </svg>
   );
-}
+});

@@ -54,7 +54,8 @@ _codes: Final[weakref.WeakValueDictionary[Any, Code]] = weakref.WeakValueDiction
 def code_of(region: Region, variant: Variant) -> Code | None:
     """Returns the code of a region; None if Python's compiler cannot take it."""
     shape = (region.root, variant)
-    key = (shape, region.classes)
+    # Weak: a class that leads to its tree, as by a global of its module, would keep the code for good.
+    key = (shape, tuple(weakref.ref(cls) for cls in region.classes))
     code = _codes.get(key)
     if code is not None:
         return code

@@ -81,6 +81,20 @@ def test_code_is_freed_with_the_last_tree() -> None:
     assert freed() is None
 
 
+def test_code_is_freed_although_a_class_leads_to_its_tree() -> None:
+    class Own(Succeeding):
+        trees: list[Tree] = []  # noqa: RUF012 - the reference from the class to the tree is the point
+
+    tree = load("<Sequence><Own/><Own/></Sequence>", nodes={"Own": Own})
+    Own.trees.append(tree)
+    assert tree.tick_exactly_once() is Status.SUCCESS
+    freed = weakref.ref(quick(tree).__code__)
+    del tree, Own
+    load("<AlwaysSuccess/>")  # py_trees' tools know the blackboard of the last tree
+    gc.collect()
+    assert freed() is None
+
+
 def test_dropped_code_is_freed_while_the_tree_lives() -> None:
     tree = load("<Sequence><Succeeding/><Succeeding/><Failing/></Sequence>")
     tree.tick_exactly_once()

@@ -6,6 +6,7 @@ import {
   fieldPort,
   firstValue,
   fullName,
+  isRosName,
   shortLabel,
   typePortOf,
 } from './rosFields';
@@ -59,4 +60,22 @@ describe('the ports of ROS blocks', () => {
     expect(firstValue('RosAction', field('result__code', 'uint', 'output'))).toBe('{code}');
     expect(firstValue('RosSubscribe', field('message__percentage', 'double'))).toBe('{percentage}');
   });
+});
+
+it.each([
+  ['/cmd_vel', true],
+  ['cmd_vel', true],
+  ['~/status', true],
+  ['~', true],
+  ['/a/b_2', true],
+  ['', false],
+  ['/', false],
+  ['~/', false],
+  ['7', false],
+  ['/a//b', false],
+  ['/a/', false],
+  ['cmd vel', false],
+  ['ñ', false],
+])('says whether %o is a name of ROS', (name, isName) => {
+  expect(isRosName(name)).toBe(isName);
 });

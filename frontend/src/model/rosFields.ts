@@ -33,6 +33,19 @@ export function fullName(text: string, kind: InterfaceKind): string | null {
   return `${match[1] ?? ''}/${kind}/${match[3] ?? ''}`;
 }
 
+/** The ports of ROS blocks that hold a name of ROS, each with an example. */
+export const ROS_NAMES: Readonly<Record<string, string>> = {
+  action_name: '/navigate_to_pose',
+  service_name: '/reset',
+  topic_name: '/cmd_vel',
+  node_name: '/controller_server',
+};
+
+const ROS_NAME = /^(?:\/|~\/|~$)?(?:[A-Za-z_]\w*(?:\/[A-Za-z_]\w*)*)?$/;
+
+/** Returns whether a text names a topic, service, action or node of ROS, like `is_ros_name` of the translator. */
+export const isRosName = (name: string): boolean => !['', '/', '~/'].includes(name) && ROS_NAME.test(name);
+
 /** Returns the path of a field as ROS writes it: `goal.pose` for `goal__pose`. */
 export const fieldLabel = (port: string): string => port.replaceAll('__', '.');
 

@@ -42,9 +42,6 @@ PORTS: Final = r"""
         "a-b": Port(int, default="{a}"),
         "a_b": Port(int),
         "aключ": Port(int),
-        "name": Port(int),
-        "1st": Port(int),
-        '"; }': Port(int),
         "a.b": Port(int),
     }
     OUTPUT_PORTS = {

@@ -1,6 +1,6 @@
 import type { DiagramNode, NodeId } from '../diagram';
 import { pointerOf, readPortText, type PortSpec } from '../ports';
-import { fullName, typePortOf } from '../rosFields';
+import { fullName, isRosName, ROS_NAMES, typePortOf } from '../rosFields';
 import { fit, outside, partRead, typeLabel } from '../values';
 import type { NodeSpec } from '../vocabulary';
 import { atPort, type Problem } from './problem';
@@ -77,11 +77,24 @@ function checkInterface(id: NodeId, node: DiagramNode): Problem[] {
   return [atPort('wrong-type', id, typePort.port, { text, type: `package/${typePort.kind}/Name` })];
 }
 
+/** Reports a name of a topic, service, action or node that ROS does not take. */
+function checkRosNames(id: NodeId, node: DiagramNode): Problem[] {
+  if (typePortOf(node.type) === null && node.type !== 'RosParam') return [];
+  return Object.entries(ROS_NAMES).flatMap(([port, example]) => {
+    const text = node.ports?.[port] ?? '';
+    const name = text.trim();
+    if (name === '' || pointerOf(text) !== null) return [];
+    const isName = isRosName(port === 'node_name' ? name.replace(/\/+$/, '') : name);
+    return isName ? [] : [atPort('bad-ros-name', id, port, { text, example })];
+  });
+}
+
 /** Checks names and values of the ports of a node other than SubTree. */
 export function checkPorts(id: NodeId, node: DiagramNode, spec: NodeSpec): Problem[] {
   const declared = new Set(spec.ports.map((port) => port.name));
   return [
     ...checkInterface(id, node),
+    ...checkRosNames(id, node),
     ...spec.ports.flatMap((port) => checkDeclared(id, node, port, spec)),
     ...Object.entries(node.ports ?? {})
       .filter(([name]) => !declared.has(name))

@@ -11,6 +11,12 @@ function checkScript(id: NodeId, port: string, code: string): Problem[] {
   return isProblem(facts) ? [{ ...atPort('broken-script', id, port), script: facts }] : [];
 }
 
+/** Checks the script over the fields of a message that a subscription waits for. */
+function checkFieldCondition(id: NodeId, node: DiagramNode): Problem[] {
+  const code = node.type === 'RosSubscribe' ? (node.ports?.['condition'] ?? '') : '';
+  return code.trim() === '' || pointerOf(code) !== null ? [] : checkScript(id, 'condition', code);
+}
+
 /** Checks the conditions of any node, and the ports that hold code; a `Script` may be empty. */
 export function checkScripts(id: NodeId, node: DiagramNode, spec: NodeSpec | undefined): Problem[] {
   const conditions = Object.entries(node.conditions ?? {}).flatMap(([name, code]) =>
@@ -22,5 +28,5 @@ export function checkScripts(id: NodeId, node: DiagramNode, spec: NodeSpec | und
     if (code.trim() !== '') return checkScript(id, name, code);
     return code === '' && node.type === 'Script' ? [] : [atPort('empty-script', id, name)];
   });
-  return [...conditions, ...ports];
+  return [...conditions, ...ports, ...checkFieldCondition(id, node)];
 }

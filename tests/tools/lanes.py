@@ -17,13 +17,8 @@ from pathlib import Path
 from typing import Final
 
 ROOT: Final = Path(__file__).resolve().parents[2]
-# Tests of the browser that the other lane runs at its end, so that both end at about the same time.
-LATE: Final = [f"tests/e2e/test_{name}.py" for name in ("screens", "follow_person", "run_panels")]
-# The arguments of each lane for pytest, one run after the other.
-LANES: Final = {
-    "browser": [["tests/e2e", *(f"--ignore={path}" for path in LATE)]],
-    "others": [["tests", "--ignore=tests/e2e"], LATE],
-}
+# The arguments of each lane for pytest.
+LANES: Final = {"browser": ["tests/e2e"], "others": ["tests", "--ignore=tests/e2e"]}
 # Results of pytest; all others mean that its run did not come to its end.
 PASSED: Final = 0
 TESTS_FAILED: Final = 1
@@ -40,7 +35,7 @@ _TITLE: Final = re.compile(r"_{3,} .+ _{3,}$")
 def main(arguments: list[str]) -> int:
     """Runs the lanes to their ends, then failed walks alone; returns 0 if all passed."""
     began_s = time.monotonic()
-    lanes = [Lane(name, [pytest(*run, *arguments) for run in runs]) for name, runs in LANES.items()]
+    lanes = [Lane(name, pytest(*run, *arguments)) for name, run in LANES.items()]
     try:
         for lane in lanes:
             lane.start()
@@ -48,12 +43,11 @@ def main(arguments: list[str]) -> int:
             lane.join()
     except KeyboardInterrupt:  # the lanes' runs were interrupted too, and print their summaries
         for lane in lanes:
-            lane.is_ended = True
             lane.join()
         return 130
     is_complete = all(lane.result in (PASSED, TESTS_FAILED) for lane in lanes)
     walks = walks_to_repeat([line for lane in lanes for line in lane.failures]) if is_complete else []
-    again = [Lane("again", [pytest(*walks, *arguments)])] if walks else []
+    again = [Lane("again", pytest(*walks, *arguments))] if walks else []
     for lane in again:
         lane.run()
     report = [*lanes, *again]
@@ -77,15 +71,14 @@ def walks_to_repeat(failures: list[str]) -> list[str]:
 
 
 class Lane(threading.Thread):
-    """Runs of pytest, one after the other; the rest runs also after a failure."""
+    """A run of pytest, whose lines are shown with the name of the lane."""
 
-    def __init__(self, name: str, commands: list[list[str]]) -> None:
+    def __init__(self, name: str, command: list[str]) -> None:
         super().__init__(name=name)
         self.result = PASSED
-        self.is_ended = False
         self.failures: list[str] = []
         self._errors: list[list[str]] = []
-        self._commands = commands
+        self._command = command
 
     @property
     def summary(self) -> list[str]:
@@ -93,13 +86,15 @@ class Lane(threading.Thread):
         return [*self.failures, *(line for error in self._errors for line in error[:ERROR_LINES])]
 
     def run(self) -> None:
-        for command in self._commands:
-            if not self.is_ended:
-                before = len(self.failures)
-                result = self._show(command)
-                if result == TESTS_FAILED and len(self.failures) == before:  # it ended before its summary
-                    result = NOT_COMPLETE
-                self.result = max(self.result, result)
+        with subprocess.Popen(
+            self._command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        ) as process:
+            for line in process.stdout or ():
+                print(f"{self.name:7} | {line}", end="", flush=True)
+                self.read(line)
+        self.result = abs(process.returncode)
+        if self.result == TESTS_FAILED and not self.failures:  # it ended before its summary
+            self.result = NOT_COMPLETE
 
     def read(self, line: str) -> None:
         """Keeps a line of pytest's output if it names a failure or says what failed."""
@@ -109,15 +104,6 @@ class Lane(threading.Thread):
             self._errors.append([])
         elif line.startswith("E  ") and self._errors:
             self._errors[-1].append(line)
-
-    def _show(self, command: list[str]) -> int:
-        with subprocess.Popen(
-            command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-        ) as process:
-            for line in process.stdout or ():
-                print(f"{self.name:7} | {line}", end="", flush=True)
-                self.read(line)
-        return abs(int(process.returncode))
 
     def __str__(self) -> str:
         return f"{self.name} {'passed' if self.result == PASSED else f'FAILED ({self.result})'}"

@@ -36,6 +36,6 @@ def test_each_failure_is_listed_with_the_beginning_of_its_error() -> None:
 
 
 def test_a_run_that_ends_before_its_summary_is_not_taken_for_failed_walks() -> None:
-    lane = Lane("browser", [[sys.executable, "-c", "raise SystemExit(1)"]])
+    lane = Lane("browser", [sys.executable, "-c", "raise SystemExit(1)"])
     lane.run()
     assert lane.result == NOT_COMPLETE

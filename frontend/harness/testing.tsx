@@ -156,6 +156,7 @@ interface SentCommand {
 export class FakeExecutor {
   readonly sent: SentCommand[] = [];
   private refusals: Record<string, { code: string; message: string; hint: string }> = {};
+  private readonly waiting: Record<string, string[]> = {};
   private socket: FakeSocket | null = null;
   private seq = 0;
 
@@ -168,6 +169,16 @@ export class FakeExecutor {
     this.refusals[command] = { code, message, hint };
   }
 
+  /** From now on the command takes until the returned function is called; it confirms the oldest one. */
+  takeLong(command: keyof Commands): () => void {
+    const ids: string[] = [];
+    this.waiting[command] = ids;
+    return () => {
+      const id = ids.shift();
+      if (id !== undefined) act(() => this.post({ id, command: 'ack', data: {} }));
+    };
+  }
+
   /** What was sent with a command, each time. */
   sentAs(command: keyof Commands): unknown[] {
     return this.sent.filter((each) => each.command === command).map(({ data }) => data);
@@ -176,6 +187,11 @@ export class FakeExecutor {
   receive(text: string): void {
     const message = JSON.parse(text) as SentCommand;
     this.sent.push(message);
+    const waiting = this.waiting[message.command];
+    if (waiting) {
+      waiting.push(message.id);
+      return;
+    }
     const refusal = this.refusals[message.command];
     this.post({ id: message.id, command: refusal ? 'error' : 'ack', data: refusal ?? {} });
   }

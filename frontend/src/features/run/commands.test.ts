@@ -74,6 +74,39 @@ describe('commands of a run', () => {
     await expect.poll(() => executor.sentAs('step')).toHaveLength(10);
   });
 
+  it('wait for the steps that are under way', async () => {
+    executor.emit('state-changed', { state: 'paused', reason: '' });
+    const confirm = executor.takeLong('step');
+    perform('run.step');
+    perform('run.step');
+    perform('run.resume');
+    await expect.poll(() => executor.sentAs('step')).toHaveLength(1);
+    expect(executor.sentAs('resume')).toEqual([]);
+    confirm();
+    await expect.poll(() => executor.sentAs('step')).toHaveLength(2);
+    expect(executor.sentAs('resume')).toEqual([]);
+    confirm();
+    await expect.poll(() => executor.sentAs('resume')).toHaveLength(1);
+    expect(useRunStore.getState().failure).toBeNull();
+  });
+
+  it('run on after a step that was refused', async () => {
+    executor.emit('state-changed', { state: 'paused', reason: '' });
+    executor.refuse('step', 'The tree has ended.');
+    perform('run.step');
+    perform('run.resume');
+    await expect.poll(() => executor.sentAs('resume')).toHaveLength(1);
+    expect(useRunStore.getState().failure?.message).toBe('The tree has ended.');
+  });
+
+  it('stop also while a step is under way', async () => {
+    executor.emit('state-changed', { state: 'paused', reason: '' });
+    executor.takeLong('step');
+    perform('run.step');
+    perform('run.stop');
+    await expect.poll(() => executor.sentAs('terminate_application')).toHaveLength(1);
+  });
+
   it('switch following and driving on and off', () => {
     const states = () => [useFollowing.getState().isOn, useTeleop.getState().isOn];
     const before = states();

@@ -30,8 +30,19 @@ const isWorldUp = () => !['idle', 'connected'].includes(useSessionStore.getState
 export const isViewer = () => useSessionStore.getState().introspection?.role === 'viewer';
 export const hasSession = () => useSessionStore.getState().connection !== 'off';
 
+/** The steps that are under way. The session refuses most commands meanwhile, so those that follow wait. */
+let steps: Promise<unknown> = Promise.resolve();
+
+/** Steps after the steps that are under way. */
+function afterSteps(doing: () => Promise<unknown>): Promise<unknown> {
+  const done = steps.then(doing);
+  steps = done.catch(() => undefined);
+  return done;
+}
+
 export const pause = () => reported(send('pause', {}));
-export const resume = () => reported(send('resume', {}));
+/** Runs on, after the steps that are under way. */
+export const resume = () => reported(steps.then(() => send('resume', {})));
 export const stop = () => reported(send('terminate_application', {}));
 /** Lets the world run without a program. */
 export const runWorld = () =>
@@ -52,18 +63,16 @@ export const takeOver = () => reported(send('take_over', {}));
 export const end = () => reported(endSession());
 
 /** Runs one tick; a running application is paused first. */
-export async function step(): Promise<void> {
-  await reported(isRunning() ? send('pause', {}).then(() => send('step', {})) : send('step', {}));
-}
+export const step = () => stepMany(1);
 
-/** Runs several ticks one after the other, until one is refused. */
-export async function stepMany(count: number): Promise<void> {
-  await step();
-  const others = async () => {
-    for (let i = 1; i < count; i++) await send('step', {});
-  };
-  if (isPaused()) await reported(others());
-}
+/** Runs several ticks one after the other, until one is refused or the program has ended. */
+export const stepMany = (count: number) =>
+  reported(
+    afterSteps(async () => {
+      if (isRunning()) await send('pause', {});
+      for (let i = 0; i < count && (i === 0 || isPaused()); i++) await send('step', {});
+    }),
+  );
 
 /** Sets the tick rate in the project, and in the running application. */
 export function setTickRate(tickHz: number): void {

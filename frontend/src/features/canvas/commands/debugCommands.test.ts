@@ -1,29 +1,16 @@
 import { afterEach, beforeEach, expect, it } from 'vitest';
-import type { TreeNode } from '@/generated/messages';
 import { useBreakpoints } from '@/store/debug/breakpoints';
 import { useDebugMarks } from '@/store/debug/marks';
 import { useProjectStore } from '@/store/project';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import { openDiagram } from '../../../../harness/canvas';
-import { openSession, type FakeExecutor } from '../../../../harness/testing';
+import { debugged, treeNode } from '../../../../harness/heldTree';
+import { openSession } from '../../../../harness/testing';
 import { debugCommands } from './debugCommands';
 
 const command = (id: string) => debugCommands.find((each) => each.id === `debug.${id}`)!;
 const words = (id: string) => command(id).inMenu(true);
-const debugged = ({ sent }: FakeExecutor) =>
-  sent.filter(({ command }) => ['force', 'release', 'step_to'].includes(command));
-
-const node = (uid: number, node_id: string): TreeNode => ({
-  uid,
-  parent: uid - 1,
-  type: 'Sleep',
-  kind: '',
-  name: node_id,
-  path: node_id,
-  node_id,
-  tree_id: 'Main',
-});
 
 beforeEach(() => {
   openDiagram({
@@ -41,7 +28,7 @@ const hold = (role: 'driver' | 'viewer') =>
   useSessionStore.setState({
     executor: 'held',
     introspection: { role } as never,
-    tree: [node(1, 'r'), node(2, 'a'), node(3, 'b')],
+    tree: [treeNode(1, 'r'), treeNode(2, 'a'), treeNode(3, 'b')],
   });
 
 it('set a breakpoint on all selected blocks, and remove all', () => {

@@ -10,19 +10,16 @@ child 1, return the last result. `contract_nodes.hpp` runs it in BehaviorTree.CP
 from __future__ import annotations
 
 import argparse
-import gzip
-import json
 from pathlib import Path
 from typing import Any, Final
 
-from tests.tools.control_cases import Generator, compact, traces
+from tests.tools.control_cases import Generator, write_cases
 from tests.tools.oracle_build import build_contract
 
 TARGET: Final = Path(__file__).resolve().parents[1] / "conformance" / "contract.jsonl.gz"
 COUNT: Final = 1000
 FOUND: Final = (2412, 3744)
 """Seeds that once showed a difference."""
-BATCH: Final = 100
 WAKING: Final = ("<Async", "<SequenceWithMemory", "<Repeat", "<Retry")
 """Nodes that wake the tree up themselves: below a node that halts them, `tickOnce` may never return."""
 
@@ -95,17 +92,7 @@ def main() -> None:
     given = parser.parse_args()
     program = build_contract(given.build, given.program, given.btcpp)
     seeds = [*range(given.first, given.first + given.count), *FOUND]
-    found: list[dict[str, Any]] = []
-    for first in range(0, len(seeds), BATCH):
-        cases = [ContractGenerator(seed).case() for seed in seeds[first : first + BATCH]]
-        found += [
-            case for case in traces(program, cases) if "oracle_error" not in case and "expected" in case
-        ]
-    lines = "".join(f"{json.dumps(compact(case), separators=(',', ':'))}\n" for case in found)
-    given.output.write_bytes(gzip.compress(lines.encode(), mtime=0))
-    print(
-        f"{len(found)} cases, {sum('exception' in case['expected'][-1] for case in found)} end with an error"
-    )
+    write_cases(given.output, program, [ContractGenerator(seed).case() for seed in seeds])
 
 
 if __name__ == "__main__":

@@ -221,6 +221,21 @@ def compact(case: dict[str, Any]) -> dict[str, Any]:
     return {**kept, "expected": expected, **({"final_halt": final} if final else {})}
 
 
+def write_cases(output: Path, program: Path, cases: list[dict[str, Any]]) -> None:
+    """Runs cases in BehaviorTree.CPP, and writes those that it can run with their traces."""
+    found = [
+        case
+        for first in range(0, len(cases), BATCH)
+        for case in traces(program, cases[first : first + BATCH])
+        if "oracle_error" not in case and "expected" in case
+    ]
+    lines = "".join(f"{json.dumps(compact(case), separators=(',', ':'))}\n" for case in found)
+    output.write_bytes(gzip.compress(lines.encode(), mtime=0))
+    print(
+        f"{len(found)} cases, {sum('exception' in case['expected'][-1] for case in found)} end with an error"
+    )
+
+
 def main() -> None:
     """Makes the file."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -230,17 +245,7 @@ def main() -> None:
     parser.add_argument("--output", type=Path, default=TARGET)
     given = parser.parse_args()
     program = build(given.build, given.program, given.btcpp, given.nav2)
-    found: list[dict[str, Any]] = []
-    for first in range(0, given.count, BATCH):
-        cases = [Generator(seed).case() for seed in range(first, min(first + BATCH, given.count))]
-        found += [
-            case for case in traces(program, cases) if "oracle_error" not in case and "expected" in case
-        ]
-    lines = "".join(f"{json.dumps(compact(case), separators=(',', ':'))}\n" for case in found)
-    given.output.write_bytes(gzip.compress(lines.encode(), mtime=0))
-    print(
-        f"{len(found)} cases, {sum('exception' in case['expected'][-1] for case in found)} end with an error"
-    )
+    write_cases(given.output, program, [Generator(seed).case() for seed in range(given.count)])
 
 
 if __name__ == "__main__":

@@ -35,7 +35,7 @@ test-docker: setup-test ## builds the images and tries the server for a team in 
 	@$(BIN)/python -m pytest --timeout 0 tests/docker
 
 test-frontend:
-	@cd frontend && npm run --silent test
+	@cd frontend && npm run --silent size && npm run --silent test
 
 mutants: ## changes 60 random lines of the page's features; at least 60 % must make a test fail (half an hour)
 	@$(BIN)/python -m tests.tools.mutate

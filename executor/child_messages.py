@@ -4,6 +4,7 @@ Each message is a tagged struct; its tag is the field ``type``. A channel decode
 
     ToWorld, FromWorld                world process (`executor.world.process`)
     ToApplication, FromApplication    application process (`executor.application.process`)
+    ToExact, FromExact                process of an exact run (`executor.exact.process`): both in one
     ToRecorder, FromRecorder          recorder process (`executor.recorder_messages`)
 
 Bytes that are not a message of the union cannot be decoded: the manager ends such a child with a fault that
@@ -24,6 +25,7 @@ import msgspec
 from msgspec import Struct
 
 from executor import messages
+from executor.replay_messages import Input, Replay  # noqa: TC001 - msgspec reads the annotations
 
 Event = TypeVar("Event", bound=Struct)
 DebugStep = Literal["continue", "into", "over", "out", "to"]
@@ -149,6 +151,16 @@ class Pace(Message, tag="pace"):
     lost: float
 
 
+class DumpWorld(Asked, tag="dump"):
+    """Requests the state of the world; a `WorldState` comes before the answer."""
+
+
+class LoadWorld(Message, tag="load"):
+    """Restores a state of this world that another process sent."""
+
+    data: bytes
+
+
 class ListTopics(Asked, tag="list_topics"):
     """Requests the topics of the ROS graph."""
 
@@ -175,6 +187,27 @@ class DescribeType(Asked, tag="describe_type"):
     message_type: str
 
 
+WorldCommand = (
+    BeginRecording
+    | Pause
+    | Resume
+    | StepWorld
+    | Reset
+    | SetSpeed
+    | StopRobot
+    | Teleop
+    | MoveBody
+    | Subscribe
+    | Unsubscribe
+    | Pace
+    | ListTopics
+    | EchoTopic
+    | PublishTopic
+    | DescribeType
+)
+"""A command for a world that was started."""
+
+
 # --- to the application ---------------------------------------------------------------------------
 
 
@@ -192,6 +225,30 @@ class StartApplication(Message, tag="start"):
     domain_id: int | None = None
     outside: bool = False
     breakpoints: messages.SetBreakpoints | None = None
+    profile: messages.SetProfile | None = None
+    groot2: int = 0
+    """The port at which clients of Groot2's protocol may look at the tree; 0 for none."""
+    is_debugged: bool = False
+    """Whether it waits for `ConnectDebugger`, and for Python breakpoints, before it loads the code."""
+    world: StartWorld | None = None
+    """The world of an exact run, which is simulated in the same process."""
+    world_state: bytes = b""
+    """The state with which that world begins; empty for its initial state."""
+    replay: Replay | None = None
+    """What the exact run does before it is ready: an earlier one again, up to a moment."""
+
+
+class ConnectDebugger(Message, tag="connect_debugger"):
+    """Connects the process with debugpy's adapter on a port of this machine."""
+
+    port: int
+    token: str
+
+
+class TracePython(Message, tag="trace_python"):
+    """Starts or stops the tracing of Python code in a process that a Python debugger is connected with."""
+
+    is_on: bool
 
 
 class StepTick(Message, tag="step"):
@@ -221,6 +278,16 @@ class SetPort(Asked, tag="set_port"):
     value: str | None
 
 
+class ApplyApplication(Asked, tag="apply"):
+    """Replaces the tree by that of the application in `app_dir`; an `Applied` comes before the answer.
+
+    With `dry` nothing changes.
+    """
+
+    app_dir: str
+    dry: bool = False
+
+
 class SetBreakpoints(Asked, tag="set_breakpoints"):
     """Replaces the breakpoints."""
 
@@ -246,10 +313,37 @@ class ForceResult(Asked, tag="force"):
     force: messages.Force
 
 
+class ServeGroot2(Asked, tag="serve_groot2"):
+    """Allows clients of Groot2's protocol to look at the tree at a port, or no longer with 0."""
+
+    port: int
+
+
+class MeasureNodes(Asked, tag="profile"):
+    """Measures the time of each node from the next tick on, or no longer."""
+
+    wanted: messages.SetProfile
+
+
 class ReleaseForced(Asked, tag="release"):
     """Ends what is forced on a node, or on all nodes."""
 
     uid: int | None = None
+
+
+class Control(Asked, tag="control"):
+    """Sets whether the user controls the robot of an attached session."""
+
+    on: bool
+
+
+# --- to an exact run ------------------------------------------------------------------------------
+
+
+class ForWorld(Message, tag="for_world"):
+    """A command for the world of an exact run."""
+
+    command: WorldCommand
 
 
 # --- from both ------------------------------------------------------------------------------------
@@ -295,6 +389,8 @@ class Log(Message, tag="log"):
     node_id: str = ""
     node_path: str = ""
     time: float | None = None
+    of_world: bool = False
+    """Whether the world wrote it, in a process that also runs the application."""
 
 
 class Starting(Message, tag="starting"):
@@ -316,6 +412,12 @@ class WorldReady(Message, tag="ready"):
     renderer: str = ""
     tf: bool = False
     universe: str = ""
+
+
+class WorldState(Asked, tag="world_state"):
+    """The state of the world as `World.dump` returns it: an answer, or what an exact run leaves."""
+
+    data: bytes
 
 
 class Progress(Message, tag="progress"):
@@ -424,6 +526,10 @@ class PortSet(messages.PortSet, tag_field="type", tag="port_set"):
     """The event `port_set` for clients."""
 
 
+class Applied(messages.Applied, tag_field="type", tag="applied"):
+    """The event `applied` for clients."""
+
+
 class Held(messages.Held, tag_field="type", tag="held"):
     """The event `held` for clients."""
 
@@ -438,6 +544,18 @@ class Forced(messages.Forced, tag_field="type", tag="forced"):
     """The event `forced` for clients."""
 
 
+class Attached(messages.Attached, tag_field="type", tag="attached"):
+    """The event `attached` for clients."""
+
+
+class AttachedTree(messages.AttachedTree, tag_field="type", tag="attached_tree"):
+    """The event `attached_tree` for clients."""
+
+
+class Profile(messages.Profile, tag_field="type", tag="profile"):
+    """The event `profile` for clients."""
+
+
 class Fault(messages.Fault, tag_field="type", tag="fault"):
     """The event `fault` for clients."""
 
@@ -446,26 +564,54 @@ class Finished(messages.Finished, tag_field="type", tag="finished"):
     """The event `finished` for clients."""
 
 
-WorldCommand = (
-    BeginRecording
-    | Pause
-    | Resume
-    | StepWorld
-    | Reset
-    | SetSpeed
-    | StopRobot
-    | Teleop
-    | MoveBody
-    | Subscribe
-    | Unsubscribe
-    | Pace
-    | ListTopics
-    | EchoTopic
-    | PublishTopic
-    | DescribeType
-)
-"""A command for a world that was started."""
-ToWorld = StartWorld | Stop | WorldCommand
+# --- from an exact run ----------------------------------------------------------------------------
+
+
+class Entered(Message, tag="entered"):
+    """Something from outside changed the run."""
+
+    input: Input
+
+
+class Fingerprints(Message, tag="fingerprints"):
+    """The fingerprints of the ticks since the last such message, one after the other."""
+
+    data: bytes
+
+
+class GoingBack(Message, tag="going_back"):
+    """The share of the way to the moment of a `Replay`, 0 to 1."""
+
+    fraction: float
+
+
+class Differs(Message, tag="differs"):
+    """The run that is made again differs from the first time from a tick on, at a simulated time in s."""
+
+    tick: int
+    t: float
+    cause: str
+
+
+class WentBack(Message, tag="went_back"):
+    """The run was made again up to the moment of a `Replay`; it is paused there.
+
+    Attributes:
+        t: the simulated time in s.
+        ticks: the number of ticks that were made.
+        inputs: the number of inputs that were given.
+        resets: the number of resets of the world among them.
+        tick_hz: the ticks in a second of simulated time.
+    """
+
+    t: float
+    ticks: int
+    inputs: int
+    resets: int
+    tick_hz: float
+
+
+ToWorld = StartWorld | Stop | DumpWorld | LoadWorld | WorldCommand
 FromWorld = (
     Beat
     | Log
@@ -480,6 +626,7 @@ FromWorld = (
     | TopicMessage
     | TypeDescription
     | Frame
+    | WorldState
 )
 ToApplication = (
     StartApplication
@@ -491,10 +638,16 @@ ToApplication = (
     | SetTickRate
     | SetBlackboard
     | SetPort
+    | ApplyApplication
     | SetBreakpoints
     | Continue
     | ForceResult
     | ReleaseForced
+    | Control
+    | MeasureNodes
+    | ServeGroot2
+    | ConnectDebugger
+    | TracePython
 )
 FromApplication = (
     Beat
@@ -510,16 +663,39 @@ FromApplication = (
     | Tick
     | Blackboard
     | PortSet
+    | Applied
     | Held
     | Released
     | Forced
+    | Attached
+    | AttachedTree
+    | Profile
     | Fault
     | Finished
+)
+ToExact = ToApplication | ForWorld
+FromExact = (
+    FromApplication
+    | Failed
+    | Sim
+    | TopicMismatch
+    | Topics
+    | TopicMessage
+    | TypeDescription
+    | Frame
+    | WorldState
+    | Entered
+    | Fingerprints
+    | GoingBack
+    | Differs
+    | WentBack
 )
 decode_to_world: Final = msgspec.msgpack.Decoder(ToWorld).decode
 decode_from_world: Final = msgspec.msgpack.Decoder(FromWorld).decode
 decode_to_application: Final = msgspec.msgpack.Decoder(ToApplication).decode
 decode_from_application: Final = msgspec.msgpack.Decoder(FromApplication).decode
+decode_to_exact: Final = msgspec.msgpack.Decoder(ToExact).decode
+decode_from_exact: Final = msgspec.msgpack.Decoder(FromExact).decode
 Request = (
     Pause
     | Resume
@@ -527,16 +703,21 @@ Request = (
     | Reset
     | SetSpeed
     | MoveBody
+    | DumpWorld
     | ListTopics
     | EchoTopic
     | PublishTopic
     | DescribeType
     | SetTickRate
     | SetPort
+    | ApplyApplication
     | SetBreakpoints
     | Continue
     | ForceResult
     | ReleaseForced
+    | Control
+    | MeasureNodes
+    | ServeGroot2
 )
 """Messages that a child answers with `Answer`."""
 

@@ -7,12 +7,16 @@ from typing import Annotated, Any, Final, Literal
 import msgspec
 from msgspec import Meta, Struct
 
-from executor.debug_messages import Force, Release, SetBreakpoints, StepTo
+from executor.apply_messages import Apply
+from executor.attach_messages import Control, ServeGroot2
+from executor.debug_messages import Dap, Force, Release, SetBreakpoints, StepTo
 from executor.evaluation_events import Evaluate
+from executor.profile_messages import SetProfile
 
 StreamName = Literal["poses", "scan", "camera", "view"]
 OnFinish = Literal["stop", "repeat"]
 OnError = Literal["stop", "failure"]
+RunTime = Literal["exact", "live"]
 TickRate = Annotated[float, Meta(gt=0, le=1000)]
 Speed = Annotated[float, Meta(ge=0, le=10)]
 StreamRate = Annotated[float, Meta(gt=0, le=120)]
@@ -47,6 +51,9 @@ class LaunchUniverse(Struct, forbid_unknown_fields=True):
 
     `none` starts no world: the application joins an outside ROS graph of this machine, in the domain
     `domain_id`. If that is null, it is the `ROS_DOMAIN_ID` of the server's environment.
+
+    With the time `exact`, runs are repeatable: world and tree are one process, and time waits for the tree. A
+    run whose time cannot wait is live, and a `log` says why.
     """
 
     universe: str | UniverseDocument
@@ -54,15 +61,20 @@ class LaunchUniverse(Struct, forbid_unknown_fields=True):
     seed: int = 0
     speed: Speed = 1.0
     domain_id: DomainId | None = None
+    time: RunTime = "live"
 
 
 class RunApplication(Struct, forbid_unknown_fields=True):
-    """(Re)starts the application from an app zip and un-pauses the world."""
+    """(Re)starts the application from an app zip and un-pauses the world.
+
+    `revision` is that of the project, if it is known; the recording names it.
+    """
 
     app_zip_base64: str
     tick_hz: TickRate = 20.0
     on_finish: OnFinish = "stop"
     on_error: OnError = "stop"
+    revision: Annotated[int, Meta(ge=0)] | None = None
 
 
 class Run(Struct, forbid_unknown_fields=True):
@@ -220,15 +232,31 @@ class Flag(Struct, forbid_unknown_fields=True):
     run: Annotated[str, Meta(max_length=32)] = ""
 
 
+class GoBack(Struct, forbid_unknown_fields=True):
+    """Takes world and program of an exact run back to the moment `t` in s, where they are paused.
+
+    The moment is that after the first tick that is not earlier; without `t` it is the end of the run. `run`
+    is one of this session in the present world, "" the present or last one. It is made again from its begin,
+    and the events `going_back` say how far it is. What follows is recorded as a run of its own (`branch`).
+    Refused with `not_exact`, `unknown_run`, or `not_repeatable`.
+    """
+
+    run: Annotated[str, Meta(max_length=64)] = ""
+    t: Annotated[float, Meta(ge=0)] | None = None
+
+
 COMMANDS: Final[dict[str, type[Struct]]] = {
+    "dap": Dap,
     "connect": Empty,
     "launch_universe": LaunchUniverse,
     "prepare_visualization": Empty,
     "run_application": RunApplication,
+    "apply": Apply,
     "run": Run,
     "pause": Empty,
     "resume": Empty,
     "step": Empty,
+    "go_back": GoBack,
     "cancel": Empty,
     "set_tick_rate": SetTickRate,
     "set_speed": SetSpeed,
@@ -249,6 +277,9 @@ COMMANDS: Final[dict[str, type[Struct]]] = {
     "step_to": StepTo,
     "force": Force,
     "release": Release,
+    "control": Control,
+    "profile": SetProfile,
+    "serve_groot2": ServeGroot2,
     "teleop": Teleop,
     "move_body": MoveBody,
     "subscribe": Subscribe,

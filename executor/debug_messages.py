@@ -6,7 +6,7 @@ for an earlier tree is refused (`unknown_node`).
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
 
@@ -79,6 +79,18 @@ class Release(Struct, forbid_unknown_fields=True):
     """Ends what is forced on a node; null for all nodes."""
 
     uid: Uid | None = None
+
+
+class Dap(Struct, forbid_unknown_fields=True):
+    """A message of the Debug Adapter Protocol, for breakpoints in Python; both ways, for the driver alone.
+
+    `message` is a request of the client, or a response or event. Files have their names in the project. A
+    client sends `initialize` once; the session attaches to each program by itself, and `initialized` comes
+    before the code of the program is loaded. The session refuses requests that are not listed
+    (`not_allowed`), files outside of the project (`bad_path`), and more than 1 MiB (`too_large`).
+    """
+
+    message: dict[str, Any]
 
 
 class Held(Struct):

@@ -7,6 +7,7 @@ Control socket (JSON text frames)
     client to server: ``{"id", "command", "data"}`` with one of `COMMANDS`;
     server to client: ``{"id", "command", "data", "seq", "t", "tick"}`` with one of `EVENTS`. A reply
     (``ack`` or ``error``) repeats the id of its command, other messages carry an id of their own.
+The module is long, since it is the list of the protocol; commands, and the events of a panel, have their own.
 Stream socket (MessagePack binary frames), server to client only: one of `FRAMES`, with its name in ``type``.
 """
 
@@ -16,6 +17,8 @@ from typing import Any, Final, Literal
 
 from msgspec import UNSET, Struct, UnsetType
 
+from executor.apply_messages import Applied
+from executor.attach_messages import Attached, AttachedTree, AttachState, Control, Groot2, ServeGroot2
 from executor.command_messages import (
     COMMANDS,
     CameraPose,
@@ -24,6 +27,7 @@ from executor.command_messages import (
     EchoTopic,
     Empty,
     Flag,
+    GoBack,
     LaunchUniverse,
     MoveBody,
     OnError,
@@ -45,6 +49,7 @@ from executor.command_messages import (
 )
 from executor.debug_messages import (
     Breakpoint,
+    Dap,
     Force,
     Forced,
     ForcedNode,
@@ -55,7 +60,17 @@ from executor.debug_messages import (
     StepTo,
 )
 from executor.evaluation_events import Evaluate, EvaluationEnded, EvaluationOutcome, EvaluationStarted
-from executor.recording_events import FlagSet, RecordingStopped, Segment, StopReason
+from executor.profile_messages import NodeTime, Profile, SampledStack, SetProfile, Waiting
+from executor.recording_events import (
+    Branch,
+    Differs,
+    FlagSet,
+    GoingBack,
+    RecordingStopped,
+    RepeatableRuns,
+    Segment,
+    StopReason,
+)
 from executor.stream_messages import (
     FRAMES,
     Camera,
@@ -76,11 +91,19 @@ from executor.stream_messages import (
 __all__ = [
     "COMMANDS",
     "FRAMES",
+    "Applied",
+    "AttachState",
+    "Attached",
+    "AttachedTree",
+    "Branch",
     "Breakpoint",
     "Camera",
     "CameraPose",
     "ClientMessage",
+    "Control",
+    "Dap",
     "DescribeType",
+    "Differs",
     "EchoTopic",
     "Empty",
     "Evaluate",
@@ -92,31 +115,40 @@ __all__ = [
     "Force",
     "Forced",
     "ForcedNode",
+    "GoBack",
+    "GoingBack",
+    "Groot2",
     "Held",
     "LaunchUniverse",
     "Light",
     "Mesh",
     "MoveBody",
+    "NodeTime",
     "OnError",
     "OnFinish",
     "Poses",
+    "Profile",
     "PublishTopic",
     "ReadRecording",
     "RecordingPart",
     "RecordingStopped",
     "Release",
     "Released",
+    "RepeatableRuns",
     "RestartNode",
     "Run",
     "RunApplication",
+    "SampledStack",
     "Scan",
     "Scene",
     "SceneObject",
     "Segment",
     "SensorPlacement",
+    "ServeGroot2",
     "SetBlackboard",
     "SetBreakpoints",
     "SetPort",
+    "SetProfile",
     "SetSpeed",
     "SetTickRate",
     "Shape",
@@ -129,6 +161,7 @@ __all__ = [
     "UniverseDocument",
     "Unsubscribe",
     "View",
+    "Waiting",
 ]
 
 PROTOCOL: Final = "bt-studio.v1"
@@ -442,8 +475,17 @@ class Snapshot(Struct):
     """The flags of the present run."""
     stops: list[RecordingStopped] = []
     """Where recordings of this session stopped."""
+    branches: list[Branch] = []
+    """The runs of this session that continue others."""
+    repeatable_runs: list[str] = []
+    """The runs in which one can go back."""
     held: Held | None = None
     forced: Forced | None = None
+    attached: Attached | None = None
+    attached_tree: AttachedTree | None = None
+    profile: Profile | None = None
+    groot2: Groot2 | None = None
+    waiting: Waiting = Waiting()
 
 
 EVENTS: Final[dict[str, type[Struct]]] = {
@@ -457,6 +499,7 @@ EVENTS: Final[dict[str, type[Struct]]] = {
     "tick": Tick,
     "blackboard": Blackboard,
     "port_set": PortSet,
+    "applied": Applied,
     "log": Log,
     "fault": Fault,
     "finished": Finished,
@@ -469,9 +512,19 @@ EVENTS: Final[dict[str, type[Struct]]] = {
     "segment": Segment,
     "flag": FlagSet,
     "recording_stopped": RecordingStopped,
+    "branch": Branch,
+    "repeatable_runs": RepeatableRuns,
+    "going_back": GoingBack,
+    "differs": Differs,
     "held": Held,
     "released": Released,
     "forced": Forced,
+    "attached": Attached,
+    "attached_tree": AttachedTree,
+    "profile": Profile,
+    "groot2": Groot2,
+    "waiting": Waiting,
+    "dap": Dap,
     "evaluation_started": EvaluationStarted,
     "evaluation_outcome": EvaluationOutcome,
     "evaluation_ended": EvaluationEnded,

@@ -23,14 +23,25 @@ class StartRecorder(Message, tag="start"):
 
 
 class BeginRun(Message, tag="begin_run"):
-    """Begins the recording of a run; `folder` has the files of its project."""
+    """Begins the recording of a run; `folder` has the files of its project.
+
+    `universe` is the document of its universe; "" for a built-in one, which its name tells.
+    """
 
     run: str
     about: dict[str, str]
     folder: str
+    universe: str = ""
 
 
-class Told(Message, tag="told"):
+class ChangeFiles(Message, tag="change_files"):
+    """The files of the project of a run are those in another folder: the next tree belongs to them."""
+
+    run: str
+    folder: str
+
+
+class RunEvent(Message, tag="run_event"):
     """An event of the session that belongs to a run, at a simulated time in s."""
 
     run: str
@@ -68,7 +79,7 @@ class Stopped(Message, tag="stopped"):
     detail: str
 
 
-ToRecorder = StartRecorder | Stop | BeginRun | Told | ReadSegment
+ToRecorder = StartRecorder | Stop | BeginRun | ChangeFiles | RunEvent | ReadSegment
 FromRecorder = Beat | Log | Answer | Frame | Recorded | Stopped
 decode_to_recorder: Final = msgspec.msgpack.Decoder(ToRecorder).decode
 decode_from_recorder: Final = msgspec.msgpack.Decoder(FromRecorder).decode

@@ -48,3 +48,34 @@ class RecordingStopped(Struct):
     reason: StopReason
     detail: str
     goes_on: bool
+
+
+class Branch(Struct):
+    """A run continues another one: `run` is as `parent` was up to the moment `from_t` in s."""
+
+    run: str
+    parent: str
+    from_t: float
+
+
+class RepeatableRuns(Struct):
+    """The runs of this session in which one can go back, the present or last one at the end."""
+
+    runs: list[str]
+
+
+class GoingBack(Struct):
+    """A run is made again up to a moment; `fraction` is 0 to 1, and 1 also where that failed."""
+
+    fraction: float
+
+
+class Differs(Struct):
+    """A run that is made again differs from the first time, from a tick on, at a simulated time `t` in s.
+
+    `cause` names what may not be repeatable in the program.
+    """
+
+    tick: int
+    t: float
+    cause: str

@@ -38,7 +38,7 @@ export default defineConfig({
     projects: [
       {
         extends: true,
-        test: { name: 'modules', include: ['src/**/*.test.ts'], setupFiles: ['./harness/endTimers.ts'] },
+        test: { name: 'modules', include: ['src/**/*.test.ts'], setupFiles: ['./harness/ownState.ts'] },
       },
       {
         extends: true,

@@ -119,9 +119,9 @@ def _with(model: ActionModel, found: Diagnostic) -> ActionModel:
     return ActionModel(name=model.name, source=model.source, path=model.path, diagnostics=(found,))
 
 
-def source_text(action: ActionModel) -> str:
-    """Returns the source as XML can hold it: only line feeds end its lines, form feeds are removed."""
-    return action.source.replace("\r\n", "\n").replace("\r", "\n").replace("\f", "")
+def source_text(source: str) -> str:
+    """Returns a source as XML can hold it: only line feeds end its lines, form feeds are removed."""
+    return source.replace("\r\n", "\n").replace("\r", "\n").replace("\f", "")
 
 
 class _Inspector:

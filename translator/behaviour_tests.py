@@ -10,6 +10,7 @@ from translator.check import check
 from translator.diagnostic import errors_in
 from translator.enums import enum_lines
 from translator.python_source import parse
+from translator.shared_modules import sources_of
 from translator.xml.write import write_document
 from translator.yaml_text import YamlError, read_yaml
 
@@ -74,7 +75,7 @@ def to_job(project: Project, *, real: bool = False) -> tuple[dict[str, Any], lis
             for tree in project.trees.values()
         },
         "xml": write_document(project, after=enum_lines(project.enums)),
-        "sources": {name: action.source for name, action in project.actions.items()} if real else None,
+        "sources": sources_of(project) if real else None,
     }
     return job, problems
 

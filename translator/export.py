@@ -12,6 +12,7 @@ from translator.check import check
 from translator.diagnostic import TranslatorError, errors_in
 from translator.enums import enum_lines
 from translator.importer import main_tree_of
+from translator.shared_modules import shared_modules
 from translator.tree import reachable_trees, used_types
 from translator.xml.escape import attribute, cdata
 from translator.xml.patch import patch_document
@@ -129,9 +130,14 @@ def _code_lines(project: Project) -> Iterator[str]:
     actions = used_actions(project)
     if not actions:
         return
+    modules = shared_modules(project, [action.name for action in actions])
     yield "  <Code>"
     for action in actions:
         digest = hashlib.sha256(project.files[action.path]).hexdigest()
         tag = f'<Action name="{attribute(action.name)}" sha256="{digest}">'
-        yield f"    {tag}{cdata(source_text(action))}</Action>"
+        yield f"    {tag}{cdata(source_text(action.source))}</Action>"
+    for module in modules:  # they are run where an action imports them
+        digest = hashlib.sha256(project.files[module.path]).hexdigest()
+        tag = f'<Module name="{attribute(module.name)}" sha256="{digest}">'
+        yield f"    {tag}{cdata(source_text(module.source))}</Module>"
     yield "  </Code>"

@@ -41,14 +41,20 @@ class Settings(BaseModel):
     robot: str | None = Field(default=None, max_length=NAME_CHARACTERS)
     on_finish: Literal["stop", "repeat"] = "stop"
     on_error: Literal["stop", "failure"] = "stop"
+    time: Literal["exact", "live"] = "live"
     license: str = Field(default="Apache-2.0", max_length=100)
     maintainer: Maintainer = Maintainer()
 
     def to_json(self) -> dict[str, Any]:
-        """Returns the document; `robot` is left out if the universe's own robot is used."""
+        """Returns the document.
+
+        `robot` is left out if the universe's own robot is used, and `time` if it is `live`.
+        """
         document = self.model_dump()
         if self.robot is None:
             del document["robot"]
+        if self.time == "live":
+            del document["time"]
         if self.tick_hz == int(self.tick_hz):
             document["tick_hz"] = int(self.tick_hz)
         return document

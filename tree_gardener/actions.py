@@ -16,7 +16,10 @@ PACKAGE: Final = "actions"
 
 
 def load_actions(
-    sources: Mapping[str, str] | str | pathlib.Path, *, only: Iterable[str] | None = None
+    sources: Mapping[str, str] | str | pathlib.Path,
+    *,
+    only: Iterable[str] | None = None,
+    keep: Iterable[str] = (),
 ) -> dict[str, type[Any]]:
     """Runs the sources of actions and returns their classes by name.
 
@@ -27,6 +30,8 @@ def load_actions(
     Args:
         sources: Python source by action, or a folder with one ``<Name>.py`` for each action.
         only: the actions to load; the others run only if one of these imports them. All if None.
+        keep: the actions that are loaded already and have not changed (`tree_gardener.action_changes`); their
+            modules and classes stay.
 
     Raises:
         LoadError: a source does not compile, raises when it runs, or has no class of its name.
@@ -39,7 +44,7 @@ def load_actions(
             if path.stem != "__init__"
         }
     tree_tools.install()
-    loader = _Loader(sources)
+    loader = _Loader(sources, frozenset(keep))
     classes = {}
     problems = []
     for name in sources if only is None else only:
@@ -55,14 +60,18 @@ def load_actions(
 class _Loader(importlib.abc.MetaPathFinder, importlib.abc.Loader):
     """Loads actions that may import one another, by ``actions.<Name>`` or by the bare name."""
 
-    def __init__(self, sources: Mapping[str, str]) -> None:
+    def __init__(self, sources: Mapping[str, str], keep: frozenset[str]) -> None:
         self.sources = sources
         self.package = types.ModuleType(PACKAGE)
         self.package.__path__ = []
+        for name in keep:
+            module = sys.modules.get(f"{PACKAGE}.{name}")
+            if module is not None:
+                setattr(self.package, name, module)
         sys.modules[PACKAGE] = self.package
         # Only one set of actions can be imported at a time: that of the running program.
         earlier = [finder for finder in sys.meta_path if isinstance(finder, _Loader)]
-        for name in {*sources, *(name for finder in earlier for name in finder.sources)}:
+        for name in {*sources, *(name for finder in earlier for name in finder.sources)} - keep:
             own = f"{PACKAGE}.{name}"
             sys.modules.pop(own, None)
             if getattr(sys.modules.get(name), "__name__", "") == own:  # imported by its bare name
@@ -111,7 +120,7 @@ class _Loader(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         """Compiles and runs one source; returns its module."""
         filename, source = f"{PACKAGE}/{name}.py", self.sources[name]
         module = types.ModuleType(f"{PACKAGE}.{name}")
-        module.__file__ = filename
+        module.__file__, module.__package__ = filename, PACKAGE
         # The file need not exist: tracebacks and debuggers get the lines from here.
         linecache.cache[filename] = (len(source), None, source.splitlines(keepends=True), filename)
         try:

@@ -47,13 +47,14 @@ class ManualClock:
 
 
 class Timer:
-    """One call that is scheduled for a time."""
+    """One call that is scheduled for a time; `owner` is the user's object that started it, if one did."""
 
-    __slots__ = ("callback", "deadline_s")
+    __slots__ = ("callback", "deadline_s", "owner")
 
-    def __init__(self, deadline_s: float, callback: Callable[[], None]) -> None:
+    def __init__(self, deadline_s: float, callback: Callable[[], None], owner: object = None) -> None:
         self.deadline_s = deadline_s
         self.callback: Callable[[], None] | None = callback
+        self.owner = owner
 
     def cancel(self) -> None:
         """Cancels the call."""
@@ -71,11 +72,16 @@ class Timers:
         self.heap: list[tuple[float, int, Timer]] = []
         self._order = itertools.count()
 
-    def start(self, delay_s: float, callback: Callable[[], None]) -> Timer:
+    def start(self, delay_s: float, callback: Callable[[], None], owner: object = None) -> Timer:
         """Schedules a call of `callback` after `delay_s` seconds."""
-        timer = Timer(self.clock.now() + delay_s, callback)
+        timer = Timer(self.clock.now() + delay_s, callback, owner)
         heapq.heappush(self.heap, (timer.deadline_s, next(self._order), timer))
         return timer
+
+    def restore(self, timer: Timer, order: int) -> None:
+        """Schedules a timer of another tree at the place among equal deadlines that it had there."""
+        heapq.heappush(self.heap, (timer.deadline_s, order, timer))
+        self._order = itertools.count(max(order + 1, next(self._order)))
 
     def fire(self) -> None:
         """Makes the calls whose deadline has passed, in the order of their deadlines."""

@@ -202,13 +202,33 @@ class _Reader:
 
 
 def embedded_sources(document: Document) -> dict[str, str]:
-    """Returns the sources of the actions in ``<Code>``, by name; reads both self-contained forms."""
+    """Returns the sources of the actions in ``<Code>``, by name; reads both self-contained forms.
+
+    The modules that actions import are left out.
+    """
     sources = {}
     for code in document.root.children:
         if code.tag != "Code":
             continue
         for element in code.children:
+            if _is_module(element):
+                continue
             is_action = element.tag == "Action" and "name" in element.attributes
             name = element.attributes["name"] if is_action else element.tag
             sources[name] = element.text if is_action else textwrap.dedent(element.text)
     return sources
+
+
+def embedded_modules(document: Document) -> dict[str, str]:
+    """Returns the sources in ``<Code>`` that actions import, by name: ``<Module name="…">``."""
+    codes = (code for code in document.root.children if code.tag == "Code")
+    return {
+        element.attributes["name"]: element.text
+        for code in codes
+        for element in code.children
+        if _is_module(element)
+    }
+
+
+def _is_module(element: Element) -> bool:
+    return element.tag == "Module" and "name" in element.attributes

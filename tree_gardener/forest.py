@@ -3,7 +3,7 @@
 import pathlib
 from collections.abc import Mapping, Sequence
 
-from tree_gardener.document import Document, Element, embedded_sources, parse_document
+from tree_gardener.document import Document, Element, embedded_modules, embedded_sources, parse_document
 from tree_gardener.enums import read_enums
 from tree_gardener.errors import Diagnostic, LoadError
 from tree_gardener.registry import NodeType
@@ -17,6 +17,7 @@ class Forest:
         definitions: the trees by ID; if two have the same ID, the last one counts.
         models: the models of the SubTrees, by tree ID.
         sources: the sources of the actions in the documents, by name.
+        modules: the sources that these actions import, by name.
         enums: the enumerations in the documents, by name.
         main: the document that names the main tree.
     """
@@ -26,6 +27,7 @@ class Forest:
         self.definitions: dict[str, Definition] = {}
         self.models: dict[str, SubTreeModel] = {}
         self.sources: dict[str, str] = {}
+        self.modules: dict[str, str] = {}
         self.enums: dict[str, dict[str, int]] = {}
         self.main: Document | None = None
         self._own_trees: list[str] = []
@@ -39,6 +41,7 @@ class Forest:
     ) -> Document:
         document = parse_document(text, name)
         self.sources.update(embedded_sources(document))
+        self.modules.update(embedded_modules(document))
         self.enums.update(read_enums(document))
         for element in document.root.children:
             if element.tag == "include":

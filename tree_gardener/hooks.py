@@ -18,6 +18,7 @@ from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Statu
 
 if TYPE_CHECKING:
     from tree_gardener.debugging.wiring import Wiring
+    from tree_gardener.profiling import Profile
     from tree_gardener.tree import Tree
 
 Before = Callable[[Node], Status | None]
@@ -68,6 +69,7 @@ class Hooks:
         counts: the results of each node, in the order of the nodes, if they are counted.
         log: the uid and result of each tick of a node, in order, if they are logged.
         wiring: which nodes ask a debugger round their ticks, if one is attached.
+        profile: measures each node, if one is attached.
     """
 
     def __init__(self, tree: "Tree") -> None:
@@ -78,6 +80,7 @@ class Hooks:
         self.counts: list[ResultCount] | None = None
         self.log: list[tuple[int, Status]] | None = None
         self.wiring: Wiring | None = None
+        self.profile: Profile | None = None
 
     def entry(self, node: Node, inner: Execute) -> Execute:
         """Returns the function that ticks a node together with its hooks."""
@@ -87,6 +90,8 @@ class Hooks:
             inner = functools.partial(self.run, node, inner)
         elif self.marks_leaves and isinstance(node, Leaf):
             inner = self._timed_leaf(node, inner) if self.times_leaves else self._marked_leaf(node, inner)
+        if self.profile is not None:
+            inner = self.profile.entry(node, inner)
         if self.wiring is not None:
             inner = self.wiring.entry(node, inner)
         if self.log is not None:

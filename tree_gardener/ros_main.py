@@ -388,7 +388,11 @@ def _tree(
     """Loads a tree of a document, by the node's time."""
     text = path.read_bytes()
     folder = pathlib.Path(actions) if actions is not None else None
-    classes = load_actions(_sources(text, folder, node.get_logger())) if folder is not None else {}
+    classes = {}
+    if folder is not None:
+        sources = _sources(text, folder, node.get_logger())
+        embedded = {name for name, _ in _embedded(text, "Action")}
+        classes = load_actions(sources, only=[name for name in sources if name in embedded])
     return Tree.from_xml(
         text, nodes=classes, clock=RosClock(node), name=str(path), main_tree=main_tree, blackboard=blackboard
     )
@@ -399,7 +403,7 @@ def _sources(text: bytes, folder: pathlib.Path, log: Any) -> "dict[str, str]":
     if str(folder) not in sys.path:
         sys.path.insert(0, str(folder))  # modules that the actions share
     sources = {}
-    for name, digest in _embedded(text):
+    for name, digest in (*_embedded(text, "Action"), *_embedded(text, "Module")):
         file = folder / f"{name}.py"
         if not file.is_file():
             continue
@@ -410,12 +414,12 @@ def _sources(text: bytes, folder: pathlib.Path, log: Any) -> "dict[str, str]":
     return sources
 
 
-def _embedded(text: bytes) -> "Iterator[tuple[str, str]]":
-    """Returns names and digests of the actions that a document contains."""
+def _embedded(text: bytes, tag: str) -> "Iterator[tuple[str, str]]":
+    """Returns names and digests of the actions, or of the modules, that a document contains."""
     parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False)
     with contextlib.suppress(etree.XMLSyntaxError):  # loading the tree reports it with a better place
-        for action in etree.fromstring(text, parser).iterfind("Code/Action"):
-            yield str(action.get("name", "")), str(action.get("sha256", ""))
+        for source in etree.fromstring(text, parser).iterfind(f"Code/{tag}"):
+            yield str(source.get("name", "")), str(source.get("sha256", ""))
 
 
 def _import_messages() -> None:

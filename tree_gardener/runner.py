@@ -112,10 +112,7 @@ class Runner:
         self._stop_wanted = False
         self._in_tick = False
         tree.on_error = self._count_as_failure if on_error == "failure" else None
-        if overrun is not None:
-            tree.time_leaves()
-        else:
-            tree.mark_leaves()  # a hung action must be named, and nobody asks for the slowest one
+        self._watch_leaves()
 
     @property
     def is_finished(self) -> bool:
@@ -148,6 +145,12 @@ class Runner:
         self._stop_wanted = True
         self._settle()
 
+    def replace(self, tree: Tree) -> None:
+        """Ticks another tree from now on, which has taken over from the present one; between two ticks."""
+        tree.on_error = self.tree.on_error
+        self.tree = tree
+        self._watch_leaves()
+
     # -- driving ------------------------------------------------------------------------------------
 
     def tick_due(self, now_s: float) -> Status | None:
@@ -160,6 +163,26 @@ class Runner:
         self._settle()
         if self.state is RunnerState.FINISHED or not self._is_due(now_s):
             return None
+        return self._tick()
+
+    def tick_now(self) -> Status | None:
+        """Ticks the tree once; returns the root's status, or None while paused or after the end.
+
+        The caller determines when ticks are due, as where the world counts its steps.
+        """
+        self._settle()
+        if self.state is RunnerState.FINISHED or (
+            self.state is RunnerState.PAUSED and not self._takes_step()
+        ):
+            return None
+        return self._tick()
+
+    def shutdown(self) -> None:
+        """Ends the run and shuts the tree down."""
+        self.state = RunnerState.FINISHED
+        self.tree.shutdown()
+
+    def _tick(self) -> Status | None:
         start_s = self._measure()
         self._in_tick = True
         try:
@@ -176,18 +199,23 @@ class Runner:
         self._settle()
         return status
 
-    def shutdown(self) -> None:
-        """Ends the run and shuts the tree down."""
-        self.state = RunnerState.FINISHED
-        self.tree.shutdown()
+    def _takes_step(self) -> bool:
+        """Whether a tick was requested during the pause; it is used up."""
+        if self._steps == 0:
+            return False
+        self._steps -= 1
+        return True
+
+    def _watch_leaves(self) -> None:
+        if self._overrun is not None:
+            self.tree.time_leaves()
+        else:
+            self.tree.mark_leaves()  # a hung action must be named, and nobody asks for the slowest one
 
     def _is_due(self, now_s: float) -> bool:
         if self.state is RunnerState.PAUSED:
             self._due_s = None
-            if self._steps == 0:
-                return False
-            self._steps -= 1
-            return True
+            return self._takes_step()
         due_s = self._due_s
         if due_s is not None and now_s < due_s - 1e-9 and due_s - now_s <= self.period_s + 1e-9:
             return False

@@ -21,6 +21,7 @@ from tree_gardener.hooks import After, Before, Hook, Hooks, ResultCount
 from tree_gardener.loader import Builder
 from tree_gardener.node import Execute, Node
 from tree_gardener.observe import Observer, Recorder
+from tree_gardener.profiling import Profile
 from tree_gardener.registry import build_registry
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SUCCESS, Status
 from tree_gardener.substitution import parse_rules
@@ -34,8 +35,7 @@ _log = logging.getLogger("tree_gardener")
 class Tree:
     """A tree of nodes, its blackboard, and the functions that tick it.
 
-    Create it with `from_xml` or `from_file`. Call `setup` once, then one of the tick functions repeatedly,
-    and `shutdown` at the end.
+    Create it with `from_xml` or `from_file`; call `setup` once, then tick functions, at the end `shutdown`.
 
     Attributes:
         nodes: all nodes in pre-order; ``nodes[0]`` is the root node.
@@ -48,6 +48,7 @@ class Tree:
             None, the error is raised out of the tick.
         on_warning: called with a node and a sentence if a mistake is tolerated, once for each node and
             sentence; if None, the sentence goes to the logger ``tree_gardener``.
+        warned: the uids and sentences of which the user was warned.
         tick_number: the number of ticks so far.
         slowest: duration and uid of the slowest action of the last tick, while leaves are timed.
         node_times_s: the time of each node in the tick, if an observer requested times; else None.
@@ -65,7 +66,7 @@ class Tree:
         self.wake_up = False
         self.on_error: Callable[[TickError], None] | None = None
         self.on_warning: Callable[[Node, str], None] | None = None
-        self._warned: set[tuple[int, str]] = set()
+        self.warned: set[tuple[int, str]] = set()
         self.tick_number = 0
         self._ended_tick = 0
         self._current: list[int] | memoryview[int] = [0]
@@ -119,7 +120,7 @@ class Tree:
         given = dict(nodes or {})
         missing = {action: source for action, source in forest.sources.items() if action not in given}
         if missing:
-            given.update(load_actions(missing))
+            given.update(load_actions({**forest.modules, **missing}, only=missing))
         named = {**forest.enums, **(enums or {})}
         registry = build_registry(given, types(named))
         problems = forest.check(registry)
@@ -218,11 +219,9 @@ class Tree:
     def _halt(self) -> None:
         if self._ended_tick != self.tick_number:
             self._ways.generation.doubt()  # a node halts the tree within its own tick
-        root = self.nodes[0]
-        root.stop()
-        for node in self.nodes:
+        for node in (self.nodes[0], *self.nodes):
             node.stop()
-        root.status = IDLE
+        self.nodes[0].status = IDLE
 
     def shutdown(self) -> None:
         """Halts the tree and calls ``shutdown()`` of each behaviour, even if some of them raise.
@@ -312,14 +311,11 @@ class Tree:
             if now_s >= end_s - 1e-9:
                 return
             timer_s = self.timers.next_s()
-            until_s = end_s if timer_s is None else min(end_s, timer_s)
-            self._wait(max(until_s - now_s, 0.0))
-
-    def _wait(self, duration_s: float) -> None:
-        if isinstance(self.clock, SystemClock):
-            self._signal.wait(duration_s)
-        else:
-            self.clock.sleep(duration_s)
+            wait_s = max((end_s if timer_s is None else min(end_s, timer_s)) - now_s, 0.0)
+            if isinstance(self.clock, SystemClock):
+                self._signal.wait(wait_s)
+            else:
+                self.clock.sleep(wait_s)
 
     def wake(self) -> None:
         """Wakes the tree up; may be called from any thread."""
@@ -363,9 +359,9 @@ class Tree:
 
     def warn(self, node: Node, message: str) -> None:
         """Reports a tolerated fault of a node, once."""
-        if (node.uid, message) in self._warned:
+        if (node.uid, message) in self.warned:
             return
-        self._warned.add((node.uid, message))
+        self.warned.add((node.uid, message))
         if self.on_warning is not None:
             self.on_warning(node, message)
         else:
@@ -447,6 +443,11 @@ class Tree:
             self.link()
         return self._hooks.log
 
+    def profile(self, profile: Profile | None) -> None:
+        """Measures each node with a `Profile` from the next tick on; None ends it."""
+        self._hooks.profile = profile
+        self.link()
+
     def debug(self, agent: Agent | None) -> None:
         """Attaches a debugger, which nodes ask before and after their ticks; None detaches it.
 
@@ -463,6 +464,10 @@ class Tree:
     def publish_groot2(self, port: int = 1667, host: str = "127.0.0.1") -> Groot2Publisher:
         """Serves the tree to Groot2, and to other clients of its protocol, until the result is closed."""
         return Groot2Publisher(self, port, host)
+
+    def continue_at(self, tick: int) -> None:
+        """Counts ticks from this number on, between two ticks."""
+        self.tick_number = self._ended_tick = tick
 
     @property
     def is_ticking(self) -> bool:
@@ -486,10 +491,7 @@ class Tree:
         self._ways.link_around(uid)
 
     def generated_source(self) -> str:
-        """Returns the Python code that is generated for ticks, for inspection; "" if there is none.
-
-        What is still to be generated is generated now. Call it between two ticks.
-        """
+        """Generates, between two ticks, what is still to be generated; returns all code for inspection."""
         return self._ways.source()
 
     def generate_code(self, *, on: bool) -> None:

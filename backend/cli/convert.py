@@ -53,10 +53,10 @@ def convert(
 
 def _convert(source: Path, target: Path) -> Converted:
     from executor.recorder.joining import join_newest
-    from executor.recorder.lines import convert_lines
     from executor.recorder.outside.apart import convert_apart
     from executor.recorder.outside.bags import is_bag
     from executor.recorder.outside.convert import Converted
+    from executor.recorder.outside.lines import convert_lines
 
     if source.is_dir() and not is_bag(source):
         target.touch()

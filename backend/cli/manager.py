@@ -38,6 +38,13 @@ def manager(  # noqa: PLR0913, PLR0917 - one an option
     recordings: Annotated[
         Path | None, typer.Option(help="Folder for the recordings of the runs; it stays at the end.")
     ] = None,
+    attach: Annotated[
+        str, typer.Option(help="HOST:PORT of a program whose tree it follows by Groot2's protocol.")
+    ] = "",
+    tls_cert: Annotated[
+        Path | None, typer.Option(help="Certificate, as PEM, with which connections are encrypted.")
+    ] = None,
+    tls_key: Annotated[Path | None, typer.Option(help="Its private key, as PEM.")] = None,
     allow_origin: Annotated[
         list[str] | None,
         typer.Option(help="Page that may drive it, such as https://example.org; repeatable."),
@@ -57,6 +64,9 @@ def manager(  # noqa: PLR0913, PLR0917 - one an option
         ("--domain-id", domain_id),
         ("--grace", grace),
         ("--recordings", recordings),
+        ("--attach", attach or None),
+        ("--tls-cert", tls_cert),
+        ("--tls-key", tls_key),
     ):
         if value is not None:
             arguments += [name, str(value)]

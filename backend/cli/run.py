@@ -53,6 +53,15 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
         Path | None,
         typer.Option(help="MCAP file (.mcap) for all that happens in the run."),
     ] = None,
+    profile: Annotated[  # noqa: FBT002 - typer's way
+        bool, typer.Option("--profile", help="Measure the time of each node, and print the slowest ones.")
+    ] = False,
+    groot2: Annotated[
+        int | None,
+        typer.Option(
+            min=1, max=65534, metavar="PORT", help="Let Groot2 connect at this port; its own is 1667."
+        ),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the report as JSON.")] = False,  # noqa: FBT002
 ) -> None:
     """Runs a project; exit status 1 if it cannot run, an action raised, or an action is an unwritten stub."""
@@ -66,7 +75,7 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     if evaluation is not None:
         from backend.cli.evaluating.one_run import run_one
 
-        _refuse_with_evaluation(universe, robot, duration, viewer=viewer)
+        _refuse_with_evaluation(universe, robot, duration, groot2, viewer=viewer, profile=profile)
         run_one(project, evaluation, seed, judged_by=judged_by, record=record, report=report, as_json=as_json)
         return
     if judged_by is not None:
@@ -83,12 +92,15 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
             from executor.headless.lockstep import LockstepOptions
 
             wanted = LOCKSTEP_DURATION_S if duration is None else duration
-            options = LockstepOptions(universe, robot, seed, wanted, recording=record)
+            options = LockstepOptions(
+                universe, robot, seed, wanted, recording=record, profiles=profile, groot2=groot2 or 0
+            )
             done = _in_lockstep(opened, options)
         else:
             from executor.headless.live import HeadlessOptions
 
-            done = _in_real_time(opened, HeadlessOptions(universe, seed, duration, robot, record, viewer))
+            live = HeadlessOptions(universe, seed, duration, robot, record, viewer, profile, groot2 or 0)
+            done = _in_real_time(opened, live)
     except TranslatorError as error:
         raise cli.fail(error.diagnostics, as_json=as_json) from error
     document = json.dumps(done.to_json(), ensure_ascii=False, indent=2) + "\n"
@@ -97,7 +109,7 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     if as_json:
         sys.stdout.write(document)
     else:
-        print(summary(done))
+        print(summary(done), *(_profile_lines(done) if profile else ()), sep="\n")
     if lockstep and not done.random and not as_json:
         print("Nothing in this run was random: every seed gives the same.")
     faults = [_fault_line(fault) for fault in done.errors]
@@ -119,11 +131,17 @@ def _refuse_contradictions(
         raise typer.BadParameter(text, param_hint="--record")
 
 
-def _refuse_with_evaluation(
-    universe: str | None, robot: str | None, duration: float | None, *, viewer: bool
+def _refuse_with_evaluation(  # noqa: PLR0913 - one an option
+    universe: str | None,
+    robot: str | None,
+    duration: float | None,
+    groot2: int | None,
+    *,
+    viewer: bool,
+    profile: bool,
 ) -> None:
-    given = {"--universe": universe, "--robot": robot, "--duration": duration}
-    given["--serve-viewer"] = viewer or None
+    given = {"--universe": universe, "--robot": robot, "--duration": duration, "--groot2": groot2}
+    given["--serve-viewer"], given["--profile"] = viewer or None, profile or None
     for name, value in given.items():
         if value is not None:
             text = "the evaluation decides this; leave out one of the two"
@@ -152,12 +170,13 @@ def reported() -> Iterator[None]:
     from executor.headless.guard import Hung
     from executor.universes.document import DocumentError
     from tree_gardener import LoadError, TickError
+    from tree_gardener.groot import GrootError
 
     try:
         yield
     except Hung as hung:
         raise CliError(str(hung)) from None
-    except (DocumentError, HeadlessError) as error:
+    except (DocumentError, GrootError, HeadlessError) as error:
         raise CliError(str(error)) from error
     except LoadError as error:
         raise CliError(*map(str, error.diagnostics)) from error
@@ -175,7 +194,9 @@ def _in_lockstep(project: Project, options: LockstepOptions) -> Report:
 
     try:
         with reported(), Guard() as guard:
-            return run_lockstep(project, options, progress=progress, moved=guard.moved)
+            return run_lockstep(
+                project, options, progress=progress, moved=guard.moved, waiting=guard.suspended
+            )
     finally:
         show_progress("")
 
@@ -210,6 +231,12 @@ def summary(done: Report) -> str:
         f"{done.wall_time_s:.1f} s ({done.real_time_factor:.1f}× real time); "
         f"{done.distance_m:.2f} m, {done.collisions} collisions{nearest}"
     )
+
+
+def _profile_lines(done: Report) -> Iterator[str]:
+    from executor.headless.profiling import lines_of
+
+    return lines_of(done.profile)
 
 
 def _fault_line(fault: dict[str, object]) -> str:

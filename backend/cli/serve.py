@@ -69,11 +69,25 @@ def serve_page(page: str, *, browser: bool, ready_file: Path | None) -> None:
                 "or a server with accounts (BT_STUDIO_MODE=team, see docs/how-to/run-a-team-server.md)."
             )
         judge_workers(settings)
+        if settings.launcher == "kubernetes":
+            _check_cluster(settings.pod_template)
         _serve(page, open_browser=browser, ready_file=ready_file)
     except InvalidEnvironmentError as error:
         raise CliError(str(error), status=2) from error
     except ServeError as error:
         raise CliError(str(error)) from error
+
+
+def _check_cluster(template: Path) -> None:
+    from django.core.exceptions import ImproperlyConfigured
+
+    from backend.config.server import ServeError
+    from backend.sessions.launchers.kubernetes.launcher import read_settings
+
+    try:
+        read_settings(template)
+    except ImproperlyConfigured as error:
+        raise ServeError(str(error)) from error
 
 
 def _serve(page: str = "/", *, open_browser: bool, ready_file: Path | None) -> None:
@@ -106,7 +120,7 @@ def _serve(page: str = "/", *, open_browser: bool, ready_file: Path | None) -> N
         def on_ready() -> None:
             robots = (
                 "; robots that run continue"
-                if settings.launcher == "docker" and settings.is_team
+                if settings.launcher != "process" and settings.is_team
                 else " and every robot that runs"
             )
             print(f"BT Studio is at {url}\nCtrl+C ends it{robots}.", flush=True)

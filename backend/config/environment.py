@@ -59,13 +59,21 @@ class Environment(TeamSettings):
         default=SecretStr(""),
         description="Token of the link that `serve` prints; when it is empty, each start makes a new one.",
     )
-    launcher: Literal["process", "docker"] = Field(
+    launcher: Literal["process", "docker", "kubernetes"] = Field(
         default="process",
-        description="What starts the executor of a project: `process` a child, `docker` a container.",
+        description="What starts the executor of a project: `process` a child, `docker` a container, "
+        "`kubernetes` a pod of a cluster.",
     )
     keeper_folder: Path = Field(
         default=Path("/run/bt-studio-keeper"),
         description="Folder shared with the keeper, with the sockets of the executors that it started.",
+    )
+    pod_template: Path = Field(
+        default=Path("/etc/bt-studio/executor-pod.yaml"),
+        description="The pod that `kubernetes` makes for each session (docker/kubernetes/executor-pod.yaml).",
+    )
+    pod_namespace: str = Field(
+        default="bt-studio-sessions", description="The namespace in which `kubernetes` makes these pods."
     )
     max_sessions: int = Field(
         default=0, ge=0, description="How many executors may run at once; further ones wait. 0: no limit."
@@ -171,9 +179,9 @@ class Environment(TeamSettings):
 
         Two servers can share neither an SQLite file nor the child processes of one of them.
         """
-        return self.is_team and self.is_postgresql and self.launcher == "docker"
+        return self.is_team and self.is_postgresql and self.launcher != "process"
 
-    @field_validator("data_dir", "frontend_dir", "templates_dir", "keeper_folder")
+    @field_validator("data_dir", "frontend_dir", "templates_dir", "keeper_folder", "pod_template")
     @classmethod
     def _absolute(cls, value: Path) -> Path:
         return value.expanduser().absolute()

@@ -24,6 +24,7 @@ urlpatterns = [
     path("tree_api/", include(legacy)),
     path("", static.page),
     re_path(r"^projects/[0-9a-f-]+/?$", static.page),
+    re_path(r"^attached/[0-9a-f-]+/?$", static.page),
 ]
 handler404 = "backend.core.problems.not_found"
 handler500 = "backend.core.problems.server_error"

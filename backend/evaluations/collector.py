@@ -15,10 +15,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 from django.utils import timezone
 from websockets.exceptions import WebSocketException
-from websockets.sync.client import connect, unix_connect
 
 from backend.core.problems import StudioError
-from backend.evaluations import told, work, writes
+from backend.evaluations import executor_events, work, writes
 from backend.evaluations.bundle import archive_of
 from backend.evaluations.choices import JobState
 from backend.evaluations.models import Evaluation, Replay
@@ -29,6 +28,7 @@ from backend.runs import writes as stored_runs
 from backend.sessions import writes as sessions
 from backend.sessions.choices import SessionState
 from backend.sessions.lease import holder
+from backend.sessions.manager.address import open_sync_socket
 from backend.sessions.models import Session
 
 if TYPE_CHECKING:
@@ -154,21 +154,21 @@ class Collector:
             runs=0 if side.seeds else found.runs,
             sealed=found.sealed,
         )
-        waiting: list[tuple[told.Done, told.Line]] = []
+        waiting: list[tuple[executor_events.Done, executor_events.Line]] = []
         stored_s = 0.0
         while True:
             message = self._hear(name)
             match message:
-                case told.Begun():
+                case executor_events.Begun():
                     if side.revision == found.revision:
                         writes.begun(found, message)
                     else:
                         writes.continues(found)
-                case told.Done():
+                case executor_events.Done():
                     waiting.append((message, _line(message)))
                 case _:
                     pass
-            ended = message if isinstance(message, told.Ended) else None
+            ended = message if isinstance(message, executor_events.Ended) else None
             if ended is None and time.monotonic() - stored_s < STORE_S:
                 continue
             stored_s = time.monotonic()
@@ -197,7 +197,7 @@ class Collector:
         self._ask(
             name, app_zip_base64=archive, evaluation=item.evaluation.name, seeds=[item.seed], record=True
         )
-        while not isinstance(message := self._hear(name), told.Ended):
+        while not isinstance(message := self._hear(name), executor_events.Ended):
             self._look()
             if not Replay.objects.filter(id=item.id).exists():
                 return False
@@ -238,24 +238,24 @@ class Collector:
         """
         assert self._socket is not None  # noqa: S101 - `run` has opened it
         try:
-            message = told.read(self._socket.recv(timeout=LOOK_S))
+            message = executor_events.read(self._socket.recv(timeout=LOOK_S))
         except TimeoutError:
             return None
         except ValueError as error:
             raise _LostError(f"The executor sent what is no message: {error}.") from error
-        if isinstance(message, told.Refusal):
+        if isinstance(message, executor_events.Refusal):
             raise _LostError(f"The executor refuses: {message.message}")
         return message if getattr(message, "job", "") == job else None
 
 
-def _line(done: told.Done) -> told.Line:
+def _line(done: executor_events.Done) -> executor_events.Line:
     try:
-        return told.read_line(done)
+        return executor_events.read_line(done)
     except ValueError as error:
         raise _LostError(f"The executor sent what is no outcome: {error}.") from error
 
 
-def _ended(found: Evaluation, side: Side, ended: told.Ended) -> bool:
+def _ended(found: Evaluation, side: Side, ended: executor_events.Ended) -> bool:
     if ended.end == "complete":
         writes.side_done(found, side.revision, ended.wanted)
         found.refresh_from_db()
@@ -278,17 +278,12 @@ def _job_name(name: str, revision: int, attempt: int) -> str:
 
 
 def _connect(session: Session) -> ClientConnection:
-    options: dict[str, Any] = {
-        "additional_headers": {"Authorization": f"Bearer {sessions.manager_token(session)}"},
-        "compression": None,
-        "max_size": MOST_MESSAGE,
-        "open_timeout": OPEN_S,
-        "close_timeout": 2,
-    }
-    kind, _, path = session.address.partition(":")
-    opened: ClientConnection
-    if kind == "unix":
-        opened = unix_connect(path, "ws://localhost/control", **options)
-    else:
-        opened = connect(f"ws://{session.address}/control", proxy=None, **options)
-    return opened
+    return open_sync_socket(
+        session.address,
+        "control",
+        additional_headers={"Authorization": f"Bearer {sessions.manager_token(session)}"},
+        compression=None,
+        max_size=MOST_MESSAGE,
+        open_timeout=OPEN_S,
+        close_timeout=2,
+    )

@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
 __all__ = ["data_of"]
 
-_TOLD: Final = ("project__name", "name", "revision", "older", "state", "results", "created_at", "ended_at")
+_FIELDS: Final = ("project__name", "name", "revision", "older", "state", "results", "created_at", "ended_at")
 
 
 def data_of(sender: object, *, user: User, **_: object) -> MoreData:
     """Returns the evaluations that the user has started, each with its `runs.jsonl`."""
     rows = Evaluation.objects.filter(user=user).order_by("created_at", "id")
-    told = list(rows.values(*_TOLD))
-    document: dict[str, Any] = {"evaluations": json.loads(json.dumps(told, cls=DjangoJSONEncoder))}
+    values = list(rows.values(*_FIELDS))
+    document: dict[str, Any] = {"evaluations": json.loads(json.dumps(values, cls=DjangoJSONEncoder))}
     files = [
         (f"evaluations/{found.id}/revision-{revision}.jsonl", partial(_lines, found, revision))
         for found in rows.defer("plan")

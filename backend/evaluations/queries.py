@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 from datetime import timedelta
 from typing import TYPE_CHECKING, Any, Final
 
+import msgspec
 from django.db.models import Avg, Count, Sum
 from django.utils import timezone
 
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
 FOLDER: Final = "evaluations/"
 ENDING: Final = ".yaml"
 OUTCOMES_AT_A_TIME: Final = 2000
+MOST_NODES: Final = 20_000
 _DAY: Final = timedelta(hours=24)
 
 
@@ -105,6 +108,21 @@ def lines(found: Evaluation, revision: int) -> Iterator[str]:
     """Yields the lines of `runs.jsonl`, in the order of the seeds."""
     rows = Outcome.objects.filter(evaluation=found, revision=revision).order_by("seed")
     return rows.values_list("line", flat=True).iterator(chunk_size=200)
+
+
+class _Seen(msgspec.Struct):
+    seen: dict[str, str] = {}
+
+
+def seen(found: Evaluation, revision: int) -> dict[str, str]:
+    """Returns all results that each node had in some run, as letters by the path of the node."""
+    decoder = msgspec.json.Decoder(_Seen)
+    every: dict[str, set[str]] = {}
+    for line in lines(found, revision):
+        with contextlib.suppress(msgspec.DecodeError):  # the executor wrote it, which runs code of users
+            for path, letters in decoder.decode(line).seen.items():
+                every.setdefault(path, set()).update(letters)
+    return {path: "".join(sorted(letters)) for path, letters in list(every.items())[:MOST_NODES]}
 
 
 def replay(found: Evaluation, replay_id: UUID, *, user: User) -> Replay:

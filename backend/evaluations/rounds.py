@@ -61,12 +61,8 @@ def one_round() -> None:
         waiting = work.waiting_places()
         somebody_works = work.somebody_waits_for_place()
         _make_room(running, waiting, somebody_works=somebody_works)
-        for place in work.in_turn(waiting, running):
-            if somebody_works or len(running) >= environment().max_evaluations or current_drain() is not None:
-                break
-            session = _start(place)
-            if session is not None:
-                running[place] = session
+        if not somebody_works:
+            _give_turns(running, waiting)
         for place, session in running.items():
             if session.state != SessionState.QUEUED:
                 collect(session, place)
@@ -103,6 +99,20 @@ def _make_room(
         _end(longest, place)
         del running[place]
         waiting.pop(place, None)  # its turn is not in this round
+
+
+def _give_turns(running: dict[Place, Session], waiting: dict[Place, datetime]) -> None:
+    """Starts sessions while the server has room; each one that starts changes whose turn is next."""
+    last = work.last_turns(waiting)
+    left = dict(waiting)
+    while len(running) < environment().max_evaluations and current_drain() is None:
+        place = next(iter(work.in_turn(left, running, last)), None)
+        if place is None:
+            return
+        del left[place]
+        session = _start(place)
+        if session is not None:
+            running[place] = session
 
 
 def _end(session: Session, place: Place) -> None:
@@ -146,7 +156,7 @@ def _is_ready(session: Session, place: Place) -> bool:
 
 
 def collect(session: Session, place: Place) -> None:
-    """Reads the outcomes of a session in a thread, unless that is being done."""
+    """Starts a thread that reads the outcomes of a session, unless one runs already."""
     thread = _collecting.get(session.id)
     if thread is not None and thread.is_alive():
         return

@@ -19,6 +19,10 @@ from backend.core.scratch import scratch
 from backend.evaluations import queries, results, work, writes
 from backend.evaluations import serializers as s
 from backend.evaluations.rounds import round_soon
+from backend.projects.api.schema import NOT_SOUND
+from backend.projects.api.serializers_tests import CoverageSerializer
+from backend.projects.documents import checking
+from backend.projects.storage.queries import files_at
 from backend.workers.aside import conversions
 from backend.workers.deferred import Deferred
 
@@ -134,6 +138,20 @@ class Evaluations(ResourceViewSet):
             return Response(s.presented_comparison(done.result()))
 
         return Deferred(self, request, work, compared)
+
+    @extend_schema(
+        operation_id="get_evaluation_coverage",
+        parameters=[s.RevisionQuerySerializer],
+        responses={200: CoverageSerializer} | NOT_SOUND,
+        tags=["evaluations"],
+    )
+    @action(detail=True)
+    def coverage(self, request: Request, project_id: UUID, evaluation_id: UUID) -> HttpResponseBase:
+        """Returns which blocks the runs of a revision ticked, and which results these had, in any run."""
+        found = queries.evaluation(project_id, evaluation_id, user=user_of(request))
+        revision = _revision(request, found)
+        files = {path: file.data for path, file in files_at(found.project, revision).items()}
+        return checking.covered(self, request, files, queries.seen(found, revision), Response)
 
     @extend_schema(
         operation_id="list_outcomes",

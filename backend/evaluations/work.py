@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from datetime import UTC, datetime
 from typing import TYPE_CHECKING, NamedTuple
+
+from django.db.models import Max
 
 from backend.evaluations import queries
 from backend.evaluations.choices import LIVE, NOT_COUNTED, JobState, WaitsFor
@@ -13,7 +16,6 @@ from backend.sessions.models import Session
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
-    from datetime import datetime
     from uuid import UUID
 
 
@@ -90,11 +92,34 @@ def waiting_places() -> dict[Place, datetime]:
     return found
 
 
-def in_turn(waiting: Mapping[Place, datetime], running: Iterable[Place]) -> list[Place]:
-    """Returns the places that wait, those of users with the fewest running ones first, then the oldest."""
+def last_turns(places: Iterable[Place]) -> dict[int, datetime]:
+    """Returns when each user of some places was last given a session for evaluations."""
+    users = {place.user for place in places}
+    rows = Session.objects.filter(kind=SessionKind.EVALUATION, user__in=users)
+    return dict(rows.values("user").annotate(last=Max("created_at")).values_list("user", "last"))
+
+
+def in_turn(
+    waiting: Mapping[Place, datetime], running: Iterable[Place], last: Mapping[int, datetime]
+) -> list[Place]:
+    """Returns the places that wait, in the order of their turns.
+
+    Users with the fewest running ones go first; of these, who never had a turn or had it longest ago, so that
+    somebody with many wishes does not keep the others waiting; then the oldest wish.
+
+    Args:
+        waiting: the places with something to do, each with the time of the oldest wish.
+        running: the places that have a session.
+        last: when users had their last turn (`last_turns`).
+    """
     there = list(running)
     by_user: dict[int, int] = {}
     for place in there:
         by_user[place.user] = by_user.get(place.user, 0) + 1
     left = [place for place in waiting if place not in there]
-    return sorted(left, key=lambda place: (by_user.get(place.user, 0), waiting[place], place))
+    never = datetime.min.replace(tzinfo=UTC)
+
+    def turn(place: Place) -> tuple[int, datetime, datetime, Place]:
+        return by_user.get(place.user, 0), last.get(place.user, never), waiting[place], place
+
+    return sorted(left, key=turn)

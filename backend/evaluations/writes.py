@@ -13,7 +13,16 @@ from backend.config.environment import environment
 from backend.core.locks import transaction_lock
 from backend.evaluations import queries
 from backend.evaluations.choices import LIVE, NOT_COUNTED, JobState, Obstacle
-from backend.evaluations.errors import NoEvaluationError, WrongStateError
+from backend.evaluations.errors import (
+    ArchivedError,
+    NoEvaluationError,
+    NothingEvaluatedError,
+    NotOlderError,
+    OnePlaceError,
+    OutcomesFullError,
+    RunsAlreadyError,
+    TooManyWaitError,
+)
 from backend.evaluations.models import Evaluation, Outcome, Replay
 from backend.evaluations.queries import ENDING, FOLDER
 from backend.projects.storage import queries as projects
@@ -26,7 +35,7 @@ if TYPE_CHECKING:
     from uuid import UUID
 
     from backend.accounts.models import User
-    from backend.evaluations.told import Begun, Done, Line
+    from backend.evaluations.executor_events import Begun, Done, Line
     from backend.projects.models import Project
     from backend.runs.models import Run
 
@@ -36,9 +45,9 @@ MOST_ERROR: Final = 20_000
 MOST_WHY: Final = 2000
 MOST_TRIES: Final = 3
 DELETE_SOME: Final = "Delete an older evaluation of the project, then run the rest."
-_HINTS: Final = {
-    Obstacle.ONE_PLACE: "Use `bt-studio evaluate` on the command line.",
-    Obstacle.ARCHIVED: "Take it out of the archive first.",
+_REFUSALS: Final = {
+    Obstacle.ONE_PLACE: (OnePlaceError, "Use `bt-studio evaluate` on the command line."),
+    Obstacle.ARCHIVED: (ArchivedError, "Take it out of the archive first."),
 }
 _TURN: Final = "evaluations of {}"
 
@@ -56,7 +65,7 @@ def start(project_id: UUID, name: str, runs: int, *, acting_user: User, sealed: 
     Raises:
         RoleTooLowError: the user may not change the project.
         NoEvaluationError: there is no such evaluation, or this server runs none.
-        WrongStateError: too many evaluations of the project wait.
+        TooManyWaitError: too many evaluations of the project wait.
     """
     with transaction.atomic():
         project = projects.project(project_id, user=acting_user, need=Need.WRITE)
@@ -68,7 +77,7 @@ def start(project_id: UUID, name: str, runs: int, *, acting_user: User, sealed: 
             )
         _require_room(project)
         if Evaluation.objects.filter(project=project, state__in=LIVE).count() >= MOST_WAITING:
-            raise WrongStateError(
+            raise TooManyWaitError(
                 f"{MOST_WAITING} evaluations of this project wait or run.", hint="Cancel one of them first."
             )
         now = timezone.now()
@@ -101,7 +110,7 @@ def resume(project_id: UUID, evaluation_id: UUID, *, acting_user: User) -> Evalu
     """Runs what an evaluation lacks. Runs that said nothing of the project are run again.
 
     Raises:
-        WrongStateError: it runs already.
+        RunsAlreadyError: it runs already.
     """
     return _begin_again(project_id, evaluation_id, {}, acting_user)
 
@@ -110,18 +119,18 @@ def compare(project_id: UUID, evaluation_id: UUID, older: int, *, acting_user: U
     """Runs the same seeds with an older revision, in the same worlds.
 
     Raises:
-        WrongStateError: the evaluation itself is not done.
-        NoEvaluationError: the revision is not older.
+        NothingEvaluatedError: the evaluation has no outcome yet.
+        NotOlderError: the revision is not older.
     """
     found = queries.evaluation(project_id, evaluation_id, user=acting_user, need=Need.WRITE)
     projects.change_set(found.project, older)
     if older >= found.revision:
-        raise NoEvaluationError(
+        raise NotOlderError(
             f"Revision {older} is not older than {found.revision}, which was evaluated.",
             hint="Choose an older revision.",
         )
     if not found.results.get(str(found.revision), {}).get("done"):
-        raise WrongStateError("Nothing was evaluated yet.", hint="Evaluate first, then compare.")
+        raise NothingEvaluatedError("Nothing was evaluated yet.", hint="Evaluate first, then compare.")
     return _begin_again(project_id, evaluation_id, {"older": older}, acting_user)
 
 
@@ -143,7 +152,7 @@ def _begin_again(
     }
     rows = Evaluation.objects.filter(id=found.id, attempt=found.attempt).exclude(state__in=LIVE)
     if not rows.update(**values, **changes):
-        raise WrongStateError("The evaluation runs already.", hint="Wait for its end, or cancel it.")
+        raise RunsAlreadyError("The evaluation runs already.", hint="Wait for its end, or cancel it.")
     Outcome.objects.filter(evaluation=found, outcome__in=NOT_COUNTED).delete()
     if "older" in changes and found.older not in (None, changes["older"]):
         Outcome.objects.filter(evaluation=found, revision=found.older).delete()
@@ -185,12 +194,12 @@ def cancel_replay(project_id: UUID, evaluation_id: UUID, replay_id: UUID, *, act
 # --- what the collector writes --------------------------------------------------------------------
 
 
-def begun(found: Evaluation, told: Begun) -> None:
+def begun(found: Evaluation, event: Begun) -> None:
     """Stores what is known of an evaluation once it has begun."""
-    values: dict[str, Any] = {"state": JobState.RUNNING, "workers": told.workers}
+    values: dict[str, Any] = {"state": JobState.RUNNING, "workers": event.workers}
     if found.seed is None:
-        values |= {"seed": told.seed, "wanted": told.wanted, "sequential": told.sequential}
-        values |= {"duration_s": told.duration_s, "plan": told.plan}
+        values |= {"seed": event.seed, "wanted": event.wanted, "sequential": event.sequential}
+        values |= {"duration_s": event.duration_s, "plan": event.plan}
     if Evaluation.objects.filter(id=found.id, state__in=LIVE).update(**values):
         for name, value in values.items():
             setattr(found, name, value)
@@ -202,22 +211,22 @@ def continues(found: Evaluation) -> None:
 
 
 @transaction.atomic
-def store(found: Evaluation, revision: int, told: Sequence[tuple[Done, Line]]) -> bool:
+def store(found: Evaluation, revision: int, received: Sequence[tuple[Done, Line]]) -> bool:
     """Stores outcomes; those that are stored already stay. Returns whether the evaluation is still wanted."""
     locked = Evaluation.objects.select_for_update().filter(id=found.id).defer("plan").first()
     if locked is None:
         return False
     now = timezone.now()
     Outcome.objects.bulk_create(
-        [Outcome(**_outcome(locked, revision, done, line), created_at=now) for done, line in told],
+        [Outcome(**_outcome(locked, revision, done, line), created_at=now) for done, line in received],
         ignore_conflicts=True,
     )
-    if told:
-        last = told[-1][0]
+    if received:
+        last = received[-1][0]
         about = {name: getattr(last, name) for name in ("done", "wanted", "rate", "low", "high")}
         locked.results = {**locked.results, str(revision): about}
         locked.left_s, locked.tries = last.left_s, 0
-        locked.line_bytes += sum(len(done.line) for done, _ in told)
+        locked.line_bytes += sum(len(done.line) for done, _ in received)
         locked.save(update_fields=["results", "left_s", "tries", "line_bytes"])
         if locked.state in LIVE and (text := _size_problem(locked.project_id)):
             finish(locked, JobState.FAILED, f"{text} What is done is kept. {DELETE_SOME}")
@@ -241,7 +250,7 @@ def _measure(evaluation_id: UUID) -> None:
 
 def _require_room(project: Project) -> None:
     if text := _size_problem(project.id):
-        raise WrongStateError(text, hint=DELETE_SOME)
+        raise OutcomesFullError(text, hint=DELETE_SOME)
 
 
 def _outcome(found: Evaluation, revision: int, done: Done, line: Line) -> dict[str, Any]:
@@ -312,7 +321,8 @@ def replayed(found: Replay, state: JobState, error: str = "", run: Run | None = 
 def _require_possible(project: Project) -> None:
     obstacle = why_not(project)
     if obstacle != Obstacle.NONE:
-        raise NoEvaluationError(str(obstacle.label), hint=_HINTS[obstacle])
+        refusal, hint = _REFUSALS[obstacle]
+        raise refusal(str(obstacle.label), hint=hint)
 
 
 def hours_left(user: User) -> bool:

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 _NAMESPACE: Final = UUID("1d0a2f0e-6f0b-5c5e-9b57-0f6a1a8f6c11")
 ANSWER_S: Final = 15.0
+TESTS_S: Final = 90.0
 # If the tools are just ending, the next attempt finds them ended and starts them again.
 _ATTEMPTS: Final = 3
 _PAUSE_S: Final = 0.3
@@ -95,15 +96,30 @@ def run_ruff(user: User, arguments: list[str], source: str) -> tuple[int | None,
     Raises:
         CheckerUnavailableError: the tools cannot be started, or do not answer.
     """
+    answer = json.loads(_ask(user, "ruff", json.dumps({"arguments": arguments, "source": source}), ANSWER_S))
+    return answer["status"], answer["output"]
+
+
+def run_behaviours(user: User, text: str) -> str:
+    """Runs behaviour tests in a user's tools; returns the answer of `executor.tools.behaviours`.
+
+    Raises:
+        CheckerUnavailableError: the tools cannot be started, or do not answer.
+    """
+    return _ask(user, "tests", text, TESTS_S)
+
+
+def _ask(user: User, what: str, text: str, limit_s: float) -> str:
+    """Sends a text to a user's tools, and returns their answer."""
     made_id = tools_id(user)
     problem: Exception = TimeoutError()
     for attempt in range(_ATTEMPTS):
         try:
             path = _path(made_id, is_known_good=attempt == 0)
-            with sync_unix_connect(path, "ws://localhost/ruff", **_options(made_id)) as socket:
-                socket.send(json.dumps({"arguments": arguments, "source": source}))
-                answer = json.loads(socket.recv(timeout=ANSWER_S))
-                return answer["status"], answer["output"]
+            with sync_unix_connect(path, f"ws://localhost/{what}", **_options(made_id)) as socket:
+                socket.send(text)
+                answer = socket.recv(timeout=limit_s)
+                return answer if isinstance(answer, str) else answer.decode()
         except LaunchError as error:
             raise CheckerUnavailableError(error.detail) from error
         except HostFullError as error:
@@ -111,4 +127,4 @@ def run_ruff(user: User, arguments: list[str], source: str) -> tuple[int | None,
         except (OSError, WebSocketException) as error:
             problem = error
             time.sleep(_PAUSE_S * attempt)
-    raise CheckerUnavailableError("The formatter does not answer.") from problem
+    raise CheckerUnavailableError("The user's tools do not answer.") from problem

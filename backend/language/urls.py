@@ -9,4 +9,5 @@ from backend.language import views
 urlpatterns = [
     path("python/format", views.Format.as_view()),
     path("python/lint", views.Lint.as_view()),
+    path("projects/<uuid:project_id>/test-with-python", views.TestWithPython.as_view()),
 ]

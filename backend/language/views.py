@@ -1,4 +1,4 @@
-"""Views that format and check Python while a user edits it; nothing is stored."""
+"""Views that format, check and test Python while a user edits it; nothing is stored."""
 
 from __future__ import annotations
 
@@ -12,12 +12,20 @@ from rest_framework.views import APIView
 from backend.accounts.api.requests import parsed, user_of
 from backend.language import ruff
 from backend.language import serializers as s
+from backend.language.behaviours import completed, runner
 from backend.language.places import checker
+from backend.projects.api.schema import NOT_SOUND
+from backend.projects.api.serializers import CheckSerializer
+from backend.projects.api.serializers_tests import TestReportSerializer
+from backend.projects.documents import checking
+from backend.projects.storage import names, queries
+from backend.projects.storage.access import Need
 from backend.workers.aside import checkers
 from backend.workers.deferred import Deferred
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from uuid import UUID
 
     from rest_framework.request import Request
 
@@ -52,6 +60,34 @@ class Lint(APIView):
         given = parsed(s.SourceSerializer, request.data)
         work = partial(_found, **given, run=checker(user_of(request)))
         return _answered(self, request, work)
+
+
+class TestWithPython(APIView):
+    """Runs behaviour tests whose leaves are `real`."""
+
+    @extend_schema(
+        operation_id="test_with_python",
+        request=CheckSerializer,
+        responses={200: TestReportSerializer} | NOT_SOUND,
+        tags=["projects"],
+    )
+    def post(self, request: Request, project_id: UUID) -> Deferred:
+        """Runs all behaviour tests of the project as it would be with these unsaved files.
+
+        Leaves that are `real` run their Python in the user's tools: a container on a server for a team.
+        """
+        asked, user = parsed(CheckSerializer, request.data), user_of(request)
+        files = queries.contents(queries.project(project_id, user=user, need=Need.RUN))
+        for overlay in asked["files"]:
+            files[names.file_path(overlay["path"], field="files.path")] = overlay["content"].encode()
+        run = runner(user)
+
+        def rest(report: dict[str, Any]) -> Deferred:
+            job = report.pop("job")
+            work = checkers.ask(f"user {user.pk}", partial(completed, report, job, run))
+            return Deferred(self, request, work, lambda done: Response(done.result()))
+
+        return checking.tested(self, request, files, rest, with_job=True)
 
 
 def _found(**given: Any) -> dict[str, Any]:

@@ -46,7 +46,7 @@ _sweeping: Final = threading.Lock()
 
 
 def sweep_soon(sender: object, **_: object) -> None:
-    """Sweeps in a thread, unless that is being done."""
+    """Starts a thread that sweeps, unless one runs already."""
     folder = launcher().recordings
     if folder is not None and folder.is_dir() and any(folder.iterdir()) and not _sweeping.locked():
         with suppress(StudioError):  # enough of it waits already
@@ -123,7 +123,9 @@ def _keep(folder: Path) -> None:
 
 def _project(session: Session) -> Project | None:
     """Returns the project of a session; None if its last run is not to be kept."""
-    if not environment().keep_last_runs or session.kind != SessionKind.INTERACTIVE:
+    if not environment().keep_last_runs or session.project_id is None:
+        return None
+    if session.kind != SessionKind.INTERACTIVE:
         return None
     if not session.user.is_active:
         return None

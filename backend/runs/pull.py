@@ -9,7 +9,7 @@ import time
 from typing import IO, TYPE_CHECKING, Final
 
 from backend.runs.errors import NoAnswerError, NotRecordedError, RunQuotaError
-from backend.sessions.keeper.unix_http import UnixHTTPConnection
+from backend.sessions.manager.address import http_connection
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -36,7 +36,7 @@ def pull(  # noqa: PLR0913, PLR0917 - where from, what, where to, and how much
     """Writes a recording to a file; returns its size in bytes.
 
     Args:
-        address: the manager's address, `host:port`, or `unix:` with the path of a socket.
+        address: the manager's address (`backend.sessions.manager.address`).
         token: the manager's token.
         recorded_as: the name that the session gave the run, or `LAST` for the last one.
         out: the file.
@@ -68,7 +68,7 @@ def _pull(  # noqa: PLR0913, PLR0917 - as `pull`, and the deadline
         left_s = end_s - time.monotonic()
         if left_s <= 0:
             raise NoAnswerError("The executor took too long to give the recording.", hint=_AGAIN)
-        connection = _connection(address, min(ANSWER_S, left_s))
+        connection = http_connection(address, min(ANSWER_S, left_s))
         try:
             headers = {"Authorization": f"Bearer {token}", "Range": f"bytes={size}-"}
             connection.request("GET", f"/recordings/{recorded_as}/0", headers=headers)
@@ -88,13 +88,6 @@ def _pull(  # noqa: PLR0913, PLR0917 - as `pull`, and the deadline
         finally:
             connection.close()
     return size
-
-
-def _connection(address: str, timeout_s: float) -> http.client.HTTPConnection:
-    kind, _, path = address.partition(":")
-    if kind == "unix":
-        return UnixHTTPConnection(path, timeout_s)
-    return http.client.HTTPConnection(address, timeout=timeout_s)
 
 
 def _described(answer: http.client.HTTPResponse, at: int, recorded_as: str) -> tuple[int, int]:

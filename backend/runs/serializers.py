@@ -66,6 +66,9 @@ class KeepRunSerializer(StrictSerializer):
     run = serializers.RegexField(r"^[0-9a-f]{1,32}$", help_text="Its name in the event `segment`.")
     name = serializers.CharField(max_length=MAX_NAME_LENGTH)
     note = serializers.CharField(max_length=MAX_NOTE_LENGTH, allow_blank=True, default="")
+    session = serializers.UUIDField(
+        required=False, help_text="Your attached session; by default your session of this project."
+    )
 
 
 class ChangeRunSerializer(StrictSerializer):

@@ -59,7 +59,7 @@ class Runs(ResourceViewSet):
         Length, result and picture are read from the recording.
         """
         asked, user = parsed(s.KeepRunSerializer, request.data), user_of(request)
-        source = writes.source(project_id, acting_user=user)
+        source = writes.source(project_id, acting_user=user, attached=asked.pop("session", None))
         values: dict[str, Any] = {"recorded_as": asked.pop("run"), **asked}
         fetching = partial(writes.fetch, source, values["recorded_as"], user.pk)
 

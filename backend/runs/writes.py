@@ -20,8 +20,9 @@ from backend.runs.facts import facts_of
 from backend.runs.length import DamagedError
 from backend.runs.models import PART_BYTES, Run, RunPart
 from backend.runs.pull import DEADLINE_S, pull
-from backend.sessions.choices import SessionState
+from backend.sessions.choices import SessionKind, SessionState
 from backend.sessions.queries import live_session
+from backend.sessions.queries import session as any_session
 from backend.sessions.writes import manager_token
 
 if TYPE_CHECKING:
@@ -65,14 +66,22 @@ class Fetched(NamedTuple):
     facts: Facts
 
 
-def source(project_id: UUID, *, acting_user: User) -> Source:
-    """Returns the user's own session of a project, from which a run can be kept.
+def source(project_id: UUID, *, acting_user: User, attached: UUID | None = None) -> Source:
+    """Returns the user's own session from which a run of a project can be kept.
+
+    Args:
+        project_id: the project that gets the run.
+        acting_user: the user.
+        attached: a session that follows another program; by default it is that of the project.
 
     Raises:
-        NotRecordedError: the user has no session of this project.
+        NotRecordedError: the user has no such session.
     """
     project = projects.project(project_id, user=acting_user, need=Need.RUN)
-    session = live_session(project_id, user=acting_user)
+    if attached is None:
+        session = live_session(project_id, user=acting_user)
+    elif (session := any_session(attached, user=acting_user)).kind != SessionKind.ATTACHED:
+        raise NotRecordedError("This session follows no other program.", hint="Leave out the session.")
     if session is None or session.state != SessionState.READY:
         raise NotRecordedError("No session of yours runs this project.", hint="Press Run, then keep the run.")
     return Source(project, session.address, manager_token(session), queries.room(acting_user))

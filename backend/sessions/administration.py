@@ -22,7 +22,17 @@ if TYPE_CHECKING:
 class Sessions(ReadOnly):
     """All executors of the server, the newest first."""
 
-    list_display = ("created_at", "user", "project", "state", "launcher", "ros_domain_id", "ended_at")
+    list_display = (
+        "created_at",
+        "user",
+        "kind",
+        "project",
+        "target",
+        "state",
+        "launcher",
+        "ros_domain_id",
+        "ended_at",
+    )
     list_filter = ("state",)
     list_select_related = ("user", "project")
     search_fields = ("user__username", "project__name")

@@ -6,10 +6,11 @@ from django.db import models
 
 
 class SessionKind(models.TextChoices):
-    """The purpose of a session: a user works in it, or evaluations run in it without a page."""
+    """The purpose of a session: a user works in it, evaluations run in it, or it follows another program."""
 
     INTERACTIVE = "interactive"
     EVALUATION = "evaluation"
+    ATTACHED = "attached"
 
 
 class SessionState(models.TextChoices):

@@ -25,7 +25,7 @@ from backend.ingress.turns import turns as shares
 from backend.sessions import queries, writes
 from backend.sessions.choices import SessionState
 from backend.sessions.maintenance import attendance, say
-from backend.sessions.manager_socket import manager_socket
+from backend.sessions.manager.sockets import manager_socket
 from backend.sessions.watch import watchmen, why
 
 if TYPE_CHECKING:

@@ -21,6 +21,22 @@ class DrainingError(StudioError):
     title = "No robot starts now"
 
 
+class AddressError(StudioError):
+    """An address is not of a program that can be followed."""
+
+    status = 400
+    code = "bad_address"
+    title = "This is no address of a program"
+
+
+class AttachingLocalError(StudioError):
+    """This server does not follow programs."""
+
+    status = 403
+    code = "attaching_is_local"
+    title = "This server cannot be attached to a robot"
+
+
 class HostFullError(StudioError):
     """Every ROS domain of this host is in use."""
 

@@ -27,8 +27,8 @@ from backend.config.environment import environment
 from backend.projects.api.open_pages import pages
 from backend.sessions import drain, writes
 from backend.sessions.choices import SessionKind, SessionState
-from backend.sessions.holds import is_held
 from backend.sessions.lease import CARE, holder, is_alone
+from backend.sessions.manager.holds import is_held
 from backend.sessions.models import Session
 from backend.sessions.signals import sessions_maintained
 from backend.sessions.watch import watchmen

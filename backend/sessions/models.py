@@ -32,13 +32,17 @@ class Lease(models.Model):
 class Session(models.Model):
     """One executor: a manager with its world and its application.
 
-    A project has at most one live session of each kind for each user.
+    A project has at most one live session of each kind for each user. An attached one has no project, and
+    follows the program at `target` (HOST:PORT); a user has at most one for each program.
     """
 
     id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
-    project = models.ForeignKey("projects.Project", on_delete=models.CASCADE, related_name="sessions")
+    project = models.ForeignKey(
+        "projects.Project", on_delete=models.CASCADE, related_name="sessions", null=True
+    )
     user = models.ForeignKey(settings.AUTH_USER_MODEL, on_delete=models.CASCADE)
     kind = models.CharField(max_length=16, choices=SessionKind.choices, default=SessionKind.INTERACTIVE)
+    target = models.CharField(max_length=260, blank=True, default="")
     state = models.CharField(max_length=16, choices=SessionState.choices, default=SessionState.STARTING)
     launcher = models.CharField(max_length=32)
     launcher_state = models.JSONField(default=dict)
@@ -55,6 +59,16 @@ class Session(models.Model):
                 fields=["project", "user", "kind"],
                 condition=Q(state__in=LIVE_STATES),
                 name="session_live_unique",
+            ),
+            models.UniqueConstraint(
+                fields=["user", "target"],
+                condition=Q(state__in=LIVE_STATES, kind=SessionKind.ATTACHED),
+                name="session_target_unique",
+            ),
+            models.CheckConstraint(
+                condition=Q(kind=SessionKind.ATTACHED, project=None)
+                | (~Q(kind=SessionKind.ATTACHED) & Q(project__isnull=False)),
+                name="session_project_or_target",
             ),
             models.UniqueConstraint(
                 fields=["ros_domain_id"], condition=Q(state__in=LIVE_STATES), name="session_domain_unique"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from django.db.models import Count
 
@@ -16,9 +16,13 @@ if TYPE_CHECKING:
     from backend.accounts.models import User
 
 
+OF_USERS: Final = (SessionKind.INTERACTIVE, SessionKind.ATTACHED)
+"""The kinds of sessions that a page works in."""
+
+
 def session(session_id: UUID, *, user: User) -> Session:
     """Returns the session, if this user works in it."""
-    found = Session.objects.filter(id=session_id, user=user, kind=SessionKind.INTERACTIVE).first()
+    found = Session.objects.filter(id=session_id, user=user, kind__in=OF_USERS).first()
     if found is None:
         raise NotFoundError("There is no such session.")
     return found
@@ -32,6 +36,12 @@ def live_session(
     return rows.first()
 
 
+def attached_session(target: str, *, user: User) -> Session | None:
+    """Returns the session in which this user follows a program, or None."""
+    rows = Session.objects.filter(target=target, user=user, kind=SessionKind.ATTACHED, state__in=LIVE_STATES)
+    return rows.first()
+
+
 def live_sessions() -> list[Session]:
     """Returns every session that waits, starts or runs."""
     return list(Session.objects.filter(state__in=LIVE_STATES))
@@ -42,7 +52,7 @@ def position(session: Session) -> int | None:
     if session.state != SessionState.QUEUED:
         return None
     earlier = Session.objects.filter(
-        state=SessionState.QUEUED, kind=SessionKind.INTERACTIVE, created_at__lt=session.created_at
+        state=SessionState.QUEUED, kind__in=OF_USERS, created_at__lt=session.created_at
     )
     return earlier.count() + 1
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from rest_framework import serializers
 
 from backend.sessions import queries
-from backend.sessions.choices import SessionState
+from backend.sessions.choices import SessionKind, SessionState
 
 if TYPE_CHECKING:
     from backend.sessions.models import Session
@@ -17,7 +17,9 @@ class SessionSerializer(serializers.Serializer[Any]):
     """An executor that runs, or ran, a project."""
 
     id = serializers.UUIDField()
-    project_id = serializers.UUIDField()
+    kind = serializers.ChoiceField(choices=SessionKind.choices)
+    project_id = serializers.UUIDField(allow_null=True, help_text="Null for an attached session.")
+    target = serializers.CharField(help_text="The address of the program that it follows; else empty.")
     state = serializers.ChoiceField(choices=SessionState.choices)
     control_url = serializers.CharField()
     stream_url = serializers.CharField()
@@ -28,11 +30,21 @@ class SessionSerializer(serializers.Serializer[Any]):
     created_at = serializers.DateTimeField()
 
 
+class AttachSerializer(serializers.Serializer[Any]):
+    """The program to follow."""
+
+    address = serializers.CharField(
+        max_length=260, help_text="HOST or HOST:PORT of its publisher of Groot2's protocol; the port is 1667."
+    )
+
+
 def presented(session: Session) -> dict[str, Any]:
     """Returns a session in the form for the API."""
     return {
         "id": str(session.id),
-        "project_id": str(session.project_id),
+        "kind": session.kind,
+        "project_id": session.project_id and str(session.project_id),
+        "target": session.target,
         "state": session.state,
         "control_url": f"/ws/sessions/{session.id}/control",
         "stream_url": f"/ws/sessions/{session.id}/stream",

@@ -6,5 +6,6 @@ from backend.sessions import views
 
 urlpatterns = [
     path("projects/<uuid:project_id>/session", views.ProjectSession.as_view()),
+    path("sessions/attached", views.AttachedSessions.as_view()),
     path("sessions/<uuid:session_id>", views.OneSession.as_view()),
 ]

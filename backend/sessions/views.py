@@ -10,7 +10,7 @@ from rest_framework.views import APIView
 
 from backend.accounts.api.requests import user_of
 from backend.sessions import queries, writes
-from backend.sessions.serializers import SessionSerializer, presented
+from backend.sessions.serializers import AttachSerializer, SessionSerializer, presented
 
 if TYPE_CHECKING:
     from uuid import UUID
@@ -27,6 +27,22 @@ class ProjectSession(APIView):
     def post(self, request: Request, project_id: UUID) -> Response:
         """Starts an executor for the project, or returns the session that already runs."""
         return Response(presented(writes.start_session(project_id, acting_user=user_of(request))))
+
+
+class AttachedSessions(APIView):
+    """Sessions that follow programs outside."""
+
+    expensive = ("POST",)
+
+    @extend_schema(
+        operation_id="attach", request=AttachSerializer, responses=SessionSerializer, tags=["sessions"]
+    )
+    def post(self, request: Request) -> Response:
+        """Starts a session that follows a program by Groot2's protocol, or returns the one that does."""
+        wanted = AttachSerializer(data=request.data)
+        wanted.is_valid(raise_exception=True)
+        session = writes.attach(wanted.validated_data["address"], acting_user=user_of(request))
+        return Response(presented(session))
 
 
 class OneSession(APIView):

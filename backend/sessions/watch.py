@@ -21,7 +21,7 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidSta
 
 from backend.config.environment import environment
 from backend.sessions import writes
-from backend.sessions.manager_socket import manager_socket
+from backend.sessions.manager.sockets import manager_socket
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -80,7 +80,7 @@ async def until_silent(session: Session) -> None:
     try:
         looked_s, is_noted = loop.time(), False
         while silence.seconds < longest_s():
-            await asyncio.sleep(PING_EVERY_S)
+            await asyncio.sleep(PING_EVERY_S / 2)  # a look that is a little late still counts as a whole
             now_s = loop.time()
             silence.passed(now_s - looked_s)
             looked_s = now_s

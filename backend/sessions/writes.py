@@ -6,6 +6,7 @@ import hashlib
 import hmac
 import logging
 import os
+import sys
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from datetime import timedelta
@@ -24,13 +25,14 @@ from backend.projects.storage import queries as projects
 from backend.projects.storage.access import Need
 from backend.sessions import drain, queries
 from backend.sessions.choices import SessionKind, SessionState
-from backend.sessions.errors import HostFullError, LaunchError
-from backend.sessions.launchers.base import Launcher, Spec
+from backend.sessions.errors import AttachingLocalError, HostFullError, LaunchError
+from backend.sessions.launchers.base import OWN_NETWORK_DOMAIN, Launcher, Spec
 from backend.sessions.launchers.docker import DockerLauncher
 from backend.sessions.launchers.process import ProcessLauncher
 from backend.sessions.models import LIVE_STATES, RUNNING_STATES, Session
 from backend.sessions.ros_domains import domains_on_this_host
 from backend.sessions.signals import session_ends
+from backend.sessions.targets import read_target
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -60,13 +62,17 @@ def launcher() -> Launcher:
     settings = environment()
     if settings.launcher == "docker":
         return DockerLauncher(settings.keeper_folder)
+    if settings.launcher == "kubernetes":
+        from backend.sessions.launchers.kubernetes.launcher import open_cluster  # noqa: PLC0415 - large, and rarely used
+
+        return open_cluster(settings.pod_template, settings.pod_namespace)
     return ProcessLauncher(settings.data_dir / "logs", recordings=settings.data_dir / "recordings")
 
 
 @lru_cache(maxsize=1)
 def workers() -> ThreadPoolExecutor:
     """Returns the threads in which executors start and end; they live as long as the process."""
-    return ThreadPoolExecutor(max_workers=4, thread_name_prefix="session")
+    return ThreadPoolExecutor(max_workers=launcher().starts_at_once, thread_name_prefix="session")
 
 
 def manager_token(session: Session) -> str:
@@ -106,13 +112,40 @@ def start_evaluation_session(project_id: UUID, *, acting_user: User) -> Session:
     return _start(project, SessionKind.EVALUATION, acting_user)
 
 
+def attach(address: str, *, acting_user: User) -> Session:
+    """Starts a session that follows a program, or returns the one in which the user already follows it.
+
+    Raises:
+        AddressError: the address is not of a program.
+        AttachingLocalError: this server is for a team.
+        HostFullError: no place is free.
+        DrainingError: the server is about to be upgraded.
+    """
+    if not may_attach():
+        raise AttachingLocalError(
+            "A server for teams connects to no programs: its users could reach its network that way.",
+            hint="Run BT Studio on your own computer, or follow the tree with `bt-studio attach`.",
+        )
+    target = read_target(address)
+    running = queries.attached_session(target, user=acting_user)
+    if running is not None and refresh(running).state in LIVE_STATES:
+        return running
+    drain.require_open()
+    return _start(None, SessionKind.ATTACHED, acting_user, target)
+
+
+def may_attach() -> bool:
+    """Returns whether this server follows programs: only one for a single user on their own computer."""
+    return not environment().is_team and launcher().name == ProcessLauncher.name
+
+
 def has_room_for_evaluations() -> bool:
     """Returns whether this server has, when nobody works, a place for an evaluation."""
     limit = environment().max_sessions
     return not limit or limit > KEPT_PLACES
 
 
-def _start(project: Project, kind: SessionKind, acting_user: User) -> Session:
+def _start(project: Project | None, kind: SessionKind, acting_user: User, target: str = "") -> Session:
     is_evaluation = kind == SessionKind.EVALUATION
     for attempt in range(DOMAIN_ATTEMPTS):
         try:
@@ -125,15 +158,20 @@ def _start(project: Project, kind: SessionKind, acting_user: User) -> Session:
                     project=project,
                     user=acting_user,
                     kind=kind,
+                    target=target,
                     launcher=launcher().name,
                     state=SessionState.STARTING if has_place else SessionState.QUEUED,
-                    ros_domain_id=_free_domain() if has_place else None,
+                    ros_domain_id=_domain_for(kind) if has_place else None,
                     created_at=timezone.now(),
                 )
             break
         except IntegrityError:
             # Another request was faster: it has made this session, or has only taken the domain.
-            running = queries.live_session(project.id, user=acting_user, kind=kind)
+            running = (
+                queries.live_session(project.id, user=acting_user, kind=kind)
+                if project is not None
+                else queries.attached_session(target, user=acting_user)
+            )
             if running is not None:
                 return running
             if attempt == DOMAIN_ATTEMPTS - 1:
@@ -147,7 +185,9 @@ def places_left(states: Iterable[SessionState] = RUNNING_STATES) -> int:
     """Returns the number of executors that may still start; sessions in `states` count as running."""
     limit = environment().max_sessions
     taken = Session.objects.filter(state__in=list(states)).count() if limit else 0
-    return limit - taken if limit else len(ROS_DOMAINS)
+    if limit:
+        return limit - taken
+    return len(ROS_DOMAINS) if launcher().shares_network else sys.maxsize
 
 
 def start_queued() -> int:
@@ -177,7 +217,7 @@ def _takes_place(session: Session) -> bool:
         transaction_lock(PLACES)
         kept = KEPT_PLACES if session.kind == SessionKind.EVALUATION else 0
         if places_left() > kept:
-            place = {"state": SessionState.STARTING, "ros_domain_id": _free_domain()}
+            place = {"state": SessionState.STARTING, "ros_domain_id": _domain_for(session.kind)}
             return _moved(session, SessionState.QUEUED, **place)
     return False
 
@@ -283,7 +323,8 @@ def require_right(session: Session) -> None:
     """
     if not session.user.is_active:
         raise NotFoundError("The account is deactivated.")
-    projects.project(session.project_id, user=session.user, need=Need.RUN)
+    if session.project_id is not None:
+        projects.project(session.project_id, user=session.user, need=Need.RUN)
 
 
 def end_sessions_without_right(
@@ -362,9 +403,10 @@ def _launch(session: Session) -> None:
     spec = Spec(
         session_id=str(session.id),
         token=manager_token(session),
-        ros_domain_id=session.ros_domain_id or 0,
+        ros_domain_id=session.ros_domain_id or (0 if launcher().shares_network else OWN_NETWORK_DOMAIN),
         start_timeout_s=limits.session_start_timeout_s,
         stop_timeout_s=limits.session_stop_timeout_s,
+        target=session.target,
     )
     try:
         if not _begins(session):
@@ -419,6 +461,11 @@ def _moved(session: Session, before: SessionState, **fields: Any) -> bool:
 def _finish(session: Session, state: SessionState, error: str = "") -> None:
     session.state, session.error, session.ended_at = state, error, timezone.now()
     session.save(update_fields=["state", "error", "ended_at"])
+
+
+def _domain_for(kind: str) -> int | None:
+    """Returns the domain of a session that starts; None if it joins no graph or has its own network."""
+    return _free_domain() if launcher().shares_network and kind != SessionKind.ATTACHED else None
 
 
 def _free_domain() -> int:

@@ -25,7 +25,10 @@ Answer = dict[str, Any]
 
 def warm_up() -> None:
     """Imports the modules that the first job needs."""
-    import translator  # noqa: F401, PLC0415 - the web server, too, imports this module
+    import translator  # noqa: PLC0415 - the web server, too, imports this module
+    from tree_gardener.lazy import import_names  # noqa: PLC0415 - as above
+
+    import_names(translator)
 
 
 def report(files: Files) -> Answer:
@@ -40,11 +43,18 @@ def report(files: Files) -> Answer:
     return {"diagnostics": diagnostics, "actions": [action.to_json() for action in project.actions.values()]}
 
 
-def behaviour_tests(files: Files) -> Answer:
+def behaviour_tests(files: Files, *, with_job: bool = False) -> Answer:
     """Returns the results of the project's behaviour tests that need no Python of it."""
     from backend.workers.behaviours import run_tests  # noqa: PLC0415 - it loads the engine
 
-    return run_tests(files)
+    return run_tests(files, with_job=with_job)
+
+
+def run_coverage(files: Files, *, seen: dict[str, str]) -> Answer:
+    """Returns the coverage of the project's trees by runs of it."""
+    from backend.workers import behaviours  # noqa: PLC0415 - it loads the engine
+
+    return behaviours.run_coverage(files, seen)
 
 
 def xml(files: Files, *, self_contained: bool) -> Answer:
@@ -55,13 +65,14 @@ def xml(files: Files, *, self_contained: bool) -> Answer:
     return {"text": translator.self_contained(project) if self_contained else translator.to_xml(project)}
 
 
-def app(files: Files, *, universe: str, built_in: bytes | None) -> Answer:
+def app(files: Files, *, universe: str, built_in: bytes | None, revision: int) -> Answer:
     """Returns the data of the command with which the browser runs the project in the executor.
 
     Args:
         files: the files of the project.
         universe: the name of the universe; "" for the project's own choice.
         built_in: the document of the built-in universe of that name, if the project has none.
+        revision: the revision of the project.
     """
     import translator  # noqa: PLC0415
 
@@ -72,8 +83,10 @@ def app(files: Files, *, universe: str, built_in: bytes | None) -> Answer:
         "tick_hz": settings.tick_hz,
         "on_finish": settings.on_finish,
         "on_error": settings.on_error,
+        "time": settings.time,
         "universe": _universe(files, universe or settings.universe, built_in),
         "robot": settings.robot,
+        "revision": revision,
     }
 
 
@@ -252,6 +265,7 @@ JOBS: Final[dict[str, Callable[..., Answer]]] = {
         *(
             report,
             behaviour_tests,
+            run_coverage,
             xml,
             app,
             app_zip,

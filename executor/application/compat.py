@@ -46,8 +46,10 @@ def install() -> None:
 
     Installed ROS packages take precedence.
     """
-    from tree_gardener import tree_tools  # noqa: PLC0415 - not before ROS has its environment
+    import tree_gardener  # noqa: PLC0415 - not before ROS has its environment
+    from tree_gardener import lazy, tree_tools  # noqa: PLC0415 - as above
 
+    lazy.import_names(tree_gardener)  # so that a run that begins does not wait for them
     tree_tools.install()
     if find_spec("cv_bridge") is None:
         sys.modules["cv_bridge"] = importlib.import_module("executor.application.cv_bridge")

@@ -26,11 +26,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from executor.debug_messages import HeldCause
+    from tree_gardener import Tree
     from tree_gardener.debugging import Stop
     from tree_gardener.node import Node
     from tree_gardener.runner import Runner
 
-__all__ = ["ApplicationDebugger", "Host"]
+__all__ = ["ApplicationDebugger", "Host", "Wanted"]
 
 STEPS: Final = {
     "continue": Step.CONTINUE,
@@ -97,10 +98,13 @@ class ApplicationDebugger:
         self._is_attached = False
         self._is_going = False
         self._is_told = False
+        self._wanted: messages.SetBreakpoints | None = None
         self._forced = messages.Forced([])
         self._tick = 0
         self._hook = -1
         self._held_s = 0.0
+        self.leave_out: Callable[[float], None] = lambda _: None
+        """Is called with the duration of each hold."""
 
     @property
     def is_holding(self) -> bool:
@@ -147,6 +151,14 @@ class ApplicationDebugger:
                 self._send(child_messages.Log("warning", refused.message, each.node_id))
         self._set(messages.SetBreakpoints(good, wanted.on))
 
+    def follow(self, tree: Tree) -> None:
+        """Debugs another tree, which has taken over: breakpoints follow their blocks, forced results end."""
+        self.detach()
+        self._tree = tree
+        self._debugger = Debugger(self._hold, self._log)
+        self.start(self._wanted)
+        self._tell_forced()
+
     def between_ticks(self) -> None:
         """Is called after a tick: a step that did not end in it lets time pass on."""
         if self._tree.is_ticking:
@@ -185,6 +197,7 @@ class ApplicationDebugger:
         except (BreakpointError, ScriptError) as error:
             raise _RefusedError("bad_breakpoint", f"A breakpoint cannot be set: {error}.") from None
         debugger.turn_breakpoints(on=wanted.on)
+        self._wanted = wanted
 
     def _continue(self, message: child_messages.Continue) -> None:
         if message.off and self._is_attached:
@@ -238,11 +251,19 @@ class ApplicationDebugger:
         self._host.show_held()
         self._tell_forced()
         self._send(self._held(stop))
+        self._note_hold(stop)
         try:
             while not self._is_going:
                 self._host.serve_held()
         finally:
-            self._held_s += self._clock() - since_s
+            duration_s = self._clock() - since_s
+            self._held_s += duration_s
+            self.leave_out(duration_s)
+
+    def _note_hold(self, stop: Stop) -> None:
+        """Records where the tree is held: `Input` with the command `hold`, and its place in the tick."""
+        hold = {"uid": stop.uid, "path": stop.path, "event": stop.event.value, "why": stop.why}
+        self._host.note_input("hold", hold, stop.tick, self._hook)
 
     def _held(self, stop: Stop) -> child_messages.Held:
         statuses = [

@@ -52,7 +52,8 @@ class Locator:
         self._nodes: dict[int, Any] = {}
 
     def learn(self, tree: Tree) -> None:
-        """Stores the behaviours of a tree's nodes, so that their frames can be found."""
+        """Stores the behaviours of a tree's nodes, so that their frames can be found, and no others."""
+        self._nodes = {}
         for node in tree.nodes:
             behaviour = getattr(node, "instance_behaviour", None)
             if behaviour is not None:

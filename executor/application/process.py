@@ -23,14 +23,22 @@ from executor import child_messages
 from executor.child_messages import FromApplication, StartApplication, ToApplication, decode_to_application
 from executor.recorder.link import ADDRESS_VARIABLE
 from executor.ros.environment import ros_environment
+from executor.run_inputs import done_by
 from executor.supervision.channel import Channel, ChannelClosed, ChannelError
 from executor.supervision.confine import die_with_parent
 from executor.supervision.pulse import Pulse
+from executor.supervision.threads import own
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from executor.application.changes.program import Program
     from executor.application.debugging import ApplicationDebugger
+    from executor.application.debugging import Wanted as DebuggerCommand
+    from executor.application.profiling import ApplicationProfile
     from executor.application.recording import ApplicationRecorder
-    from executor.application.ros import Graph
+    from executor.application.report import Report
+    from executor.application.ros import ApplicationGraph
     from executor.application.zeros import Zeros
     from tree_gardener import Status, TickError, Tree
     from tree_gardener.runner import Runner
@@ -38,6 +46,8 @@ if TYPE_CHECKING:
 SPIN_S: Final = 0.05
 DISCOVERY_S: Final = 0.8
 GOODBYE_S: Final = 0.5
+DEBUGGER_S: Final = 6.0
+LATE_DEBUGGER: Final = "The Python debugger was late: breakpoints in Python hold the run only from now on."
 
 
 class _Stop(Exception):  # noqa: N818 - the way out, not an error
@@ -48,29 +58,33 @@ class Application:
     """Loads one application, runs it, and reports how it ended."""
 
     def __init__(self, channel: Channel[FromApplication, ToApplication], pulse: Pulse) -> None:
+        from executor.application.groot import ApplicationPublisher  # noqa: PLC0415 - as below
         from executor.application.locate import Locator  # noqa: PLC0415 - after the environment is set
         from executor.application.report import Reporter  # noqa: PLC0415 - as above
-        from executor.application.ros import Graph  # noqa: PLC0415 - as above
         from executor.application.watchdog import Breaker  # noqa: PLC0415 - as above
 
         self._channel = channel
         self._pulse = pulse
         self._commands: queue.SimpleQueue[ToApplication] = queue.SimpleQueue()
-        self._graph: Graph = Graph(int(os.environ["ROS_DOMAIN_ID"]), self._on_clock)
-        self._reporter = Reporter(channel.send, self._now)
+        self._groot = ApplicationPublisher.of_environment()
+        self._graph: ApplicationGraph = self._make_graph()
+        self._reporter = Reporter(self._report, self._now)
         self._locator = Locator()
         self._breaker = Breaker(self._locator)
         pulse.locate = self._locator.beat_place
+        self._program: Program | None = None
+        self._has_python_debugger = False
         self._runner: Runner | None = None
         self._recorder: ApplicationRecorder | None = None
         self._debugger: ApplicationDebugger | None = None
+        self._profile: ApplicationProfile | None = None
         self._zeros: Zeros | None = None
         self._connect_by_s: float | None = None
         self._is_connected = False
 
     def run(self) -> None:
         """Runs until the run is over or the manager is gone."""
-        threading.Thread(target=self._listen, name="listener", daemon=True).start()
+        own(threading.Thread(target=self._listen, name="listener", daemon=True)).start()
         start = self._wait_for_start()
         if start is None:
             return
@@ -80,6 +94,8 @@ class Application:
             self._join(start)
             if not self._load(start):
                 return
+        if not self._catch_up(start):
+            return
         self._channel.send(child_messages.ApplicationReady())
         self._breaker.arm()
         try:
@@ -92,10 +108,26 @@ class Application:
 
     def close(self) -> None:
         """Sends the last messages and leaves the ROS graph."""
+        if self._profile is not None:
+            self._profile.close()
         if self._recorder is not None:
             self._recorder.close()
         self._channel.flush(GOODBYE_S)
         self._graph.close()
+
+    def _make_graph(self) -> ApplicationGraph:
+        """Returns the graph that the spare joins."""
+        from executor.application.ros import Graph  # noqa: PLC0415 - after the environment is set
+
+        return Graph(int(os.environ["ROS_DOMAIN_ID"]), self._on_clock)
+
+    def _catch_up(self, start: StartApplication) -> bool:
+        """Does what comes before the run; returns whether the run can begin."""
+        return True
+
+    def _report(self, message: Report) -> None:
+        """Sends what the tree has to report."""
+        self._channel.send(message)
 
     # --- commands ---------------------------------------------------------------------------------
 
@@ -137,7 +169,13 @@ class Application:
             self._recorder.pump()
         if self._debugger is not None:
             self._debugger.between_ticks()
-        self._guarded(lambda: self._graph.spin_once(SPIN_S))
+        if self._profile is not None:
+            self._profile.between_ticks()
+        self._guarded(self._work)
+
+    def _work(self) -> None:
+        """Runs what is due, or waits a moment for it."""
+        self._graph.spin_once(SPIN_S)
 
     # --- held by the debugger ---------------------------------------------------------------------
 
@@ -162,8 +200,9 @@ class Application:
         if self._recorder is not None:
             self._recorder.did(command, data, tick, hook)
 
-    def _obey(self, message: ToApplication) -> None:
-        from executor.application.live_ports import set_port  # noqa: PLC0415 - as all of the engine
+    def _obey(self, message: ToApplication) -> None:  # noqa: C901, PLR0912 - one case a message
+        from executor.application.changes.live_ports import set_port  # noqa: PLC0415 - as all of the engine
+        from executor.application.python_debugger import trace  # noqa: PLC0415 - as above
         from tree_gardener.debugging import DebuggingEnded  # noqa: PLC0415 - as above
 
         runner = self._runner
@@ -194,20 +233,47 @@ class Application:
                 self._channel.send(child_messages.Stepped())
             case child_messages.SetTickRate():
                 runner.set_tick_rate(message.tick_hz)
+                self.note_input("set_tick_rate", {"tick_hz": message.tick_hz}, *debugger.place)
                 self._channel.send(child_messages.Answer(request=message.request))
             case child_messages.SetPort():
                 error = set_port(runner.tree, message, self._channel.send)
+                if error is None:
+                    self.note_input("set_port", done_by(message), *debugger.place)
+                    self._recorder.changed()
                 self._channel.send(child_messages.Answer(request=message.request, error=error))
+            case child_messages.ApplyApplication():
+                self._guarded(lambda: self._apply(message))
             case child_messages.SetBlackboard():
                 self._channel.send(child_messages.BlackboardSet(self._set_blackboard(message)))
+            case child_messages.ConnectDebugger():
+                self._connect_debugger(message)
+            case child_messages.TracePython(is_on=is_on):
+                trace(is_on=is_on)
             case (
                 child_messages.SetBreakpoints()
                 | child_messages.Continue()
                 | child_messages.ForceResult()
                 | child_messages.ReleaseForced()
+                | child_messages.MeasureNodes()
+                | child_messages.ServeGroot2()
             ):
-                error = debugger.obey(message)
-                self._channel.send(child_messages.Answer(request=message.request, error=error))
+                self._inspect(debugger, message)
+
+    def _inspect(
+        self,
+        debugger: ApplicationDebugger,
+        message: DebuggerCommand | child_messages.MeasureNodes | child_messages.ServeGroot2,
+    ) -> None:
+        """Obeys a command of the debugger, of the profile or for Groot2, and answers it."""
+        if isinstance(message, child_messages.MeasureNodes):
+            assert self._profile is not None  # noqa: S101 - as above
+            error = self._profile.obey(message.wanted)
+        elif isinstance(message, child_messages.ServeGroot2):
+            assert self._runner is not None  # noqa: S101 - as above
+            error = self._groot.serve(self._runner.tree, message.port)
+        else:
+            error = debugger.obey(message)
+        self._channel.send(child_messages.Answer(request=message.request, error=error))
 
     def _set_blackboard(self, message: child_messages.SetBlackboard) -> str:
         assert self._runner is not None  # noqa: S101 - as above
@@ -232,6 +298,35 @@ class Application:
             self.note_input("set_blackboard", written, *self._debugger.place)
         return ""
 
+    def _apply(self, message: child_messages.ApplyApplication) -> None:
+        """Replaces the running tree by a changed one, or says what would happen."""
+        from executor.application.changes.applying import Applying  # noqa: PLC0415 - as all of the engine
+
+        assert self._runner is not None  # noqa: S101 - commands come after `ready`
+        assert self._program is not None  # noqa: S101 - as above
+        with self._pulse.busy("loading"):
+            applying = Applying(self._program, self._runner, self._graph.node, self._channel.send)
+            applying.has_python_debugger = self._has_python_debugger
+            error = applying.run(Path(message.app_dir), self._follow, dry=message.dry)
+        self._channel.send(child_messages.Answer(request=message.request, error=error))
+
+    def _follow(self, tree: Tree) -> None:
+        """Reports, records and debugs another tree from now on, which has taken over from the last one."""
+        assert self._runner is not None  # noqa: S101 - as above
+        self._runner.replace(tree)
+        self._groot.follow(tree)
+        tree.current = self._pulse.current
+        self._locator.learn(tree)
+        self._reporter.follow(tree)
+        tree.observe(self._reporter.ticked)
+        if self._debugger is not None:
+            self._debugger.follow(tree)
+            self.note_input("apply", {}, *self._debugger.place)
+        if self._recorder is not None:
+            self._recorder.follow(tree)
+        if self._profile is not None:
+            self._profile.follow(tree)
+
     # --- loading ----------------------------------------------------------------------------------
 
     def _redirect_output(self) -> None:
@@ -254,7 +349,7 @@ class Application:
         from executor.application.locate import Place  # noqa: PLC0415
 
         try:
-            tree = self._build(Path(start.app_dir), start.seed)
+            tree = self._build(start)
             self._locator.learn(tree)
             tree.on_warning = self._reporter.tolerated
             self._reporter.tree(tree)
@@ -266,22 +361,58 @@ class Application:
             return False
         return True
 
-    def _build(self, folder: Path, seed: int) -> Tree:
-        from executor.application.host import enter  # noqa: PLC0415
+    def _build(self, start: StartApplication) -> Tree:
+        from executor.application.changes.program import Program  # noqa: PLC0415
         from executor.application.randomness import seed_randomness  # noqa: PLC0415
-        from tree_gardener import Tree  # noqa: PLC0415
 
-        enter(folder)
-        seed_randomness(seed)
-        document = folder / "self_contained_tree.xml"
-        return Tree.from_xml(document.read_bytes(), clock=self._graph, name=document.name)
+        self._program = Program(Path(start.app_dir), self._graph)
+        if start.is_debugged:
+            self._await_debugger()
+        seed_randomness(start.seed)
+        return self._program.load()
+
+    def _await_debugger(self) -> None:
+        """Waits until the Python debugger of the session is connected and has its breakpoints."""
+        left: list[ToApplication] = []
+        until_s = time.monotonic() + DEBUGGER_S
+        while (left_s := until_s - time.monotonic()) > 0:
+            try:
+                message = self._commands.get(timeout=min(left_s, SPIN_S))
+            except queue.Empty:
+                self._pulse.moved()
+                continue
+            if not isinstance(message, child_messages.ConnectDebugger):
+                left.append(message)
+                continue
+            self._connect_debugger(message)
+            break
+        else:
+            self._channel.send(child_messages.Log("warning", LATE_DEBUGGER))
+        for message in left:
+            self._commands.put(message)
+
+    def _connect_debugger(self, message: child_messages.ConnectDebugger) -> None:
+        from executor.application.python_debugger import connect  # noqa: PLC0415 - as all of debugpy
+
+        try:
+            with self._pulse.busy("connecting"):  # its import takes a second or more
+                is_ready = connect(message, Path.cwd())
+            self._has_python_debugger = True
+        except Exception as error:
+            text = f"The Python debugger cannot be connected: {error}"
+            self._channel.send(child_messages.Log("warning", text))
+        else:
+            if not is_ready:
+                self._channel.send(child_messages.Log("warning", LATE_DEBUGGER))
 
     def _make_runner(self, tree: Tree, start: StartApplication) -> None:
         from executor.application.debugging import ApplicationDebugger  # noqa: PLC0415
+        from executor.application.profiling import ApplicationProfile  # noqa: PLC0415
         from executor.application.recording import ApplicationRecorder  # noqa: PLC0415
         from executor.application.zeros import Zeros  # noqa: PLC0415
         from tree_gardener.runner import Runner  # noqa: PLC0415
 
+        self._groot.follow(tree)
         tree.setup(node=self._graph.node)
         self._runner = Runner(
             tree,
@@ -297,8 +428,19 @@ class Application:
         self._debugger.start(start.breakpoints)
         tree.observe(self._reporter.ticked)
         self._recorder = ApplicationRecorder(tree, self._now, os.environ.pop(ADDRESS_VARIABLE, ""))
+        self._profile = ApplicationProfile(tree, self._channel.send, self._recorder.profiled)
+        self._debugger.leave_out = self._leave_out
+        if start.profile is not None:
+            self._profile.obey(start.profile)
+        if start.groot2 and (refused := self._groot.serve(tree, start.groot2)) is not None:
+            self._channel.send(child_messages.Log("warning", f"{refused.message} {refused.hint}"))
         tree.current = self._pulse.current
         self._runner.pause()
+
+    def _leave_out(self, held_s: float) -> None:
+        if self._profile is not None and self._recorder is not None:
+            self._profile.leave_out(held_s)
+            self._recorder.leave_out(held_s)
 
     # --- running ----------------------------------------------------------------------------------
 
@@ -356,6 +498,7 @@ class Application:
     def _say_goodbye(self) -> None:
         """Halts the tree, so that actions release their resources."""
         assert self._runner is not None  # noqa: S101 - it ran
+        self._groot.close()
         if self._debugger is not None:
             self._debugger.detach()
         try:
@@ -366,23 +509,38 @@ class Application:
             stream.flush()
 
 
-def main(arguments: list[str] | None = None) -> None:
-    """Runs an application for the manager at the other end of a channel."""
-    parser = argparse.ArgumentParser(prog="python -m executor.application.process", description=__doc__)
+def serve(
+    make: Callable[[Channel[Any, Any], Pulse], Application],
+    decode: Callable[[bytes], Any] = decode_to_application,
+    arguments: list[str] | None = None,
+    *,
+    environment: Mapping[str, str] | None = None,
+    prog: str = "python -m executor.application.process",
+) -> None:
+    """Runs an application for the manager at the other end of a channel; does not return.
+
+    Args:
+        make: makes the application on its channel.
+        decode: decodes what the manager sends.
+        arguments: the arguments of the command; None takes those of the process.
+        environment: the environment of ROS, as far as it is not set.
+        prog: the command, as its help names it.
+    """
+    parser = argparse.ArgumentParser(prog=prog, description=__doc__)
     parser.add_argument("--channel-fd", type=int, required=True)
     options = parser.parse_args(arguments)
     die_with_parent()
     faulthandler.enable()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the manager handles Ctrl-C
-    for name, value in ros_environment(int(os.environ.get("ROS_DOMAIN_ID", "0"))).items():
+    for name, value in (environment or ros_environment(int(os.environ.get("ROS_DOMAIN_ID", "0")))).items():
         os.environ.setdefault(name, value)
-    channel: Channel[FromApplication, ToApplication] = Channel(options.channel_fd, decode_to_application)
+    channel: Channel[Any, Any] = Channel(options.channel_fd, decode)
     pulse = Pulse(channel.send)
 
     from executor.application.host import prepare  # noqa: PLC0415 - ROS reads the environment when loaded
 
     prepare()
-    application = Application(channel, pulse)
+    application = make(channel, pulse)
     own_pid = os.getpid()
     try:
         application.run()
@@ -392,6 +550,11 @@ def main(arguments: list[str] | None = None) -> None:
         pass
     # Threads that actions started must not keep the process alive.
     os._exit(0)
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Runs the application of a session of two processes."""
+    serve(Application, decode_to_application, arguments)
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ class Randomness:
     """The state of both random generators immediately after they were seeded."""
 
     python: object
-    numpy: str
+    numpy: tuple[bytes, int]
 
     @property
     def is_untouched(self) -> bool:
@@ -33,8 +33,8 @@ def seed_randomness(seed: int) -> Randomness:
     return Randomness(*_states())
 
 
-def _states() -> tuple[object, str]:
+def _states() -> tuple[object, tuple[bytes, int]]:
     import numpy as np  # noqa: PLC0415
 
-    state = np.random.get_state(legacy=False)
-    return random.getstate(), repr(state["state"])
+    twister = np.random.get_state(legacy=False)["state"]
+    return random.getstate(), (twister["key"].tobytes(), twister["pos"])

@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-import json
 import time
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from executor.application.preview import preview
+from executor.recorder.event_messages import input_fields
 from executor.recorder.link import Record, RecorderLink, Until
 from executor.recorder.tree_recorder import TreeRecorder
 from executor.recorder.writer import nanoseconds
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from tree_gardener import Tree
+    from tree_gardener.profiling import NodeTime
 
 __all__ = ["ApplicationRecorder"]
 
 GOODBYE_S: Final = 0.2
 RESET_S: Final = 1.0
-STEP_HZ: Final = 240.0
-"""Steps of the simulated world in a second of its time."""
 MOST_TICKS: Final = 50
 """So many ticks are written at once, at most: a tree that ticks fast does not wait for all of a batch."""
 
@@ -69,16 +68,29 @@ class ApplicationRecorder:
     def did(self, command: str, data: Any, tick: int, hook: int) -> None:
         """Records what a person did, at the `hook`-th stop of a tick, or between two ticks (-1)."""
         self._write_ticks()
-        fields = {
-            "stamp": self._now_ns(),
-            "step": round(self._now() * STEP_HZ),
-            "tick": tick,
-            "hook": hook,
-            "command": command,
-            "data_json": json.dumps(data, ensure_ascii=False, separators=(",", ":")),
-            "user": "",
-        }
-        self._send("/bt/input", "Input", fields)
+        self._send("/bt/input", "Input", input_fields(self._now(), command, data, tick, hook))
+
+    def changed(self) -> None:
+        """Records the tree again, as the next generation, after a port has got another text."""
+        if self._recorder is not None and self._link.is_recording:
+            self._restate()
+
+    def follow(self, tree: Tree) -> None:
+        """Records another tree from now on, as the next generation."""
+        self._write_ticks()
+        self._tree, self._recorder = tree, None
+        if self._link.is_recording:
+            self._restate()
+
+    def leave_out(self, duration_s: float) -> None:
+        """Leaves out a hold of the debugger from the duration of the tick that is made."""
+        if self._recorder is not None:
+            self._recorder.leave_out(duration_s)
+
+    def profiled(self, ticks: int, times: Sequence[NodeTime]) -> None:
+        """Records the times of nodes in the ticks since the last call."""
+        if self._recorder is not None:
+            self._recorder.profiled(ticks, times)
 
     def pump(self) -> None:
         """Sends the waiting messages. Called many times in a second."""

@@ -100,6 +100,29 @@ class Reporter:
         self._nodes = tree.nodes
         self._send(child_messages.Tree(describe_tree(tree)))
 
+    def follow(self, tree: Tree) -> None:
+        """Reports a tree that has taken over from another one, with all that it has."""
+        self._last = LastTick()
+        self.restate(tree)
+
+    def restate(self, tree: Tree) -> None:
+        """Reports a tree with all that it has, and its last tick."""
+        self.tree(tree)
+        statuses = [(node.uid, node.status) for node in tree.nodes if node.status is not Status.IDLE]
+        self._send(
+            child_messages.Tick(
+                n=tree.tick_number,
+                t=self._now_s(),
+                changed=_named(statuses),
+                flashed=[],
+                duration_ms=0.0,
+                past=_named(self._last.past.items()),
+            )
+        )
+        self._entries.clear()
+        self._told.clear()
+        self.held(tree)
+
     def stubs(self, tree: Tree) -> None:
         """Reports the actions of a new tree that are not written yet."""
         if names := unwritten(tree):

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -12,13 +13,14 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
 from executor.ros.default_context import DefaultContext
+from executor.ros.environment import ports_of_its_own
 from executor.ros.spin import PatientExecutor
 from tree_gardener.ros_node import ActionNode, MainThreadGroup
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["Graph"]
+__all__ = ["ApplicationGraph", "Graph"]
 
 NODE_NAME: Final = "bt_application"
 WALL_PERIOD_S: Final = 0.002
@@ -27,6 +29,34 @@ _CLOCK_QOS: Final = QoSProfile(
     depth=1, reliability=ReliabilityPolicy.BEST_EFFORT, durability=DurabilityPolicy.VOLATILE
 )
 _OWN_TOPICS: Final = frozenset({"/clock", "/parameter_events", "/rosout"})
+
+
+class ApplicationGraph(Protocol):
+    """The node of an application, its time, and its waiting. It is also the clock of the tree."""
+
+    domain_id: int
+
+    @property
+    def node(self) -> Node:
+        """The node of the actions."""
+
+    def now(self) -> float:
+        """Returns the simulated time in s."""
+
+    def sleep(self, duration_s: float) -> None:
+        """Waits for simulated time, where that is possible."""
+
+    def spin_once(self, timeout_s: float) -> None:
+        """Runs one callback; waits for one for at most `timeout_s`."""
+
+    def wake(self) -> None:
+        """Interrupts a wait of `spin_once`; thread-safe."""
+
+    def is_connected(self) -> bool:
+        """Returns whether all topics of actions are connected."""
+
+    def close(self) -> None:
+        """Leaves the graph."""
 
 
 class Graph:
@@ -43,11 +73,13 @@ class Graph:
         self._context = self._default.context
         self.domain_id = domain_id
         simulated = not outside or self._has_clock()
-        self.node = ActionNode(
-            NODE_NAME,
-            context=self._context,
-            parameter_overrides=[Parameter("use_sim_time", Parameter.Type.BOOL, simulated)],
-        )
+        # Robots outside may look for the first few participants alone.
+        with contextlib.nullcontext() if outside else ports_of_its_own(domain_id):
+            self.node = ActionNode(
+                NODE_NAME,
+                context=self._context,
+                parameter_overrides=[Parameter("use_sim_time", Parameter.Type.BOOL, simulated)],
+            )
         self._time_s = 0.0
         self._start_s = time.monotonic()
         self.has_time = False

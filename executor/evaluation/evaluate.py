@@ -33,6 +33,7 @@ LIBRARIES: Final = (
     "executor.application.locate",
     "executor.application.randomness",
     "executor.evaluation.run",
+    "executor.headless.participants",
     "executor.headless.recorder",
     "executor.headless.recording",
     "executor.headless.waiting",
@@ -47,6 +48,7 @@ LIBRARIES: Final = (
     "executor.world.sensing.sensors",
     "numpy.random",
     "rclpy.action",
+    "translator.package.app",
     "tree_gardener.ros_node",
     "tree_gardener.runner",
 )

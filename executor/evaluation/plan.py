@@ -196,10 +196,12 @@ def _port_problems(plan: Plan, located: Located) -> list[Problem]:
                 and plan.evaluation.vary[address].uniform is not None
             ):
                 value = round(value)  # noqa: PLW2901 - as it will be drawn
-            ports = {**tree.nodes[node_id].ports, target.field: port_text(value)}
+            ports = {**tree.nodes[node_id].ports, target.field: port_text(value, real=target.real)}
             found = errors_in(check(plan.project.with_tree(tree.edited(node_id, ports=ports))))
             if found:
-                text = f"{address}: {port_text(value)} cannot be its value: {found[0].message}"
+                text = (
+                    f"{address}: {port_text(value, real=target.real)} cannot be its value: {found[0].message}"
+                )
                 problems.append(Problem(text, *located.place(("vary", address)), "BTV002"))
                 break
     return problems

@@ -27,6 +27,7 @@ _FIXED: Final = frozenset(
     {"name", "kind", "link", "topic", "info_topic", "aliases", "depth_topic", "depth_info_topic"}
 )
 _WHOLE: Final = ("int", "uint")
+_REAL: Final = ("double", "float")
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,7 @@ class Target:
     field: str
     axis: int = -1
     whole: bool = False
+    real: bool = False
 
     @property
     def is_pose(self) -> bool:
@@ -115,8 +117,12 @@ def _port_addresses(project: Project) -> Iterator[tuple[str, Target]]:
             model = project.model(node.type)
             ports = model.ports.items() if model else ()
             kinds = {name: port.type for name, port in ports if port.direction != "output"}
+            called = project.trees.get(node.tree or "") if node.is_subtree else None
+            kinds |= {port.name: port.type for port in (called.ports if called else ())}
             for port in {**kinds, **node.ports}:
-                target = Target("port", (tree.id, node.id), port, whole=kinds.get(port) in _WHOLE)
+                kind = kinds.get(port)
+                whole, real = kind in _WHOLE, kind in _REAL
+                target = Target("port", (tree.id, node.id), port, whole=whole, real=real)
                 for name in dict.fromkeys([node.label, node.id]):
                     yield f"ports.{tree.id}.{name}.{port}", target
 
@@ -294,15 +300,17 @@ def _keep(drawn: Drawn, document: dict[str, Any], target: Target, address: str, 
     drawn.values[address] = list(value) if isinstance(value, tuple) else value
     if target.kind == "port":
         tree_id, node_id = target.owner
-        drawn.ports[tree_id, node_id, target.field] = port_text(value)
+        drawn.ports[tree_id, node_id, target.field] = port_text(value, real=target.real)
     elif target.kind == "sensor":
         drawn.sensors.setdefault(target.owner[0], {})[target.field] = value
     else:
         _set(document, target, value)
 
 
-def port_text(value: Value) -> str:
-    """Returns a drawn value as a port of a diagram holds it."""
+def port_text(value: Value, *, real: bool = False) -> str:
+    """Returns a drawn value as a port of a diagram holds it; with `real`, 2 is 2.0."""
+    if real and isinstance(value, int) and not isinstance(value, bool):
+        value = float(value)
     if isinstance(value, bool):
         return "true" if value else "false"
     return repr(value) if isinstance(value, float) else str(value)

@@ -15,10 +15,13 @@ import msgspec
 from msgspec import inspect as types
 
 from executor import (
+    apply_messages,
+    attach_messages,
     command_messages,
     debug_messages,
     evaluation_events,
     messages,
+    profile_messages,
     recording_events,
     stream_messages,
 )
@@ -29,7 +32,10 @@ if TYPE_CHECKING:
 TARGET: Final = Path(__file__).parents[2] / "frontend" / "src" / "generated" / "messages.ts"
 
 _MODULES: Final = (
+    apply_messages,
+    attach_messages,
     debug_messages,
+    profile_messages,
     command_messages,
     evaluation_events,
     recording_events,

@@ -55,6 +55,8 @@ class HeadlessOptions:
     robot: str | None = None
     recording: Path | None = None
     serve_viewer: bool = False
+    profile: bool = False
+    groot2: int = 0
 
 
 def run_headless(
@@ -91,7 +93,12 @@ async def _run(
     with keeping as folder:
         token = secrets.token_urlsafe()
         settings = ManagerSettings(
-            port=0, token=token, records=folder is not None, recordings=folder, keeps_whole=True
+            port=0,
+            token=token,
+            records=folder is not None,
+            recordings=folder,
+            keeps_whole=True,
+            groot2=options.groot2,
         )
         manager = Manager(settings)
         try:
@@ -106,7 +113,7 @@ async def _run(
                     if options.serve_viewer:
                         await runner.serve_viewer()
                     data = _run_data(project, app_zip, options)
-                    return await runner.run(data, options.duration_s, progress)
+                    return await runner.run(data, options, progress)
         finally:
             await manager.close()
 
@@ -139,17 +146,19 @@ class _Runner:
         self._say(f"The viewer is at {await self._viewer.start()}")
 
     async def run(
-        self, data: dict[str, Any], duration_s: float | None, progress: Callable[[Report], None]
+        self, data: dict[str, Any], options: HeadlessOptions, progress: Callable[[Report], None]
     ) -> Report:
         readers = [asyncio.create_task(self._read_control()), asyncio.create_task(self._read_stream())]
         try:
             for stream in ("poses", "scan"):
                 await self._ask("subscribe", {"stream": stream, "max_hz": TRAJECTORY_HZ})
+            if options.profile:
+                await self._ask("profile", {"on": True})
             await self._ask("run", data)
             self._forget_slow_loading()
             began_s = time.monotonic()
             with contextlib.suppress(asyncio.CancelledError):  # Ctrl-C ends the run, not the report
-                await self._follow(duration_s, progress)
+                await self._follow(options.duration_s, progress)
             return self._measured.end(time.monotonic() - began_s)
         finally:
             self._show_figures(is_over=True)
@@ -287,7 +296,12 @@ def _run_data(project: Project, app_zip: bytes, options: HeadlessOptions) -> dic
         packed = _zip_base64(assets) if assets else ""
         universe = {"document": own.decode(), "assets_zip_base64": packed, "file": path}
     return {
-        "universe": {"universe": universe, "robot": options.robot or settings.robot, "seed": options.seed},
+        "universe": {
+            "universe": universe,
+            "robot": options.robot or settings.robot,
+            "seed": options.seed,
+            "time": settings.time,
+        },
         "application": {
             "app_zip_base64": base64.b64encode(app_zip).decode(),
             "tick_hz": settings.tick_hz,

@@ -12,37 +12,41 @@ import sys
 import time
 import traceback
 from collections.abc import Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
+from executor.headless.clock import WorldClock
 from executor.headless.files import write_files
 from executor.headless.lines import mismatch_line
 from executor.headless.output import RecordedOutput, recorded
+from executor.headless.profiling import RunProfile
 from executor.headless.report import NodeCount, Report, quantiles
+from executor.headless.stepper import PERIOD_STEPS, Stepper
 from executor.ros.environment import use_lockstep_environment
 from executor.supervision.scratch import Scratch
 from tree_gardener.errors import describe
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from contextlib import AbstractContextManager
     from pathlib import Path
 
     from executor.child_messages import Log, TopicMismatch
     from executor.headless.recorder import RunRecorder
     from executor.headless.recording import Recording
     from executor.ros.node import WorldNode
-    from executor.ros.spin import DrainingExecutor
     from executor.world.physics.bullet import BulletWorld
     from executor.world.sensing.sensors import Sensors
     from translator import Project
     from tree_gardener import Status, TickError, Tree
     from tree_gardener.hooks import ResultCount
 
+    Waiting = Callable[[], AbstractContextManager[object]]
     Progress = Callable[[float], None]
     Watch = Callable[[BulletWorld, Tree], None]
 
-PERIOD_STEPS: Final = 4  # steps between polls of the world's topics, as in real time
 TRAJECTORY_HZ: Final = 10.0
 TREE_FILE: Final = "self_contained_tree.xml"
 MISMATCHES_S: Final = 5.0
@@ -63,6 +67,10 @@ class LockstepOptions:
     recording: Path | None = None
     outlasts_tree: bool = False
     """Whether the world continues after the root has finished."""
+    profiles: bool = False
+    """Whether each node is measured."""
+    groot2: int = 0
+    """The port at which Groot2 follows, holds and forces the tree; 0 for none."""
     actions_seed: int | None = None
     """The seed of the random numbers of actions; without it, that of the run."""
 
@@ -75,6 +83,7 @@ def run_lockstep(  # noqa: PLR0913 - a run, and who listens to it
     watch: Watch | None = None,
     say: Callable[[str], None] | None = None,
     moved: Callable[[], None] | None = None,
+    waiting: Waiting = nullcontext,
 ) -> Report:
     """Runs a project until its tree ends or the time is over.
 
@@ -85,6 +94,7 @@ def run_lockstep(  # noqa: PLR0913 - a run, and who listens to it
         watch: called before each tick with the world and the tree, for measurements.
         say: called with each warning; with None, warnings are written to standard error.
         moved: called after each step of the world.
+        waiting: entered while the tree waits at a breakpoint of Groot2.
 
     Raises:
         TranslatorError: the project has errors.
@@ -95,7 +105,7 @@ def run_lockstep(  # noqa: PLR0913 - a run, and who listens to it
     """
     use_lockstep_environment()
     run = LockstepRun(_open(project), options or LockstepOptions(), say or _say)
-    run.moved = moved or run.moved
+    run.moved, run.waiting = moved or run.moved, waiting
     try:
         run.set_up()
         return run.play(progress, watch)
@@ -110,6 +120,7 @@ class LockstepRun:
 
     Attributes:
         moved: called after each step of the world; what it raises ends the run.
+        waiting: entered while the tree waits at a breakpoint of Groot2.
         world: the world, after `set_up`.
         tree: the tree, after `set_up`.
         node: the world's ROS node, after `set_up`.
@@ -135,10 +146,12 @@ class LockstepRun:
         self.report = Report()
         self._durations: list[float] = []
         self.moved: Callable[[], None] = lambda: None
+        self.waiting: Waiting = nullcontext
         self._stack: list[Callable[[], object]] = []
         self._recorder: RunRecorder | None = None  # set when the tree is loaded
         self._output: tuple[Any, Any] = (None, None)
         self._printed: list[Log] = []  # before there is a recorder
+        self._profile: RunProfile | None = None
         self.has_ended = False
         self.counts: list[ResultCount] = []
 
@@ -150,6 +163,8 @@ class LockstepRun:
         self._join_ros()
         self.tree = self._make_tree(self._project)  # making the world may have drawn ports of it
         self._recorder = self._make_recorder(recording)
+        if self._options.profiles:
+            self._profile = RunProfile(self.tree, None if self._recorder is None else self._recorder.profiled)
 
     def play(self, progress: Progress | None, watch: Watch | None) -> Report:
         """Ticks until the end of the run, and returns its report."""
@@ -189,6 +204,8 @@ class LockstepRun:
         else:
             self._advance(round(ticks / self._tick_hz / self.world.step_s))
             self.report.root_status = runner.status.name
+        if self._profile is not None:
+            self.report.profile = self._profile.end()
         if self._recorder is not None:
             self._recorder.end()
         return self._finish(began_s, runner.statistics.overruns)
@@ -224,37 +241,23 @@ class LockstepRun:
         return scratch.path
 
     def _join_ros(self) -> None:
-        from rclpy.parameter import Parameter  # noqa: PLC0415 - ROS reads the environment when loaded
-
-        from executor.headless.waiting import wait_in_simulation  # noqa: PLC0415
-        from executor.navigation.start import make_navigation  # noqa: PLC0415
-        from executor.ros.default_context import DefaultContext  # noqa: PLC0415
+        from executor.headless.participants import Participants  # noqa: PLC0415 - ROS reads the environment
         from executor.ros.graph.mismatches import Mismatches  # noqa: PLC0415
-        from executor.ros.shared_topics import share_commands  # noqa: PLC0415
-        from executor.ros.spin import DrainingExecutor  # noqa: PLC0415
-        from tree_gardener.ros_node import ActionNode  # noqa: PLC0415
 
-        default = DefaultContext(simulated=True)
-        context = default.context
-        self._stack.append(default.close)
         self.open_sensors()
-        self.node = self.make_node(context)
-        self._stack.append(self.node.close)
-        self._stack.append(share_commands(self.node, context))
-        self._navigation = make_navigation(self.world, context)
-        if self._navigation is not None:
-            self._stack.append(self._navigation.close)
-        self._application = ActionNode(
-            "application",
-            context=context,
-            parameter_overrides=[Parameter("use_sim_time", Parameter.Type.BOOL, True)],  # noqa: FBT003
-        )
-        self._stack.append(self._application.close)
-        self._executor: DrainingExecutor = DrainingExecutor(context=context)
-        self._executor.add_node(self._application)
-        self._stack.append(self._executor.shutdown)
-        self._mismatches = Mismatches(self._application, self._say_mismatch)
-        self._stack.append(wait_in_simulation(lambda: self.world.time_s, self._let_time_pass))
+        self._ros = ros = Participants(self.world, self.make_node, self._let_time_pass)
+        self._stack.append(ros.close)
+        self.node = ros.node
+        self.make_stepper()
+        if ros.navigation is not None:
+            self._stepper.parts.append(ros.navigation)
+        self._mismatches = Mismatches(ros.application, self._say_mismatch)
+
+    def make_stepper(self) -> None:
+        """Makes what steps the world, after its sensors and its node."""
+        self._stepper = Stepper(self.world, self.sensors, self.node)
+        self._stepper.moved = self._tell_moved
+        self._stepper.published = self._record_published
 
     def open_sensors(self) -> None:
         """Makes the sensors of the world."""
@@ -268,15 +271,7 @@ class LockstepRun:
         """Returns the world's ROS node; `node` takes the place of one of rclpy."""
         from executor.ros.node import WorldNode  # noqa: PLC0415 - ROS reads the environment when loaded
 
-        robots = self.world.universe.robots
-        return WorldNode(
-            self.world,
-            context,
-            topics={place.id: place.topics for place in robots},
-            true_poses={place.id for place in robots if place.ground_truth},
-            clock_hz=self._tick_hz,
-            node=node,
-        )
+        return WorldNode.of_universe(self.world, context, clock_hz=self._tick_hz, node=node)
 
     def _say_mismatch(self, found: TopicMismatch) -> None:
         if not found.resolved:
@@ -304,11 +299,15 @@ class LockstepRun:
         self._locator = Locator()
         self._record_output()
         with recorded(*self._output):
-            tree = Tree.from_xml(text, clock=_WorldClock(self.world))
+            tree = Tree.from_xml(text, clock=WorldClock(self.world))
             tree.on_warning = lambda node, message: self._say(f"{node.path}: {message}")
             self._locator.learn(tree)
-            tree.setup(node=self._application)
+            tree.setup(node=self._ros.application)
         self._stack.append(tree.shutdown)
+        if options.groot2:
+            from tree_gardener.groot import Groot2Publisher  # noqa: PLC0415 - needed only with a port
+
+            self._stack.append(Groot2Publisher(tree, options.groot2, waiting=self.waiting).close)
         self.counts = tree.count_results()
         return tree
 
@@ -352,34 +351,30 @@ class LockstepRun:
 
     def _advance(self, until_step: int) -> None:
         """Steps the world up to a step; its sensors measure at their rates meanwhile, as in real time."""
-        done = round(self.world.time_s / self.world.step_s)
-        if done == 0:
-            self.node.publish(self.sensors)
-        while done < until_step:
-            count = min(until_step - done, PERIOD_STEPS - done % PERIOD_STEPS)
-            self.world.step(count)
-            self.moved()
-            done += count
-            self.sensors.changed()
-            if done % PERIOD_STEPS == 0 or done == until_step:
-                if self._navigation is not None:
-                    self._navigation.poll()
-                self.node.publish(self.sensors)
-                if self._recorder is not None:
-                    self._recorder.look()
+        if self._stepper.done == 0:
+            self._stepper.publish()
+        while self._stepper.done < until_step:
+            self._stepper.advance(until_step)
+
+    def _tell_moved(self) -> None:
+        self.moved()  # may be set later
+
+    def _record_published(self) -> None:
+        if self._recorder is not None:
+            self._recorder.look()
 
     def _let_time_pass(self) -> None:
         """Simulates for a short time while an action waits in rclpy, as real time would pass."""
         if self.world.time_s >= self._options.duration_s:
             raise TimeoutError(TOO_LONG)
-        self._advance(round(self.world.time_s / self.world.step_s) + PERIOD_STEPS)
+        self._advance(self._stepper.done + PERIOD_STEPS)
         self.node.poll()
 
     def _call_back(self) -> bool:
         """Runs the callbacks of the actions; returns whether all succeeded."""
         try:
             with recorded(*self._output):
-                self._executor.drain()
+                self._ros.executor.drain()
         except (Exception, SystemExit) as error:
             self._note_broken(error)
             return False
@@ -388,8 +383,10 @@ class LockstepRun:
     def _tick(self, runner: Any) -> Status | None:
         began_s = time.perf_counter()
         with recorded(*self._output):
-            status: Status | None = runner.tick_due(self.world.time_s)
+            status: Status | None = runner.tick_now()
         self._durations.append(time.perf_counter() - began_s)
+        if self._profile is not None:
+            self._profile.look(self.world.time_s)
         return status
 
     def _note_broken(self, error: BaseException) -> None:
@@ -461,20 +458,6 @@ class LockstepRun:
             robot = self.world.robots[0]
             report.distance_m, report.collisions = round(robot.distance_m, 6), robot.collisions
         return report
-
-
-class _WorldClock:
-    """The clock of the tree: simulated time for Delay, Timeout and Sleep."""
-
-    def __init__(self, world: BulletWorld) -> None:
-        self.world = world
-
-    def now(self) -> float:
-        """Returns the simulated time in s."""
-        return self.world.time_s
-
-    def sleep(self, duration_s: float) -> None:
-        """Does nothing: simulated time does not pass within a tick."""
 
 
 def _open(project: Project | Mapping[str, bytes] | Path) -> Project:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from executor import messages
-from executor.headless.report import NodeCount, Report, quantiles
+from executor.headless.report import NodeCount, ProfileRow, Report, quantiles
 from executor.stream.pose_codec import POSE_BYTES, unpack
 
 if TYPE_CHECKING:
@@ -40,6 +40,11 @@ class Measured:
                 self._take_tick(data, time_s)
             case "sim":
                 report.distance_m, report.collisions = data["distance_m"], data["collisions"]
+            case "profile":
+                report.profile = [
+                    ProfileRow(self._paths[n["uid"]].path, n["calls"], n["total_ms"], n["self_ms"])
+                    for n in data["nodes"]
+                ]
             case "fault":
                 report.errors.append(data)
             case "finished":

@@ -12,7 +12,7 @@ from executor.ros.tap import TopicTap
 from executor.world.simulation.streams import Streams
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     from executor.child_messages import Frame, Log
     from executor.headless.recording import Recording
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from executor.world.interface import World
     from executor.world.sensing.sensors import Sensors
     from tree_gardener import Status, TickError, Tree
+    from tree_gardener.profiling import NodeTime
 
 POSES_HZ: Final = 30.0
 KEYFRAME_S: Final = 5.0
@@ -71,6 +72,10 @@ class RunRecorder:
     def raised(self, error: TickError) -> None:
         """Writes an exception of an action."""
         self._tree.raised(error)
+
+    def profiled(self, ticks: int, times: Sequence[NodeTime]) -> None:
+        """Writes the times of nodes in the ticks since the last call."""
+        self._tree.profiled(ticks, times)
 
     def says(self, level: str, text: str) -> None:
         """Writes a line of the run."""

@@ -9,7 +9,7 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Final, Self
 
 from executor.headless.errors import HeadlessError
-from executor.recorder.writer import RecordingWriter
+from executor.recorder.seekable import SeekableWriter
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -46,7 +46,7 @@ class Recording:
     def __init__(self, path: Path, about: dict[str, str], files: dict[str, bytes]) -> None:
         self.path = path
         self._file = path.open("wb")  # closed by close
-        self.writer = RecordingWriter(self._file, about)
+        self.writer = SeekableWriter(self._file, about)
         for name, data in sorted(files.items()):
             if len(data) <= MOST_ATTACHED:
                 self.writer.attach(name, "application/octet-stream", data)

@@ -6,7 +6,7 @@ import math
 from dataclasses import asdict, dataclass, field
 from typing import Any, Final
 
-WALL_FIELDS: Final = ("wall_time_s", "real_time_factor", "tick_ms", "overruns")
+WALL_FIELDS: Final = ("wall_time_s", "real_time_factor", "tick_ms", "overruns", "profile")
 """Fields that depend on the machine; all others are the same for the same project and seed."""
 
 
@@ -22,13 +22,23 @@ class NodeCount:
 
 
 @dataclass
+class ProfileRow:
+    """The time of a node, in ms: with the nodes below it, and without them."""
+
+    path: str
+    calls: int
+    total_ms: float
+    self_ms: float
+
+
+@dataclass
 class Report:
     """The report of a whole run.
 
     Distances and collisions are those of the first robot; lengths are in m, angles in rad.
 
     `random` is false if neither the world nor the actions used random numbers; every seed then gives the same
-    run.
+    run. `profile` has the nodes that were ticked, if they were measured.
     """
 
     root_status: str = "IDLE"
@@ -45,6 +55,7 @@ class Report:
     nodes: list[NodeCount] = field(default_factory=list)
     errors: list[dict[str, Any]] = field(default_factory=list)
     random: bool = True
+    profile: list[ProfileRow] = field(default_factory=list)
 
     def to_json(self) -> dict[str, Any]:
         """Returns the report as a JSON object."""

@@ -16,6 +16,7 @@ COSTS: Final = {
     "describe_type": 4.0,
     "read_recording": 4.0,
     "take_over": 4.0,
+    "dap": 2.5,  # 100 a second
 }
 """Commands that cost the world, or every client, more than one token."""
 

@@ -26,7 +26,7 @@ SPARE_BYTES: Final = 16 << 20
 
 
 class Folders:
-    """A folder for each application; the oldest are removed.
+    """A folder for each application; the oldest that are not needed are removed.
 
     Args:
         is_alone: whether only this session uses the folder of temporary files, as in a container. If it is,
@@ -42,8 +42,10 @@ class Folders:
         """Unpacks one application; errors are in the result."""
         folder = self._scratch.path / str(effect.token)
         self._kept.append(folder)
-        if len(self._kept) > KEPT_FOLDERS:
-            shutil.rmtree(self._kept.popleft(), ignore_errors=True)
+        idle = [kept for kept in self._kept if str(kept) not in effect.needed]
+        for oldest in idle[: max(0, min(len(idle) - 1, len(self._kept) - KEPT_FOLDERS))]:
+            self._kept.remove(oldest)
+            shutil.rmtree(oldest, ignore_errors=True)
         try:
             self._fill(folder, effect.archive_base64)
             return Unpacked(effect.token, str(folder), plan=read_launch_files(folder))
@@ -77,6 +79,12 @@ class Folders:
     def recordings(self) -> Path:
         """Makes the folder of the recordings of this session, which its recorder may use, and returns it."""
         folder = self._scratch.path / "recordings"
+        folder.mkdir()
+        return folder
+
+    def diagrams(self) -> Path:
+        """Makes the folder of the diagrams of another program's tree, and returns it."""
+        folder = self._scratch.path / "attached"
         folder.mkdir()
         return folder
 

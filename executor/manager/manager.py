@@ -14,6 +14,7 @@ import random
 import secrets
 import signal
 import socket
+import ssl
 import sys
 from collections import deque
 from dataclasses import dataclass
@@ -23,11 +24,14 @@ from typing import TYPE_CHECKING, Any, Final
 import msgspec
 
 from executor import __version__
+from executor.application.groot import PORT_VARIABLE
 from executor.manager.admission import Admission, is_loopback
+from executor.manager.environment import WrongVariableError, mebibytes, number
 from executor.manager.gate import fetch_listener
 from executor.recorder.link import ADDRESS_VARIABLE
-from executor.ros.environment import ros_environment
+from executor.ros.environment import discovery_port, lockstep_environment, ros_environment
 from executor.session.events import (
+    AttachWanted,
     EndSession,
     Event,
     Inspect,
@@ -63,6 +67,8 @@ _log = logging.getLogger(__name__)
 GOODBYE_S: Final = 1.0
 LAST_DOMAIN_ID: Final = 100
 LARGEST_DOMAIN_ID: Final = 232
+# pydantic would search all installed packages.
+NO_PLUGINS: Final = {"PYDANTIC_DISABLE_PLUGINS": "__all__"}
 # Sharing a small picture between threads costs more than it gains, and sessions share one machine.
 FEW_THREADS: Final = {"OPENCV_FOR_THREADS_NUM": "1", "LP_NUM_THREADS": "2"}
 
@@ -77,11 +83,14 @@ class ManagerSettings:
         domain_id: the domain of the session's ROS graph; None selects an unused one.
         grace_s: the seconds for which a session without clients stays alive; 0 is without limit.
         listener: a unix socket on which the manager listens too.
+        tls: what encrypts connections to the port; None leaves them as they are, for this machine.
         is_closed_off: whether the session's ROS graph is isolated, as in a container.
         is_ram: whether the manager speaks the RAM dialect, with one local client and without a token.
         records: whether runs are recorded.
         recordings: a folder for them that stays; None is a folder of the session.
         keeps_whole: whether they are kept whole, without budgets.
+        groot2: the port at which Groot2 can look at the tree that runs; 0 for none.
+        attach: the address HOST:PORT of the program to follow, in place of an application; "" for none.
         origins: pages that may connect; without a token, local pages may connect too.
     """
 
@@ -95,9 +104,12 @@ class ManagerSettings:
     records: bool = True
     recordings: Path | None = None
     keeps_whole: bool = False
+    groot2: int = 0
+    attach: str = ""
     origins: tuple[str, ...] = ()
     programs: dict[Kind, Program] | None = None
     listener: socket.socket | None = None
+    tls: ssl.SSLContext | None = None
 
 
 def free_domain_id() -> int:
@@ -105,8 +117,7 @@ def free_domain_id() -> int:
     for domain_id in random.sample(range(1, LAST_DOMAIN_ID + 1), LAST_DOMAIN_ID):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
             try:
-                # The first participant's port for unicast discovery, by the RTPS specification.
-                probe.bind(("127.0.0.1", 7400 + 250 * domain_id + 10))
+                probe.bind(("127.0.0.1", discovery_port(domain_id)))
             except OSError:
                 continue
             return domain_id
@@ -119,31 +130,47 @@ def outside_domain_id() -> int:
     return int(text) if text.isdecimal() and int(text) <= LARGEST_DOMAIN_ID else 0
 
 
-def _environment_bytes(name: str, default_mb: int) -> int:
-    return int(os.environ.get(name, str(default_mb))) << 20
-
-
-def session_programs(domain_id: int) -> dict[Kind, Program]:
+def session_programs(domain_id: int, groot2: int = 0) -> dict[Kind, Program]:
     """Returns the programs of world, application and recorder, with their limits."""
+    shown = {PORT_VARIABLE: str(groot2)} if groot2 else {}
     threads = {name: os.environ.get(name, count) for name, count in FEW_THREADS.items()}
-    own = {"PYDANTIC_DISABLE_PLUGINS": "__all__"}  # pydantic would search all installed packages
     link = {ADDRESS_VARIABLE: f"bt-studio-recorder-{secrets.token_hex(16)}"}
-    environment = {**ros_environment(domain_id), **threads, **own, **link}
+    environment = {**ros_environment(domain_id), **threads, **NO_PLUGINS, **link}
     limits = Limits(
-        memory_bytes=_environment_bytes("BT_STUDIO_APPLICATION_MEMORY_MB", 4096),
-        file_bytes=_environment_bytes("BT_STUDIO_APPLICATION_FILE_MB", 1024),
-        processes=int(os.environ.get("BT_STUDIO_APPLICATION_PROCESSES", "64")),
-        cpu_s=int(os.environ.get("BT_STUDIO_APPLICATION_CPU_S", "0")) or None,
+        memory_bytes=mebibytes("BT_STUDIO_APPLICATION_MEMORY_MB", 4096),
+        file_bytes=mebibytes("BT_STUDIO_APPLICATION_FILE_MB", 1024),
+        processes=int(number("BT_STUDIO_APPLICATION_PROCESSES", 64)),
+        cpu_s=int(number("BT_STUDIO_APPLICATION_CPU_S", 0)) or None,
     )
     return {
         "world": Program((sys.executable, "-m", "executor.world.process"), environment),
-        "application": Program((sys.executable, "-m", "executor.application.process"), environment, limits),
+        "application": Program(
+            (sys.executable, "-m", "executor.application.process"), environment | shown, limits
+        ),
+        "exact": Program(
+            (sys.executable, "-m", "executor.exact.process"),
+            {**environment, **shown, **lockstep_environment(), "PYTHONHASHSEED": "0"},
+            limits,
+        ),
         "recorder": Program((sys.executable, "-m", "executor.recorder.process"), link),
+        "adapter": Program((sys.executable, "-m", "executor.debug_adapter.process")),
         "evaluation": Program(
             (sys.executable, "-m", "executor.evaluation.served.process"),
             dict(SINGLE_THREADED),
             Limits(file_bytes=limits.file_bytes),
         ),
+    }
+
+
+def attached_programs(address: str) -> dict[Kind, Program]:
+    """Returns the programs of a session that follows the program at an address; there is no world."""
+    link = {ADDRESS_VARIABLE: f"bt-studio-recorder-{secrets.token_hex(16)}"}
+    limits = Limits(memory_bytes=mebibytes("BT_STUDIO_APPLICATION_MEMORY_MB", 4096))
+    follow = (sys.executable, "-m", "executor.attached.process", "--address", address)
+    return {
+        "world": Program((sys.executable, "-m", "executor.attached.world"), {}),
+        "application": Program(follow, NO_PLUGINS | link, limits),
+        "recorder": Program((sys.executable, "-m", "executor.recorder.process"), link),
     }
 
 
@@ -160,10 +187,11 @@ class Manager:
             ros_environment={} if settings.is_closed_off else ros_environment(self.domain_id),
             outside_domain_id=outside_domain_id(),
             grace_s=settings.grace_s,
-            hold_limit_s=60.0 * float(os.environ.get("BT_STUDIO_HOLD_MINUTES", "15")),
+            hold_limit_s=60.0 * number("BT_STUDIO_HOLD_MINUTES", 15),
         )
         self.session = Session(about, now_s=loop.time())
-        self._programs = settings.programs or session_programs(self.domain_id)
+        made = attached_programs(settings.attach) if settings.attach else None
+        self._programs = settings.programs or made or session_programs(self.domain_id, settings.groot2)
         self._supervisor = Supervisor(self._programs, self.take, self._on_frame, reaps_all=True)
         self._server: SessionServer | RamServer | None = None
         self._folders: Folders | None = None
@@ -186,6 +214,8 @@ class Manager:
         port = await self._listen()
         if "recorder" in self._programs and self._settings.records:
             self._record(self._recordings(self._folders))
+        if self._settings.attach:
+            self.take(AttachWanted(self._settings.attach, str(self._folders.diagrams())))
         self._set_timer()
         return port
 
@@ -200,7 +230,7 @@ class Manager:
 
         admission = Admission(settings.token, frozenset(settings.origins))
         self._server = server = SessionServer(self.session, self.take, admission)
-        port = await server.start(settings.host, settings.port)
+        port = await server.start(settings.host, settings.port, settings.tls)
         if settings.listener is not None:
             await server.start_at(settings.listener)
         return port
@@ -311,8 +341,8 @@ async def serve(settings: ManagerSettings, ready_fd: int | None = None, *, shows
     """
     manager = Manager(settings)
     loop = asyncio.get_running_loop()
-    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-        loop.add_signal_handler(number, manager.end, f"got {number.name}")
+    for each in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+        loop.add_signal_handler(each, manager.end, f"got {each.name}")
     try:
         port = await manager.start()
         if ready_fd is not None:
@@ -358,6 +388,24 @@ def _token(options: argparse.Namespace) -> str:
     return token
 
 
+def _tls(options: argparse.Namespace) -> ssl.SSLContext | None:
+    """Returns what encrypts the connections, from the files of a certificate and its key."""
+    if not options.tls_cert and not options.tls_key:
+        return None
+    if not options.tls_cert or not options.tls_key:
+        raise _UsageError("--tls-cert and --tls-key are given together")
+    if options.ram:
+        raise _UsageError("the RAM dialect is spoken on loopback alone, without TLS")
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+    context.minimum_version = ssl.TLSVersion.TLSv1_3
+    try:
+        context.load_cert_chain(options.tls_cert, options.tls_key)
+    except (OSError, ValueError) as error:
+        files = f"{options.tls_cert} and {options.tls_key}"
+        raise _UsageError(f"{files} are no certificate and its key, as PEM: {error}") from error
+    return context
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Runs the command line of the manager; returns the exit status."""
     options = _parser().parse_args(arguments)
@@ -367,7 +415,7 @@ def main(arguments: list[str] | None = None) -> int:
     if options.ready_fd is not None:
         die_with_parent()
     try:
-        token = _token(options)
+        token, tls = _token(options), _tls(options)
     except _UsageError as error:
         sys.stderr.write(f"bt-studio manager: {error}\n")
         return 2
@@ -386,13 +434,18 @@ def main(arguments: list[str] | None = None) -> int:
         is_ram=options.ram,
         records=not options.no_recording,
         recordings=options.recordings,
+        attach=options.attach,
         origins=tuple(options.allow_origin),
         listener=listener,
+        tls=tls,
     )
     try:
         ended = asyncio.run(
             serve(settings, options.ready_fd, shows_token=bool(token and not options.token_env))
         )
+    except WrongVariableError as error:
+        sys.stderr.write(f"bt-studio manager: {error}\n")
+        return 2
     except OSError as error:
         sys.stderr.write(f"bt-studio manager: cannot listen on {options.host}:{options.port}: {error}\n")
         return 1
@@ -412,6 +465,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--ram", action="store_true", help="speak the RAM dialect, on loopback alone")
     parser.add_argument("--no-recording", action="store_true", help="keep no recording of the runs")
+    parser.add_argument("--attach", default="", help="HOST:PORT of a program to follow by Groot2's protocol")
     parser.add_argument("--recordings", type=Path, help="folder for the recordings, which stays at the end")
     parser.add_argument(
         "--allow-origin",
@@ -426,6 +480,8 @@ def _parser() -> argparse.ArgumentParser:
         type=float,
         help="seconds that a session lives without clients; 300, or no limit with --ram",
     )
+    parser.add_argument("--tls-cert", help="certificate, as PEM, with which connections are encrypted")
+    parser.add_argument("--tls-key", help="its private key, as PEM")
     parser.add_argument("--gate", type=Path, help="unix socket that hands out the session's own")
     parser.add_argument("--session", default="", help="the session's id, for the gate")
     return parser

@@ -43,6 +43,7 @@ from executor.stream.outbox import ControlOutbox, StreamOutbox
 
 if TYPE_CHECKING:
     import socket
+    import ssl
     from collections.abc import Callable
 
     from websockets.http11 import Request, Response
@@ -102,15 +103,15 @@ class SessionServer:
         self.traffic = Traffic()
         self._servers: list[Server] = []
 
-    async def start(self, host: str, port: int) -> int:
-        """Listens; returns the port.
+    async def start(self, host: str, port: int, tls: ssl.SSLContext | None = None) -> int:
+        """Listens, with TLS if there is a context for it; returns the port.
 
         Raises:
             OSError: the port is in use, or the address is not loopback and no token is required.
         """
         if not self._admission.token and not is_loopback(host):
             raise OSError(f"without a token a manager listens on loopback alone, not on {host}")
-        server = await serve(self._serve, host, port, **self._options)
+        server = await serve(self._serve, host, port, ssl=tls, **self._options)
         self._servers.append(server)
         return int(next(iter(server.sockets)).getsockname()[1])
 

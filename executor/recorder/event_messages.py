@@ -2,12 +2,34 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
+
+from executor.recorder.values import value_json
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["message_of"]
+__all__ = ["input_fields", "message_of"]
+
+MOST_CHARACTERS: Final = 500
+STEP_HZ: Final = 240.0
+"""Steps of the simulated world in a second of its time."""
+
+
+def input_fields(t_s: float, command: str, data: Any, tick: int | None, hook: int = -1) -> dict[str, Any]:
+    """Returns the fields of an `Input`: what a person did at the `hook`-th stop of a tick, -1 between two.
+
+    With None as its tick, the recorder adds the number of the last one. Large data are a preview.
+    """
+    return {
+        "stamp": max(0, round(t_s * 1e9)),
+        "step": round(t_s * STEP_HZ),
+        "tick": tick,
+        "hook": hook,
+        "command": command,
+        "data_json": value_json(data, lambda value: str(value)[:MOST_CHARACTERS]),
+        "user": "",
+    }
 
 
 def message_of(

@@ -6,7 +6,7 @@ messages are dropped, and the source sends its whole state again once there is r
 
 Messages go in batches, two in a second, at the same moments in all processes of the machine: so the recorder
 wakes twice in a second for all of them. A batch is one MessagePack list, with its length before it. It ends
-with the time up to which the source has told everything, so that nothing waits for what does not come.
+with the time up to which the source has sent everything, so that no message waits for one that does not come.
 """
 
 from __future__ import annotations

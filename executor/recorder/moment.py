@@ -14,8 +14,10 @@ from executor.stream.pose_codec import POSE_BYTES
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["Moment"]
+__all__ = ["SEGMENT_NS", "Moment"]
 
+SEGMENT_NS: Final = 20_000_000_000
+"""The simulated time from the begin of a segment to the next one."""
 MOST_ENTRIES: Final = 5000
 _decode_poses = msgspec.msgpack.Decoder(Poses).decode
 _encode = msgspec.msgpack.Encoder().encode

@@ -1,8 +1,8 @@
 """Brings messages of several sources into the order of their times. Pure; real time is an argument.
 
 Sources send in batches, so one is ahead of the other by up to the time of a batch. A message waits until each
-source that is awake has told something later, or was silent for a while. A source that has nothing to tell
-says so with each batch.
+source that is awake has sent something later, or was silent for a while. A source without messages
+sends the time alone with each batch.
 """
 
 from __future__ import annotations
@@ -40,21 +40,21 @@ class Ordering(Generic[Item]):
             self._last[source] = t_ns, now_s
 
     def reached(self, t_ns: int, source: int, now_s: float) -> None:
-        """Notes that nothing before a time comes from a source any more."""
+        """Records that a source sends no more messages before a time."""
         self._last[source] = t_ns, now_s
 
     def is_behind(self, since_s: float, now_s: float) -> bool:
-        """Whether a source that is awake has told nothing since a moment of real time."""
+        """Whether a source that is awake has sent nothing since a moment of real time."""
         return any(heard_s < since_s and now_s - heard_s < SILENT_S for _, heard_s in self._last.values())
 
     def drop(self, source: int) -> None:
-        """Waits for a source no more."""
+        """Forgets a source, so that no message waits for it."""
         self._last.pop(source, None)
 
     def ready(self, now_s: float, *, all_: bool = False) -> Iterator[tuple[int, Item]]:
-        """Takes out the messages whose turn it is, with their times in ns.
+        """Removes and yields the messages that no earlier one can precede, with their times in ns.
 
-        If too many wait, the first ones do not. With `all_` nothing is waited for.
+        Of more than `MOST_WAITING` messages the earliest are yielded too; with `all_`, all are.
         """
         awake = [t_ns for t_ns, heard_s in self._last.values() if now_s - heard_s < SILENT_S]
         until_ns = min(awake, default=None)

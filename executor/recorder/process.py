@@ -81,7 +81,7 @@ class RecorderProcess:
         self._shelf: Shelf | None = None
         self._writer: RunWriter | None = None
         self._refused: set[str] = set()
-        self._told: deque[tuple[float, recorder_messages.Told]] = deque()
+        self._told: deque[tuple[float, recorder_messages.RunEvent]] = deque()
         self._order = Ordering[Record | Heard | Dump]()
         self._look_s = 0.0
         self._flush_s = 0.0
@@ -137,7 +137,9 @@ class RecorderProcess:
                     self._shelf.recover()
                 case recorder_messages.BeginRun():
                     self._begin(message)
-                case recorder_messages.Told():
+                case recorder_messages.ChangeFiles():
+                    self._change_files(message)
+                case recorder_messages.RunEvent():
                     self._tell(message)
                 case recorder_messages.ReadSegment():
                     self._answer(message)
@@ -146,7 +148,7 @@ class RecorderProcess:
         about = {**message.about, "bt_studio": __version__, "python": platform.python_version()}
         about["platform"] = platform.platform()
         if self._shelf is not None and (self._writer is None or self._writer.run != message.run):
-            files = project_files(message.folder)
+            files = project_files(message.folder, message.universe)
             about["project"] = project_name(files)
             early = self._take_rest()
             with contextlib.suppress(*_NO_FIELDS):  # no message of our sources
@@ -156,7 +158,12 @@ class RecorderProcess:
                 self._put_early([*self._early, *early], message.run)
             self._early = early
 
-    def _tell(self, message: recorder_messages.Told) -> None:
+    def _change_files(self, message: recorder_messages.ChangeFiles) -> None:
+        """Attaches the changed files; the tree that was made of them has not arrived yet."""
+        if (writer := self._writer) is not None and writer.run == message.run:
+            self._guarded(lambda: writer.change_files(project_files(message.folder)))
+
+    def _tell(self, message: recorder_messages.RunEvent) -> None:
         """Keeps a message of the manager until world and application have sent what was before it.
 
         They send in batches. It does not wait for long: the time may still be that of the run before.
@@ -176,7 +183,7 @@ class RecorderProcess:
             self._told.popleft()
             self._write_line(writer, min(t_ns, now_ns), message)
 
-    def _write_line(self, writer: RunWriter, t_ns: int, message: recorder_messages.Told) -> None:
+    def _write_line(self, writer: RunWriter, t_ns: int, message: recorder_messages.RunEvent) -> None:
         uid = writer.moment.uid(message.data.get("node_path") or "")
         if (line := message_of(message.name, t_ns, message.data, uid)) is not None:
             self._guarded(lambda: writer.record(*line))
@@ -297,7 +304,7 @@ class RecorderProcess:
             self._writer.end()
 
     def _write_ready(self, *, all_: bool = False) -> None:
-        """Writes the messages whose turn it is, and the lines between them."""
+        """Writes the messages that no earlier one can precede, and the lines between them."""
         for t_ns, message in self._order.ready(time.monotonic(), all_=all_):
             self._write_told(t_ns)
             if (writer := self._writer) is not None:
@@ -311,6 +318,8 @@ class RecorderProcess:
     @staticmethod
     def _write(writer: RunWriter, message: Record | Heard | Dump) -> None:
         match message:
+            case Record(name="Input", fields={"tick": None}):
+                writer.record(message.topic, message.name, message.fields | {"tick": writer.moment.tick})
             case Record():
                 writer.record(message.topic, message.name, message.fields)
             case Heard():

@@ -12,7 +12,10 @@ from typing import TYPE_CHECKING, Final
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["project_files", "project_name"]
+__all__ = ["PROJECT", "project_files", "project_name"]
+
+PROJECT: Final = "project/"
+"""Begins the names of the project's files in a recording."""
 
 MOST_FILES: Final = 500
 MOST_BYTES: Final = 256 << 10
@@ -22,11 +25,12 @@ MOST_LOOKED_AT: Final = 20_000
 LEFT_OUT: Final = {"__pycache__", "tree_gardener"}
 
 
-def project_files(folder: str) -> dict[str, bytes]:
+def project_files(folder: str, universe: str = "") -> dict[str, bytes]:
     """Returns the regular files below a folder by their names in a recording, at most 256 KB in all.
 
     The diagrams come first, since the tree as it ran is shown by them; the engine is left out. Users' code
-    can write there, so links are not followed, and sizes are counted while reading.
+    can write there, so links are not followed, and sizes are counted while reading. The document of the
+    universe, which has the project's robots in it, comes last.
     """
     files: dict[str, bytes] = {}
     left = MOST_BYTES
@@ -35,7 +39,10 @@ def project_files(folder: str) -> dict[str, bytes]:
         if data is None or len(files) >= MOST_FILES:
             continue
         left -= len(data)
-        files[f"project/{name}"] = data
+        files[f"{PROJECT}{name}"] = data
+    document = universe.encode("utf-8", "replace")
+    if 0 < len(document) <= left:
+        files["universe.yaml"] = document
     return files
 
 

@@ -115,11 +115,12 @@ def _copy(
                     of_channel[record.id] = record.topic, kinds.get(record.schema_id, "")
                 case Message() if keeps is None or keeps(*of_channel[record.channel_id], record.log_time):
                     messages, end_ns = messages + 1, max(end_ns, record.log_time)
-                    writer.add_message(
-                        own_channels[record.channel_id], end_ns, record.data, end_ns, record.sequence
-                    )
+                    # Each segment counts from 1; within one file messages of one time keep their order.
+                    sequence = record.sequence if len(readers) == 1 else messages
+                    writer.add_message(own_channels[record.channel_id], end_ns, record.data, end_ns, sequence)
                 case Attachment() if attached.get(record.name) != record.data:
-                    # A file belongs to the trees that follow it.
+                    # A file belongs to the trees that follow it, and the open chunk precedes it.
+                    writer.flush()  # type: ignore[no-untyped-call]
                     attached[record.name] = record.data
                     writer.add_attachment(
                         record.create_time, record.log_time, record.name, record.media_type, record.data

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Final
 
 from executor.recorder.cdr import encode
 from executor.recorder.definitions import OURS
-from executor.recorder.moment import Moment
+from executor.recorder.moment import SEGMENT_NS, Moment
+from executor.recorder.project_files import PROJECT
 from executor.recorder.shelf import PICTURE, Segment, file_of
 from executor.recorder.writer import RecordingWriter
 from executor.stream.scene_parts import without_parts
@@ -18,11 +19,11 @@ if TYPE_CHECKING:
 
     from executor.recorder.shelf import Shelf
 
-__all__ = ["LATEST_NS", "SEGMENT_NS", "RunWriter"]
+__all__ = ["LATEST_NS", "RunWriter"]
 
-SEGMENT_NS: Final = 20_000_000_000
 LATEST_NS: Final = 10**7 * 1_000_000_000
 MOST_CHANNELS: Final = 500
+FILE_TYPE: Final = "application/octet-stream"
 
 
 class RunWriter:
@@ -91,6 +92,20 @@ class RunWriter:
         self.write(topic, kind, fields["stamp"], data)
         self.moment.take(name, fields)
 
+    def change_files(self, files: Mapping[str, bytes]) -> None:
+        """Attaches the files that differ from those before, and gives all of them to the next segments.
+
+        Raises:
+            OSError: the disk is full.
+        """
+        own = {name: data for name, data in self.files.items() if not name.startswith(PROJECT)}
+        before, self.files = self.files, {**files, **own}
+        changed = [name for name in sorted(files) if before.get(name) != files[name]]
+        if self._writer is not None and changed:
+            self._writer.flush()  # what the open chunk holds precedes them
+            for name in changed:
+                self._writer.attach(name, FILE_TYPE, files[name])
+
     def flush(self) -> None:
         """Flushes all written messages, and reports the length of the open segment.
 
@@ -150,7 +165,7 @@ class RunWriter:
         self._writer = writer = RecordingWriter(self._file, self.about)
         self._open = replace(self._open, from_ns=t_ns, to_ns=t_ns)
         for name, data in sorted(self.files.items()):
-            writer.attach(name, "application/octet-stream", data)
+            writer.attach(name, FILE_TYPE, data)
         for topic, name, fields in self.moment.head(t_ns):
             writer.record(topic, name, fields)
         return writer

@@ -9,10 +9,11 @@ from executor.recorder.values import NO_WRITE, canonical, fingerprint, json_of, 
 from tree_gardener import Status
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     from tree_gardener import TickChanges, TickError, Tree
     from tree_gardener.blackboard import Entry
+    from tree_gardener.profiling import NodeTime
 
     Write = Callable[[str, str, Mapping[str, Any]], None]
 
@@ -58,7 +59,8 @@ class TreeRecorder:
         self._generation = generation
         self._rows: list[_Row] = []
         self._forms: list[_Form] = []
-        self._ticks: list[tuple[int, TickChanges, list[_Row], list[_Form]]] = []
+        self._ticks: list[tuple[int, TickChanges, list[_Row], list[_Form], float]] = []
+        self._left_out_s = 0.0
         self._held: dict[int, tuple[Entry, str]] = {}
         tree.journal_writes(self._written)
         tree.observe(self._ticked)
@@ -73,8 +75,12 @@ class TreeRecorder:
     def flush(self) -> None:
         """Writes the ticks that were noted."""
         ticks, self._ticks = self._ticks, []
-        for stamp, changes, rows, forms in ticks:
-            self._write_tick(stamp, changes, rows, forms)
+        for tick in ticks:
+            self._write_tick(*tick)
+
+    def leave_out(self, duration_s: float) -> None:
+        """Leaves out a hold of the debugger from the duration of the tick that is made."""
+        self._left_out_s += duration_s
 
     def restate(self, generation: int) -> None:
         """Writes the tree and its state again, as the begin of another recording."""
@@ -93,6 +99,18 @@ class TreeRecorder:
         """Writes a line about a node, or about none."""
         line = {"source": source, "level": level, "text": text, "uid": self._uid(path)}
         self._tell("/bt/log", "Log", line)
+
+    def profiled(self, ticks: int, times: Sequence[NodeTime]) -> None:
+        """Writes the times of nodes in the ticks since the last call."""
+        fields = {
+            "generation": self._generation,
+            "ticks": ticks,
+            "uid": [time.uid for time in times],
+            "calls": [time.calls for time in times],
+            "total_ms": [time.total_s * 1000.0 for time in times],
+            "self_ms": [time.self_s * 1000.0 for time in times],
+        }
+        self._tell("/bt/profile", "Profile", fields)
 
     def keyframe(self, step: int, world: bytes) -> None:
         """Writes the whole state at this moment."""
@@ -173,10 +191,13 @@ class TreeRecorder:
 
     def _ticked(self, changes: TickChanges) -> None:
         self._find_changed_in_place()
-        self._ticks.append((self._now_ns(), changes, self._rows, self._forms))
-        self._rows, self._forms = [], []
+        duration_ms = max(0.0, changes.duration_s - self._left_out_s) * 1000.0
+        self._ticks.append((self._now_ns(), changes, self._rows, self._forms, duration_ms))
+        self._rows, self._forms, self._left_out_s = [], [], 0.0
 
-    def _write_tick(self, stamp: int, changes: TickChanges, rows: list[_Row], forms: list[_Form]) -> None:
+    def _write_tick(
+        self, stamp: int, changes: TickChanges, rows: list[_Row], forms: list[_Form], duration_ms: float
+    ) -> None:
         if rows:
             scopes, keys, kinds, texts, removed, writers = (
                 list(column) for column in zip(*rows, strict=True)
@@ -194,7 +215,7 @@ class TreeRecorder:
             "changed_status": changed_status,
             "flashed_uid": flashed_uid,
             "flashed_status": flashed_status,
-            "duration_ms": changes.duration_s * 1000.0,
+            "duration_ms": duration_ms,
             "fingerprint": fingerprint(
                 changes.tick,
                 zip(changed_uid, changed_status, strict=True),

@@ -36,11 +36,11 @@ def definitions_of(package: str) -> dict[str, str]:
             path = f"{section[1]}.{section[2]}"
             found[path] = []
         elif path:
-            found[path].append(_told_apart(line, len(found[path])))
+            found[path].append(_numbered(line, len(found[path])))
     return {path: "\n".join(lines).strip() + "\n" for path, lines in found.items()}
 
 
-def _told_apart(line: str, number: int) -> str:
+def _numbered(line: str, number: int) -> str:
     """Appends a comment with a number to the definition of a constant.
 
     Otherwise rosidl confuses equal constants in the parts of an action.

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from executor.ros.topic_faults import TopicFaults
     from executor.ros.transform_rows import Row
     from executor.world.interface import Robot, World
+    from executor.world.physics.bullet import BulletWorld
     from executor.world.sensing.sensors import Sensors
 
 __all__ = ["CLOCK_HZ", "Due", "WorldNode", "take"]
@@ -97,6 +98,28 @@ class WorldNode:
         self._pictures = [feed for feed in feeds if feed.is_picture]
         self.refused_commands = 0
         self._tap: Tap | None = None
+
+    @classmethod
+    def of_universe(
+        cls,
+        world: BulletWorld,
+        context: Context,
+        *,
+        clock_hz: float = CLOCK_HZ,
+        outlet: Outlet | None = None,
+        node: Any = None,
+    ) -> WorldNode:
+        """Returns the node of a world, with the topics and true poses that its universe says."""
+        places = world.universe.robots
+        return cls(
+            world,
+            context,
+            topics={place.id: place.topics for place in places},
+            true_poses={place.id for place in places if place.ground_truth},
+            clock_hz=clock_hz,
+            outlet=outlet,
+            node=node,
+        )
 
     def poll(self) -> None:
         """Reads the commands that arrived, and applies the last one of each robot."""

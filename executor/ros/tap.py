@@ -47,8 +47,7 @@ class TopicTap:
     def __init__(self, write: Callable[[str, str, float, bytes], None]) -> None:
         self._write = write
         self._pictures_s: dict[str, float] = {}
-        self._last: dict[str, bytes] = {}
-        """The last picture of each topic."""
+        """The time of the last picture of each topic."""
 
     def __call__(self, topic: str, message: Any, now_s: float) -> None:
         """Takes one message."""
@@ -63,22 +62,25 @@ class TopicTap:
             self._write(topic, kind, now_s, encode_object(kind, message))
 
     def jpeg(self, topic: str, jpeg: bytes, now_s: float, frame_id: str) -> None:
-        """Takes a picture that is coded already; at most ten in a second of each topic.
+        """Takes a picture that is coded already; at most ten in a second of each camera.
 
-        It is left out if the topic of the camera has the same one.
+        It is left out while the topic of the camera has as many.
         """
-        is_there = self._last.get(f"/{frame_id}{_IMAGE}") == jpeg
-        if now_s >= self._pictures_s.get(topic, 0.0) and not is_there:
-            self._pictures_s[topic] = now_s + 1.0 / PICTURES_HZ - SLACK_S
+        if self._is_due(f"/{frame_id}{_IMAGE}", now_s) and self._is_due(topic, now_s):
+            self._pictures_s[topic] = now_s
             self._write_jpeg(topic, jpeg, now_s, Header(stamp=to_time(now_s), frame_id=frame_id))
+
+    def _is_due(self, topic: str, now_s: float) -> bool:
+        """Returns whether the last picture is old enough, or of an earlier run, whose time is later."""
+        last_s = self._pictures_s.get(topic)
+        return last_s is None or now_s < last_s or now_s >= last_s + 1.0 / PICTURES_HZ - SLACK_S
 
     def _picture(self, topic: str, message: Any, now_s: float, code: Callable[[], bytes]) -> None:
         """Takes a colour image; depth has no place in a JPEG."""
-        if message.encoding != "rgb8" or now_s < self._pictures_s.get(topic, 0.0):
+        if message.encoding != "rgb8" or not self._is_due(topic, now_s):
             return
-        self._pictures_s[topic] = now_s + 1.0 / PICTURES_HZ - SLACK_S
-        jpeg = self._last[topic] = code()
-        self._write_jpeg(topic, jpeg, now_s, message.header)
+        self._pictures_s[topic] = now_s
+        self._write_jpeg(topic, code(), now_s, message.header)
 
     def _write_jpeg(self, topic: str, jpeg: bytes, now_s: float, header: Header) -> None:
         packed = CompressedImage(header=header, format="rgb8; jpeg compressed bgr8")

@@ -9,11 +9,13 @@ from msgspec import Struct
 from executor.child_messages import (
     Answer,
     ApplicationReady,
+    Attached,
+    AttachedTree,
     Beat,
     Blackboard,
     Failed,
     Fault,
-    FromApplication,
+    FromExact,
     FromWorld,
     Log,
     Sim,
@@ -26,9 +28,12 @@ from executor.recorder_messages import Recorded
 from executor.session.hangs.vitals import Vitals
 
 if TYPE_CHECKING:
+    from executor.adapter_messages import FromAdapter
     from executor.evaluation_messages import FromEvaluation
     from executor.recorder_messages import FromRecorder
     from executor.session.events import Kind
+
+    Noted = FromWorld | FromExact | FromRecorder | FromEvaluation | FromAdapter
 
 __all__ = ["Child"]
 
@@ -38,7 +43,7 @@ _TASKS: Final[dict[type[Struct], str]] = {Starting: "loading", WorldReady: "", A
 """The task of a child's main thread after it sent one of these messages."""
 _ACCEPTED: Final = frozenset({Starting, WorldReady, ApplicationReady, Failed, Fault})
 """Messages that prove that a child received its start message."""
-_NOT_STORED: Final = (Tick, Log, Blackboard, Tree, Sim, Answer, Beat, Recorded)
+_NOT_STORED: Final = (Tick, Log, Blackboard, Tree, Attached, AttachedTree, Sim, Answer, Beat, Recorded)
 
 
 class Child:
@@ -49,12 +54,15 @@ class Child:
 
     Attributes:
         hang: the message of the fault that reported its hang; "" while it does not hang.
+        is_exact: whether it is the process of an exact run, which also has its world.
         is_holding: whether it holds its tree at a node.
+        is_suspended: whether a Python debugger holds its main thread at a line.
     """
 
-    def __init__(self, kind: Kind, number: int, now_s: float = 0.0) -> None:
+    def __init__(self, kind: Kind, number: int, now_s: float = 0.0, *, is_exact: bool = False) -> None:
         self.kind = kind
         self.number = number
+        self.is_exact = is_exact
         self.is_started = False
         self.is_stopping = False
         self.is_alive = True
@@ -63,8 +71,9 @@ class Child:
         self.vitals = Vitals(now_s)
         self.hang = ""
         self.is_holding = False
+        self.is_suspended = False
         self.was_inspected = False
-        self._said: dict[type[Struct], FromWorld | FromApplication | FromRecorder | FromEvaluation] = {}
+        self._said: dict[type[Struct], Noted] = {}
         self._answers: dict[str, Answer | None] = {}
 
     @property
@@ -110,7 +119,7 @@ class Child:
         """Returns the answer to a request of the session itself; None if it has not arrived yet."""
         return self._answers.get(token)
 
-    def note(self, message: FromWorld | FromApplication | FromRecorder | FromEvaluation) -> None:
+    def note(self, message: Noted) -> None:
         """Notes a message: updates the signs of life, and stores the last message of each type."""
         self.vitals.heard(from_main=not isinstance(message, Beat | Log))
         if isinstance(message, Beat):

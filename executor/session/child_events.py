@@ -23,10 +23,14 @@ _SAME: dict[type[Struct], type[Struct]] = {
     child_messages.Tree: messages.Tree,
     child_messages.Blackboard: messages.Blackboard,
     child_messages.PortSet: messages.PortSet,
+    child_messages.Applied: messages.Applied,
     child_messages.Fault: messages.Fault,
     child_messages.Finished: messages.Finished,
     child_messages.TopicMismatch: messages.TopicMismatch,
     child_messages.Forced: messages.Forced,
+    child_messages.Attached: messages.Attached,
+    child_messages.AttachedTree: messages.AttachedTree,
+    child_messages.Profile: messages.Profile,
 }
 """Messages that are sent to clients as an event without further change."""
 
@@ -38,7 +42,7 @@ def forward(stage: Stage, child: Child, event: ChildSaid) -> None:
         case child_messages.Tick():
             stage.sim_time_s = message.t
             stage.output.emit(event_of(message, messages.Tick))
-        case child_messages.Sim():
+        case child_messages.Sim() if child is stage.children.holder("world"):
             stage.sim_time_s = message.t
             sim = event_of(message, messages.Sim)
             sim.tick_ms, sim.tick_budget_ms = stage.mirror.tick_load()  # the world does not know these
@@ -70,7 +74,8 @@ def log(stage: Stage, event: ChildSaid) -> None:
     if not isinstance(message, Log) or event.kind == "node":
         return
     time_s = stage.sim_time_s if message.time is None else message.time
-    source: messages.LogSource = "action" if event.kind == "application" else "world"
+    is_action = event.kind == "application" and not message.of_world
+    source: messages.LogSource = "action" if is_action else "world"
     stage.output.emit(
         messages.Log(source, message.level, message.text, message.node_id, message.node_path, time_s)
     )

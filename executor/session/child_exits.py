@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from executor import messages
 from executor.session import steps
+from executor.session.exact import hosting
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.questions import answer_late
 
@@ -27,6 +28,7 @@ def exited(stage: Stage, event: ChildExited) -> None:
         return
     del stage.children.living[event.kind]
     child.end(event.reason, event.last_lines)
+    hosting.give_back(stage, child)
     answer_late(stage, stage.questions.orphaned(child.key), "process_died", event.reason)
     if child.is_stopping:
         _stopped(stage)

@@ -12,10 +12,13 @@ from executor.session.events import Interrupt, Kill, Retire, Spawn, Tell
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from executor.child_messages import Request, ToApplication, ToWorld
+    from executor.adapter_messages import ToAdapter
+    from executor.child_messages import Request, ToApplication, ToExact, ToWorld
     from executor.evaluation_messages import ToEvaluation
     from executor.recorder_messages import ReadSegment, ToRecorder
     from executor.session.events import ChildExited, ChildLooked, ChildSaid, ChildTraced, Effect, Kind
+
+    Told = ToWorld | ToExact | ToRecorder | ToEvaluation | ToAdapter
 
 __all__ = ["Children"]
 
@@ -30,6 +33,10 @@ class Children:
         clock: returns the time of the session in s.
         token: makes the token of a request.
         lost: called with a child that is dropped and the reason, before the child is ended.
+
+    Attributes:
+        wants_exact: whether the next application is an exact run.
+        host: the application that has the world in it; None while the world's own process has it.
     """
 
     def __init__(
@@ -47,6 +54,8 @@ class Children:
         self.living: dict[Kind, Child] = {}
         self.leaving: set[tuple[Kind, int]] = set()
         self.spares_lost: Counter[Kind] = Counter()
+        self.wants_exact = False
+        self.host: Child | None = None
 
     def next_number(self) -> int:
         """Returns the number of a new child."""
@@ -63,11 +72,27 @@ class Children:
         return child if child is not None and child.number == event.number else None
 
     def ensure(self, kind: Kind) -> Child:
-        """Returns the living child of a kind; starts one if there is none."""
+        """Returns the living child of a kind; starts one if there is none.
+
+        A spare application is replaced where it is not of the kind of run that is wanted.
+        """
+        is_exact = kind == "application" and self.wants_exact
+        spare = self.living.get(kind)
+        if (
+            kind == "application"
+            and spare is not None
+            and not spare.is_started
+            and spare.is_exact != is_exact
+        ):
+            self.drop(kind)
         if kind not in self.living:
-            self.living[kind] = Child(kind, self.next_number(), self._clock())
-            self._effect(Spawn(kind, self._count))
+            self.living[kind] = Child(kind, self.next_number(), self._clock(), is_exact=is_exact)
+            self._effect(Spawn(kind, self._count, is_exact=is_exact))
         return self.living[kind]
+
+    def holder(self, kind: Kind) -> Child | None:
+        """Returns the living child that does the work of a kind: an exact run has the world in it."""
+        return self.host if kind == "world" and self.host is not None else self.living.get(kind)
 
     def replenish(self) -> None:
         """Starts a spare process of each kind, since their imports take time."""
@@ -90,19 +115,24 @@ class Children:
         """Sends a message to the process of an evaluation, if there is one."""
         self._tell("evaluation", message)
 
-    def ask(self, child: Child, message: Request | ReadSegment, token: str) -> None:
-        """Sends a request to a child; its answer will have the same token."""
+    def tell_adapter(self, message: ToAdapter) -> None:
+        """Sends a message to debugpy's adapter, if there is one."""
+        self._tell("adapter", message)
+
+    def ask(self, kind: Kind, message: Request | ReadSegment, token: str) -> None:
+        """Sends a request to the holder of a kind; its answer will have the same token."""
         message.request = token
-        self._effect(Tell(child.kind, child.number, message))
+        self._tell(kind, message)
 
     def order(self, kind: Kind, message: Request | ReadSegment) -> tuple[Child, str]:
         """Sends a request that no client asked for.
 
         Returns the child and the token of the expected answer.
         """
-        child, token = self.ensure(kind), self._token()
+        child = self.holder(kind) if isinstance(message, child_messages.WorldCommand) else None
+        child, token = child or self.ensure(kind), self._token()
         child.expect(token)
-        self.ask(child, message, token)
+        self.ask(kind, message, token)
         return child, token
 
     def interrupt(self, child: Child) -> None:
@@ -126,6 +156,9 @@ class Children:
         else:
             self._effect(Kill(kind, child.number))
 
-    def _tell(self, kind: Kind, message: ToWorld | ToApplication | ToRecorder | ToEvaluation) -> None:
-        if kind in self.living:
+    def _tell(self, kind: Kind, message: Told) -> None:
+        host = self.host
+        if kind == "world" and host is not None and isinstance(message, child_messages.WorldCommand):
+            self._effect(Tell(host.kind, host.number, child_messages.ForWorld(message)))
+        elif kind in self.living:
             self._effect(Tell(kind, self.living[kind].number, message))

@@ -13,10 +13,11 @@ from executor.launching.model import LaunchPlan
 if TYPE_CHECKING:
     from msgspec import Struct
 
+    from executor.adapter_messages import FromAdapter, ToAdapter
     from executor.child_messages import (
-        FromApplication,
+        FromExact,
         FromWorld,
-        ToApplication,
+        ToExact,
         ToWorld,
     )
     from executor.evaluation_messages import FromEvaluation, ToEvaluation
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from executor.universes.document import Problem
 
 __all__ = [
+    "AttachWanted",
     "ChildExited",
     "ChildLooked",
     "ChildSaid",
@@ -52,8 +54,11 @@ __all__ = [
     "Unpacked",
 ]
 
-Kind = Literal["world", "application", "node", "recorder", "evaluation"]
-"""Kind of a child process; `node` is an extra node of the launch files."""
+Kind = Literal["world", "application", "exact", "node", "recorder", "evaluation", "adapter"]
+"""Kind of a child process; `node` is an extra node of the launch files.
+
+`exact` is only the program of an application that has its world in it.
+"""
 
 
 # --- events ---------------------------------------------------------------------------------------
@@ -115,7 +120,7 @@ class ChildSaid:
 
     kind: Kind
     number: int
-    message: FromWorld | FromApplication | FromRecorder | FromEvaluation
+    message: FromWorld | FromExact | FromRecorder | FromEvaluation | FromAdapter
 
 
 @dataclass(frozen=True)
@@ -180,6 +185,14 @@ class RecordingWanted:
 
 
 @dataclass(frozen=True)
+class AttachWanted:
+    """The session is to follow the program at an address; `folder` gets its diagrams."""
+
+    address: str
+    folder: str
+
+
+@dataclass(frozen=True)
 class TimePassed:
     """The time `Session.deadline_s` was reached."""
 
@@ -197,6 +210,7 @@ Event = (
     | ChildExited
     | Unpacked
     | RecordingWanted
+    | AttachWanted
     | TimePassed
 )
 
@@ -221,13 +235,15 @@ class Send:
 class Spawn:
     """Starts a child process. A failure is reported with `ChildExited`.
 
-    For a launch node, `node` is the node to start and `folder` its working folder.
+    For a launch node, `node` is the node to start and `folder` its working folder. An application is the
+    process of exact runs if it `is_exact`.
     """
 
     kind: Kind
     number: int
     node: NodeSpec | None = None
     folder: str = ""
+    is_exact: bool = False
 
 
 @dataclass(frozen=True)
@@ -236,7 +252,7 @@ class Tell:
 
     kind: Kind
     number: int
-    message: ToWorld | ToApplication | ToRecorder | ToEvaluation
+    message: ToWorld | ToExact | ToRecorder | ToEvaluation | ToAdapter
 
 
 @dataclass(frozen=True)
@@ -274,10 +290,14 @@ class Kill:
 
 @dataclass(frozen=True)
 class Unpack:
-    """Unpacks an archive (base64) into a new folder, and reports the result with `Unpacked`."""
+    """Unpacks an archive (base64) into a new folder, and reports the result with `Unpacked`.
+
+    `needed` are the folders that stay: of the application that runs, and of what can be run again.
+    """
 
     token: int
     archive_base64: str
+    needed: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from msgspec import Struct
 from executor import child_messages, messages, recorder_messages
 from executor.session import streaming
 from executor.session.clients import MOST_ECHOED_BY_VIEWER, MOST_STREAMS
+from executor.session.debugger.python import HELD_IN_PYTHON, HELD_IN_PYTHON_HINT, HELD_IN_PYTHON_TEXT
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.questions import ANSWER_S
 from executor.session.recording import FlagRefused
@@ -42,9 +43,12 @@ def _ask(  # noqa: PLR0913 - one question
 
     The client counts as echoing `topic`, unless the child refuses.
     """
-    child = stage.children.get(kind)
+    child = stage.children.holder(kind)
     if child is None:
         stage.output.refuse(event, "process_died", f"The {kind} is gone.")
+        return
+    if child is stage.children.get("application") and stage.python.is_stopped:
+        stage.output.refuse(event, HELD_IN_PYTHON, HELD_IN_PYTHON_TEXT, HELD_IN_PYTHON_HINT)
         return
     if child.is_hanging:
         if topic:
@@ -54,7 +58,7 @@ def _ask(  # noqa: PLR0913 - one question
     token = stage.questions.add(
         event.client, event.request, child.key, stage.now_s, topic=topic, patience_s=patience_s, then=then
     )
-    stage.children.ask(child, message, token)
+    stage.children.ask(kind, message, token)
 
 
 def _set_tick_rate(stage: Stage, event: CommandCame, data: messages.SetTickRate) -> None:
@@ -74,7 +78,9 @@ def _set_breakpoints(stage: Stage, event: CommandCame, data: messages.SetBreakpo
         stage.hold.breakpoints = data
 
     application = stage.children.get("application")
-    if application is not None and stage.state in HAS_APPLICATION:
+    if stage.python.is_stopped:  # it takes them when it continues
+        stage.children.tell_application(child_messages.SetBreakpoints(wanted=data))
+    elif application is not None and stage.state in HAS_APPLICATION:
         _ask(stage, event, "application", child_messages.SetBreakpoints(wanted=data), then=note)
         return
     note()
@@ -100,6 +106,57 @@ def _release(stage: Stage, event: CommandCame, data: messages.Release) -> None:
     _ask(stage, event, "application", child_messages.ReleaseForced(uid=data.uid))
 
 
+def _control(stage: Stage, event: CommandCame, data: messages.Control) -> None:
+    attaching = stage.attaching
+    assert attaching is not None  # noqa: S101 - other sessions refuse the command
+
+    def note() -> None:
+        attaching.controls = data.on
+
+    if stage.state in HAS_APPLICATION:
+        _ask(stage, event, "application", child_messages.Control(on=data.on), then=note)
+        return
+    note()
+    stage.output.send(event.client, messages.Ack(), event.request)
+
+
+def _profile(stage: Stage, event: CommandCame, data: messages.SetProfile) -> None:
+    profile = messages.SetProfile(on=data.on)  # a leaf is one of this run's tree
+
+    def note() -> None:
+        stage.hold.profile = stage.hold.profile_given = profile
+
+    application = stage.children.get("application")
+    if application is not None and stage.state in HAS_APPLICATION:
+        _ask(stage, event, "application", child_messages.MeasureNodes(wanted=data), then=note)
+        return
+    stage.hold.profile = profile
+    stage.output.send(event.client, messages.Ack(), event.request)
+
+
+def _serve_groot2(stage: Stage, event: CommandCame, data: messages.ServeGroot2) -> None:
+    if not stage.about.ros_environment:
+        text = "This session is isolated from other programs, so Groot2 cannot reach it."
+        stage.output.refuse(event, "isolated", text)
+        return
+
+    def note() -> None:
+        stage.hold.groot2 = stage.hold.groot2_given = data.port
+        stage.output.emit(messages.Groot2(data.port))
+
+    application = stage.children.get("application")
+    if application is not None and stage.state in HAS_APPLICATION:
+        _ask(stage, event, "application", child_messages.ServeGroot2(port=data.port), then=note)
+        return
+    stage.hold.groot2 = data.port
+    stage.output.emit(messages.Groot2(data.port))
+    stage.output.send(event.client, messages.Ack(), event.request)
+
+
+def _dap(stage: Stage, event: CommandCame, data: messages.Dap) -> None:
+    stage.python.ask(event, data)
+
+
 def _set_speed(stage: Stage, event: CommandCame, data: messages.SetSpeed) -> None:
     def note() -> None:
         stage.mirror.speed = data.speed
@@ -110,6 +167,8 @@ def _set_speed(stage: Stage, event: CommandCame, data: messages.SetSpeed) -> Non
 def _reset_world(stage: Stage, event: CommandCame, _: Struct) -> None:
     _ask(stage, event, "world", child_messages.Reset(), patience_s=RESET_TIMEOUT_S)
     stage.recording.begin(resets=True)
+    if stage.children.host is not None:
+        stage.past.reset(stage.recording.run)
 
 
 def _run_world(stage: Stage, event: CommandCame, _: Struct) -> None:
@@ -246,6 +305,9 @@ IMMEDIATE: Final[dict[str, Callable[[Stage, CommandCame], None]]] = {
     "step_to": _typed(messages.StepTo, _step_to),
     "force": _typed(messages.Force, _force),
     "release": _typed(messages.Release, _release),
+    "profile": _typed(messages.SetProfile, _profile),
+    "serve_groot2": _typed(messages.ServeGroot2, _serve_groot2),
+    "dap": _typed(messages.Dap, _dap),
     "set_speed": _typed(messages.SetSpeed, _set_speed),
     "reset_world": _typed(messages.Empty, _reset_world),
     "run_world": _typed(messages.Empty, _run_world),
@@ -257,6 +319,7 @@ IMMEDIATE: Final[dict[str, Callable[[Stage, CommandCame], None]]] = {
     "list_topics": _typed(messages.Empty, _list_topics),
     "describe_type": _typed(messages.DescribeType, _describe_type),
     "restart_node": _typed(messages.RestartNode, _restart_node),
+    "control": _typed(messages.Control, _control),
     "teleop": _typed(messages.Teleop, _teleop),
     "read_recording": _typed(messages.ReadRecording, _read_recording),
     "flag": _typed(messages.Flag, _flag),
@@ -277,6 +340,10 @@ ANSWER_LATER: Final = frozenset(
         "step_to",
         "force",
         "release",
+        "control",
+        "profile",
+        "serve_groot2",
+        "dap",
         "set_speed",
         "reset_world",
         "run_world",

@@ -99,6 +99,9 @@ TABLE: Final[dict[str, Row]] = {
     "restart_application": _move(
         RUNNABLE, State.APPLICATION_RUNNING, "Restarts the application of the last run."
     ),
+    "apply": _act(
+        BETWEEN_TICKS, "Replaces the running tree by a changed one, which continues.", is_step=True
+    ),
     "pause": Row(
         frozenset({State.APPLICATION_RUNNING, State.HELD}),
         State.PAUSED,
@@ -109,6 +112,9 @@ TABLE: Final[dict[str, Row]] = {
     ),
     "resume": _move(
         frozenset({State.PAUSED}), State.APPLICATION_RUNNING, "Resumes ticks and simulated time."
+    ),
+    "go_back": _move(
+        RUNNABLE, State.PAUSED, "Takes world and program of an exact run back to a moment, and pauses there."
     ),
     "terminate_application": _move(
         RUNNABLE,
@@ -141,6 +147,10 @@ TABLE: Final[dict[str, Row]] = {
     "step_to": _act(HELD, "Continues until a node is to be ticked."),
     "force": _act(HAS_APPLICATION, "Forces a result on a node, freezes it, skips to it, or ticks it alone."),
     "release": _act(HAS_APPLICATION, "Ends what is forced on a node, or on all."),
+    "control": _act(ANY, "Sets whether the user controls the robot of an attached session."),
+    "profile": _act(ANY, "Measures the time of each node, also in later runs, or no longer."),
+    "serve_groot2": _act(ANY, "Lets Groot2 look at the tree, also in later runs, or no longer."),
+    "dap": _act(ANY, "Debugs Python: a request for debugpy's adapter; answers and events are `dap` events."),
     "teleop": _act(WORLD_MOVABLE, "Drives the robot by hand."),
     "move_body": _act(WORLD_STANDS, "Sets the pose of a body."),
     "subscribe": _act(ANY, "Subscribes to a stream, or changes the subscription.", for_viewers=True),

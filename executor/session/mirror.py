@@ -12,20 +12,26 @@ from typing import TYPE_CHECKING, Final
 from msgspec import structs
 
 from executor.messages import (
+    Attached,
+    AttachedTree,
     Blackboard,
     BlackboardEntry,
+    Branch,
     Fault,
     Finished,
     FlagSet,
     Forced,
+    Groot2,
     Held,
     LaunchNode,
     LaunchNodes,
     Log,
     NodeStatus,
     PortSet,
+    Profile,
     RecordingStopped,
     Released,
+    RepeatableRuns,
     Segment,
     Sim,
     Snapshot,
@@ -33,6 +39,7 @@ from executor.messages import (
     Tick,
     TopicMismatch,
     Tree,
+    Waiting,
 )
 from executor.session.ladder import State
 
@@ -46,6 +53,7 @@ FAULTS: Final = 50
 ENTRIES: Final = 5000
 MISMATCHES: Final = 50
 STOPS: Final = 20
+BRANCHES: Final = 100
 SMOOTHING: Final = 0.1
 
 
@@ -58,6 +66,11 @@ class Mirror:
         self.statuses: dict[int, NodeStatus] = {}
         self.held: Held | None = None
         self.forced: Forced | None = None
+        self.attached: Attached | None = None
+        self.attached_tree: AttachedTree | None = None
+        self.profile: Profile | None = None
+        self.groot2: Groot2 | None = None
+        self.waiting = Waiting()
         self.past: list[tuple[int, NodeStatus]] = []
         self.finished: Finished | None = None
         self.ports: dict[tuple[str, str, str], PortSet] = {}
@@ -75,6 +88,8 @@ class Mirror:
         self.segments: dict[tuple[str, int, int], Segment] = {}
         self.flags: dict[str, FlagSet] = {}
         self.stops: deque[RecordingStopped] = deque(maxlen=STOPS)
+        self.branches: deque[Branch] = deque(maxlen=BRANCHES)
+        self.repeatable_runs: list[str] = []
         self.runs = 0
         self._logged = 0
         self._run_starts: deque[tuple[int, int]] = deque(maxlen=LOG_LINES)
@@ -85,7 +100,7 @@ class Mirror:
         self.statuses.clear()
         self.past = []
         self.finished = None
-        self.held = self.forced = None
+        self.held = self.forced = self.profile = None
         self.ports.clear()
         self.blackboard.clear()
         self.faults.clear()
@@ -95,7 +110,7 @@ class Mirror:
         self.runs += 1
         self._run_starts.append((self._logged, self.runs))
 
-    def apply(self, event: Struct) -> None:  # noqa: C901, PLR0912 - one line an event
+    def apply(self, event: Struct) -> None:  # noqa: C901, PLR0912, PLR0915 - one line an event
         """Updates the state by one event that is sent to all clients."""
         match event:
             case StateChanged():
@@ -126,12 +141,26 @@ class Mirror:
                 self._apply_flag(event)
             case RecordingStopped():
                 self.stops.append(event)
+            case Branch():
+                self.branches.append(event)
+            case RepeatableRuns():
+                self.repeatable_runs = event.runs
             case Held():
                 self.held = event
             case Released():
                 self.held = None
             case Forced():
                 self.forced = event if event.nodes or event.alone else None
+            case Attached():
+                self.attached = event
+            case AttachedTree():
+                self.attached_tree = event
+            case Groot2():
+                self.groot2 = event
+            case Waiting():
+                self.waiting = event
+            case Profile():
+                self.profile = event
             case Sim():
                 self.speed = event.speed
                 self.real_time_factor = event.real_time_factor
@@ -167,8 +196,15 @@ class Mirror:
             segments=list(self.segments.values()),
             flags=list(self.flags.values()),
             stops=list(self.stops),
+            branches=list(self.branches),
+            repeatable_runs=self.repeatable_runs,
             held=self.held,
             forced=self.forced,
+            attached=self.attached,
+            attached_tree=self.attached_tree,
+            profile=self.profile,
+            groot2=self.groot2,
+            waiting=self.waiting,
         )
 
     def _starts(self) -> list[tuple[int, int]]:
@@ -178,8 +214,11 @@ class Mirror:
 
     def _enter(self, state: State) -> None:
         self.state = state
+        self.waiting = Waiting()  # it is of one tick, which has ended or is held
         if state is not State.HELD and not state.reaches(State.APPLICATION_RUNNING):
             self.held = self.forced = None
+            if self.profile is not None:
+                self.profile = structs.replace(self.profile, on=False)
         if not state.reaches(State.UNIVERSE_READY):
             self.mismatches.clear()
 

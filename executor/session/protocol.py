@@ -18,9 +18,11 @@ from executor.child_messages import Fault, Finished
 from executor.session import child_events, child_exits, immediate, steps, streaming
 from executor.session.children import Children
 from executor.session.clients import Clients
-from executor.session.debugger import holding
+from executor.session.debugger import attaching, holding
+from executor.session.debugger.python import PythonDebugger
 from executor.session.evaluation.evaluating import Evaluating
 from executor.session.events import (
+    AttachWanted,
     ChildExited,
     ChildLooked,
     ChildSaid,
@@ -38,7 +40,9 @@ from executor.session.events import (
     Unpack,
     Unpacked,
 )
-from executor.session.hangs import watch
+from executor.session.exact import hosting
+from executor.session.exact.past import PastRuns
+from executor.session.hangs import waiting, watch
 from executor.session.ladder import HAS_APPLICATION, TABLE, State, is_legal, where
 from executor.session.launch_nodes import LaunchNodes
 from executor.session.mirror import Mirror
@@ -60,7 +64,7 @@ __all__ = ["Session"]
 
 _log = logging.getLogger(__name__)
 
-_CLIMBING: Final = frozenset({"launch_universe", "run_application", "run", "restart_application"})
+_CLIMBING: Final = frozenset({"launch_universe", "run_application", "run", "restart_application", "go_back"})
 RETIRE_GRACE_S: Final = 2.0
 
 
@@ -87,7 +91,10 @@ class Session:
         self.questions = Questions()
         self.children = Children(self.output.effect, lambda: self.now_s, self.questions.token, self._lost)
         self.run = LastRun()
+        self.past = PastRuns()
         self.hold = holding.Hold()
+        self.attaching: attaching.Attaching | None = None
+        self.python = PythonDebugger(self)
         self.recording = Recording(self)
         self.output.record = self.recording.tell
         self.evaluating = Evaluating(self)
@@ -129,6 +136,9 @@ class Session:
         self._dispatch(event)
         self._advance()
         self._expire()
+        self.python.follow()
+        if (names := self.past.names) != self.mirror.repeatable_runs:
+            self.output.emit(messages.RepeatableRuns(names))
         application = self.children.get("application")
         if application is None or not application.is_started:
             self.nodes.stop(self)
@@ -141,6 +151,7 @@ class Session:
         _log.info("%s -> %s %s", self.state, state, reason)
         if not state.reaches(State.UNIVERSE_READY):
             self.renderer, self.has_tf = "", False
+            self.past.forget()
         self.output.emit(messages.StateChanged(state.value, reason))
 
     def snapshot(self) -> messages.Snapshot:
@@ -155,7 +166,9 @@ class Session:
         """
         self._archives += 1
         token = self._archives
-        self.output.effect(Unpack(token, archive_base64))
+        world = self.run.world
+        needed = {self.run.folder, world.assets if world is not None else "", *self.past.folders}
+        self.output.effect(Unpack(token, archive_base64, frozenset(needed - {""})))
         return lambda: (
             self._unpacked if self._unpacked is not None and self._unpacked.token == token else None
         )
@@ -186,8 +199,18 @@ class Session:
                 self._on_exit(event)
             case Unpacked():
                 self._unpacked = event
+            case _:
+                self._on_wanted(event)
+
+    def _on_wanted(self, event: Event) -> None:
+        match event:
+            case AttachWanted():
+                target = attaching.Attaching(event.address, event.folder)
+                self.begin_own("attach", steps.attach(self, target))
             case RecordingWanted():
                 self.recording.start(event.folder, is_whole=event.is_whole)
+            case _:
+                pass
 
     def introspect(self, client: str) -> None:
         """Sends a client the properties of the session and its role in it."""
@@ -224,6 +247,8 @@ class Session:
             self.recording.exited(event)
         elif event.kind == "evaluation":
             self.evaluating.exited(event)
+        elif event.kind == "adapter":
+            self.python.exited(event)
         else:
             child_exits.exited(self, event)
 
@@ -237,11 +262,17 @@ class Session:
         if event.kind == "evaluation":
             self.evaluating.said(event)
             return
+        if event.kind == "adapter":
+            self.python.said(event)
+            return
         child = self.children.of(event)
         if child is None:
             child_events.log(self, event)  # the last lines of a child that was dropped
             return
         child.note(event.message)
+        if event.kind == "application":
+            self.python.beat(child)
+            waiting.beat(self, child)
         child_events.forward(self, child, event)
         self._after_forward(child, event.message)
 
@@ -252,6 +283,12 @@ class Session:
             self.children.drop(child.kind, grace_s=RETIRE_GRACE_S, reason="finished its run")
             self.enter(State.VISUALIZATION_READY, message.message or "The run ended.")
             self.children.replenish()
+            if self.attaching is not None and self.is_free:
+                self.begin_own("restart_application", steps.restart_application(self, messages.Empty()))
+        elif isinstance(message, child_messages.Entered | child_messages.Fingerprints):
+            self.past.said(message)
+        elif isinstance(message, child_messages.WorldState):
+            hosting.give_back(self, child, message.data)
         elif isinstance(message, Fault) and message.kind == "timeout":
             self.children.tell_world(child_messages.StopRobot())
 
@@ -263,6 +300,8 @@ class Session:
             self.output.refuse(
                 event, "not_driver", "Another client drives this session.", "Take over to drive it."
             )
+        elif (refused := attaching.refusal(self, event.command)) is not None:
+            self.output.refuse(event, *refused)
         elif event.command == "cancel":
             self._cancel()
             self._ack(event.client, event.request)
@@ -347,6 +386,9 @@ class Session:
             else:
                 if value is not None:
                     job.wait = job.steps.send(value)
+                elif self.python.is_stopped:
+                    job.deadline_s = self.now_s + job.wait.timeout_s
+                    return False
                 elif self.now_s >= job.deadline_s:
                     job.wait = job.steps.throw(StepFailed("timeout", job.wait.too_late))
                 else:
@@ -355,6 +397,7 @@ class Session:
         return True
 
     def _lost(self, child: Child, reason: str) -> None:
+        hosting.give_back(self, child)
         answer_late(self, self.questions.orphaned(child.key), "process_died", reason)
 
     def _expire(self) -> None:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from executor.session.events import ChildExited, ChildLooked, ChildSaid
     from executor.session.stage import Stage
 
-__all__ = ["MOST_FLAGS", "FlagRefused", "Recording", "flag_of"]
+__all__ = ["MOST_FLAGS", "MOST_LOST", "FlagRefused", "Recording", "flag_of"]
 
 MOST_LOST: Final = 3
 MOST_FLAGS: Final = 200
@@ -51,6 +51,7 @@ class Recording:
         self._silent_s = 0.0
         self._looked_s: float | None = None
         self._is_stopped = False
+        self._branch: dict[str, str] = {}
         self.run = ""
 
     def start(self, folder: str, *, is_whole: bool = False) -> None:
@@ -68,22 +69,34 @@ class Recording:
         """The folder of the recordings; "" if nothing is recorded."""
         return self._folder
 
-    def begin(self, *, resets: bool = False) -> None:
-        """Begins the recording of another run; with `resets` in a world that was reset just now."""
+    def begin(self, *, resets: bool = False, parent: str = "", from_t: float = 0.0) -> None:
+        """Begins the recording of another run; with `resets` in a world that was reset just now.
+
+        A branch has a `parent`, the run that it continues from the moment `from_t` in s.
+        """
         if not self._folder:
             return
         self.run, self._is_stopped = uuid4().hex[:12], False
+        self._branch = {"parent": parent, "from_t": repr(from_t)} if parent else {}
+        if parent:
+            self._stage.output.emit(messages.Branch(self.run, parent, from_t))
         self._begin_run()
         message = child_messages.BeginRecording(self.run, resets)
         self._stage.children.tell_world(message)
         self._stage.children.tell_application(message)
+
+    def change_files(self, folder: str) -> None:
+        """Records the project's files of another folder, from which the next tree is made."""
+        if self.run:
+            self._stage.children.tell_recorder(recorder_messages.ChangeFiles(self.run, folder))
 
     def tell(self, name: str, event: Struct) -> None:
         """Records an event that all clients get, if it has a place in a recording."""
         if not (self.run and isinstance(event, _TOLD)):
             return
         t_s = getattr(event, "time", 0.0) or self._stage.sim_time_s
-        self._stage.children.tell_recorder(recorder_messages.Told(self.run, name, t_s, to_builtins(event)))
+        message = recorder_messages.RunEvent(self.run, name, t_s, to_builtins(event))
+        self._stage.children.tell_recorder(message)
 
     def flag(self, wanted: messages.Flag, user: str | None = None) -> None:
         """Sets, changes or removes a flag of the present run; `user` is who the client is, if that is known.
@@ -168,8 +181,15 @@ class Recording:
 
     def _begin_run(self) -> None:
         stage = self._stage
-        about = {"universe": stage.mirror.universe, "seed": str(stage.run.seed)}
-        stage.children.tell_recorder(recorder_messages.BeginRun(self.run, about, stage.run.folder))
+        launched = stage.run.universe
+        about = {"universe": stage.mirror.universe, "seed": str(stage.run.seed), **self._branch}
+        about["robot"] = (launched.robot if launched is not None else None) or ""
+        if (application := stage.run.application) is not None and application.revision is not None:
+            about["revision"] = str(application.revision)
+        universe = launched.universe if launched is not None else ""
+        document = universe.document if isinstance(universe, messages.UniverseDocument) else ""
+        begin = recorder_messages.BeginRun(self.run, about, stage.run.folder, document)
+        stage.children.tell_recorder(begin)
 
 
 class FlagRefused(Exception):  # noqa: N818 - an answer to a client

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 from executor import child_messages, messages
 from executor.child_messages import BlackboardSet, Finished, Held, Paused, Resumed, Stepped
 from executor.session.debugger.holding import settle
+from executor.session.debugger.python import HELD_IN_PYTHON, HELD_IN_PYTHON_HINT, HELD_IN_PYTHON_TEXT
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.waits import (
     NOT_ANSWERING,
@@ -39,6 +40,7 @@ __all__ = [
     "set_blackboard",
     "step",
     "stop_moving",
+    "terminate_application",
 ]
 
 TICK_PATIENCE_S: Final = 1.0
@@ -74,10 +76,12 @@ def pause(stage: Stage, _: Struct) -> Step:
     if stage.state is State.HELD:
         return
     application = stage.children.ensure("application")
+    python = stage.python
     application.forget(Paused)
     stage.children.tell_application(child_messages.Pause())
     world = stage.children.order("world", child_messages.Pause())
-    failure = yield from await_tick(stage, application, message_of(application, Paused))
+    paused = message_of(application, Paused)
+    failure = yield from await_tick(stage, application, lambda: python.is_stopped or paused())
     if failure is not None:
         raise failure
     try:
@@ -87,7 +91,9 @@ def pause(stage: Stage, _: Struct) -> Step:
             # Time must pass in both processes, or in neither.
             stage.children.tell_application(child_messages.Resume())
         raise
-    if not application.is_holding:
+    if python.is_stopped:
+        python.pauses = True
+    elif not application.is_holding:
         stage.enter(State.PAUSED)
 
 
@@ -180,7 +186,8 @@ def step(stage: Stage, _: Struct) -> Step:
     application.forget(Held)
     stage.children.tell_application(child_messages.StepTick())
     try:
-        yield Wait(message_of(application, Stepped, Finished, Held), REPLY_TIMEOUT_S, "tick")
+        done = message_of(application, Stepped, Finished, Held)
+        yield Wait(lambda: stage.python.is_stopped or done(), REPLY_TIMEOUT_S, "tick")
     except StepFailed as failure:
         if failure.code != "timeout":
             raise
@@ -193,6 +200,8 @@ def step(stage: Stage, _: Struct) -> Step:
 
 def set_blackboard(stage: Stage, data: messages.SetBlackboard) -> Step:
     """Writes an entry of the blackboard."""
+    if stage.python.is_stopped:
+        raise StepFailed(HELD_IN_PYTHON, HELD_IN_PYTHON_TEXT, HELD_IN_PYTHON_HINT)
     application = stage.children.ensure("application")
     application.forget(BlackboardSet)
     stage.children.tell_application(child_messages.SetBlackboard(data.scope, data.key, data.value))
@@ -200,3 +209,16 @@ def set_blackboard(stage: Stage, data: messages.SetBlackboard) -> Step:
     reply = yield Wait(message_of(application, BlackboardSet), REPLY_TIMEOUT_S, late)
     if reply.error:
         raise StepFailed("bad_data", reply.error)
+
+
+def terminate_application(stage: Stage, _: Struct) -> Step:
+    """Ends the application; the world stays, paused."""
+    if stage.state not in HAS_APPLICATION:
+        hold_world(stage)
+        return
+    application = stage.children.ensure("application")
+    application.is_stopping = True
+    stage.children.tell_application(child_messages.Stop())
+    stage.python.let_go()
+    stop_moving(stage)
+    yield from await_tick(stage, application, gone(application))

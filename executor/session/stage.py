@@ -16,11 +16,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from executor import messages
+    from executor.child_messages import StartWorld
     from executor.session.children import Children
     from executor.session.clients import Clients
+    from executor.session.debugger.attaching import Attaching
     from executor.session.debugger.holding import Hold
+    from executor.session.debugger.python import PythonDebugger
     from executor.session.evaluation.evaluating import Evaluating
     from executor.session.events import Unpacked
+    from executor.session.exact.past import PastRuns
     from executor.session.ladder import State
     from executor.session.launch_nodes import LaunchNodes
     from executor.session.mirror import Mirror
@@ -58,6 +62,10 @@ class LastRun:
     domain_id: int = 0
     is_outside: bool = False
     seed: int = 0
+    world: StartWorld | None = None
+    """The world as it was launched, which an exact run builds too."""
+    wants_exact: bool = False
+    """Whether exact runs are wanted, in which time waits for the tree."""
     is_world_alone: bool = False
     """The world runs without an application."""
     deaf_until_s: float = 0.0
@@ -77,7 +85,10 @@ class Stage(Protocol):
     recording: Recording
     evaluating: Evaluating
     run: LastRun
+    past: PastRuns
     hold: Hold
+    attaching: Attaching | None
+    python: PythonDebugger
     now_s: float
     sim_time_s: float
 

@@ -9,13 +9,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, TypeVar
 
+from msgspec import structs
+
 from executor import child_messages, messages
+from executor.apply_messages import Apply
 from executor.child_messages import ApplicationReady, Failed, Fault, StartWorld, WorldReady
 from executor.session import streaming
 from executor.session.debugger.holding import settle
+from executor.session.exact.going_back import go_back
+from executor.session.exact.hosting import choose, expect, host, state_of_world
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.running import (
-    await_tick,
     go,
     hold_world,
     pause,
@@ -23,6 +27,7 @@ from executor.session.running import (
     set_blackboard,
     step,
     stop_moving,
+    terminate_application,
 )
 from executor.session.waits import (
     Answered,
@@ -30,7 +35,6 @@ from executor.session.waits import (
     StepFailed,
     Wait,
     confirmed,
-    gone,
     is_spare_lost,
     taken,
 )
@@ -41,10 +45,11 @@ if TYPE_CHECKING:
     from msgspec import Struct
 
     from executor.session.child import Child
+    from executor.session.debugger.attaching import Attaching
     from executor.session.events import Unpacked
     from executor.session.stage import Stage
 
-__all__ = ["RESET_TIMEOUT_S", "STEPS", "restart_application", "stop_moving"]
+__all__ = ["RESET_TIMEOUT_S", "STEPS", "attach", "restart_application", "stop_moving"]
 
 Data = TypeVar("Data", bound="Struct")
 
@@ -76,6 +81,7 @@ def _launch_universe(stage: Stage, data: messages.LaunchUniverse) -> Step:
     _progress(stage, "launch_universe", 0.0, "Starting the simulated world")
     stage.run.universe = data
     _aim(stage, data)
+    expect(stage, data)
     universe, assets, file = data.universe, "", ""
     if isinstance(universe, messages.UniverseDocument):
         if universe.assets_zip_base64:
@@ -83,7 +89,7 @@ def _launch_universe(stage: Stage, data: messages.LaunchUniverse) -> Step:
             assets = _folder_of(unpacked, "assets")
         file = universe.file
         universe = universe.document
-    start = StartWorld(
+    start = stage.run.world = StartWorld(
         universe=universe,
         file=file,
         assets=assets,
@@ -158,12 +164,40 @@ def _take_folder(stage: Stage, unpacked: Unpacked) -> None:
 
 def _run_application(stage: Stage, data: messages.RunApplication) -> Step:
     if stage.state in HAS_APPLICATION:
-        yield from _terminate_application(stage, data)
+        yield from terminate_application(stage, data)
     unpacked = yield _unpacking(stage, data.app_zip_base64)
     _take_folder(stage, unpacked)
     stage.run.application = data
-    application = _start_application(stage)
-    yield from _await_application(stage, application)
+    choose(stage)
+    yield from _start(stage)
+
+
+def _start(stage: Stage) -> Step:
+    """Starts the application in the world as it is."""
+    state = b""
+    if stage.children.wants_exact:
+        state = (yield from state_of_world(stage)).data
+    yield from _await_application(stage, _start_application(stage, state), state=state)
+
+
+def _apply(stage: Stage, data: Apply) -> Step:
+    """Replaces the running tree; a later restart runs the new one too."""
+    unpacked = yield _unpacking(stage, data.app_zip_base64)
+    folder = _folder_of(unpacked, "application's")
+    message = child_messages.ApplyApplication(app_dir=folder, dry=data.dry)
+    if not data.dry:
+        stage.recording.change_files(folder)
+    order = stage.children.order("application", message)
+    try:
+        yield confirmed(order, "load the changed tree", LOAD_TIMEOUT_S)
+    except StepFailed:
+        if not data.dry:
+            stage.recording.change_files(stage.run.folder)
+        raise
+    if data.dry or stage.run.application is None:
+        return
+    stage.run.folder, stage.run.plan = folder, unpacked.plan
+    stage.run.application = structs.replace(stage.run.application, app_zip_base64=data.app_zip_base64)
 
 
 def restart_application(stage: Stage, data: Struct) -> Step:
@@ -171,11 +205,11 @@ def restart_application(stage: Stage, data: Struct) -> Step:
     if stage.run.application is None:
         raise StepFailed("nothing_to_restart", "No application was run yet.", "Press Run.")
     if stage.state in HAS_APPLICATION:
-        yield from _terminate_application(stage, data)
-    yield from _await_application(stage, _start_application(stage))
+        yield from terminate_application(stage, data)
+    yield from _start(stage)
 
 
-def _start_application(stage: Stage) -> Child:
+def _start_application(stage: Stage, state: bytes = b"") -> Child:
     data = stage.run.application
     assert data is not None  # noqa: S101 - both callers set it
     hold_world(stage)
@@ -183,25 +217,39 @@ def _start_application(stage: Stage) -> Child:
     _progress(stage, "run_application", 0.0, "Loading the tree and its actions")
     application = stage.children.ensure("application")
     application.is_started = True
+    launched = stage.run.world if application.is_exact else None
     stage.hold.since_s, stage.hold.given = None, stage.hold.breakpoints
-    stage.children.tell_application(
-        child_messages.StartApplication(
-            app_dir=stage.run.folder,
-            tick_hz=data.tick_hz,
-            on_finish=data.on_finish,
-            on_error=data.on_error,
-            seed=stage.run.seed,
-            domain_id=stage.run.domain_id,
-            outside=stage.run.is_outside,
-            breakpoints=stage.hold.breakpoints,
-        )
+    stage.hold.profile_given = stage.hold.profile
+    stage.hold.groot2_given = stage.hold.groot2
+    start = child_messages.StartApplication(
+        app_dir=stage.run.folder,
+        tick_hz=data.tick_hz,
+        on_finish=data.on_finish,
+        on_error=data.on_error,
+        seed=stage.run.seed,
+        domain_id=stage.run.domain_id,
+        outside=stage.run.is_outside,
+        breakpoints=stage.hold.breakpoints,
+        profile=stage.hold.profile,
+        groot2=stage.hold.groot2,
+        is_debugged=stage.python.is_wanted,
+        world=structs.replace(launched, speed=stage.mirror.speed) if launched is not None else None,
+        world_state=state,
     )
+    stage.children.tell_application(start)
+    if application.is_exact:
+        stage.past.begin(start)
+    if stage.attaching is not None and stage.attaching.controls:
+        stage.children.tell_application(child_messages.Control(on=True))
     stage.nodes.start(stage, stage.run.plan)
     return application
 
 
-def _await_application(stage: Stage, application: Child, tries: int = 2) -> Step:
-    """Waits until the application is loaded, then resumes time; replaces a spare that is dead, once."""
+def _await_application(stage: Stage, application: Child, tries: int = 2, state: bytes = b"") -> Step:
+    """Waits until the application is loaded, then resumes time; replaces a spare that is dead, once.
+
+    `state` is that of the world, with which an exact run was started.
+    """
     try:
         reply = yield Wait(
             taken(application, Fault, ApplicationReady),
@@ -211,14 +259,19 @@ def _await_application(stage: Stage, application: Child, tries: int = 2) -> Step
         if isinstance(reply, Fault):
             raise StepFailed("load_failed", reply.message, reply.hint)
         _progress(stage, "run_application", 1.0, "The application runs")
+        host(stage, application)
         stage.recording.begin()
+        if application.is_exact:
+            stage.past.name(stage.recording.run)
         yield from go(stage, application)
     except StepFailed as failure:
+        if application.is_exact:
+            stage.past.drop_unborn()
         if stage.children.get("application") is application:
             stage.children.drop("application")
         has_world = stage.state.reaches(State.VISUALIZATION_READY)
         if tries > 1 and has_world and is_spare_lost(application, failure):
-            yield from _await_application(stage, _start_application(stage), tries - 1)
+            yield from _await_application(stage, _start_application(stage, state), tries - 1, state)
             return
         stage.children.replenish()
         raise
@@ -228,9 +281,10 @@ def _await_application(stage: Stage, application: Child, tries: int = 2) -> Step
 def _run(stage: Stage, data: messages.Run) -> Step:
     """Climbs all rungs; world and application load in parallel."""
     if stage.state in HAS_APPLICATION:
-        yield from _terminate_application(stage, data)
+        yield from terminate_application(stage, data)
     if stage.state is State.IDLE:
         yield from _connect(stage, data)
+    expect(stage, data.universe)
     hold_world(stage)
     orders = []
     if stage.state.reaches(State.UNIVERSE_READY):
@@ -243,12 +297,16 @@ def _run(stage: Stage, data: messages.Run) -> Step:
     _take_folder(stage, unpacked)
     stage.run.application = data.application
     _aim(stage, data.universe)
-    application = _start_application(stage)
+    choose(stage)
+    is_exact = stage.children.wants_exact
+    application = None if is_exact else _start_application(stage)
     try:
         for order in orders:
             yield confirmed(order, "reset", RESET_TIMEOUT_S)
         if not stage.state.reaches(State.UNIVERSE_READY):
             yield from _launch_universe(stage, data.universe)
+        # An exact run builds the same world again, from its beginning.
+        application = application or _start_application(stage)
     except StepFailed:
         stage.children.drop("application")
         stage.children.replenish()
@@ -256,6 +314,17 @@ def _run(stage: Stage, data: messages.Run) -> Step:
     if not stage.state.reaches(State.VISUALIZATION_READY):
         yield from _prepare_visualization(stage, data)
     yield from _await_application(stage, application)
+
+
+def attach(stage: Stage, attaching: Attaching) -> Step:
+    """Follows another program's tree: the session has a child for it in place of an application."""
+    stage.attaching = attaching
+    stage.run.folder = attaching.folder
+    stage.run.application = messages.RunApplication("")
+    yield from _connect(stage, messages.Empty())
+    yield from _launch_universe(stage, messages.LaunchUniverse("none"))
+    yield from _prepare_visualization(stage, messages.Empty())
+    yield from _await_application(stage, _start_application(stage))
 
 
 def _reuse_world(stage: Stage, speed: float) -> list[tuple[Child, str]]:
@@ -271,6 +340,7 @@ def _aim(stage: Stage, data: messages.LaunchUniverse) -> None:
     """Stores the seed of the actions, and the ROS graph that the application and its launch nodes use."""
     stage.run.seed = data.seed
     stage.run.is_outside = data.universe == "none"
+    stage.run.wants_exact = data.time == "exact"
     stage.run.domain_id = _domain_of(stage, data)
 
 
@@ -291,17 +361,6 @@ def _is_same_world(old: messages.LaunchUniverse | None, new: messages.LaunchUniv
 # --- down the ladder ------------------------------------------------------------------------------
 
 
-def _terminate_application(stage: Stage, _: Struct) -> Step:
-    if stage.state not in HAS_APPLICATION:
-        hold_world(stage)
-        return
-    application = stage.children.ensure("application")
-    application.is_stopping = True
-    stage.children.tell_application(child_messages.Stop())
-    stop_moving(stage)
-    yield from await_tick(stage, application, gone(application))
-
-
 def _terminate_visualization(stage: Stage, _: Struct) -> Step:
     streaming.close_all(stage)
     stage.enter(State.UNIVERSE_READY)
@@ -311,7 +370,7 @@ def _terminate_visualization(stage: Stage, _: Struct) -> Step:
 def _end_world(stage: Stage) -> Step:
     """Descends to `connected`, rung by rung."""
     if stage.state in HAS_APPLICATION:
-        yield from _terminate_application(stage, messages.Empty())
+        yield from terminate_application(stage, messages.Empty())
     if stage.state is State.VISUALIZATION_READY:
         yield from _terminate_visualization(stage, messages.Empty())
     if stage.state is State.UNIVERSE_READY:
@@ -358,12 +417,14 @@ STEPS: Final[dict[str, Callable[[Stage, Struct], Step]]] = {
     "prepare_visualization": _prepare_visualization,
     "run_application": _typed(messages.RunApplication, _run_application),
     "run": _typed(messages.Run, _run),
+    "apply": _typed(Apply, _apply),
+    "go_back": _typed(messages.GoBack, go_back),
     "restart_application": restart_application,
     "pause": pause,
     "resume": resume,
     "step": step,
     "set_blackboard": _typed(messages.SetBlackboard, set_blackboard),
-    "terminate_application": _terminate_application,
+    "terminate_application": terminate_application,
     "terminate_visualization": _terminate_visualization,
     "terminate_universe": _terminate_universe,
     "disconnect": _disconnect,

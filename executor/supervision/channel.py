@@ -27,6 +27,7 @@ import msgspec
 
 from executor.child_messages import Frame, name_of
 from executor.stream.frames import supersede
+from executor.supervision.threads import own
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -235,7 +236,7 @@ class Channel(Generic[Sent, Received]):
 
     def _start_writer(self) -> None:
         if self._writer is None:
-            self._writer = threading.Thread(target=self._write_backlog, name="channel", daemon=True)
+            self._writer = own(threading.Thread(target=self._write_backlog, name="channel", daemon=True))
             self._writer.start()
 
     def _write_backlog(self) -> None:

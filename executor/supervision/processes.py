@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING, Final
 
 import psutil
 
+from executor.adapter_messages import FromAdapter, ToAdapter
 from executor.child_messages import (
-    FromApplication,
+    FromExact,
     FromWorld,
-    ToApplication,
+    ToExact,
     ToWorld,
 )
 from executor.evaluation_messages import FromEvaluation, ToEvaluation
@@ -34,8 +35,8 @@ if TYPE_CHECKING:
 
 __all__ = ["ChildProcess", "Limits", "Program"]
 
-Said = FromWorld | FromApplication | FromRecorder | FromEvaluation
-Told = ToWorld | ToApplication | ToRecorder | ToEvaluation
+Said = FromWorld | FromExact | FromRecorder | FromEvaluation | FromAdapter
+Told = ToWorld | ToExact | ToRecorder | ToEvaluation | ToAdapter
 Decode = Callable[[bytes], Said]
 
 MARK: Final = "BT_STUDIO_CHILD"

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Final
 from executor.child_messages import Beat, Place
 from executor.supervision.channel import ChannelClosed
 from executor.supervision.confine import TRACE_SIGNAL
+from executor.supervision.threads import own
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -63,7 +64,7 @@ class Pulse:
         self.clocks = 0
         self.locate: Callable[[FrameType | None], Place] = place_in_our_code
         self.current = _take_notes()
-        threading.Thread(target=self._beat, name="pulse", daemon=True).start()
+        own(threading.Thread(target=self._beat, name="pulse", daemon=True)).start()
 
     def moved(self) -> None:
         """Notes that the main thread completed its loop, or a part of a long task."""

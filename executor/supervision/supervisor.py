@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any, Final
 import psutil
 
 from executor import child_messages
-from executor.child_messages import Frame, decode_from_application, decode_from_world
+from executor.adapter_messages import decode_from_adapter
+from executor.child_messages import Frame, decode_from_application, decode_from_exact, decode_from_world
 from executor.evaluation_messages import decode_from_evaluation
 from executor.recorder_messages import decode_from_recorder
 from executor.session.events import (
@@ -46,8 +47,10 @@ CHECK_INTERVAL_S: Final = 0.25
 _DECODE: Final[dict[Kind, Decode]] = {
     "world": decode_from_world,
     "application": decode_from_application,
+    "exact": decode_from_exact,
     "recorder": decode_from_recorder,
     "evaluation": decode_from_evaluation,
+    "adapter": decode_from_adapter,
 }
 
 
@@ -158,7 +161,9 @@ class Supervisor:
                 self._report(ChildSaid(spawn.kind, spawn.number, message))
 
         try:
-            child = await ChildProcess.spawn(self._program(spawn), on_message, _DECODE.get(spawn.kind))
+            child = await ChildProcess.spawn(
+                self._program(spawn), on_message, _DECODE.get(_program_of(spawn))
+            )
         except OSError as error:
             self._waiting.pop(key)
             self._report(ChildExited(spawn.kind, spawn.number, f"could not be started: {error}"))
@@ -176,7 +181,7 @@ class Supervisor:
 
     def _program(self, spawn: Spawn) -> Program:
         if spawn.node is None:
-            return self._programs[spawn.kind]
+            return self._programs[_program_of(spawn)]
         # A launch node has the limits of the application.
         application = self._programs["application"]
         command = (sys.executable, "-m", "executor.launching.program", spawn.folder, *spawn.node.command)
@@ -216,3 +221,7 @@ class Supervisor:
                     and process.status() == psutil.STATUS_ZOMBIE
                 ):
                     os.waitpid(process.pid, os.WNOHANG)
+
+
+def _program_of(spawn: Spawn) -> Kind:
+    return "exact" if spawn.is_exact else spawn.kind

@@ -1,4 +1,4 @@
-"""The socket of the tools: `/language` for an open editor, `/ruff` for one run of the checker."""
+"""The socket of the tools: `/language` for an open editor, `/ruff` for the checker, `/tests` for tests."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Final
 from websockets.asyncio.server import ServerConnection, unix_serve
 from websockets.exceptions import ConnectionClosed
 
+from executor.tools.behaviours import serve_behaviours
 from executor.tools.checker import serve_checker
 from executor.tools.language import serve_editor
 
@@ -66,8 +67,8 @@ class ToolsServer:
         given = request.headers.get("Authorization", "").encode()
         if not hmac.compare_digest(given, self._expected):
             return connection.respond(HTTPStatus.UNAUTHORIZED, "The token is missing or wrong.\n")
-        if request.path not in {"/language", "/ruff"}:
-            return connection.respond(HTTPStatus.NOT_FOUND, "There are /language and /ruff.\n")
+        if request.path not in {"/language", "/ruff", "/tests"}:
+            return connection.respond(HTTPStatus.NOT_FOUND, "There are /language, /ruff and /tests.\n")
         if self._clients >= MAX_CLIENTS:
             return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, "There are too many editors.\n")
         return None
@@ -81,6 +82,8 @@ class ToolsServer:
             with contextlib.suppress(ConnectionClosed):
                 if connection.request.path == "/ruff":
                     await serve_checker(connection)
+                elif connection.request.path == "/tests":
+                    await serve_behaviours(connection)
                 else:
                     with tempfile.TemporaryDirectory(dir=self._root) as home:
                         await serve_editor(connection, Path(home))

@@ -17,14 +17,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from executor import child_messages
-from executor.child_messages import FromWorld, Request, StartWorld, ToWorld, decode_to_world, name_of
-from executor.messages import Error
+from executor.child_messages import FromWorld, StartWorld, ToWorld, decode_to_world
 from executor.recorder.link import ADDRESS_VARIABLE
 from executor.ros.environment import has_tf, ros_environment
+from executor.run_inputs import noted
 from executor.supervision.channel import Channel, ChannelClosed, ChannelError
 from executor.supervision.confine import die_with_parent
 from executor.supervision.pulse import Pulse
-from executor.universes.document import DocumentError, Problem
+from executor.world.commands import WorldCommands
 from executor.world.interface import WorldError
 
 if TYPE_CHECKING:
@@ -32,9 +32,7 @@ if TYPE_CHECKING:
 
     from rclpy.context import Context
 
-    from executor.child_messages import WorldCommand
     from executor.render.interface import Renderer
-    from executor.ros.graph.topics import TopicReply
     from executor.world.simulation.loop import SimulationLoop
     from executor.world.simulation.outside_graph import OutsideGraph
     from executor.world.simulation.recording import WorldRecorder
@@ -42,7 +40,6 @@ if TYPE_CHECKING:
 _log = logging.getLogger(__name__)
 
 LONGEST_WAIT_S: Final = 0.25
-StreamMessage = child_messages.Subscribe | child_messages.Unsubscribe | child_messages.Pace
 
 
 class _Stop(Exception):  # noqa: N818 - the way out, not an error
@@ -56,12 +53,12 @@ class WorldProcess:
         self._channel = channel
         self._pulse = pulse
         self._loop: SimulationLoop | OutsideGraph | None = None
+        self._simulation: SimulationLoop | None = None
         self._renderer: Renderer | None = None
         self._context: Context | None = None
         self._close: list[Callable[[], None]] = []
         self._recorder: WorldRecorder | None = None
-        self._request: str | None = None
-        """The token of the request under way."""
+        self._commands = WorldCommands(channel.send, pulse)
 
     def run(self) -> None:
         """Runs until the world is stopped or the manager has ended."""
@@ -113,18 +110,7 @@ class WorldProcess:
         return context
 
     def _obey(self, message: ToWorld) -> None:
-        self._request = message.request if isinstance(message, Request) else None
-        try:
-            self._dispatch(message)
-        except DocumentError as error:
-            self._refuse(error.problems[0], error.file, more=len(error.problems) - 1)
-        except (WorldError, ValueError, TypeError, KeyError, OSError) as error:
-            _log.warning("%s is refused: %r", name_of(message), error)
-            code = getattr(error, "code", "bad_request")
-            self._say_error(code, str(error) if self._request else f"{name_of(message)}: {error}")
-        if self._request:
-            self._answer(child_messages.Answer())
-        self._request = None
+        self._commands.answering(message, lambda: self._dispatch(message))
 
     def _dispatch(self, message: ToWorld) -> None:
         if isinstance(message, child_messages.Stop):
@@ -134,58 +120,27 @@ class WorldProcess:
             with self._pulse.busy("building the world"):
                 self._start(message)
             return
-        if self._loop is None:
-            self._say_error("not_started", f"The world must be started before {name_of(message)!r}.")
-            return
-        self._command(self._loop, message)
+        if isinstance(message, child_messages.DumpWorld):
+            self._dump()
+        elif isinstance(message, child_messages.LoadWorld):
+            self._load(message.data)
+        else:
+            self._commands.obey(message)
+            if self._recorder is not None and (done := noted(message)) is not None:
+                self._recorder.did(child_messages.name_of(message), done)
 
-    def _command(self, loop: SimulationLoop | OutsideGraph, message: WorldCommand) -> None:
-        match message:
-            case child_messages.Pause():
-                loop.pause()
-            case child_messages.Resume():
-                loop.resume()
-            case child_messages.StepWorld():
-                loop.step(message.dt_s)
-            case child_messages.Reset():
-                with self._pulse.busy("resetting the world"):
-                    loop.reset()
-            case child_messages.SetSpeed():
-                loop.set_speed(message.speed)
-            case child_messages.StopRobot():
-                loop.stop_robots()
-            case child_messages.Teleop():
-                loop.teleop(message.linear, message.angular, goes_on=message.goes_on)
-            case child_messages.MoveBody():
-                loop.move_body(message.id, message.pose)
-            case child_messages.Subscribe() | child_messages.Unsubscribe() | child_messages.Pace():
-                self._stream(loop, message)
-            case child_messages.BeginRecording():
-                if self._recorder is not None:
-                    self._recorder.begin(message.run)
-            case _:
-                self._topics.obey(message)
+    def _dump(self) -> None:
+        if self._simulation is None:
+            raise WorldError("there is no simulated world")
+        self._commands.answer(child_messages.WorldState(data=self._simulation.dump()))
 
-    @staticmethod
-    def _stream(loop: SimulationLoop | OutsideGraph, message: StreamMessage) -> None:
-        match message:
-            case child_messages.Subscribe():
-                loop.streams.subscribe(
-                    message.client,
-                    message.stream,
-                    max_hz=message.max_hz,
-                    width=message.width,
-                    camera_pose=message.camera_pose,
-                    sensor=message.sensor,
-                )
-            case child_messages.Unsubscribe():
-                loop.streams.unsubscribe(message.client, message.stream, sensor=message.sensor)
-            case child_messages.Pace():
-                loop.streams.pace(message.client, message.lost)
+    def _load(self, data: bytes) -> None:
+        if self._simulation is not None:
+            self._simulation.load(data)
 
     def _start(self, message: StartWorld) -> None:
         if self._loop is not None:
-            self._say_error("already_started", "The world is running already.")
+            self._commands.say_error("already_started", "The world is running already.")
             return
         if message.universe == "none":
             self._start_outside(message)
@@ -215,23 +170,23 @@ class WorldProcess:
         self._close.append(sensors.close)
         self._progress(0.6, "Joining the ROS graph")
         context = self._join(message.domain_id)
-        renamed = {place.id: place.topics for place in world.universe.robots}
-        true_poses = {place.id for place in world.universe.robots if place.ground_truth}
         outlet = Outlet()
-        node = WorldNode(world, context, topics=renamed, true_poses=true_poses, outlet=outlet)
+        node = WorldNode.of_universe(world, context, outlet=outlet)
         self._close.append(node.close)
-        self._topics = Topics(node.node, self._answer, commands=node, outlet=outlet)
+        self._commands.topics = topics = Topics(
+            node.node, self._commands.answer, commands=node, outlet=outlet
+        )
         recorder = WorldRecorder(world, node, BatchTap, os.environ.get(ADDRESS_VARIABLE, ""))
         recorder.join(partial(GraphTap, context))
         self._close.append(recorder.close)
-        self._recorder = recorder
+        self._recorder = self._commands.recorder = recorder
         loop = SimulationLoop(world, sensors, node, self._send_frame, speed=message.speed)
-        loop.watchers += [recorder.look, self._topics.poll, Mismatches(node.node, self._channel.send).poll]
+        loop.watchers += [recorder.look, topics.poll, Mismatches(node.node, self._channel.send).poll]
         loop.moved = self._moved
         if (navigation := make_navigation(world, context, outlet)) is not None:
             self._close.append(navigation.close)
             loop.parts.append(navigation)
-        self._loop = loop
+        self._loop = self._commands.loop = self._simulation = loop
         self._channel.send(child_messages.WorldReady(renderer.name, has_tf(), world.name))
 
     def _start_outside(self, message: StartWorld) -> None:
@@ -242,9 +197,9 @@ class WorldProcess:
         self._progress(0.6, "Joining the outside ROS graph")
         outside = OutsideGraph(self._join(message.domain_id), self._channel.send)
         self._close.append(outside.close)
-        self._topics = Topics(outside.node, self._answer)
-        outside.watchers += [self._topics.poll, Mismatches(outside.node, self._channel.send).poll]
-        self._loop = outside
+        self._commands.topics = topics = Topics(outside.node, self._commands.answer)
+        outside.watchers += [topics.poll, Mismatches(outside.node, self._channel.send).poll]
+        self._loop = self._commands.loop = outside
         self._channel.send(child_messages.WorldReady("", has_tf(), "none"))
 
     def _send_frame(self, message: child_messages.Sim | child_messages.Log | child_messages.Frame) -> None:
@@ -259,24 +214,6 @@ class WorldProcess:
 
     def _progress(self, fraction: float, text: str) -> None:
         self._channel.send(child_messages.Progress(fraction, text))
-
-    def _refuse(self, problem: Problem, file: str, *, more: int) -> None:
-        text = f"{file}:{problem.line}:{problem.column}: {problem.message}"
-        if more:
-            text += f" (and {more} more)"
-        self._say_error(problem.code, text, problem.hint)
-
-    def _say_error(self, code: str, text: str, hint: str = "") -> None:
-        if self._request:
-            self._answer(child_messages.Answer(error=Error(code, text, hint)))
-        else:
-            self._channel.send(child_messages.Failed(code, text, hint))
-        self._request = None
-
-    def _answer(self, message: child_messages.Answer | TopicReply) -> None:
-        """Sends a message to the manager, with the token of the request that it answers, if there is one."""
-        message.request = self._request
-        self._channel.send(message)
 
 
 def main(arguments: list[str] | None = None) -> None:

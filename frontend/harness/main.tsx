@@ -23,6 +23,7 @@ setNavigator({
     location.search = `?tree=${id}`;
   },
   openFile: () => undefined,
+  showFile: () => undefined,
   openTopics: () => undefined,
   aimAt: () => undefined,
   renamed: () => undefined,

@@ -122,6 +122,7 @@ export function watchNavigation() {
   const navigator = {
     openTree: vi.fn(),
     openFile: vi.fn(),
+    showFile: vi.fn(),
     openTopics: vi.fn(),
     aimAt: vi.fn(),
     renamed: vi.fn(),

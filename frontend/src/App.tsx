@@ -7,6 +7,8 @@ import { StartPage } from '@/features/projects/StartPage';
 import { useRoute } from '@/store/route';
 import { lazyPart } from '@/ui/parts';
 
+const loadAttached = async () => (await import('@/frame/attached/AttachedStudio')).AttachedStudio;
+const AttachedStudio = lazyPart(loadAttached);
 const Studio = lazyPart(async () => (await import('@/frame/Studio')).Studio);
 
 export function App() {
@@ -16,7 +18,11 @@ export function App() {
       <Notifications position="bottom-left" limit={4} />
       <ErrorBoundary>
         {route.page === 'start' ? (
-          <StartPage />
+          <StartPage loadAttached={loadAttached} />
+        ) : route.page === 'attached' ? (
+          <Suspense fallback={<Waiting reason="openingProject" />}>
+            <AttachedStudio key={route.sessionId} sessionId={route.sessionId} />
+          </Suspense>
         ) : (
           <Suspense fallback={<Waiting reason="openingProject" />}>
             <Studio key={route.projectId} projectId={route.projectId} />

@@ -183,7 +183,9 @@ def _files(story, teacher, one):
     story.ask(teacher, "POST", f"{one}/changes", stale, status=409)
     overlay = [{"path": "actions/Forward.py", "content": FORWARD.replace("def update(self)", "def update(")}]
     story.ask(teacher, "POST", f"{one}/check", {"files": overlay})
-    story.ask(teacher, "POST", f"{one}/test", {"files": [{"path": "tests/main.test.yaml", "content": TESTS}]})
+    tested = {"files": [{"path": "tests/main.test.yaml", "content": TESTS}]}
+    story.ask(teacher, "POST", f"{one}/test", tested)
+    story.ask(teacher, "POST", f"{one}/test-with-python", tested)
     story.ask(teacher, "POST", "actions/inspect", {"filename": "actions/Forward.py", "source": FORWARD})
     for address in (
         "app",
@@ -256,6 +258,7 @@ def _people(story, teacher, student, one, guest):
 def _run(story, teacher, one):
     session = story.ask(teacher, "POST", f"{one}/session")
     story.ask(teacher, "GET", f"sessions/{session['id']}")
+    story.ask(teacher, "POST", "sessions/attached", {"address": "robot.local"})
     run = story.ask(teacher, "POST", f"{one}/runs", {"run": "a1", "name": "Into the crate"}, status=201)
     story.ask(teacher, "GET", f"{one}/runs")
     story.ask(teacher, "GET", f"{one}/runs/{run['id']}")
@@ -283,6 +286,7 @@ def _evaluate(story, teacher, one):
     own = f"{of_room}/{made['id']}"
     story.ask(teacher, "GET", of_room)
     story.ask(teacher, "GET", own)
+    story.ask(teacher, "GET", f"{own}/coverage")
     story.ask(teacher, "GET", f"{own}/outcomes")
     story.ask(teacher, "GET", f"{own}/outcomes/0")
     story.ask(teacher, "GET", f"{own}/runs.jsonl")

@@ -12,7 +12,7 @@ import pytest
 from backend.config import examples
 from backend.config.schema_view import document
 from backend.evaluations import views
-from backend.language import ruff
+from backend.language import behaviours, ruff
 from backend.language import views as language
 from backend.runs import logs, views_mine
 from backend.runs import writes as run_writes
@@ -33,6 +33,7 @@ def manager():
 @pytest.fixture
 def told(person, stranger, manager, monkeypatch):  # noqa: F811
     monkeypatch.setattr(session_writes, "workers", type("Idle", (), {"submit": lambda *_: None}))
+    monkeypatch.setattr(session_writes, "may_attach", lambda: True)
     monkeypatch.setattr(run_writes, "live_session", lambda *_, **__: manager)
     monkeypatch.setattr(run_writes, "manager_token", lambda _: TOKEN)
     monkeypatch.setattr(views, "round_soon", lambda: None)
@@ -40,6 +41,7 @@ def told(person, stranger, manager, monkeypatch):  # noqa: F811
     for module in (logs, views_mine):
         monkeypatch.setattr(module, "require_converter", lambda: None)
     monkeypatch.setattr(language, "checker", lambda user: ruff.run_beside)
+    monkeypatch.setattr(language, "runner", lambda user: behaviours.run_beside)
     teacher, student = person("tina", is_teacher=True), person("ben")
 
     def guest(url):

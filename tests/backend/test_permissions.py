@@ -69,6 +69,7 @@ POLICY = {
     ("post", f"{P}/changes"): WRITE,
     ("post", f"{P}/check"): CHECK,
     ("post", f"{P}/test"): TESTED,
+    ("post", f"{P}/test-with-python"): (401, 403, 404, 503, 503, 503),  # there are no containers
     ("get", f"{P}/app"): BROKEN,
     ("get", f"{P}/xml"): BROKEN,
     ("get", f"{P}/package"): BROKEN,
@@ -111,6 +112,7 @@ POLICY = {
     ("post", f"{E}/resume"): (401, 403, 404, 403, 200, 409),  # the editor has resumed it
     ("post", f"{E}/compare"): (401, 403, 404, 403, 422, 422),  # no older revision
     ("get", f"{E}/comparison"): (401, 409, 404, 409, 409, 409),  # it is not compared
+    ("get", f"{E}/coverage"): (401, 422, 404, 422, 422, 422),  # the empty project has no root
     ("get", f"{E}/outcomes"): READ,
     ("get", f"{E}/outcomes/{{seed}}"): READ,
     ("post", f"{E}/replays"): (401, 403, 404, 201, 201, 201),
@@ -121,6 +123,7 @@ POLICY = {
     ("get", "/api/v1/runs"): PERSONAL,
     ("delete", "/api/v1/runs/{run_id}"): NOT_OWNED,
     ("post", "/api/v1/runs/logs"): (401, 403, 503, 503, 503, 503),  # as above
+    ("post", "/api/v1/sessions/attached"): (401, 403, 403, 403, 403, 403),  # on localhost only
     ("get", "/api/v1/sessions/{session_id}"): NOT_OWNED,
     ("delete", "/api/v1/sessions/{session_id}"): NOT_OWNED,
     ("get", "/api/v1/me"): OPEN,
@@ -155,11 +158,13 @@ POLICY = {
     ("get", "/api/v1/catalog/templates"): OPEN,
 }
 BODIES = {
+    ("post", "/api/v1/sessions/attached"): {"address": "robot.local"},
     ("post", "/api/v1/projects"): {"name": "Another"},
     ("patch", P): {"base_revision": 1, "description": "new"},
     ("post", f"{P}/changes"): {"files": [{"path": "new.txt", "base_revision": 0, "content": "x"}]},
     ("post", f"{P}/check"): {"files": []},
     ("post", f"{P}/test"): {"files": []},
+    ("post", f"{P}/test-with-python"): {"files": []},
     ("post", f"{P}/duplicate"): {},
     ("patch", f"{P}/revisions/{{number}}"): {"label": "first"},
     ("post", f"{P}/revisions/{{number}}/restore"): {},

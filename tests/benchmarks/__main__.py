@@ -10,7 +10,10 @@ import sys
 BENCHMARKS = (
     "engine",
     "debugger",
+    "python_debugger",
+    "debugger_page",
     "groot",
+    "attached",
     "translator",
     "behaviours",
     "difference",
@@ -22,7 +25,10 @@ BENCHMARKS = (
     "flood",
     "opening",
     "browser",
+    "evaluate_panel",
     "axis",
+    "marks",
+    "capacity",
 )
 
 

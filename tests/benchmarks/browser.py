@@ -44,9 +44,9 @@ MOVES = frozenset({"pointermove", "wheel"})
 PRESSES = frozenset({"keydown", "click"})
 DROPS = frozenset({"pointerup"})
 TEMPLATE = "laser_bump_and_go"
-# Chromium of Debian rasterises the page by WebGL, which is emulated here: it takes seconds for what the
-# processor does in milliseconds.
-RASTER = ["--disable-gpu-rasterization"]
+# Here WebGL is emulated. Chromium with `--use-angle` would draw the whole page by it, which takes hundreds of
+# milliseconds a picture; where there is no GPU, a user's browser puts the page together by the processor.
+RASTER = ["--disable-gpu-rasterization", "--disable-gpu-compositing"]
 
 
 def main() -> None:

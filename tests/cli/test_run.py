@@ -41,6 +41,31 @@ def test_a_run_writes_its_report(tmp_path, how):
 
 
 @pytest.mark.simulation
+@pytest.mark.parametrize("how", [["--lockstep"], []])
+def test_each_node_of_a_run_is_measured(tmp_path, how):
+    recording, report = tmp_path / "r.mcap", tmp_path / "r.json"
+    more = ["--duration", "3", "--profile", "--record", recording, "--report", report]
+    done = studio("run", EXAMPLE, *how, *more)
+    assert (done.returncode, done.stderr) == (0, "")
+    head, *lines = done.stdout[done.stdout.index("\nnode ") :].splitlines()[1:]
+    assert head.split()[:2] == ["node", "share"]
+    assert {"bump", "keep"} < {line.split()[0] for line in lines}
+    rows = {row["path"]: row for row in json.loads(report.read_text())["profile"]}
+    assert rows["bump and go"]["calls"] > 30
+    assert rows["bump and go"]["total_ms"] > rows["keep clear"]["total_ms"] > 0
+    with AnyReader([recording]) as reader:
+        connections = [each for each in reader.connections if each.topic == "/bt/profile"]
+        parts: list[Any] = [
+            reader.deserialize(raw, connection.msgtype)
+            for connection, _, raw in reader.messages(connections=connections)
+        ]
+    calls = sum(int(part.calls[list(part.uid).index(1)]) for part in parts)
+    assert (
+        abs(calls - rows["bump and go"]["calls"]) <= 15
+    )  # a session tells the last half second to the recorder alone
+
+
+@pytest.mark.simulation
 def test_a_run_can_be_looked_at_in_a_browser():
     command = [*STUDIO, "run", str(EXAMPLE), "--serve-viewer", "--duration", "4"]
     run = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)

@@ -9,10 +9,13 @@ import kubernetes_validate
 import pytest
 import yaml
 
+from backend.config.environment import Environment
 from tests.docker.engine import REPOSITORY
+from tests.fakes.kubernetes_api import ALLOWED
 
 DOCKER = REPOSITORY / "docker"
-MANIFESTS = sorted((DOCKER / "kubernetes").glob("*.yaml"))
+OVERLAY_OF_ALL = DOCKER / "kubernetes" / "kustomization.yaml"
+MANIFESTS = sorted(set((DOCKER / "kubernetes").glob("*.yaml")) - {OVERLAY_OF_ALL})
 OVERLAY = DOCKER / "compose.proxy.yaml"
 COMPOSE = sorted(set(DOCKER.glob("compose*.yaml")) - {OVERLAY})
 KUBERNETES = "1.31.0"
@@ -22,6 +25,33 @@ KUBERNETES = "1.31.0"
 def test_manifests_are_what_kubernetes_takes(path):
     for document in yaml.safe_load_all(path.read_text()):
         kubernetes_validate.validate(document, KUBERNETES, strict=True)
+
+
+def test_one_command_applies_all_manifests():
+    overlay = yaml.safe_load(OVERLAY_OF_ALL.read_text())
+    (made,) = overlay["configMapGenerator"]
+    assert {*overlay["resources"], *made["files"]} == {path.name for path in MANIFESTS}
+    web = next(found for found in documents("web.yaml") if found["kind"] == "Deployment")
+    pod = web["spec"]["template"]["spec"]
+    assert {"name": "pod", "configMap": {"name": made["name"]}} in pod["volumes"]
+    folder = next(m["mountPath"] for m in pod["containers"][0]["volumeMounts"] if m["name"] == "pod")
+    assert f"{folder}/{made['files'][0]}" == str(Environment.model_fields["pod_template"].default)
+
+
+def test_the_web_servers_may_do_in_the_namespace_of_sessions_what_the_launcher_does_and_no_more():
+    found = {document["kind"]: document for document in documents("sessions.yaml")}
+    (rule,) = found["Role"]["rules"]
+    assert {(verb, kind) for verb in rule["verbs"] for kind in rule["resources"]} == ALLOWED
+    namespace = found["Namespace"]["metadata"]["name"]
+    assert namespace == Environment.model_fields["pod_namespace"].default
+    assert {found[kind]["metadata"]["namespace"] for kind in ("Role", "RoleBinding", "NetworkPolicy")} == {
+        namespace
+    }
+    assert found["NetworkPolicy"]["spec"]["egress"] == []
+
+
+def documents(name):
+    return list(yaml.safe_load_all((DOCKER / "kubernetes" / name).read_text()))
 
 
 @pytest.mark.parametrize("path", COMPOSE, ids=lambda path: path.name)

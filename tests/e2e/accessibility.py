@@ -30,7 +30,13 @@ def expect_no_findings(page: Page, name: str, part: str | None = None) -> None:
     page.add_style_tag(content=STILL)
     page.evaluate(AXE.read_text(encoding="utf-8"))
     found = page.evaluate(
-        "async part => (await axe.run({"
+        # An open menu belongs to its button, though it is drawn at the end of the page. ARIA has no landmark
+        # for it, and the rule excepts dialogues alone. An element of Mantine without content, which is no
+        # item, has the focus of a menu until an arrow key is pressed.
+        "async part => { axe.configure({rules: ["
+        "{id: 'region', selector: 'body :not([role=menu], [role=menu] *, [data-portal]:has([role=menu]))'},"
+        "{id: 'aria-required-children', selector: '[role]:not([role=menu]:has(> [data-autofocus]))'}]});"
+        " return (await axe.run({"
         # Elements behind an open dialogue are not reachable.
         "include: part ?? document.querySelector('[role=dialog][aria-modal=true]') ?? document,"
         # The tooltip of the button that was pressed may open late, and is in no landmark.
@@ -38,7 +44,7 @@ def expect_no_findings(page: Page, name: str, part: str | None = None) -> None:
         # The size of targets, 24 by 24 px, is a rule that axe leaves out by itself.
         " {resultTypes: ['violations'], rules: {'target-size': {enabled: true}}})).violations"
         ".map(each => `${each.id}: `"
-        " + each.nodes.map(n => n.target.join(' ') + ' — ' + n.failureSummary).join(' | '))",
+        " + each.nodes.map(n => n.target.join(' ') + ' — ' + n.failureSummary).join(' | ')) }",
         part,
     )
     assert not found, f"axe-core, {name}:\n" + "\n".join(found)

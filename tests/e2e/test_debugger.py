@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 import pytest
 from playwright.sync_api import expect
 
 if TYPE_CHECKING:
+    from playwright.sync_api import Locator
+
     from tests.e2e.studio import Studio
 
 pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
@@ -25,6 +28,7 @@ def test_why_turn_never_ends_is_found_with_a_breakpoint(studio: Studio) -> None:
     a_result_is_forced_and_released(studio)
     breakpoints_outlast_a_reload(studio)
     the_past_of_a_held_run_is_looked_at(studio)
+    the_line_is_found(studio)
     it_is_corrected_and_run_again(studio)
     all_breakpoints_are_switched_off_by_a_key(studio)
     studio.end_session()
@@ -72,9 +76,19 @@ def the_past_of_a_held_run_is_looked_at(studio: Studio) -> None:
     expect(studio.page.locator("[data-held]")).to_have_count(0)
     past = studio.at("recorded-canvas")
     expect(past.get_by_test_id(f"node-{TURN}")).to_have_attribute("data-status", "RUNNING")
+    the_hold_is_marked_on_the_axis(studio)
     studio.page.keyboard.press("Escape")
     expect(past).to_have_count(0)
     held_at(studio, CHECK, "it returned FAILURE")
+
+
+def the_hold_is_marked_on_the_axis(studio: Studio) -> None:
+    mark = studio.page.locator("[data-testid=axis-mark][data-kind=held]").first
+    expect(mark).to_have_accessible_name(re.compile("Held at .*breakpoint"))
+    mark.click()
+    block = studio.at("recorded-canvas").get_by_test_id(f"node-{CHECK}")
+    expect(block).to_have_attribute("data-selected", "true")
+    studio.picture("past-hold")
 
 
 def breakpoints_outlast_a_reload(studio: Studio) -> None:
@@ -83,11 +97,55 @@ def breakpoints_outlast_a_reload(studio: Studio) -> None:
     held_at(studio, CHECK, "it returned FAILURE")
 
 
-def it_is_corrected_and_run_again(studio: Studio) -> None:
-    studio.set_port(CHECK, "obs_dist", "1.0")
+def the_line_is_found(studio: Studio) -> None:
+    """By the mouse to the line that decides, and by keys onwards; the hold outlasts a reload."""
     studio.at(f"node-{CHECK}").click()
     studio.page.keyboard.press("F9")
     expect(studio.at(f"breakpoint-{CHECK}")).to_have_attribute("data-state", "none")
+    studio.at("debug-continue").click()
+    studio.expect_state("application_running")
+    studio.open_file("actions/CheckObstacle.py")
+    line = studio.page.locator(".cm-line", has_text="if self.nearest_ahead() <")
+    press_beside(studio, line)
+    held_at_line(studio, "by a breakpoint")
+    studio.at("python-values").click()
+    asks(studio, "self.nearest_ahead() < get_input(self, 'obs_dist')", "True")
+    asks(studio, "get_input(self, 'obs_dist')", "50.0")  # the reason
+    studio.picture("held-in-python")
+    studio.page.reload()
+    held_at_line(studio, "by a breakpoint")
+    studio.page.keyboard.press("F10")
+    held_at_line(studio, "since a step ended")
+    line.click()
+    studio.page.keyboard.press("F9")
+    studio.page.keyboard.press("F5")
+    studio.expect_state("application_running")
+    expect(studio.at("python-banner")).to_have_count(0)
+
+
+def press_beside(studio: Studio, line: Locator) -> None:
+    line.scroll_into_view_if_needed()
+    text, gutter = line.bounding_box(), studio.page.locator(".cm-breakpoints").bounding_box()
+    assert text is not None
+    assert gutter is not None
+    studio.page.mouse.click(gutter["x"] + gutter["width"] / 2, text["y"] + text["height"] / 2)
+
+
+def held_at_line(studio: Studio, why: str) -> None:
+    expect(studio.at("python-banner")).to_contain_text("Held in update at actions/CheckObstacle.py")
+    expect(studio.at("python-banner")).to_contain_text(why)
+    studio.expect_state("held")
+
+
+def asks(studio: Studio, expression: str, answer: str) -> None:
+    studio.at("python-expression").fill(expression)
+    studio.at("python-expression").press("Enter")
+    expect(studio.at("python-answer")).to_contain_text(answer)
+
+
+def it_is_corrected_and_run_again(studio: Studio) -> None:
+    studio.page.get_by_role("tab", name="MainTree", exact=True).click()
+    studio.set_port(CHECK, "obs_dist", "1.0")
     studio.at("restart").click()
     studio.expect_state("application_running")
     expect(studio.at("held-banner")).to_have_count(0)

@@ -198,6 +198,21 @@ def two_runs_stand_beside_each_other(studio: Studio) -> None:
     popup.value.close()
 
 
+def the_speed_until_then_is_plotted(studio: Studio) -> None:
+    """From the recording alone, where nothing runs: with the moment, and all of the run after it."""
+    panel(studio, "Topics")
+    studio.at("topic-/odom").get_by_role("button", name="Show /odom").click()
+    echo = studio.at("echo-/odom")
+    expect(echo).to_contain_text(f"{shown_t(studio):.0f}.")
+    for field in ("pose.pose.position.x", "twist.twist.linear.x"):
+        echo.get_by_label(f"Plot {field}").click()
+    chart = studio.at("plot").get_by_test_id("chart")
+    expect(chart).to_have_attribute("data-samples", re.compile(r"^\d{2,}$"))
+    expect(studio.at("plot-notes")).to_be_empty()
+    expect(studio.at("plot-cursor")).to_be_visible()
+    echo.evaluate("element => { element.parentElement.scrollTop = 0; }")
+
+
 def somebody_else_follows_the_link(studio: Studio, browser: Browser, t: float) -> None:
     """In another browser, where no session is: the link alone shows the moment."""
     page = studio.page
@@ -215,6 +230,8 @@ def somebody_else_follows_the_link(studio: Studio, browser: Browser, t: float) -
     wait_until(lambda: abs(shown_t(other) - t) < 0.01, "the link's moment is shown")
     expect(other.at("recorded-canvas").get_by_test_id("node-n6")).to_have_attribute("data-status", "RUNNING")
     expect_a_heading(other.page, "a run that somebody sent")
+    expect(other.at("viewer-3d")).to_have_attribute("data-objects", re.compile("[1-9]"))
+    the_speed_until_then_is_plotted(other)
     for scheme in ("dark", "light"):
         other.page.evaluate(
             "s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme

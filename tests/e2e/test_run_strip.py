@@ -34,6 +34,7 @@ def test_messages_have_a_place_of_their_own(shared_studio: Studio) -> None:
     a_fault_moves_and_covers_nothing(studio)
     the_first_edit_answers_it(studio)
     the_program_is_restarted_where_the_robot_stands(studio)
+    a_changed_program_is_applied_while_it_runs(studio)
     a_message_moves_the_robot_only_while_the_world_runs(studio)
     studio.end_session()
 
@@ -81,6 +82,27 @@ def the_program_is_restarted_where_the_robot_stands(studio: Studio) -> None:
     studio.at("restart").click()
     studio.expect_state("application_running")
     wait_until(lambda: studio.stat("t") > stopped, "the world continued")
+
+
+def a_changed_program_is_applied_while_it_runs(studio: Studio) -> None:
+    """The world and the other blocks continue; it asks before it halts what runs."""
+    before = studio.stat("t")
+    studio.replace_code(WORKS.replace("I begin", "I was changed"))
+    offer = studio.at("restart-offer")
+    expect(offer).to_be_visible()
+    studio.picture("apply-offer")
+    offer.get_by_role("button", name="Apply").click()
+    plan = studio.at("apply-plan")
+    expect(plan).to_contain_text("Running, and halted now:")
+    expect(plan).to_contain_text("Forward")
+    expect(studio.at("apply-anyway")).to_be_focused()
+    studio.picture("apply-plan")
+    studio.page.keyboard.press("Enter")
+    expect(studio.at("console")).to_contain_text("I was changed")
+    expect(offer).to_have_count(0)
+    assert studio.stat("t") > before
+    expect(studio.at("console").get_by_role("separator", name="Run 4")).to_have_count(0)
+    studio.expect_state("application_running")
 
 
 def a_message_moves_the_robot_only_while_the_world_runs(studio: Studio) -> None:

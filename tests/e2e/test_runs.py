@@ -124,11 +124,15 @@ def test_the_log_of_another_robot_is_opened_on_the_axis(studio: Studio) -> None:
     studio.picture("log-of-a-robot-list")
     tab.get_by_text("Canvas", exact=True).click()
     expect(patrol).to_have_attribute("data-past", "SUCCESS")
+    page.get_by_role("tab", name="Timeline", exact=True).click()
+    line = studio.at("timeline").get_by_role("button", name=re.compile("^patrol"))
+    expect(line).to_be_visible()
     strip.focus()
     for scheme in ("dark", "light"):
         page.evaluate("s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme)
         studio.picture(f"log-of-a-robot-{scheme}")
     page.keyboard.press("Escape")
+    expect(line).to_have_count(0)
     expect(axis).to_have_count(0)
     expect(recorded).to_have_count(0)
 

@@ -25,7 +25,7 @@ DIALOGUES = {
     "shortcuts": "Control+Slash",
 }
 PANELS = (
-    *("Timeline", "Topics", "Breakpoints", "Problems", "Blackboard", "Library", "Outline"),
+    *("Timeline", "Topics", "Breakpoints", "Profile", "Problems", "Blackboard", "Library", "Outline"),
     *("History", "Nodes", "Search", "Camera"),
 )
 
@@ -47,6 +47,12 @@ def screens(studio: Studio) -> Iterator[str]:
         yield name
         page.keyboard.press("Escape")
         expect(dialogue).to_have_count(0)
+    for name in ("More", "More ways to run"):
+        page.get_by_role("button", name=name, exact=True).click()
+        expect(page.get_by_role("menu")).to_be_visible()
+        yield f"menu-{name.lower().replace(' ', '-')}"
+        page.keyboard.press("Escape")
+        expect(page.get_by_role("menu")).to_have_count(0)
     page.get_by_role("tab", name="Explorer", exact=True).click()
     studio.open_file("actions/Forward.py")
     yield "code"
@@ -73,7 +79,7 @@ def everything_is_within_reach_of_a_narrow_window_in_spanish(studio: Studio) -> 
     studio.menu("More").get_by_role("menuitem", name="Español").click()
     page.set_viewport_size({"width": 480, "height": 850})
     tabs = page.locator(".flexlayout__tabset_tabbar_outer").last.get_by_role("tab")
-    expect(tabs).to_have_count(18)
+    expect(tabs).to_have_count(19)
     for name in tabs.all_inner_texts():
         tab = tabs.filter(has_text=re.compile(f"^{name}$"))
         tab.evaluate("tab => tab.scrollIntoView()")

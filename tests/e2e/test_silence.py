@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 def manager_of(server: Server) -> psutil.Process:
     """Returns the manager of the only running session."""
-    (manager,) = [child for child in server.process.children() if "manager" in child.cmdline()]
+    (manager,) = [child for child in server.process.children() if "executor.manager" in child.cmdline()]
     return manager
 
 

@@ -22,6 +22,7 @@ from translator import load, to_app_zip
 
 ROOT = Path(__file__).parents[2]
 TOKEN = "secret"
+LAST_EVENTS = 6  # of an error of a client that waited in vain
 decode_frame = msgspec.msgpack.Decoder(Scene | Poses | Scan | Camera | View | RecordingPart).decode
 
 
@@ -93,9 +94,13 @@ class SessionClient:
                 self._changed.notify_all()
 
     async def until(self, condition, timeout_s=60):
-        async with asyncio.timeout(timeout_s), self._changed:
-            await self._changed.wait_for(condition)
-            return condition()
+        try:
+            async with asyncio.timeout(timeout_s), self._changed:
+                await self._changed.wait_for(condition)
+                return condition()
+        except TimeoutError as error:
+            last = [f"{e['command']} {e['data']}"[:300] for e in self.events[-LAST_EVENTS:]]
+            raise TimeoutError(f"not in {timeout_s} s; the last events were: {last}") from error
 
     async def event(self, name, where=lambda data: True, *, after=0, timeout_s=60):
         """Returns the first event of a name after the given place in `events`."""

@@ -14,9 +14,12 @@ import pytest
 
 from executor.session.hangs.vitals import FAULT_AFTER_S
 from executor.session.ladder import State
+from executor.session.recording import MOST_LOST
 from tests.budget import count
 from tests.executor.hanging import ROOT, hanging_session
 from tests.executor.session_client import SessionClient, manager_process, run_data
+from tests.tree_gardener.debugging.hooked import free_port
+from tree_gardener.groot.client import Groot2Client, SilenceError
 
 pytestmark = pytest.mark.simulation
 
@@ -29,30 +32,37 @@ def chance_of_today():
     return random.Random(seed)  # noqa: S311
 
 
+VICTIMS = ("application", "world", "recorder")
+OF_A_SESSION = len(VICTIMS) * MOST_LOST
+"""A session replaces its recorder no more often."""
+
+
 async def test_a_process_that_is_killed_while_the_tree_is_held_is_reported_and_replaced():
-    victims = ["application", "world", "recorder"]
-    async with hanging_session() as session:
-        for number in range(count("held_kills")):
-            kind = victims[number % len(victims)]
-            await session.climb(State.HELD)
-            victim = await session.spare(kind)
-            at, began_s = len(session.client.events), time.monotonic()
-            os.kill(victim.pid, signal.SIGKILL)
-            if kind in LEFT:
-                left = LEFT[kind]
-                come = await session.client.event(
-                    "state-changed", lambda d, left=left: d["state"] == left, after=at
-                )
-                faults = session.client.named("fault", after=at)
-                [fault] = [fault for fault in faults if fault["kind"] == "process"]
-                assert "SIGKILL" in fault["message"]
-            else:
-                come = await session.client.event("recording_stopped", lambda d: d["goes_on"], after=at)
-                assert session.client.state == State.HELD
-            sys.stdout.write(f"{kind}: true after {come['at'] - began_s:.2f} s\n")
-            await session.spare(kind, other_than=victim.pid)
-        await session.ask("set_breakpoints", {"breakpoints": []})
-        await session.runs()
+    left = count("held_kills")
+    while left > 0:
+        async with hanging_session() as session:
+            for number in range(min(left, OF_A_SESSION)):
+                await kill(session, VICTIMS[number % len(VICTIMS)])
+            left -= OF_A_SESSION
+            await session.ask("set_breakpoints", {"breakpoints": []})
+            await session.runs()
+
+
+async def kill(session, kind):
+    """Kills a process while the tree is held, and waits until the session has reported and replaced it."""
+    await session.climb(State.HELD)
+    victim = await session.spare(kind)
+    at, began_s = len(session.client.events), time.monotonic()
+    os.kill(victim.pid, signal.SIGKILL)
+    if kind in LEFT:
+        come = await session.client.event("state-changed", lambda d: d["state"] == LEFT[kind], after=at)
+        [fault] = [each for each in session.client.named("fault", after=at) if each["kind"] == "process"]
+        assert "SIGKILL" in fault["message"]
+    else:
+        come = await session.client.event("recording_stopped", lambda d: d["goes_on"], after=at)
+        assert session.client.state == State.HELD
+    sys.stdout.write(f"{kind}: true after {come['at'] - began_s:.2f} s\n")
+    await session.spare(kind, other_than=victim.pid)
 
 
 async def test_a_process_that_is_stopped_while_the_tree_is_held_is_reported():
@@ -90,3 +100,27 @@ async def test_a_page_that_is_gone_leaves_the_tree_held_and_a_killed_manager_lea
         manager.kill()
         _, alive = await asyncio.to_thread(psutil.wait_procs, family, 60)
         assert alive == []
+
+
+async def test_groot2_looks_at_a_tree_while_it_is_held_and_while_it_runs_and_no_longer():
+    port = free_port()
+    async with hanging_session() as session:
+        await session.climb(State.HELD)
+        taken = await session.client.ask("serve_groot2", {"port": session.client.port})
+        assert taken["code"] == "port_taken"
+        await session.ask("serve_groot2", {"port": port})
+        assert session.client.named("groot2") == [{"port": port}]
+        assert await asyncio.to_thread(look, port) == 1
+        await session.ask("set_breakpoints", {"breakpoints": []})
+        await session.ask("continue_run")
+        await session.runs()  # another run is served, too
+        assert await asyncio.to_thread(look, port) == 1
+        await session.ask("serve_groot2", {"port": 0})
+        with pytest.raises(SilenceError):
+            await asyncio.to_thread(look, port)
+
+
+def look(port):
+    """Returns the first uid of the tree that a client of Groot2's protocol sees."""
+    with Groot2Client("127.0.0.1", port) as client:
+        return client.tree().nodes[0].uid

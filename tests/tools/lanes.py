@@ -1,9 +1,9 @@
-"""`make test-python`: the browser's tests and all others beside each other, since each mostly waits.
+"""`make test-python`: two runs of pytest beside each other, since tests of browsers and robots mostly wait.
 
 Every line is shown as it comes, with the name of its lane; failures and their errors are listed again at the
-end. The two lanes share the machine, so a walk through the browser can run out of time that it has alone: a
-few walks that failed are run again after the lanes. One that fails again has failed; one that passes stays
-listed as unsteady. Arguments go to each run of pytest.
+end. The two lanes share the machine, so a test that waits for other processes can run out of time that it has
+alone: a few tests that failed are run again after the lanes. One that fails again has failed; one that passes
+stays listed as unsteady. Arguments go to each run of pytest.
 """
 
 from __future__ import annotations
@@ -17,23 +17,27 @@ from pathlib import Path
 from typing import Final
 
 ROOT: Final = Path(__file__).resolve().parents[2]
+# The browser's tests take less time than the others: these folders run before them.
+WITH_THE_BROWSER: Final = ["tests/translator", "tests/tree_gardener", "tests/contracts", "tests/tools"]
 # The arguments of each lane for pytest.
-LANES: Final = {"browser": ["tests/e2e"], "others": ["tests", "--ignore=tests/e2e"]}
+LANES: Final = {
+    "browser": ["tests/e2e", *WITH_THE_BROWSER],
+    "others": ["tests", *(f"--ignore={folder}" for folder in ("tests/e2e", *WITH_THE_BROWSER))],
+}
 # Results of pytest; all others mean that its run did not come to its end.
 PASSED: Final = 0
 TESTS_FAILED: Final = 1
 NOT_COMPLETE: Final = 2
-# More failed walks than these have another cause than a busy machine.
+# More failed tests than these have another cause than a busy machine.
 AGAIN_AT_MOST: Final = 3
 # The lines of an error that are shown again at the end.
 ERROR_LINES: Final = 6
-_FAILURE: Final = re.compile(r"(?:FAILED|ERROR) (?P<test>tests/\S+)")
-_WALK: Final = re.compile(r"FAILED (?P<test>tests/e2e/\S+)")
+_FAILURE: Final = re.compile(r"(?P<how>FAILED|ERROR) (?P<test>tests/[^\s\[]+(?:\[.*?\](?= - |\s*$))?)")
 _TITLE: Final = re.compile(r"_{3,} .+ _{3,}$")
 
 
 def main(arguments: list[str]) -> int:
-    """Runs the lanes to their ends, then failed walks alone; returns 0 if all passed."""
+    """Runs the lanes to their ends, then a few failed tests alone; returns 0 if all passed."""
     began_s = time.monotonic()
     lanes = [Lane(name, pytest(*run, *arguments)) for name, run in LANES.items()]
     try:
@@ -46,15 +50,15 @@ def main(arguments: list[str]) -> int:
             lane.join()
         return 130
     is_complete = all(lane.result in (PASSED, TESTS_FAILED) for lane in lanes)
-    walks = walks_to_repeat([line for lane in lanes for line in lane.failures]) if is_complete else []
-    again = [Lane("again", pytest(*walks, *arguments))] if walks else []
+    tests = to_repeat([line for lane in lanes for line in lane.failures]) if is_complete else []
+    again = [Lane("again", pytest(*tests, *arguments))] if tests else []
     for lane in again:
         lane.run()
     report = [*lanes, *again]
     for lane in report:
         print("".join(f"{lane.name:7} | {line}" for line in lane.summary), end="")
     if again and again[0].result == PASSED:
-        print(f"UNSTEADY, passed when run alone: {' '.join(walks)}")
+        print(f"UNSTEADY, passed when run alone: {' '.join(tests)}")
     print(", ".join(map(str, report)), f"in {(time.monotonic() - began_s) / 60:.1f} min")
     return max(lane.result for lane in again or lanes)
 
@@ -64,10 +68,11 @@ def pytest(*arguments: str) -> list[str]:
     return [sys.executable, "-m", "pytest", *arguments]
 
 
-def walks_to_repeat(failures: list[str]) -> list[str]:
-    """Returns the walks that are run again: all that failed, if they are few and nothing else failed."""
-    walks = [found["test"] for line in failures if (found := _WALK.match(line))]
-    return walks if len(walks) == len(failures) <= AGAIN_AT_MOST else []
+def to_repeat(failures: list[str]) -> list[str]:
+    """Returns the tests that are run again: all that failed, if they are few and each ran."""
+    found = [match for line in failures if (match := _FAILURE.match(line))]
+    ran = [match["test"] for match in found if match["how"] == "FAILED"]
+    return ran if len(ran) == len(found) <= AGAIN_AT_MOST else []
 
 
 class Lane(threading.Thread):

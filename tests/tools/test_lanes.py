@@ -1,4 +1,4 @@
-"""Failures of two runs of pytest are listed at the end, and a few walks are run again."""
+"""Failures of two runs of pytest are listed at the end, and a few tests are run again."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ import sys
 
 import pytest
 
-from tests.tools.lanes import AGAIN_AT_MOST, ERROR_LINES, NOT_COMPLETE, Lane, walks_to_repeat
+from tests.tools.lanes import AGAIN_AT_MOST, ERROR_LINES, NOT_COMPLETE, Lane, to_repeat
 
 WALK = "FAILED tests/e2e/test_a.py::test_walk[dark] - AssertionError: no\n"
+CASE = "FAILED tests/cli/test_b.py::test_b[a b - c] - AssertionError\n"
 
 
 @pytest.mark.parametrize(
@@ -16,13 +17,13 @@ WALK = "FAILED tests/e2e/test_a.py::test_walk[dark] - AssertionError: no\n"
     [
         ([], []),
         ([WALK], ["tests/e2e/test_a.py::test_walk[dark]"]),
-        ([WALK, "FAILED tests/executor/test_b.py::test_b - AssertionError\n"], []),
+        ([WALK, CASE], ["tests/e2e/test_a.py::test_walk[dark]", "tests/cli/test_b.py::test_b[a b - c]"]),
         (["ERROR tests/e2e/test_a.py::test_walk - no browser\n"], []),
         ([WALK] * (AGAIN_AT_MOST + 1), []),
     ],
 )
-def test_few_walks_that_failed_are_run_again_alone(failures: list[str], again: list[str]) -> None:
-    assert walks_to_repeat(failures) == again
+def test_few_tests_that_failed_are_run_again_alone(failures: list[str], again: list[str]) -> None:
+    assert to_repeat(failures) == again
 
 
 def test_each_failure_is_listed_with_the_beginning_of_its_error() -> None:
@@ -35,7 +36,7 @@ def test_each_failure_is_listed_with_the_beginning_of_its_error() -> None:
     assert lane.summary == [WALK, *(f"E   line {number}\n" for number in range(ERROR_LINES))]
 
 
-def test_a_run_that_ends_before_its_summary_is_not_taken_for_failed_walks() -> None:
+def test_a_run_that_ends_before_its_summary_is_not_taken_for_failed_tests() -> None:
     lane = Lane("browser", [sys.executable, "-c", "raise SystemExit(1)"])
     lane.run()
     assert lane.result == NOT_COMPLETE

@@ -118,10 +118,13 @@ def test_what_is_of_a_tool_is_read_from_no_zip_and_goes_into_no_package():
     files = read_folder(example)
     dirty = files | dict.fromkeys(TOOLS, b"x")
     assert read_zip(zipped(dirty.items())) == files
-    for made in (dict(to_ros2_package(load(dirty)).files), read_zip(to_app_zip(load(dirty)))):
-        assert made
-        assert not [path for path in made if is_of_tool(path)]
-        assert b"x" not in made.values()
+    package = dict(to_ros2_package(load(dirty)).files)
+    # Its own workflow is generated.
+    assert package == dict(to_ros2_package(load(files)).files)
+    app = read_zip(to_app_zip(load(dirty)))
+    assert app
+    assert not [path for path in app if is_of_tool(path)]
+    assert b"x" not in {*package.values(), *app.values()}
 
 
 def test_folders_are_read_without_links_and_hidden_folders(tmp_path):

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+import yaml
 
 from translator import load, to_ros2_package
 from translator.archive import read_folder
@@ -173,3 +174,19 @@ def test_a_test_of_bump_and_go_reaches_what_was_listed_by_hand():
     suite = job.suite()
     seen = suite.run(job.cases(suite)[0][0]).seen["MainTree"]
     assert {node: set(items) for node, items in seen.items()} == WAY_IS_FREE
+
+
+def test_a_package_with_tests_has_a_workflow_that_installs_what_it_needs():
+    files = dict(read_folder(ROOT / PROJECTS[0]))
+    steps = workflow_of(files)
+    assert not any("pip install" in step for step in steps)
+    steps = workflow_of({**files, "requirements.txt": b"numpy\n"})
+    assert any(step.endswith("-r src/laser_bump_and_go/requirements.txt") for step in steps)
+    untested = {path: raw for path, raw in files.items() if not path.startswith("tests/")}
+    assert not any(path.startswith(".github") for path in to_ros2_package(load(untested)).files)
+
+
+def workflow_of(files):
+    package = to_ros2_package(load(files))
+    [job] = yaml.safe_load(package.files[f".github/workflows/{package.name}.yml"])["jobs"].values()
+    return [step["run"] for step in job["steps"] if "run" in step]

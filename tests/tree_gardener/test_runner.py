@@ -186,3 +186,16 @@ def test_the_tree_knows_which_action_is_being_ticked() -> None:
     Runner(tree, tick_hz=10).tick_due(0.0)
     assert seen == [3]
     assert tree.current_uid == 0
+
+
+def test_a_caller_that_counts_the_ticks_decides_when_one_is_due() -> None:
+    subject = runner(R, R, R, S, tick_hz=7.0)
+    assert [subject.tick_now() for _ in range(2)] == [Status.RUNNING] * 2  # no time, so none is left out
+    subject.pause()
+    assert subject.tick_now() is None
+    subject.step()
+    assert [subject.tick_now(), subject.tick_now()] == [Status.RUNNING, None]
+    subject.resume()
+    assert subject.tick_now() is Status.SUCCESS
+    assert subject.tick_now() is None
+    assert subject.is_finished

@@ -8,8 +8,11 @@ from typing import TYPE_CHECKING
 
 from translator.action import source_text
 from translator.action_returns import returns_of
+from translator.action_waits import waiting_calls
 from translator.diagnostic import Place, diagnostic
 from translator.python_source import parse
+from translator.settings import NO_UNIVERSE
+from translator.shared_modules import lost_imports, shared_modules
 from translator.text import is_clean
 
 if TYPE_CHECKING:
@@ -29,13 +32,38 @@ def check_actions(context: Context) -> None:
         if name in used and is_stub(action.source):
             tree, node = used[name]
             context.report("BT0613", tree, node, name=name, path=action.path)
-        if not is_clean(source_text(action)):
+        if not is_clean(source_text(action.source)):
             place = Place(action.path, line=1)
             context.found.append(diagnostic("BT0614", place))
         context.found.extend(_unknown_types(action))
         if name in used and (returns := returns_of(action.source, name)).problem:
             place = Place(action.path, line=returns.line)
             context.found.append(diagnostic("BT0617", place, name=name, problem=returns.problem))
+    own = [name for name in context.project.actions if name in used]
+    _check_imports(context, own)
+    _check_waits(context, own)
+
+
+def _check_waits(context: Context, used: list[str]) -> None:
+    """Reports calls that stop the world of an exact run."""
+    settings = context.project.settings
+    if settings.time != "exact" or settings.universe == NO_UNIVERSE:
+        return
+    for name in used:
+        action = context.project.actions[name]
+        for call in waiting_calls(action.source, name):
+            place = Place(action.path, line=call.line)
+            context.found.append(diagnostic("BT0622", place, call=call.name, method=call.method, name=name))
+
+
+def _check_imports(context: Context, used: list[str]) -> None:
+    """Reports imports from `actions/` that find no file, and modules that cannot be stored in XML."""
+    for path, wanted in lost_imports(context.project, used):
+        place = Place(path, line=wanted.line)
+        context.found.append(diagnostic("BT0621", place, name=wanted.name))
+    for module in shared_modules(context.project, used):
+        if not is_clean(source_text(module.source)) and module.name not in context.project.actions:
+            context.found.append(diagnostic("BT0614", Place(module.path, line=1)))
 
 
 def _unknown_types(action: ActionModel) -> Iterator[Diagnostic]:

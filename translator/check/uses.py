@@ -148,7 +148,7 @@ def outer_name(node: Node, inner: str) -> str | None:
 
 
 def is_local(context: Context, tree: Tree, key: str) -> bool:
-    """Returns whether an entry of a tree that is called belongs to it alone, in each call."""
+    """Returns whether no caller of a tree shares its entry: it is no port, and no call maps it."""
     if key.startswith("@") or any(port.name == key for port in tree.ports):
         return False
     return all(

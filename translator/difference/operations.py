@@ -155,7 +155,7 @@ def _changes(node_id: str, before: Mapping[str, str], after: Mapping[str, str]) 
 
 
 def rising(ranks: Sequence[int]) -> set[int]:
-    """Returns the places of a longest rising part of a list of different numbers."""
+    """Returns the indices of a longest increasing subsequence of distinct numbers (patience sorting)."""
     ends: list[int] = []
     places: list[int] = []
     previous: list[int] = []

@@ -18,6 +18,7 @@ from translator.export import require_sound, used_actions
 from translator.importer import project_files
 from translator.project import Project, load
 from translator.settings import Settings
+from translator.shared_modules import shared_modules
 from translator.text import is_xml_name
 from translator.xml.escape import attribute, character_data
 from translator.xml.read import read_document
@@ -84,11 +85,14 @@ def write_old_form(project: Project) -> str:
     lines.extend(_branch(project, main, main.root or "", 2))
     lines += ["  </BehaviorTree>", "  <Code>"]
     for action in used_actions(project):
-        lines.append(f"    <{action.name}>{character_data(source_text(action))}</{action.name}>")
+        lines.append(f"    <{action.name}>{character_data(source_text(action.source))}</{action.name}>")
     return "\n".join([*lines, "  </Code>", f"</{ROOT}>", ""])
 
 
 def _not_known_there(project: Project) -> Iterator[Diagnostic]:
+    actions = [action.name for action in used_actions(project)]
+    for module in shared_modules(project, actions):
+        yield diagnostic("BT0810", Place(module.path, line=1), what="modules that actions share")
     for tree in project.trees.values():
         for node in tree.walk():
             place = Place(tree.file or diagram_path(tree.id), tree=tree.id, node=node.id)

@@ -122,6 +122,7 @@ class _Builder:
             text = json.dumps(document, ensure_ascii=False, indent=1) + "\n"
             files[f"{self.name}/test/behaviour_tests.json"] = text.encode()
             files[f"{self.name}/test/test_behaviours.py"] = render("test_behaviours.py", name=self.name)
+            files[f".github/workflows/{self.name}.yml"] = render("workflow.yml", **values)
         if "LICENSE" in self.project.files:
             files[f"{self.name}/LICENSE"] = self.project.files["LICENSE"]
         return {**files, **engine_package()}

@@ -40,6 +40,7 @@ class CustomControl(Control):
 
     Attributes:
         instance_behaviour: the user's object.
+        owner: the same, or the adapter around a composite or decorator of py_trees.
         thread: the id of the thread that runs the user's code now, or 0.
         is_ticking: whether that code is `update`.
         is_in_child: whether a child is being ticked.
@@ -47,18 +48,20 @@ class CustomControl(Control):
     """
 
     __slots__ = (
-        *("instance_behaviour", "is_in_child", "is_ticking", "marks_running", "own_halt", "thread"),
-        *("update", "was_halted"),
+        *("instance_behaviour", "is_in_child", "is_ticking", "marks_running", "own_halt", "owner"),
+        *("thread", "update", "was_halted"),
     )
 
     def __init__(self, kind: str, name: str, manifest: Manifest | None, ports: Mapping[str, str]) -> None:
         super().__init__(kind, name, manifest, ports)
         self.instance_behaviour: Any = None
+        self.owner: Any = None
         self.thread = 0
         self.is_ticking = self.is_in_child = self.was_halted = False
 
     def bind(self, behaviour: ControlNode) -> None:
         """Sets the user's object."""
+        self.owner = behaviour
         self.instance_behaviour = getattr(behaviour, "adapted", behaviour)
         self.update: Callable[[], Any] = behaviour.update
         self.marks_running = bool(behaviour.MARKS_RUNNING)
@@ -193,7 +196,8 @@ class CustomControl(Control):
 
     def start_timer(self, delay_s: float, callback: Callable[[], None]) -> Timer:
         """Starts a timer of the tree that calls the user's code."""
-        return self.tree.timers.start(delay_s, lambda: self.call(callback))
+        owner = self.owner  # it may have moved to another node when the time is over
+        return self.tree.timers.start(delay_s, lambda: owner.tree_gardener_node.call(callback), owner)
 
     # -- what the user's code calls -----------------------------------------------------------------
 

@@ -147,6 +147,8 @@ class Wiring:
     Attributes:
         tree: the tree.
         asks_all: whether every node asks.
+        asks_halts: whether any node asks when it is halted. Then the tree can be held within the tick of an
+            action, which may halt the tree, and every node has the function round its tick.
         alone: the node that is ticked in place of the root, or None.
         epoch: for how long the same nodes ask.
     """
@@ -154,7 +156,7 @@ class Wiring:
     def __init__(self, tree: "Tree", agent: Agent) -> None:
         self.tree = tree
         self.agent = agent
-        self.asks_all = False
+        self.asks_all = self.asks_halts = False
         self.alone: Node | None = None
         self._ticked_alone: Node | None = None
         self._is_removed = False
@@ -187,7 +189,7 @@ class Wiring:
 
     def reaches(self, node: Node) -> bool:
         """Returns whether a node, or one below it, asks."""
-        if self.asks_all or node.uid in self._wanted or node.uid in self._above:
+        if self.asks_all or self.asks_halts or node.uid in self._wanted or node.uid in self._above:
             return True
         return node.parent is None and (self.alone is not None or self._ticked_alone is not None)
 
@@ -306,6 +308,7 @@ class Wiring:
         nodes = self.tree.nodes
         self.epoch.is_over = True
         self.epoch = Epoch()
+        self.asks_halts = any(wanted.halted for wanted in self._wanted.values())
         self._above = set()
         for uid in self._wanted:
             above = nodes[uid - 1].parent

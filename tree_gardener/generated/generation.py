@@ -100,7 +100,9 @@ class Generation:
     def is_wanted(self) -> bool:
         """Returns whether code can do all that runs round the nodes now."""
         hooks = self.hooks
-        if not self.enabled or self.tree.node_times_s is not None or hooks.log is not None:
+        if not self.enabled or self.tree.node_times_s is not None:
+            return False
+        if hooks.log is not None or hooks.profile is not None:
             return False
         if hooks.wiring is not None and hooks.wiring.asks_all:
             return False
@@ -149,6 +151,7 @@ class Generation:
             times=hooks.times_leaves,
             counts=hooks.counts is not None,
             asks=wiring is not None and wiring.has_questions,
+            asks_halts=wiring is not None and wiring.asks_halts,
         )
         return Planner(variant, hooks.counts, hooks.has_hook, wiring)
 

@@ -91,13 +91,27 @@ RULES: Final[Mapping[type, Rule]] = {
 
 
 class Variant(NamedTuple):
-    """Whether nodes are observed, leaves marked, timed or counted, and whether nodes ask a debugger."""
+    """The extras round the ticks of nodes, for which code is made.
+
+    Attributes:
+        is_observed: whether nodes are observed.
+        marks: whether leaves are marked.
+        times: whether leaves are timed.
+        counts: whether results are counted.
+        asks: whether nodes ask a debugger.
+        asks_halts: whether it is asked at halts, so that the tree can be held within the tick of a leaf.
+    """
 
     is_observed: bool
     marks: bool
     times: bool
     counts: bool
     asks: bool = False
+    asks_halts: bool = False
+
+    def can_hold(self, kind: str) -> bool:
+        """Returns whether the tree can be held within the tick of a leaf of this kind."""
+        return self.asks_halts and kind in (STATEFUL, IMMEDIATE)
 
 
 class Part(NamedTuple):
@@ -194,6 +208,10 @@ class Planner:
         """Returns the questions that a node asks a debugger."""
         return NOTHING if self.wiring is None else self.wiring.wanted(node)
 
+    def is_asking(self, node: Node, rule: Rule) -> bool:
+        """Returns whether the code may be left for a debugger round the tick of a node."""
+        return self.wanted(node).is_round_tick or self.variant.can_hold(rule.kind)
+
     def regions(self, node: Node) -> list[Region]:
         """Returns the regions of a node: one, one for each slice of its children, or none without a rule."""
         self.called = list(node.children)
@@ -264,8 +282,8 @@ class Planner:
         bundles = self.variant.is_observed and rule.kind is not PARALLEL
         for position, node in enumerate(nodes):
             own = self.inlined(node, depth, in_parallel=rule.kind is PARALLEL)
-            is_plain = own is not None and not self.wanted(node).is_round_tick
-            is_bundled = bundles and is_plain and own is not None and _is_bundled(node, own, goes)
+            is_bundled = bundles and own is not None and not self.is_asking(node, own)
+            is_bundled = is_bundled and own is not None and _is_bundled(node, own, goes)
             if not is_bundled:
                 found += self.bundle()
             part = self.child(node, own, position, depth)
@@ -291,7 +309,7 @@ class Planner:
         return mark
 
     def child(self, node: Node, rule: Rule | None, position: int, depth: int) -> Part:
-        """Plans a node below the root; without a rule it is called."""
+        """Plans a node below the root: generated from its rule, or called if it has none."""
         first = len(self.values)
         self.values.append(node)
         if rule is None:
@@ -316,7 +334,7 @@ class Planner:
             return None
         if in_parallel:
             wanted = self.wanted(node)
-            asks = wanted.before or RUNNING in wanted.results
+            asks = wanted.before or RUNNING in wanted.results or self.variant.can_hold(rule.kind)
             is_plain = rule.kind is STATEFUL and node.guard is None and not asks
         elif rule.kind in COMPOSITES:
             fits = depth < MAX_DEPTH and self.size(node, depth) <= MAX_NODES

@@ -15,6 +15,7 @@ from tree_gardener.generated.parts import (
     AFTER_FAILURE,
     AFTER_SUCCESS,
     ASK_BEFORE,
+    CALL,
     COMPOSITES,
     DECIDING,
     IF_AFTER,
@@ -112,6 +113,8 @@ class Recovery:
             if returned is UNTICKED:
                 self.unmark()
                 returned = node.parent.ticks[self.position(node, part)]()
+            elif part.kind != CALL:  # the tree was held within its tick
+                returned = self.ended(node, returned)
             return self.climb(node, part, returned)
         if letter in _QUESTIONS:
             return self.asked(node, part, letter, returned)

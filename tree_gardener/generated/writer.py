@@ -340,7 +340,15 @@ class Writer:
         own = ON_SUCCESS if status == S else ON_FAILURE
         calls = [do(self.called(part, letter)) for letter in (own, POST) if letter in part.has]
         time = [] if part.kind in COMPOSITES else self.time(part)
-        return [*calls, *time, *self.asked_after(part, status), *self.count(part, status.lower())]
+        asked = [*self.held(part, status), *self.asked_after(part, status)]
+        return [*calls, *time, *asked, *self.count(part, status.lower())]
+
+    def held(self, part: Part, status: str) -> Statements:
+        """Returns the way out for a leaf within whose tick the tree was held."""
+        if not self.variant.can_hold(part.kind):
+            return []
+        is_over = syntax.attribute(self.fixed("EPOCH"), "is_over")
+        return [when(is_over, [give(self.rest(part, NODE, self.fixed(status)))])]
 
     def asked_before(self, part: Part) -> Statements:
         """Returns the question to a debugger before a node's tick."""

@@ -10,7 +10,20 @@ with tree.publish_groot2():
 ```
 """
 
-from tree_gardener.groot.protocol import GrootError
-from tree_gardener.groot.publisher import PORT, Groot2Publisher
+from typing import TYPE_CHECKING
+
+from tree_gardener.lazy import lazy_package
+
+if TYPE_CHECKING:
+    from tree_gardener.groot.protocol import GrootError
+    from tree_gardener.groot.publisher import PORT, Groot2Publisher
 
 __all__ = ["PORT", "Groot2Publisher", "GrootError"]
+
+lazy_package(
+    __name__,
+    {
+        "tree_gardener.groot.protocol": "GrootError",
+        "tree_gardener.groot.publisher": "PORT Groot2Publisher",
+    },
+)

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from tree_gardener.tree import Tree
 
 Content = bytes | None
+_CHANGES: Final = frozenset({RequestType.HOOK_INSERT, RequestType.HOOK_REMOVE, RequestType.UNLOCK})
+"""The requests that hold the tree or change its results."""
 
 
 class Answers:
@@ -32,9 +34,13 @@ class Answers:
         mirror: the copies of its state.
         hooks: its hooks.
         pack: writes a value as MessagePack.
+        looks_only: whether requests that hold or change the tree are refused.
     """
 
-    def __init__(self, tree: "Tree", mirror: Mirror, hooks: Hooks, pack: Pack) -> None:
+    def __init__(
+        self, tree: "Tree", mirror: Mirror, hooks: Hooks, pack: Pack, *, looks_only: bool = False
+    ) -> None:
+        self._looks_only = looks_only
         self.id: Final = uuid.uuid4().bytes
         self._document = document_of(tree)
         self._mirror = mirror
@@ -67,6 +73,8 @@ class Answers:
         return reply if content is None else [*reply, content]
 
     def _content(self, kind: RequestType, parts: Sequence[bytes]) -> Content:
+        if self._looks_only and kind in _CHANGES:
+            raise GrootError("this program can only be looked at; it is held and forced by its own debugger")
         if kind in self._answers:
             return self._answers[kind]()
         if kind not in self._answers_with_content:

@@ -19,6 +19,8 @@ from tree_gardener.status import Status
 if TYPE_CHECKING:
     from tree_gardener.tree import Tree
 
+Waiting = Callable[[], contextlib.AbstractContextManager[object]]
+
 
 class Hooks:
     """The hooks of one tree. It is the tree's debugger (`Tree.debug`) while there are any.
@@ -30,9 +32,17 @@ class Hooks:
         tree: the tree.
         reached: called with the uid of a node whose hook was reached, on the ticking thread.
         held: called before the tree waits, on the ticking thread.
+        waiting: entered while the tree waits, on the ticking thread.
     """
 
-    def __init__(self, tree: "Tree", reached: Callable[[int], None], held: Callable[[], None]) -> None:
+    def __init__(
+        self,
+        tree: "Tree",
+        reached: Callable[[int], None],
+        held: Callable[[], None],
+        waiting: Waiting = contextlib.nullcontext,
+    ) -> None:
+        self._waiting = waiting
         self._tree = tree
         self._reached = reached
         self._held = held
@@ -142,7 +152,7 @@ class Hooks:
             self._is_stale = True
 
     def attach(self, wiring: Wiring) -> None:
-        """Is called by `Tree.debug`."""
+        """Connects the hooks to the tree that they hold; `Tree.debug` calls it."""
         self._wiring = wiring
 
     def before(self, node: Node) -> None:
@@ -180,7 +190,11 @@ class Hooks:
                 wanted = None
             else:
                 self._reached(key.uid)
-                wanted = self._wait(hook) if hook.mode is Mode.BREAKPOINT else hook.desired_status
+                if hook.mode is Mode.BREAKPOINT:
+                    with self._waiting():
+                        wanted = self._wait(hook)
+                else:
+                    wanted = hook.desired_status
                 if hook.once and self._hooks.get(key) is hook and hook.enabled:
                     del self._hooks[key]
                     self._is_stale = True

@@ -15,6 +15,9 @@ from typing import Any, Final, NamedTuple
 from tree_gardener.status import IDLE, Status
 
 VERSION: Final = 2
+PORT: Final = 1667
+"""The usual port; the next one has the messages that nobody asks for."""
+LAST_PORT: Final = 65534
 WIRE_STATUS: Final = {
     Status.IDLE: 0,
     Status.RUNNING: 1,

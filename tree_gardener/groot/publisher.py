@@ -5,23 +5,31 @@ attaches and detaches the observer and the hooks, by timers that are due at once
 answers from copies.
 """
 
+import contextlib
 import threading
 from collections.abc import Callable
 from types import TracebackType
 from typing import TYPE_CHECKING, Final
 
 from tree_gardener.groot.answers import Answers
-from tree_gardener.groot.hooks import Hooks
+from tree_gardener.groot.hooks import Hooks, Waiting
 from tree_gardener.groot.libraries import libraries
 from tree_gardener.groot.mirror import Mirror
-from tree_gardener.groot.protocol import LONGEST_REQUEST, GrootError, Header, RequestType
+from tree_gardener.groot.protocol import (
+    LAST_PORT,
+    LONGEST_REQUEST,
+    PORT,
+    GrootError,
+    Header,
+    RequestType,
+)
 
 if TYPE_CHECKING:
     from tree_gardener.tree import Tree
 
-PORT: Final = 1667
+__all__ = ["ATTACH_S", "LAST_PORT", "LOCALHOST", "PORT", "SILENCE_S", "Groot2Publisher"]
+
 LOCALHOST: Final = "127.0.0.1"
-LAST_PORT: Final = 65534
 SILENCE_S: Final = 5.0
 """So long after its last request a client counts as gone: hooks are off, and a tree that waits continues."""
 ATTACH_S: Final = 0.2
@@ -38,21 +46,31 @@ class Groot2Publisher:
         tree: the tree.
         port: the port; the next one is used too.
         host: the address to listen at. The protocol has no password: anyone who reaches it can stop the tree.
+        looks_only: whether breakpoints and forced results of clients are refused.
+        waiting: entered on the ticking thread while the tree waits at a breakpoint of a client.
 
     Raises:
         GrootError: the ports cannot be used.
         ModuleNotFoundError: pyzmq or msgpack is not installed.
     """
 
-    def __init__(self, tree: "Tree", port: int = PORT, host: str = LOCALHOST) -> None:
+    def __init__(
+        self,
+        tree: "Tree",
+        port: int = PORT,
+        host: str = LOCALHOST,
+        *,
+        looks_only: bool = False,
+        waiting: Waiting = contextlib.nullcontext,
+    ) -> None:
         self._zmq, msgpack = libraries()
         if not 0 < port <= LAST_PORT:
             raise GrootError(f"port {port}: Groot2 needs two ports from 1 to {LAST_PORT + 1}")
         self.port = port
         self._tree = tree
         self._mirror = Mirror(tree, msgpack.packb)
-        self._hooks = Hooks(tree, self._tell, self._mirror.read)
-        self._answers = Answers(tree, self._mirror, self._hooks, msgpack.packb)
+        self._hooks = Hooks(tree, self._tell, self._mirror.read, waiting)
+        self._answers = Answers(tree, self._mirror, self._hooks, msgpack.packb, looks_only=looks_only)
         self._unobserve: Callable[[], None] | None = None
         self._is_attached = threading.Event()
         self._is_asked = False

@@ -4,7 +4,7 @@ import dataclasses
 import re
 import struct
 from collections.abc import Iterator
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from tree_gardener.document import Element, parse_document
 from tree_gardener.errors import LoadError
@@ -13,6 +13,8 @@ from tree_gardener.status import IDLE, Status
 
 _UID: Final = re.compile(r"[0-9]{1,5}")
 _STATUS: Final = struct.Struct("<HB")
+_TRANSITION: Final = struct.Struct("<IHHB")
+"""The time in µs, its lower and its upper bytes; uid and status."""
 _OF_WIRE: Final = {number: status for status, number in WIRE_STATUS.items()}
 _MOST_NODES: Final = 0xFFFF
 """Uids have two bytes."""
@@ -24,6 +26,7 @@ class RemoteNode:
 
     Attributes:
         uid: its number.
+        parent: that of the node above it; 0 for the root.
         type: the tag of the node in XML.
         name: its name.
         path: the path of its instance of a BehaviorTree, and its name.
@@ -32,6 +35,7 @@ class RemoteNode:
     """
 
     uid: int
+    parent: int
     type: str
     name: str
     path: str
@@ -50,6 +54,26 @@ class NodeState:
 
     status: Status
     was: Status = IDLE
+
+
+_STATES: Final = {BECAME_IDLE + number: NodeState(IDLE, was) for number, was in _OF_WIRE.items()} | {
+    number: NodeState(status) for number, status in _OF_WIRE.items()
+}
+"""The state of each number; there is one object of each, so that equal ones are found at once."""
+
+
+class Transition(NamedTuple):
+    """A change of a node's status.
+
+    Attributes:
+        time_us: microseconds since the begin of the recording, or since the epoch.
+        uid: the node.
+        status: its status from then on.
+    """
+
+    time_us: int
+    uid: int
+    status: Status
 
 
 @dataclasses.dataclass(frozen=True)
@@ -89,11 +113,11 @@ def read_tree(publisher: bytes, document: bytes) -> RemoteTree:
 
 
 def _nodes(main: Element, path: str, instances: dict[str, Element]) -> Iterator[RemoteNode]:
-    stack = [(child, path, 0) for child in reversed(main.children)]
+    stack = [(child, path, 0, 0) for child in reversed(main.children)]
     entered = {path}
     found = 0
     while stack:
-        element, around, depth = stack.pop()
+        element, around, depth, parent = stack.pop()
         found += 1
         uid = element.attributes.get("_uid", "")
         if not _UID.fullmatch(uid) or int(uid) > _MOST_NODES or found > _MOST_NODES:
@@ -107,10 +131,9 @@ def _nodes(main: Element, path: str, instances: dict[str, Element]) -> Iterator[
             below, inner = instances[full].children, full
         own = full.rpartition("/")[2] if element.tag == "SubTree" else element.attributes.get("name", "")
         name = own or element.tag
-        yield RemoteNode(
-            int(uid), element.tag, name, f"{around}/{name}" if around else name, depth, element.attributes
-        )
-        stack += [(child, inner, depth + 1) for child in reversed(below)]
+        where = f"{around}/{name}" if around else name
+        yield RemoteNode(int(uid), parent, element.tag, name, where, depth, element.attributes)
+        stack += [(child, inner, depth + 1, int(uid)) for child in reversed(below)]
 
 
 def read_statuses(data: bytes) -> tuple[dict[int, NodeState], int]:
@@ -118,15 +141,28 @@ def read_statuses(data: bytes) -> tuple[dict[int, NodeState], int]:
     whole = len(data) - len(data) % _STATUS.size
     dropped = 1 if whole < len(data) else 0
     states: dict[int, NodeState] = {}
+    known = _STATES.get
     for uid, number in _STATUS.iter_unpack(data[:whole]):
-        status, was = _OF_WIRE.get(number), _OF_WIRE.get(number - BECAME_IDLE)
-        if status is not None:
-            states[uid] = NodeState(status)
-        elif was is not None:
-            states[uid] = NodeState(IDLE, was)
+        if (state := known(number)) is not None:
+            states[uid] = state
         else:
             dropped += 1
     return states, dropped
+
+
+def read_transitions(data: bytes) -> tuple[list[Transition], int]:
+    """Returns the transitions of a reply, and the number of entries that could not be read."""
+    whole = len(data) - len(data) % _TRANSITION.size
+    dropped = 1 if whole < len(data) else 0
+    found: list[Transition] = []
+    known = _OF_WIRE.get
+    for low, high, uid, number in _TRANSITION.iter_unpack(data[:whole]):
+        status = known(number)
+        if status is None:
+            dropped += 1
+        else:
+            found.append(Transition(low | high << 32, uid, status))
+    return found, dropped
 
 
 def read_boards(document: Any) -> dict[str, dict[str, Any]]:

@@ -22,6 +22,7 @@ Log = list[tuple[int, Status]]
 TICKED: Final = "ticked"
 HALTED: Final = "halted while RUNNING"
 _DECIDING: Final = ("_failureIf", "_successIf", "_skipIf")
+_RESULTS: Final = {TICKED, *(status.name for status in Status)}
 _ENDING: Final = {
     "_onSuccess": "on_success",
     "_onFailure": "on_failure",
@@ -157,9 +158,14 @@ class Watch:
 
 
 class Coverage:
-    """The parts of all trees that the tests have reached, and the parts that are missing."""
+    """The parts of all trees that the tests have reached, and the parts that are missing.
 
-    def __init__(self) -> None:
+    Args:
+        results_only: whether only ticks and results count.
+    """
+
+    def __init__(self, *, results_only: bool = False) -> None:
+        self.results_only = results_only
         self.wanted: dict[str, dict[str, list[str]]] = {}
         self.names: dict[tuple[str, str], tuple[str, str]] = {}
         self.reached: dict[str, dict[str, set[str]]] = {}
@@ -173,7 +179,7 @@ class Coverage:
             self.names[node.tree_id, key] = (node.name, node.type)
             held = self.wanted.setdefault(node.tree_id, {}).setdefault(key, [])
             for item in _items(node, results, halts=halts):
-                if item not in held:
+                if item not in held and not (self.results_only and item not in _RESULTS):
                     held.append(item)
 
     def add_seen(self, seen: Seen) -> None:

@@ -1,7 +1,7 @@
 """Runs behaviour tests against the trees of one document."""
 
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 from tree_gardener.actions import load_actions
@@ -15,7 +15,7 @@ from tree_gardener.ports import INPUT, pointer_key
 from tree_gardener.status import RUNNING
 from tree_gardener.testing.cases import Case, Double, Failure, Result
 from tree_gardener.testing.claims import Claims, View, path_to
-from tree_gardener.testing.coverage import Coverage, Watch
+from tree_gardener.testing.coverage import Coverage, Watch, key_of
 from tree_gardener.testing.doubles import (
     DoubleBehaviour,
     LeafModel,
@@ -73,6 +73,22 @@ class Suite:
             except LoadError:
                 continue
         return coverage
+
+    def run_coverage(self, main: str, seen: Mapping[str, Sequence[str]]) -> dict[str, Any]:
+        """Returns the coverage by runs of a tree that are known by the results of their nodes alone.
+
+        Branches, conditions and halts are left out, since such runs do not tell them.
+
+        Args:
+            main: the tree that ran.
+            seen: the items of each node, by its path; other paths are ignored.
+        """
+        coverage = Coverage(results_only=True)
+        tree = self._tree(main)
+        coverage.add_tree(tree, self.returns)
+        for node in tree.nodes:
+            coverage.add_seen({node.tree_id: {key_of(node): tuple(seen.get(node.path, ()))}})
+        return coverage.to_json()
 
     # -- before the run -----------------------------------------------------------------------------
 

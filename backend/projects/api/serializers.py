@@ -412,8 +412,10 @@ class AppSerializer(serializers.Serializer[Any]):
     tick_hz = serializers.FloatField()
     on_finish = serializers.ChoiceField(choices=["stop", "repeat"])
     on_error = serializers.ChoiceField(choices=["stop", "failure"])
+    time = serializers.ChoiceField(choices=["exact", "live"])
     universe = serializers.SerializerMethodField()
     robot = serializers.CharField(allow_null=True)
+    revision = serializers.IntegerField(help_text="The revision of the project; a recording names it.")
 
     @extend_schema_field(
         {

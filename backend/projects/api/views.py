@@ -284,7 +284,7 @@ class Projects(ResourceViewSet):
         files = queries.contents(queries.project(project_id, user=user_of(request), need=Need.READ))
         for overlay in asked["files"]:
             files[names.file_path(overlay["path"], field="files.path")] = overlay["content"].encode()
-        return checking.tested(self, request, files, Response)
+        return checking.tested(self, request, files, Response, with_job=False)
 
     @extend_schema(
         operation_id="get_app",
@@ -302,9 +302,8 @@ class Projects(ResourceViewSet):
         universe = request.query_params.get("universe") or ""
         files = queries.contents(project)
         built_in = checking.built_in_universe(files, universe or project.universe)
-        return checking.answered(
-            self, request, "app", Response, files=files, universe=universe, built_in=built_in
-        )
+        asked = {"files": files, "universe": universe, "built_in": built_in, "revision": project.revision}
+        return checking.answered(self, request, "app", Response, **asked)
 
 
 class InspectAction(APIView):

@@ -46,14 +46,32 @@ def tested(
     request: Request,
     files: Mapping[str, bytes],
     make: Callable[[Any], HttpResponseBase],
+    *,
+    with_job: bool,
 ) -> Deferred:
-    """Answers a request with the results of a project's behaviour tests.
+    """Answers a request with the results of a project's behaviour tests, and with their job if wanted.
 
     Raises:
         BusyError: too many jobs wait already.
     """
     kept = {path: data for path, data in files.items() if path.startswith(_TESTED)}
-    return answered(view, request, "behaviour_tests", make, files=kept)
+    return answered(view, request, "behaviour_tests", make, files=kept, with_job=with_job)
+
+
+def covered(
+    view: APIView,
+    request: Request,
+    files: Mapping[str, bytes],
+    seen: Mapping[str, str],
+    make: Callable[[Any], HttpResponseBase],
+) -> Deferred:
+    """Answers a request with the coverage of a project's trees by the results of runs.
+
+    Raises:
+        BusyError: too many jobs wait already.
+    """
+    kept = {path: data for path, data in files.items() if path.startswith(_CHECKED)}
+    return answered(view, request, "run_coverage", make, files=kept, seen=dict(seen))
 
 
 def reported(

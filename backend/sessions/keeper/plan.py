@@ -94,6 +94,7 @@ class Plan:
         gate_source: the volume, or the folder of the host, with the gate's doors.
         stack: the name that distinguishes the containers of this keeper from those of another.
         grace_s: seconds for which a session without clients lives.
+        hold_minutes: minutes for which a debugger may hold a tree; 0 is without limit.
         tools_grace_s: seconds for which a user's tools stay while no editor is open.
         processors: the numbers of the processors on which containers run; if empty, Docker chooses them.
     """
@@ -106,6 +107,7 @@ class Plan:
     tools_grace_s: float = 600
     tools_limits: Limits = TOOLS_LIMITS
     processors: tuple[int, ...] = ()
+    hold_minutes: float = 15
 
     def container_name(self, session_id: str) -> str:
         """Returns the name of a session's container."""
@@ -128,6 +130,7 @@ class Plan:
             f"BT_STUDIO_APPLICATION_MEMORY_MB={max(64, int(limits.memory_mb * 0.6))}",
             f"BT_STUDIO_APPLICATION_FILE_MB={max(1, int(limits.disk_mb))}",
             f"BT_STUDIO_APPLICATION_PROCESSES={max(8, int(limits.pids / 4))}",
+            f"BT_STUDIO_HOLD_MINUTES={self.hold_minutes:g}",
         ]
         made = self._confined(token, limits, {SESSION_LABEL: session_id})
         return made | {"Cmd": command, "Env": made["Env"] + environment}
@@ -193,16 +196,21 @@ def read_plan(environment: Mapping[str, str] = os.environ, *, gate_source: str, 
         image=environment.get("BT_STUDIO_EXECUTOR_IMAGE") or "bt-studio-executor:latest",
         gate_source=gate_source,
         stack=stack,
-        grace_s=_seconds(environment, "BT_STUDIO_SESSION_GRACE_S", 300),
+        grace_s=_not_negative(environment, "BT_STUDIO_SESSION_GRACE_S", 300),
         limits=Limits().overridden(environment),
-        tools_grace_s=_seconds(environment, "BT_STUDIO_TOOLS_GRACE_S", 600),
+        tools_grace_s=_not_negative(environment, "BT_STUDIO_TOOLS_GRACE_S", 600),
         tools_limits=TOOLS_LIMITS.overridden(environment, TOOLS_PREFIX),
         processors=of_containers(environment),
+        hold_minutes=_not_negative(environment, "BT_STUDIO_HOLD_MINUTES", 15),
     )
 
 
-def _seconds(environment: Mapping[str, str], name: str, default: float) -> float:
+def _not_negative(environment: Mapping[str, str], name: str, default: float) -> float:
+    text = environment.get(name, "").strip()
     try:
-        return float(environment.get(name) or default)
+        found = float(text) if text else default
     except ValueError:
         raise ValueError(f"{name} is not a number") from None
+    if not 0 <= found < 1e9:
+        raise ValueError(f"{name}: {text!r} is not a number from 0 on")
+    return found

@@ -14,6 +14,8 @@ JSON object that the caller stores and passes to the other methods, also after a
     open_tools(id, token)  where a user's tools listen (`executor.tools`), as the path of a unix socket;
                      starts them if needed. Raises LaunchError if the launcher has no containers.
     recordings       the folder in which recordings are left, one folder a session; None if they end with it.
+    shares_network   whether executors share one network, so that each needs a ROS domain of its own.
+    starts_at_once   how many executors may be starting at a time; each start takes a thread that waits.
     survives_server  whether executors outlive the web server. If they do, two more methods are required:
     running()        the ids of all sessions whose executors run, known to the database or not.
     state_of(id)     the state of a session of which only the id is known.
@@ -34,6 +36,8 @@ if TYPE_CHECKING:
 
 State = Mapping[str, Any]
 UNKNOWN_EXIT: Final = -1
+OWN_NETWORK_DOMAIN: Final = 1
+"""The ROS domain of every executor that has a network of its own."""
 _METHODS: Final = ("start", "poll", "stop")
 _SURVIVORS_OWE: Final = ("running", "state_of")
 
@@ -47,6 +51,8 @@ class Spec:
     ros_domain_id: int
     start_timeout_s: float
     stop_timeout_s: float
+    target: str = ""
+    """HOST:PORT of the program that an attached session follows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +67,8 @@ class Launcher:
     """The interface of launchers; the module's docstring describes each method."""
 
     name: ClassVar[str] = ""
+    shares_network: ClassVar[bool] = False
+    starts_at_once: ClassVar[int] = 4
     survives_server: ClassVar[bool] = False
     recordings: Path | None = None
 

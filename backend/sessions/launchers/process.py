@@ -31,10 +31,22 @@ TOKEN_VARIABLE: Final = "BT_STUDIO_MANAGER_TOKEN"  # noqa: S105 - the name, not 
 STDERR_LINES: Final = 20
 RUNS: Final = "runs"
 """The folder in that of a session which has its recordings; the manager's own files are beside it."""
+OURS: Final = "BT_STUDIO_"
+FOR_EXECUTORS: Final = frozenset(
+    {
+        "BT_STUDIO_APPLICATION_CPU_S",
+        "BT_STUDIO_APPLICATION_FILE_MB",
+        "BT_STUDIO_APPLICATION_MEMORY_MB",
+        "BT_STUDIO_APPLICATION_PROCESSES",
+        "BT_STUDIO_HOLD_MINUTES",
+        "BT_STUDIO_RENDERER",
+    }
+)
+"""Our variables that executors read; all others stay here."""
 
 
 class ProcessLauncher(Launcher):
-    """Starts `bt-studio manager` on a free port of the loopback interface.
+    """Starts an executor's manager on a free port of the loopback interface.
 
     Args:
         log_folder: gets the output of each executor.
@@ -43,11 +55,12 @@ class ProcessLauncher(Launcher):
     """
 
     name = "process"
+    shares_network = True
 
     def __init__(
         self,
         log_folder: Path,
-        command: tuple[str, ...] = (sys.executable, "-m", "backend.cli.main"),
+        command: tuple[str, ...] = (sys.executable, "-m", "executor.manager"),
         recordings: Path | None = None,
     ) -> None:
         self._log_folder = log_folder
@@ -94,13 +107,14 @@ class ProcessLauncher(Launcher):
             family = _descendants(process)
             with contextlib.suppress(psutil.Error):
                 process.terminate()
-            _wait(process, child, timeout_s)
+            if not _is_stopped(process):
+                _wait(process, child, timeout_s)
             family = [*{*family, *_descendants(process)}, process]
             for member in family:
                 with contextlib.suppress(psutil.Error):
                     member.kill()
             _wait(process, child, timeout_s)
-            psutil.wait_procs([member for member in family if member != process], timeout=timeout_s)
+            _await_ends([member for member in family if member != process], timeout_s)
         if child is not None:
             with contextlib.suppress(subprocess.TimeoutExpired):
                 child.wait(timeout_s)
@@ -117,10 +131,12 @@ class ProcessLauncher(Launcher):
 
     def _spawn(self, spec: Spec, ready_fd: int, log: Path) -> subprocess.Popen[bytes]:
         log.parent.mkdir(parents=True, exist_ok=True)
-        arguments = ("manager", "--host", "127.0.0.1", "--port", "0")
+        arguments = ("--host", "127.0.0.1", "--port", "0")
         options: tuple[str, ...] = ("--token-env", TOKEN_VARIABLE, "--ready-fd", str(ready_fd))
         if self.recordings is not None:
             options += ("--recordings", str(self.recordings / spec.session_id / RUNS))
+        if spec.target:
+            options += ("--attach", spec.target)
         with log.open("wb") as output:
             child = subprocess.Popen(
                 (*self._command, *arguments, *options),
@@ -143,7 +159,11 @@ def _environment(spec: Spec) -> dict[str, str]:
 
     It is the web server's without secrets, with the session's ROS variables.
     """
-    kept = {name: value for name, value in os.environ.items() if not name.startswith("BT_STUDIO_")}
+    kept = {
+        name: value
+        for name, value in os.environ.items()
+        if name in FOR_EXECUTORS or not name.startswith(OURS)
+    }
     return kept | {
         TOKEN_VARIABLE: spec.token,
         "ROS_DOMAIN_ID": str(spec.ros_domain_id),
@@ -203,6 +223,28 @@ def _wait(process: psutil.Process, child: subprocess.Popen[bytes] | None, timeou
             child.wait(timeout_s)
         else:
             process.wait(timeout_s)
+
+
+def _await_ends(family: list[psutil.Process], timeout_s: float) -> None:
+    """Waits until killed processes have ended; those whose parent is gone may be reaped late, or never."""
+    deadline_s = time.monotonic() + timeout_s
+    while any(map(_runs, family)) and time.monotonic() < deadline_s:
+        time.sleep(0.01)
+
+
+def _runs(process: psutil.Process) -> bool:
+    try:
+        return bool(process.is_running() and process.status() != psutil.STATUS_ZOMBIE)
+    except psutil.Error:
+        return False
+
+
+def _is_stopped(process: psutil.Process) -> bool:
+    """Whether a process is stopped, as by SIGSTOP: it does not get the signal that asks it to end."""
+    try:
+        return bool(process.status() == psutil.STATUS_STOPPED)
+    except psutil.Error:
+        return False
 
 
 def _created(pid: int) -> float:

@@ -169,7 +169,7 @@ class Actions:
     def _answer_tick(self) -> None:
         try:
             broken = self._call_back()
-            status = None if broken else self._runner.tick_due(self._now_s)
+            status = None if broken else self._runner.tick_now()
             self._ticks += 1
             if self._ticks % self._navigation_every == 0:
                 self._check_navigation()

@@ -88,8 +88,8 @@ class SealedRun(EvaluationRun):
         self.world = self.make_world(self._write_assets())
         self._stack.append(self.world.close)
         self.open_sensors()
-        self._navigation = None
         self.node = self.make_node(None, self._remote)
+        self.make_stepper()
         self._stack.append(self.node.close)
         self._load()
 

@@ -268,17 +268,17 @@ class Prompt(cmd.Cmd):
             entry = board.find(key)
             if entry is None:
                 raise WordsError(f"there is no entry '{key}' here; `print` lists all entries")
-            self.say(f"{key} = {_short(entry.value)}")
+            self.say(f"{key} = {shown_value(entry.value)}")
             return
         for each in self.tree.boards:
             for name, entry in sorted(each.entries.items()):
-                self.say(f"{each.path + '/' if each.path else ''}{name} = {_short(entry.value)}")
+                self.say(f"{each.path + '/' if each.path else ''}{name} = {shown_value(entry.value)}")
 
     def do_set(self, line: str) -> None:
         """Runs a script."""
         node = self._held_node()
         value = compile_script(line).run(Environment(node.board, self.tree.enums))
-        self.say(_short(value))
+        self.say(shown_value(value))
 
     # -- forced results -----------------------------------------------------------------------------
 
@@ -375,11 +375,12 @@ def _quoted(name: str) -> str:
     return f"'{name}'" if " " in name else name
 
 
-def _short(value: object) -> str:
+def shown_value(value: object, longest: int = LONGEST) -> str:
+    """Returns a value as text of at most so many characters; a class of the user may fail at it."""
     if value is EMPTY:
         return "(empty)"
     try:
         text = repr(value)
     except Exception as error:  # noqa: BLE001, RUF100 - a class of the user
         return f"<{type(value).__name__}: {error}>"
-    return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
+    return text if len(text) <= longest else f"{text[: longest - 1]}…"

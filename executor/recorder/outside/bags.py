@@ -1,7 +1,8 @@
 """Reads bags of ROS 2: MCAP and SQLite, one file or a folder of them.
 
 Of the topics those are kept that the page can show: `nav2_msgs/BehaviorTreeLog`, our own types, `/rosout`,
-laser scans and JPEG pictures. The definitions of other types in a bag are not read.
+laser scans, JPEG pictures, and the small messages of which people plot numbers. The definitions of other
+types in a bag are not read.
 """
 
 from __future__ import annotations
@@ -40,8 +41,18 @@ TREE_LOG: Final = "nav2_msgs/msg/BehaviorTreeLog"
 OUR_TREE: Final = f"{OURS}/msg/Tree"
 ROSOUT: Final = "rcl_interfaces/msg/Log"
 _SHOWN: Final = frozenset({"sensor_msgs/msg/LaserScan", "sensor_msgs/msg/CompressedImage"})
+_PLOTTED: Final = frozenset(
+    f"{package}/msg/{name}"
+    for package, names in {
+        "geometry_msgs": "PointStamped PoseStamped PoseWithCovarianceStamped Twist TwistStamped",
+        "nav_msgs": "Odometry",
+        "sensor_msgs": "BatteryState Imu JointState NavSatFix Range Temperature",
+        "std_msgs": "Bool Float32 Float64 Int8 Int16 Int32 Int64 UInt8 UInt16 UInt32 UInt64",
+    }.items()
+    for name in names.split()
+)
 _OURS: Final = frozenset(names_of_ours())
-_KEPT: Final = _SHOWN | _OURS | {TREE_LOG, ROSOUT}
+_KEPT: Final = _SHOWN | _PLOTTED | _OURS | {TREE_LOG, ROSOUT}
 _PACKED: Final = b"\x28\xb5\x2f\xfd"
 _ENDINGS: Final = (".mcap", ".db3")
 MOST_FILES: Final = 1000

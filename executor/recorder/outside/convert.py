@@ -11,11 +11,14 @@ from executor.recorder.outside import bags, btlog, btsqlite, tables
 from executor.recorder.outside.limits import Counter
 from executor.recorder.reader import MAGIC, Limits, RecordReader
 from executor.recorder.recover import recover
-from executor.recorder.writer import LIBRARY, RecordingWriter
+from executor.recorder.seekable import SeekableWriter
+from executor.recorder.writer import LIBRARY
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
+
+    from executor.recorder.writer import RecordingWriter
 
 __all__ = ["Converted", "convert_outside"]
 
@@ -71,7 +74,7 @@ def convert_outside(source: Path, out: BinaryIO, limits: Limits | None = None, n
 
 
 def _written(out: BinaryIO, write: Callable[[RecordingWriter], None]) -> Converted:
-    writer = RecordingWriter(out, {})
+    writer = SeekableWriter(out, {})
     write(writer)
     writer.finish()
     return Converted(writer.messages)

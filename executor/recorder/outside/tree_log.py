@@ -2,23 +2,38 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from executor.recorder.moment import Moment
 from executor.recorder.outside.errors import OutsideError
 from executor.recorder.outside.steps import STATUS_WORDS, Steps
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from executor.recorder.outside.steps import Step
     from executor.recorder.outside.tree_xml import LoggedTree
-    from executor.recorder.writer import RecordingWriter
 
-__all__ = ["MOST_BACK_NS", "TimeLine", "TreeLog"]
+__all__ = ["MOST_BACK_NS", "EntryRow", "TimeLine", "TreeLog", "TreeWriter"]
 
 MOST_BACK_NS: Final = 1_000_000_000
 LONGEST_NS: Final = 10_000_000 * 1_000_000_000
 KEYFRAME_NS: Final = 5_000_000_000
 MOST_LINE: Final = 4096
+
+
+EntryRow = tuple[str, str, str, str, bool]
+"""Scope, key, type, value as JSON, and whether the entry was removed."""
+
+
+class TreeWriter(Protocol):
+    """Takes the messages of a tree, such as a `RecordingWriter`."""
+
+    def record(self, topic: str, name: str, fields: dict[str, Any]) -> None:
+        """Writes a message."""
+
+    def attach(self, name: str, media_type: str, data: bytes) -> None:
+        """Writes a file."""
 
 
 class TimeLine:
@@ -60,13 +75,19 @@ class TimeLine:
 
 
 class TreeLog:
-    """Writes trees, their changes, and lines; times are in ns from the begin of the recording."""
+    """Writes trees, their changes, and lines; times are in ns from the begin of the recording.
 
-    def __init__(self, writer: RecordingWriter, name: str) -> None:
+    Args:
+        writer: takes the messages.
+        name: the name of the log in errors.
+        generation: the number of the last tree in the run.
+    """
+
+    def __init__(self, writer: TreeWriter, name: str, generation: int = 0) -> None:
         self._writer, self._name = writer, name
         self._moment = Moment()
         self._steps = Steps()
-        self._generation = 0
+        self._generation = generation
         self._ticks = 0
         self._numbers: dict[int, int] = {}
         self._keyframe_ns = 0
@@ -95,6 +116,16 @@ class TreeLog:
             raise OutsideError("damaged", self._name, place, text, "The file is damaged there.")
         if (ended := self._steps.take(t_ns, uid, status)) is not None:
             self._step(ended)
+
+    def entries(self, t_ns: int, rows: Sequence[EntryRow]) -> None:
+        """Writes entries of the blackboard that have changed."""
+        self.end_step()
+        if not rows:
+            return
+        scopes, keys, kinds, texts, removed = (list(column) for column in zip(*rows, strict=True))
+        fields = {"stamp": t_ns, "tick": self._ticks, "scope": scopes, "key": keys, "type": kinds}
+        fields |= {"value_json": texts, "removed": removed, "writer_uid": [0] * len(rows)}
+        self._record("/bt/blackboard", "Blackboard", fields)
 
     def line(self, t_ns: int, source: str, level: str, text: str) -> None:
         """Writes a line of the console."""

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["HOLD_DRIVER_GRACE_S", "Hold", "deadline_s", "expire", "held", "released", "settle"]
 
 HOLD_DRIVER_GRACE_S: Final = 60.0
+OFF: Final = messages.SetBreakpoints([], on=False)
 OUTSIDE_TEXT: Final = (
     "The tree is held, but the robot is not: it belongs to an outside ROS graph and keeps moving. The topics "
     "on which this run has sent velocities get zero ten times a second."
@@ -29,17 +30,25 @@ OUTSIDE_TEXT: Final = (
 
 @dataclass
 class Hold:
-    """The debugger of a session: its breakpoints, and since when the tree is held.
+    """The debugger of a session: its breakpoints, its profile, and since when the tree is held.
 
     Attributes:
         breakpoints: for the runs to come, too; None before the first command.
+        profile: whether nodes are measured, also in the runs to come.
+        groot2: the port at which Groot2 may look at the tree, also in the runs to come; 0 for none.
         since_s: when the tree was held first, without a command of the driver since then; None if it is not.
     """
 
     breakpoints: messages.SetBreakpoints | None = None
+    profile: messages.SetProfile | None = None
+    groot2: int = 0
     since_s: float | None = None
     given: messages.SetBreakpoints | None = None
     """The breakpoints with which the application was started."""
+    profile_given: messages.SetProfile | None = None
+    """The profile with which it was started."""
+    groot2_given: int = 0
+    """The port for Groot2 with which it was started."""
 
     def switch_off(self) -> None:
         """Switches all breakpoints off, until a client sets them again."""
@@ -53,7 +62,7 @@ def held(stage: Stage, child: Child, message: child_messages.Held) -> None:
     if child.is_stopping:
         return
     stage.children.tell_world(child_messages.Pause())
-    if stage.run.is_outside and stage.hold.since_s is None:
+    if stage.run.is_outside and stage.attaching is None and stage.hold.since_s is None:
         stage.output.emit(messages.Log("manager", "warning", OUTSIDE_TEXT, time=stage.sim_time_s))
     if stage.hold.since_s is None:
         stage.hold.since_s = stage.now_s
@@ -85,9 +94,16 @@ def settle(stage: Stage, application: Child) -> None:
     if hold.breakpoints is not None and hold.breakpoints is not hold.given:
         hold.given = hold.breakpoints  # they were set while the application was loading
         stage.children.tell_application(child_messages.SetBreakpoints(wanted=hold.breakpoints))
-    if application.is_holding:
+    if hold.profile is not None and hold.profile is not hold.profile_given:
+        hold.profile_given = hold.profile  # as above
+        stage.children.tell_application(child_messages.MeasureNodes(wanted=hold.profile))
+    if hold.groot2 != hold.groot2_given:
+        hold.groot2_given = hold.groot2  # as above
+        stage.children.tell_application(child_messages.ServeGroot2(port=hold.groot2))
+    is_held = application.is_holding or stage.python.is_stopped
+    if is_held:
         stage.children.tell_world(child_messages.Pause())
-    stage.enter(State.HELD if application.is_holding else State.APPLICATION_RUNNING)
+    stage.enter(State.HELD if is_held else State.APPLICATION_RUNNING)
 
 
 def deadline_s(stage: Stage) -> float | None:
@@ -110,7 +126,14 @@ def expire(stage: Stage) -> None:
     limit_s = stage.about.hold_limit_s
     stage.hold.since_s = None
     stage.hold.switch_off()
-    stage.children.tell_application(child_messages.Continue(off=True, pauses=is_away))
+    if stage.python.is_stopped:
+        stage.python.pauses = is_away
+        stage.children.tell_application(child_messages.SetBreakpoints(wanted=OFF))
+        if is_away:
+            stage.children.tell_application(child_messages.Pause())
+        stage.python.end()
+    if (application := stage.children.get("application")) is not None and application.is_holding:
+        stage.children.tell_application(child_messages.Continue(off=True, pauses=is_away))
     text = (
         f"The driver was away for {HOLD_DRIVER_GRACE_S:g} s while the tree was held: "
         "all breakpoints are off, and the run is paused."

@@ -74,6 +74,11 @@ class Vitals:
         if message.clocks != self.clocks:
             self.clocks, self.deaf_s = message.clocks, 0.0
 
+    @property
+    def turns(self) -> int:
+        """The number of times that the main thread had completed its loop, at the last beat."""
+        return self._turns
+
     def look(self, seen: ChildLooked, now_s: float) -> float:
         """Adds a sample of the process; returns the counted seconds since the last sample."""
         gap_s = min(max(0.0, now_s - self._looked_s), LONGEST_GAP_S)

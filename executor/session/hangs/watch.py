@@ -45,10 +45,12 @@ def looked(stage: Stage, event: ChildLooked, now_s: float) -> None:
     if event.kind == "recorder":
         stage.recording.looked(event, now_s)
         return
-    if child is None or event.kind == "evaluation":  # it forks its runs, and bounds each of them
+    if child is None or event.kind in ("evaluation", "adapter"):  # the first bounds its runs itself
         return
     vitals = child.vitals
     counted_s = vitals.look(event, now_s)
+    if child.is_suspended:
+        vitals.stuck_s = vitals.idle_s = 0.0  # it is held; other threads still send signs of life
     if child.kind == "world":
         vitals.deaf_s += counted_s
     if vitals.is_lost:
@@ -185,7 +187,8 @@ def _name(child: Child) -> str:
 def _listen_for_time(stage: Stage, child: Child, counted_s: float, now_s: float) -> None:
     """Restarts an application that receives no simulated time: it would never tick, and never report that."""
     vitals, world, run = child.vitals, stage.children.get("world"), stage.run
-    is_due = stage.state is State.APPLICATION_RUNNING and not run.is_outside and stage.is_free
+    has_time_apart = not (run.is_outside or child.is_exact)
+    is_due = stage.state is State.APPLICATION_RUNNING and has_time_apart and stage.is_free
     if world is None or not is_due or child.hang or world.hang:
         vitals.deaf_s = 0.0
         return

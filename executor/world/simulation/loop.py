@@ -106,6 +106,24 @@ class SimulationLoop:
         self._pacer.pause()
         self._steps, self._report = 0, None
 
+    def dump(self) -> bytes:
+        """Returns the state of the world, for `load` in another process."""
+        return self._world.dump()
+
+    def load(self, data: bytes) -> None:
+        """Restores a state of this world; the loop stays as it is, paused or not.
+
+        Raises:
+            WorldError: the data are not such a state.
+        """
+        self._world.load(data)
+        self._sensors.changed()
+        self._node.restart()
+        for part in self.parts:
+            part.restart()
+        self._pacer.pause()
+        self._report = None
+
     def teleop(self, linear: float, angular: float, *, goes_on: bool = False) -> None:
         """Drives the first robot by hand.
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final, Protocol
 import msgspec
 
 from executor.messages import Camera
+from executor.recorder.event_messages import input_fields
 from executor.recorder.link import Dump, Heard, Record, RecorderLink, Until
 from executor.recorder.thinning import Thinner, Verdict
 from executor.recorder.writer import nanoseconds
@@ -138,6 +139,14 @@ class WorldRecorder:
         if self._link.is_recording and frame.stream.partition("/")[0] == "camera":
             camera = _decode_camera(frame.data)
             self._tap.jpeg(f"/world/camera/{camera.sensor}", camera.jpeg, camera.t, camera.sensor)
+
+    def did(self, command: str, data: Any) -> None:
+        """Records what a person did to the world."""
+        self._link.send(Record("/bt/input", "Input", input_fields(self._world.time_s, command, data, None)))
+
+    def flush(self, patience_s: float) -> None:
+        """Sends all that waits, for at most this time."""
+        self._link.flush(patience_s)
 
     def close(self) -> None:
         """Ends the tap of the graph."""

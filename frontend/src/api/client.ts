@@ -129,6 +129,14 @@ export const api = {
     dataOf(
       rest.POST('/api/v1/projects/{project_id}/test', { params: inProject(id), body: { files: [...files] } }),
     ),
+  /** Runs all behaviour tests, also those with leaves that run Python of the project. */
+  testWithPython: (id: string): Promise<TestReport> =>
+    dataOf(
+      rest.POST('/api/v1/projects/{project_id}/test-with-python', {
+        params: inProject(id),
+        body: { files: [] },
+      }),
+    ),
   xml: (id: string) =>
     dataOf(rest.GET('/api/v1/projects/{project_id}/xml', { params: inProject(id), parseAs: 'text' })),
   inspectAction: (source: string, filename: string): Promise<ActionModel> =>
@@ -148,6 +156,9 @@ export const api = {
   },
   startSession: (id: string): Promise<SessionInfo> =>
     dataOf(rest.POST('/api/v1/projects/{project_id}/session', { params: inProject(id) })),
+  /** Starts a session that follows the program at an address, or returns the one that does. */
+  attach: (address: string): Promise<SessionInfo> =>
+    dataOf(rest.POST('/api/v1/sessions/attached', { body: { address } })),
   getSession: (session_id: string): Promise<SessionInfo> =>
     dataOf(rest.GET('/api/v1/sessions/{session_id}', { params: { path: { session_id } } })),
   endSession: (session_id: string) =>

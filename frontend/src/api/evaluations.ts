@@ -1,4 +1,5 @@
 import type { components } from '@/generated/api';
+import type { TestReport } from './types';
 import { dataOf, done, rest, urlOf } from './http';
 
 type Server = components['schemas'];
@@ -55,6 +56,12 @@ export const evaluations = {
       rest.GET('/api/v1/projects/{project_id}/evaluations/{evaluation_id}/outcomes', {
         params: { ...at(projectId, id), query: { revision, after } },
         signal: signal ?? null,
+      }),
+    ),
+  coverage: (projectId: string, id: string, revision: number): Promise<TestReport['coverage']> =>
+    dataOf(
+      rest.GET('/api/v1/projects/{project_id}/evaluations/{evaluation_id}/coverage', {
+        params: { ...at(projectId, id), query: { revision } },
       }),
     ),
   comparison: (projectId: string, id: string, signal?: AbortSignal): Promise<Comparison> =>

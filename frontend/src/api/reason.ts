@@ -1,6 +1,4 @@
-import { ApiError } from './errors';
-
-/** Returns the server's message together with its hint. */
+/** Returns the message of the server or of the session together with its hint. */
 export function reasonOf(error: Error): string {
-  return error instanceof ApiError && error.hint ? `${error.message} ${error.hint}` : error.message;
+  return 'hint' in error && error.hint ? `${error.message} ${String(error.hint)}` : error.message;
 }

@@ -14,6 +14,8 @@ export interface RunToKeep {
   readonly run: string;
   readonly name: string;
   readonly note: string;
+  /** The attached session that has it; by default that of the project. */
+  readonly session?: string;
 }
 
 /** A file as the body of a call; the call names the file. */

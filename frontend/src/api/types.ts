@@ -3,7 +3,7 @@
  * require only the fields that the page needs.
  */
 import type { components } from '@/generated/api';
-import type { OnError, OnFinish } from '@/generated/messages';
+import type { OnError, OnFinish, RunTime } from '@/generated/messages';
 
 type Server = components['schemas'];
 type Needs<T, Field extends keyof T> = Pick<T, Field> & Partial<Omit<T, Field>>;
@@ -42,6 +42,8 @@ export interface ProjectSettings {
   robot?: string | undefined;
   on_finish?: OnFinish;
   on_error?: OnError;
+  /** Absent: `live`. */
+  time?: RunTime;
   [key: string]: unknown;
 }
 
@@ -77,7 +79,7 @@ export type TestFailure = Server['TestFailure'];
 export type AppBundle = Server['App'];
 export type SessionInfo = Needs<
   Server['Session'],
-  'id' | 'state' | 'position' | 'control_url' | 'stream_url'
+  'id' | 'state' | 'position' | 'control_url' | 'stream_url' | 'target'
 >;
 
 /** The contents of a ROS 2 package, before it is downloaded. */

@@ -47,6 +47,8 @@ const KEEP_AFTER_MS = 300;
 interface DockProps {
   readonly model: Model;
   readonly width: FrameWidth;
+  /** Whether the layout is that of the user, which is kept. */
+  readonly isKept?: boolean;
 }
 
 function renderTabButton(node: TabNode, values: ITabRenderValues): void {
@@ -167,7 +169,7 @@ function useCutTabs(language: string): { root: RefObject<HTMLDivElement | null>;
 }
 
 /** The dock: panels and documents, which the user can arrange. */
-export function Dock({ model, width }: DockProps) {
+export function Dock({ model, width, isKept = true }: DockProps) {
   const { i18n } = useTranslation('frame');
   const { root, measure } = useCutTabs(i18n.language);
   const keepSoon = useLater();
@@ -182,7 +184,7 @@ export function Dock({ model, width }: DockProps) {
     measure();
     const { projectId } = useProjectStore.getState();
     keepSoon(() => {
-      keepLayout(width, changed);
+      if (isKept) keepLayout(width, changed);
       if (!projectId) return;
       keepOpen(projectId, changed);
       keepLesson(projectId, changed);

@@ -2,6 +2,7 @@ import { Tooltip } from '@mantine/core';
 import {
   IconAlertTriangle,
   IconCircleCheck,
+  IconHourglass,
   IconPlugConnected,
   IconPlugConnectedX,
   IconWorld,
@@ -12,7 +13,7 @@ import { titleOf } from '@/model/document/glance';
 import { openUniverseChooser } from '@/store/dialogs/universeChooser';
 import { countProblems } from '@/store/problems/list';
 import { useProblems } from '@/store/problems/useProblems';
-import { useMoment } from '@/store/moment/store';
+import { useIsBack, useMoment } from '@/store/moment/store';
 import type { Moment } from '@/store/recording/types';
 import { useProjectStore } from '@/store/project';
 import { useUniverseChoice } from '@/store/run/universeChoice';
@@ -28,6 +29,7 @@ export function StatusBar() {
       <ConnectionStatus />
       <UniverseButton />
       <ProblemCount />
+      <LongTick />
       <Hint />
       <span className={classes['spacer']} />
       <Figures />
@@ -87,6 +89,27 @@ function ProblemCount() {
             .filter(Boolean)
             .join(', ')
         : t('status.noProblems')}
+    </button>
+  );
+}
+
+/** The action in which the present tick takes long; a click goes to its block. */
+export function LongTick() {
+  const { t } = useTranslation('frame');
+  const isBack = useIsBack();
+  const { text, node_path: path } = useSessionStore(({ waiting }) => waiting);
+  const node = useSessionStore(({ tree }) => tree.find((each) => each.path === path));
+  if (text === '' || isBack) return null;
+  return (
+    <button
+      type="button"
+      className={classes['statusButton']}
+      data-testid="long-tick"
+      disabled={!node?.node_id}
+      onClick={() => node && useProjectStore.getState().reveal(node.tree_id, node.node_id)}
+    >
+      <IconHourglass size={14} aria-hidden="true" />
+      <span role="status">{t('status.waitingFor', { place: text })}</span>
     </button>
   );
 }

@@ -13,7 +13,9 @@ import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
 import { registerDebugCommands } from '@/features/debug/commands';
 import { HeldBanner } from '@/features/debug/HeldBanner';
+import { PythonBanner } from '@/features/python/PythonBanner';
 import { ExportDialog } from '@/features/export/ExportDialog';
+import { ApplyDialog } from '@/features/run/ApplyDialog';
 import { RunsDialog } from '@/features/runs/RunsDialog';
 import { ArrivalsDialog } from '@/features/library/ArrivalsDialog';
 import { ImportReport } from '@/features/importReport/ImportReport';
@@ -43,7 +45,10 @@ import { followPresent } from '@/store/moment/looking';
 import { followPast } from './followPast';
 import { followProject } from '@/store/debug/breakpoints';
 import { followMarks } from '@/store/debug/marks';
+import { followHeat } from '@/store/debug/profile';
 import { followBreakpoints } from '@/store/debug/sync';
+import { followLines, renameLines } from '@/store/python/lines';
+import { followPython } from '@/store/python/sync';
 import { useIsBack } from '@/store/moment/store';
 import { useProjectStore } from '@/store/project';
 import { setNavigator } from '@/store/project/navigation';
@@ -62,6 +67,7 @@ import { StatusBar } from './StatusBar';
 import {
   aimAt,
   closeGone,
+  bringToFront,
   followFront,
   followNames,
   followRename,
@@ -121,6 +127,7 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
 
   const user = useMe()?.user;
   useEffect(() => (user === undefined ? undefined : followProject(user)), [user]);
+  useEffect(() => (user === undefined ? undefined : followLines(user)), [user]);
 
   useEffect(() => {
     document.title = `${name} — BT Studio`;
@@ -133,6 +140,8 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
       registerDebugCommands(),
       followBreakpoints(),
       followMarks(),
+      followHeat(),
+      followPython(),
       registerAxisCommands(),
       followPresent(),
       followPast(),
@@ -147,9 +156,13 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
     setNavigator({
       openTree: (id) => openTab({ kind: 'tree', id }),
       openFile: (path, line) => openTab({ kind: 'file', path }, line),
+      showFile: (path) => void bringToFront({ kind: 'file', path }),
       openTopics: () => showPanel('topics'),
       renamed: (kind, from, to) => {
-        if (kind === 'file') return followRename({ kind, path: from }, { kind, path: to });
+        if (kind === 'file') {
+          renameLines(from, to);
+          return followRename({ kind, path: from }, { kind, path: to });
+        }
         followTreeRename(from, to);
         followRename({ kind, id: from }, { kind, id: to });
       },
@@ -188,6 +201,7 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
       <TopBar />
       <RunStrip />
       <HeldBanner />
+      <PythonBanner />
       <main className={classes['dock']}>
         {/* The top bar, which has the heading of the page, is hidden then. */}
         {presenting === 'off' ? null : <VisuallyHidden component="h1">{name}</VisuallyHidden>}
@@ -202,6 +216,7 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
       <FileDialog />
       <ExportDialog />
       <RunsDialog />
+      <ApplyDialog />
       <UniverseDialog />
       <NewUniverse />
       <NewRobot />

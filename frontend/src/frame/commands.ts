@@ -281,6 +281,7 @@ const PANELS: readonly PanelId[] = [
   'timeline',
   'topics',
   'breakpoints',
+  'profile',
 ];
 
 const panels = PANELS.map((id): UserCommand => ({

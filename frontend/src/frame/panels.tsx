@@ -31,6 +31,7 @@ const Viewer3d = lazyPart(async () => (await import('@/features/viewer/Viewer3d'
 const XmlPanel = lazyPart(async () => (await import('@/features/xml/XmlPanel')).XmlPanel);
 const SearchPanel = lazyPart(async () => (await import('@/features/search/SearchPanel')).SearchPanel);
 const EvaluatePanel = lazyPart(async () => (await import('@/features/evaluate/EvaluatePanel')).EvaluatePanel);
+const ProfilePanel = lazyPart(async () => (await import('@/features/profile/ProfilePanel')).ProfilePanel);
 const RevisionsPanel = lazyPart(
   async () => (await import('@/features/revisions/RevisionsPanel')).RevisionsPanel,
 );
@@ -77,6 +78,11 @@ const panels: Record<PanelId, (node: TabNode) => ReactNode> = {
   timeline: () => <TimelinePanel />,
   topics: () => <TopicsPanel />,
   breakpoints: () => <BreakpointsPanel />,
+  profile: () => (
+    <Suspense fallback={<Waiting reason="loadingEditor" />}>
+      <ProfilePanel />
+    </Suspense>
+  ),
   history: () => (
     <Suspense fallback={<Waiting reason="loadingEditor" />}>
       <RevisionsPanel />

@@ -655,6 +655,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/evaluations/{evaluation_id}/coverage": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Returns which blocks the runs of a revision ticked, and which results these had, in any run. */
+        get: operations["get_evaluation_coverage"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/evaluations/{evaluation_id}/outcomes": {
         parameters: {
             query?: never;
@@ -1187,6 +1204,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/test-with-python": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * @description Runs all behaviour tests of the project as it would be with these unsaved files.
+         *
+         *     Leaves that are `real` run their Python in the user's tools: a container on a server for a team.
+         */
+        post: operations["test_with_python"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/transfer": {
         parameters: {
             query?: never;
@@ -1410,6 +1448,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/sessions/attached": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** @description Starts a session that follows a program by Groot2's protocol, or returns the one that does. */
+        post: operations["attach"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/trees/diagram": {
         parameters: {
             query?: never;
@@ -1474,6 +1529,7 @@ export interface components {
             tick_hz: number;
             on_finish: components["schemas"]["OnFinishEnum"];
             on_error: components["schemas"]["OnErrorEnum"];
+            time: components["schemas"]["TimeEnum"];
             readonly universe: string | {
                 document: string;
                 assets_zip_base64: string;
@@ -1481,12 +1537,19 @@ export interface components {
                 file: string;
             };
             robot: string | null;
+            /** @description The revision of the project; a recording names it. */
+            revision: number;
         };
         /** @description A run that is to be played. */
         AskReplayRequest: {
             revision: number;
             /** Format: int64 */
             seed: number;
+        };
+        /** @description The program to follow. */
+        AttachRequest: {
+            /** @description HOST or HOST:PORT of its publisher of Groot2's protocol; the port is 1667. */
+            address: string;
         };
         /** @description A behaviour to reuse: a subtree with ports. `summary` and `doc` hold a text for each language. */
         Behaviour: {
@@ -1912,8 +1975,10 @@ export interface components {
         InterfaceName: {
             /** @description Such as `nav2_msgs/action/NavigateToPose`. */
             name: string;
-            kind: components["schemas"]["KindEnum"];
+            kind: components["schemas"]["InterfaceNameKindEnum"];
         };
+        /** @enum {string} */
+        InterfaceNameKindEnum: "action" | "msg" | "srv";
         /** @description An invitation with its link. */
         Invitation: {
             /** Format: uuid */
@@ -1940,9 +2005,12 @@ export interface components {
             name: string;
             /** @default  */
             note?: string;
+            /**
+             * Format: uuid
+             * @description Your attached session; by default your session of this project.
+             */
+            session?: string;
         };
-        /** @enum {string} */
-        KindEnum: "action" | "msg" | "srv";
         /** @description A read-only link. */
         Link: {
             /** Format: uuid */
@@ -2389,8 +2457,14 @@ export interface components {
         Session: {
             /** Format: uuid */
             id: string;
-            /** Format: uuid */
-            project_id: string;
+            kind: components["schemas"]["SessionKindEnum"];
+            /**
+             * Format: uuid
+             * @description Null for an attached session.
+             */
+            project_id: string | null;
+            /** @description The address of the program that it follows; else empty. */
+            target: string;
             state: components["schemas"]["SessionStateEnum"];
             control_url: string;
             stream_url: string;
@@ -2401,6 +2475,8 @@ export interface components {
             /** Format: date-time */
             created_at: string;
         };
+        /** @enum {string} */
+        SessionKindEnum: "interactive" | "evaluation" | "attached";
         /** @enum {string} */
         SessionStateEnum: "queued" | "starting" | "ready" | "failed" | "ended";
         /** @description A person, and their new role. */
@@ -2565,6 +2641,8 @@ export interface components {
             /** Format: date-time */
             updated_at: string;
         };
+        /** @enum {string} */
+        TimeEnum: "exact" | "live";
         /** @description The person who becomes the owner. */
         TransferRequest: {
             /** @description Name or e-mail address of an editor. */
@@ -4181,6 +4259,50 @@ export interface operations {
             };
         };
     };
+    get_evaluation_coverage: {
+        parameters: {
+            query?: {
+                /** @description Of the two, if it is compared; else its own. */
+                revision?: number;
+            };
+            header?: never;
+            path: {
+                evaluation_id: string;
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Coverage"];
+                };
+            };
+            /** @description The project has errors. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["CheckProblem"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     list_outcomes: {
         parameters: {
             query?: {
@@ -5450,6 +5572,50 @@ export interface operations {
             };
         };
     };
+    test_with_python: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example 3f2504e0-4f89-41d3-9a0c-000000000001 */
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["CheckRequest"];
+            };
+        };
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestReport"];
+                };
+            };
+            /** @description The project has errors. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["CheckProblem"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     transfer_project: {
         parameters: {
             query?: never;
@@ -5885,6 +6051,38 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    attach: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AttachRequest"];
+            };
+        };
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Session"];
+                };
             };
             /** @description A problem document. */
             default: {

@@ -3,6 +3,8 @@
 
 export const PROTOCOL = "bt-studio.v1";
 
+export type AttachState = "connecting" | "following" | "silent";
+
 export type ResultName = "RUNNING" | "SUCCESS" | "FAILURE" | "SKIPPED";
 
 export type BreakpointMoment = "before" | "after" | "returns" | "halted";
@@ -18,6 +20,8 @@ export type StreamName = "poses" | "scan" | "camera" | "view";
 export type OnFinish = "stop" | "repeat";
 
 export type OnError = "stop" | "failure";
+
+export type RunTime = "exact" | "live";
 
 export type EvaluationEnd = "complete" | "refused" | "failed" | "replaced";
 
@@ -44,6 +48,105 @@ export type PortEffect = "next_tick" | "next_start";
 export type MismatchCode = "type" | "reliability" | "durability" | "qos";
 
 export type FinishReason = "root_finished" | "action_raised" | "terminated" | "process_died";
+
+/**
+ * Replaces the running tree by that of an app zip, between two ticks; world and program continue.
+ *
+ * The event `applied` comes before the reply. With `dry` it says what would happen, and nothing changes.
+ * Refused with `not_applied`, with file and line where they are known, if the new tree or its code cannot be
+ * loaded, set up, or take over; the running tree continues. Launch nodes are not restarted.
+ */
+export interface Apply {
+  app_zip_base64: string;
+  dry?: boolean;
+}
+
+/** A node of the tree: its path, and the block of the diagram from which it was made. */
+export interface AppliedNode {
+  path: string;
+  node_id: string;
+  tree_id: string;
+}
+
+/** A port that keeps its old text: its node continues, and read it before the first tick. */
+export interface LatePort {
+  path: string;
+  node_id: string;
+  tree_id: string;
+  port: string;
+}
+
+/**
+ * The running tree was replaced, or would be (`dry`).
+ *
+ * `kept` is the number of nodes that stay as they are. `renewed` stay with a new object of their changed
+ * code. `halted` are those of the old tree that were RUNNING and cannot continue.
+ */
+export interface Applied {
+  dry: boolean;
+  kept: number;
+  renewed: AppliedNode[];
+  added: AppliedNode[];
+  removed: AppliedNode[];
+  halted: AppliedNode[];
+  late_ports: LatePort[];
+}
+
+/**
+ * Sets whether the user controls the robot whose program this session is attached to.
+ *
+ * Without it breakpoints have no effect there and nothing is forced. When it ends, all that was set there
+ * is removed, and a held tree runs on. Refused with `not_attached` in another session.
+ */
+export interface Control {
+  on: boolean;
+}
+
+/**
+ * The other program of an attached session, sent each second and at each change.
+ *
+ * `age_s` is the time since its last answer, or null before the first. `dropped` counts what it sent that
+ * could not be read. `controls` tells whether the user controls the robot. `problem` says in words why
+ * nothing is shown, or what the program refuses.
+ */
+export interface Attached {
+  address: string;
+  state: AttachState;
+  age_s: number | null;
+  dropped: number;
+  controls: boolean;
+  problem: string;
+}
+
+/**
+ * The tree of the other program as diagrams, sent before its event `tree`.
+ *
+ * `files` are the texts of the diagrams and of `project.json` by path, `actions` the models of its nodes
+ * that are not built in, and `xml` the tree in the form in which it can be imported.
+ */
+export interface AttachedTree {
+  name: string;
+  main_tree: string;
+  files: Record<string, string>;
+  actions: Record<string, unknown>[];
+  xml: string;
+}
+
+/**
+ * Allows Groot2, or another client of its protocol on this machine, to look at the tree that runs.
+ *
+ * It answers at `port` and the next one, also in later runs of the session; with 0 no longer. Refused with
+ * `port_taken` while a run cannot have the ports, and with `isolated` where no other program of the machine
+ * reaches the session.
+ */
+export interface ServeGroot2 {
+  port?: number;
+}
+
+/** The port at which Groot2 can look at the trees of this session; 0 for none. */
+export interface Groot2 {
+  port: number;
+}
 
 /**
  * A breakpoint on a block.
@@ -105,6 +208,18 @@ export interface Release {
 }
 
 /**
+ * A message of the Debug Adapter Protocol, for breakpoints in Python; both ways, for the driver alone.
+ *
+ * `message` is a request of the client, or a response or event. Files have their names in the project. A
+ * client sends `initialize` once; the session attaches to each program by itself, and `initialized` comes
+ * before the code of the program is loaded. The session refuses requests that are not listed
+ * (`not_allowed`), files outside of the project (`bad_path`), and more than 1 MiB (`too_large`).
+ */
+export interface Dap {
+  message: Record<string, unknown>;
+}
+
+/**
  * The tree is held at a node, within a tick.
  *
  * `path` has the uids from the root to the node `uid`, and `ahead` those that the rules may still tick in
@@ -152,6 +267,61 @@ export interface Forced {
   alone: number;
 }
 
+/**
+ * Measures the time of each node from the next tick on, also in later runs, or no longer.
+ *
+ * With `sample`, the Python code of that leaf of the running tree is sampled too, until the next `profile`;
+ * `path` is its path there. Refused with `unknown_node`, or `no_python` if it is no action of the project.
+ * The times begin again with each command.
+ */
+export interface SetProfile {
+  on?: boolean;
+  sample?: number | null;
+  path?: string | null;
+}
+
+/**
+ * The action in which the present tick has been for more than half a second; empty once it has returned.
+ *
+ * `text` names the place for people. In an exact run the world waits for the action.
+ */
+export interface Waiting {
+  text: string;
+  node_id: string;
+  node_path: string;
+}
+
+/** The time of one node: how often it was ticked, with the nodes below it and without them, in ms. */
+export interface NodeTime {
+  uid: number;
+  calls: number;
+  total_ms: number;
+  self_ms: number;
+}
+
+/** A stack that was seen in a sampled leaf, the outermost call first, and how often it was seen. */
+export interface SampledStack {
+  frames: string[];
+  samples: number;
+}
+
+/**
+ * The times since the profile was switched on, or since the run began, of the nodes that were ticked.
+ *
+ * `ticks` is the number of ticks, and `tick_ms` their whole time in ms. `on` is false in the last one.
+ * `sample` is the uid of the leaf that is sampled, `samples` how often it was seen, and `stacks` what was
+ * seen most, at most 200 stacks.
+ */
+export interface Profile {
+  on: boolean;
+  ticks: number;
+  tick_ms: number;
+  nodes: NodeTime[];
+  sample: number | null;
+  samples: number;
+  stacks: SampledStack[];
+}
+
 /** A command without arguments. */
 export type Empty = Record<string, never>;
 
@@ -171,6 +341,9 @@ export interface UniverseDocument {
  *
  * `none` starts no world: the application joins an outside ROS graph of this machine, in the domain
  * `domain_id`. If that is null, it is the `ROS_DOMAIN_ID` of the server's environment.
+ *
+ * With the time `exact`, runs are repeatable: world and tree are one process, and time waits for the tree. A
+ * run whose time cannot wait is live, and a `log` says why.
  */
 export interface LaunchUniverse {
   universe: string | UniverseDocument;
@@ -178,14 +351,20 @@ export interface LaunchUniverse {
   seed?: number;
   speed?: number;
   domain_id?: number | null;
+  time?: RunTime;
 }
 
-/** (Re)starts the application from an app zip and un-pauses the world. */
+/**
+ * (Re)starts the application from an app zip and un-pauses the world.
+ *
+ * `revision` is that of the project, if it is known; the recording names it.
+ */
 export interface RunApplication {
   app_zip_base64: string;
   tick_hz?: number;
   on_finish?: OnFinish;
   on_error?: OnError;
+  revision?: number | null;
 }
 
 /** Climbs all rungs of the ladder up to `application_running`. */
@@ -335,6 +514,19 @@ export interface Flag {
   run?: string;
 }
 
+/**
+ * Takes world and program of an exact run back to the moment `t` in s, where they are paused.
+ *
+ * The moment is that after the first tick that is not earlier; without `t` it is the end of the run. `run`
+ * is one of this session in the present world, "" the present or last one. It is made again from its begin,
+ * and the events `going_back` say how far it is. What follows is recorded as a run of its own (`branch`).
+ * Refused with `not_exact`, `unknown_run`, or `not_repeatable`.
+ */
+export interface GoBack {
+  run?: string;
+  t?: number | null;
+}
+
 /** The envelope of a command; `data` is decoded as `COMMANDS[command]`. */
 export interface ClientMessage {
   id: string;
@@ -460,6 +652,34 @@ export interface RecordingStopped {
   reason: StopReason;
   detail: string;
   goes_on: boolean;
+}
+
+/** A run continues another one: `run` is as `parent` was up to the moment `from_t` in s. */
+export interface Branch {
+  run: string;
+  parent: string;
+  from_t: number;
+}
+
+/** The runs of this session in which one can go back, the present or last one at the end. */
+export interface RepeatableRuns {
+  runs: string[];
+}
+
+/** A run is made again up to a moment; `fraction` is 0 to 1, and 1 also where that failed. */
+export interface GoingBack {
+  fraction: number;
+}
+
+/**
+ * A run that is made again differs from the first time, from a tick on, at a simulated time `t` in s.
+ *
+ * `cause` names what may not be repeatable in the program.
+ */
+export interface Differs {
+  tick: number;
+  t: number;
+  cause: string;
 }
 
 /** The command was done. */
@@ -729,8 +949,15 @@ export interface Snapshot {
   segments: Segment[];
   flags: FlagSet[];
   stops: RecordingStopped[];
+  branches: Branch[];
+  repeatable_runs: string[];
   held: Held | null;
   forced: Forced | null;
+  attached: Attached | null;
+  attached_tree: AttachedTree | null;
+  profile: Profile | null;
+  groot2: Groot2 | null;
+  waiting: Waiting;
 }
 
 /** The envelope of an event. */
@@ -892,14 +1119,17 @@ export interface RecordingPart {
 
 /** Payload by `command`. */
 export interface Commands {
+  dap: Dap;
   connect: Empty;
   launch_universe: LaunchUniverse;
   prepare_visualization: Empty;
   run_application: RunApplication;
+  apply: Apply;
   run: Run;
   pause: Empty;
   resume: Empty;
   step: Empty;
+  go_back: GoBack;
   cancel: Empty;
   set_tick_rate: SetTickRate;
   set_speed: SetSpeed;
@@ -920,6 +1150,9 @@ export interface Commands {
   step_to: StepTo;
   force: Force;
   release: Release;
+  control: Control;
+  profile: SetProfile;
+  serve_groot2: ServeGroot2;
   teleop: Teleop;
   move_body: MoveBody;
   subscribe: Subscribe;
@@ -948,6 +1181,7 @@ export interface Events {
   tick: Tick;
   blackboard: Blackboard;
   port_set: PortSet;
+  applied: Applied;
   log: Log;
   fault: Fault;
   finished: Finished;
@@ -960,9 +1194,19 @@ export interface Events {
   segment: Segment;
   flag: FlagSet;
   recording_stopped: RecordingStopped;
+  branch: Branch;
+  repeatable_runs: RepeatableRuns;
+  going_back: GoingBack;
+  differs: Differs;
   held: Held;
   released: Released;
   forced: Forced;
+  attached: Attached;
+  attached_tree: AttachedTree;
+  profile: Profile;
+  groot2: Groot2;
+  waiting: Waiting;
+  dap: Dap;
   evaluation_started: EvaluationStarted;
   evaluation_outcome: EvaluationOutcome;
   evaluation_ended: EvaluationEnded;

@@ -2,7 +2,7 @@ import i18next from 'i18next';
 import { resourcesFrom } from '.';
 
 const files = import.meta.glob<Record<string, unknown>>(
-  ['./locales/*/*.json', '!./locales/*/{accounts,editor,frame,projects,runs,settings}.json'],
+  ['./locales/*/*.json', '!./locales/*/{accounts,attached,editor,frame,projects,runs,settings}.json'],
   { eager: true, import: 'default' },
 );
 

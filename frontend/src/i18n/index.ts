@@ -6,7 +6,7 @@ import { initReactI18next } from 'react-i18next';
  * the namespace. The start page loads these texts; the editor adds its own (`editorTexts`).
  */
 const files = import.meta.glob<Record<string, unknown>>(
-  './locales/*/{accounts,editor,frame,projects,runs,settings}.json',
+  './locales/*/{accounts,attached,editor,frame,projects,runs,settings}.json',
   { eager: true, import: 'default' },
 );
 

@@ -25,6 +25,7 @@ export type PanelId =
   | 'evaluate'
   | 'timeline'
   | 'breakpoints'
+  | 'profile'
   | 'topics'
   | 'history'
   | 'xml'
@@ -37,6 +38,7 @@ const NEW_PANELS: readonly (readonly [PanelId, PanelId])[] = [
   ['evaluate', 'tests'],
   ['topics', 'console'],
   ['breakpoints', 'timeline'],
+  ['profile', 'breakpoints'],
   ['library', 'palette'],
   ['history', 'explorer'],
   ['search', 'explorer'],
@@ -161,6 +163,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
               'timeline',
               'topics',
               'breakpoints',
+              'profile',
               'blackboard',
               'explorer',
               'search',
@@ -199,6 +202,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
               'timeline',
               'topics',
               'breakpoints',
+              'profile',
             ]),
           ],
         },
@@ -213,6 +217,36 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
       ],
     },
   };
+}
+
+/** Returns the layout of a page that follows a program: what tells of a tree, without what changes one. */
+export function attachedLayout(width: FrameWidth): Model {
+  const below: PanelId[] = ['timeline', 'console', 'breakpoints'];
+  const beside: PanelId[] = ['inspector', 'blackboard'];
+  if (width === 'narrow') {
+    return Model.fromJson({
+      global: { ...global, rootOrientationVertical: true },
+      layout: {
+        type: 'row',
+        children: [tabset(EDITORS, 55, []), tabset('panels', 45, [...beside, ...below, 'outline'])],
+      },
+    });
+  }
+  return Model.fromJson({
+    global,
+    layout: {
+      type: 'row',
+      children: [
+        tabset('files', 17, ['outline']),
+        { type: 'row', weight: 55, children: [tabset(EDITORS, 74, []), tabset('output', 26, below)] },
+        {
+          type: 'row',
+          weight: 28,
+          children: [tabset('details', 55, ['inspector']), tabset('values', 45, ['blackboard'])],
+        },
+      ],
+    },
+  });
 }
 
 interface KeptNode {

@@ -93,18 +93,24 @@ function nodeOf(model: Model | null, tab: DocumentTab): TabNode | null {
   return found;
 }
 
-/** Opens a document, or brings its tab to the front. */
+/** Opens a document, or brings its tab to the front, and moves the focus to it. */
 export function openTab(tab: DocumentTab, line?: number): void {
+  if (!bringToFront(tab)) return;
+  if (tab.kind === 'file' && line) aimAt(tab.path, line);
+  focusDocument(tab);
+}
+
+/** Opens a document, or brings its tab to the front; returns whether there is a place for it. */
+export function bringToFront(tab: DocumentTab): boolean {
   const { model } = useTabs.getState();
-  if (!model) return;
+  if (!model) return false;
   const open = nodeOf(model, tab);
   if (open) model.doAction(Actions.selectTab(open.getId()));
   else {
     const json: IJsonTabNode = { type: 'tab', component: tab.kind, ...faceOf(tab) };
     model.doAction(Actions.addTab(json, EDITORS, DockLocation.CENTER, -1, true));
   }
-  if (tab.kind === 'file' && line) aimAt(tab.path, line);
-  focusDocument(tab);
+  return true;
 }
 
 /** Moves the cursor of the editor that shows a file to a line. */

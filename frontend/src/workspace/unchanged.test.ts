@@ -2,6 +2,7 @@ import { expect, it } from 'vitest';
 
 /** Keys of the browser's storage: if one were renamed, users would lose drafts, layouts or settings. */
 const STORAGE_KEYS = [
+  "'bts.attach.address'",
   "'bts.codeSize'",
   "'bts.compactTrees'",
   "'bts.followRunning'",
@@ -20,6 +21,7 @@ const STORAGE_KEYS = [
   '`bts.breakpoints.${user}.${projectId}`',
   '`bts.draft.${projectId}`',
   '`bts.layout.${VERSION}.${width}`',
+  '`bts.lines.${user}.${projectId}`',
   '`bts.open.${projectId}`',
   '`bts.values.${projectId}`',
   '`bts.xml.${projectId}.${treeId}`',
@@ -38,6 +40,7 @@ const PANELS = [
   'outline',
   'palette',
   'problems',
+  'profile',
   'search',
   'tests',
   'timeline',

@@ -7,7 +7,7 @@ from mcap.reader import make_reader
 
 from backend.cli.convert import convert
 from backend.cli.shared.errors import CliError
-from tests.executor.recorder.test_lines import LINES, write
+from tests.executor.recorder.outside.test_lines import LINES, write
 from tests.executor.recorder.test_recover import flushed
 
 

@@ -10,7 +10,7 @@ import pytest
 from django.utils import timezone
 
 from backend.evaluations import writes
-from backend.evaluations.told import Begun, Done, read_line
+from backend.evaluations.executor_events import Begun, Done, read_line
 from backend.projects.choices import Role
 from backend.projects.sharing import memberships
 from backend.projects.storage import writes as projects

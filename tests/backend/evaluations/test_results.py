@@ -9,8 +9,8 @@ import pytest
 
 from backend.evaluations import results, writes
 from backend.evaluations.errors import ReportError, WrongStateError
+from backend.evaluations.executor_events import read_line
 from backend.evaluations.models import Evaluation
-from backend.evaluations.told import read_line
 from tests.backend.evaluations.conftest import begin, done, store, wish
 
 pytestmark = pytest.mark.django_db(transaction=True)

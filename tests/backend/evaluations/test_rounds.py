@@ -11,10 +11,11 @@ from backend.evaluations import rounds, writes
 from backend.evaluations.choices import JobState
 from backend.evaluations.models import Evaluation
 from backend.projects.sharing import memberships
+from backend.projects.storage import writes as projects
 from backend.sessions import writes as sessions
 from backend.sessions.models import Drain, Session
 from backend.workers.aside import sweeps
-from tests.backend.evaluations.conftest import begin, session_for, wish
+from tests.backend.evaluations.conftest import ROOM, begin, session_for, wish
 
 
 @pytest.fixture(autouse=True)
@@ -78,6 +79,37 @@ def test_after_its_turn_an_evaluation_gives_its_place_to_another_user(people):
     rounds.one_round()
     [session] = live()
     assert session.user == people.editor.user
+
+
+def test_somebody_with_many_wishes_does_not_keep_another_user_waiting(people):
+    """The owner's evaluations were all asked for earlier, and the owner's session gave its place to users."""
+    for _ in range(3):
+        wish(people)
+    rounds.one_round()
+    wish(people, "editor")
+    session_for(people, "viewer", kind="interactive", state="queued")
+    rounds.one_round()
+    assert live() == []
+    Session.objects.filter(kind="interactive").update(state="ended")
+    users = []
+    for _ in range(4):
+        rounds.one_round()
+        [session] = live()
+        users.append(session.user.username)
+        Session.objects.filter(id=session.id).update(state="ended")
+    assert users == ["editor", "owner", "editor", "owner"]
+
+
+def test_a_user_with_two_projects_gets_one_of_two_places_while_another_user_waits(people, settings_of):
+    settings_of(max_evaluations=2)
+    other = projects.create_project(
+        {"evaluations/room.yaml": ROOM}, acting_user=people.owner.user, name="Second"
+    )
+    wish(people)
+    writes.start(other.id, "room", 0, acting_user=people.owner.user)
+    wish(people, "editor")
+    rounds.one_round()
+    assert sorted(session.user.username for session in live()) == ["editor", "owner"]
 
 
 def test_who_lost_the_right_loses_the_evaluation(people):

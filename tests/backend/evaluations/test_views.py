@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 from backend.evaluations import views
+from backend.evaluations.executor_events import Done
 from backend.evaluations.models import Evaluation
+from backend.projects.storage import writes as projects
+from backend.projects.storage.changes import Content, FileChange
 from tests.backend.evaluations.conftest import begin, done, line, store
+from translator.archive import read_folder
+
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def address(people):
@@ -84,3 +91,26 @@ def test_a_wish_that_is_no_wish_is_refused(people):
         people.owner.post(at, bad, expect=422)
     people.owner.post(at, {"name": "rom"}, expect=422)
     people.viewer.post(at, {"name": "room"}, expect=403)
+
+
+def test_the_coverage_joins_what_all_runs_of_a_revision_have_seen(people):
+    at = address(people)
+    example = read_folder(ROOT / "examples/laser_bump_and_go")
+    change = [
+        FileChange(path, 1 if path.startswith("trees/") else 0, Content.of(data))
+        for path, data in example.items()
+        if path.startswith(("trees/", "actions/"))
+    ]
+    projects.save_files(people.project.id, change, acting_user=people.owner.user)
+    made = people.owner.post(at, {"name": "room"}, expect=201)
+    found = Evaluation.objects.get()
+    begin(found)
+    own = f"{at}/{made['id']}/coverage"
+    assert people.viewer.get(own)["share"] == 0
+    seen = [{"Turn::5": "R", "bump and go": "R"}, {"Forward::6": "R"}]
+    for seed, each in enumerate(seen):
+        store(found, Done("a1", seed, line(seed, seen=each), 3.0, 1, 4, 1.0, 0.2, 1.0, 9.0))
+    nodes = people.viewer.get(own)["trees"]["MainTree"]["nodes"].values()
+    ticked = {node["name"] for node in nodes if node["items"]["ticked"]}
+    assert ticked == {"bump and go", "Turn", "Forward"}
+    people.viewer.get(f"{own}?revision=7", expect=404)

@@ -7,8 +7,8 @@ from uuid import UUID
 
 from backend.evaluations import work, writes
 from backend.evaluations.choices import JobState, WaitsFor
+from backend.evaluations.executor_events import read_line
 from backend.evaluations.models import Evaluation
-from backend.evaluations.told import read_line
 from backend.evaluations.work import Place, in_turn
 from tests.backend.evaluations.conftest import begin, done, session_for, store, wish
 
@@ -21,8 +21,24 @@ def at(minute: int) -> datetime:
 
 def test_the_next_turn_is_for_the_user_with_the_fewest_running_ones_and_then_for_the_oldest_wish():
     waiting = {Place(A, 1): at(1), Place(B, 1): at(2), Place(A, 2): at(5), Place(A, 3): at(4)}
-    assert in_turn(waiting, [Place(B, 1)]) == [Place(A, 3), Place(A, 2), Place(A, 1)]
-    assert in_turn(waiting, []) == [Place(A, 1), Place(B, 1), Place(A, 3), Place(A, 2)]
+    assert in_turn(waiting, [Place(B, 1)], {}) == [Place(A, 3), Place(A, 2), Place(A, 1)]
+    assert in_turn(waiting, [], {}) == [Place(A, 1), Place(B, 1), Place(A, 3), Place(A, 2)]
+
+
+def test_of_users_with_as_many_running_ones_who_had_a_turn_longest_ago_goes_first():
+    waiting = {Place(A, 1): at(1), Place(B, 1): at(2), Place(A, 2): at(5), Place(A, 3): at(4)}
+    turns = {1: at(9), 2: at(3)}
+    assert in_turn(waiting, [], turns) == [Place(A, 3), Place(A, 2), Place(A, 1), Place(B, 1)]
+    assert in_turn(waiting, [Place(B, 3)], turns) == [Place(A, 2), Place(A, 1), Place(B, 1), Place(A, 3)]
+
+
+def test_the_last_turn_of_a_user_is_that_of_the_newest_session_for_evaluations(people):
+    owner, editor = people.owner.user.pk, people.editor.user.pk
+    session_for(people, state="ended", created_at=at(1))
+    session_for(people, state="ended", created_at=at(4))
+    session_for(people, "editor", kind="interactive", state="ended", created_at=at(2))
+    places = [Place(people.project.id, user) for user in (owner, editor)]
+    assert work.last_turns(places) == {owner: at(4)}
 
 
 def test_a_replay_goes_first_then_what_runs_then_the_oldest(people):

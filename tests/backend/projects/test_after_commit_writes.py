@@ -213,7 +213,8 @@ def test_every_route_that_writes_is_here_or_named():
         "revoke_invitation",
         "import_project",  # above
         "delete_my_account",
-        "start_session",  # a repeated request is answered with the existing session
+        "start_session",  # a repeated request is answered with the existing session; so is the next one
+        "attach",
         "end_session",
         "keep_run",  # one transaction, and nothing is read for the answer; so are the next five
         "keep_log",
@@ -231,6 +232,7 @@ def test_every_route_that_writes_is_here_or_named():
         # These store nothing.
         "check_project",
         "test_project",
+        "test_with_python",
         "write_tree_xml",
         "read_tree_xml",
         "inspect_action",

@@ -88,7 +88,7 @@ def test_the_last_run_is_kept_by_itself_when_its_session_or_executor_or_server_e
         assert api.last(run)["length_s"] > 0.9
         with api.running(1) as (_, run):
             for child in psutil.Process(server.process.pid).children():
-                if "manager" in child.cmdline():
+                if "executor.manager" in child.cmdline():
                     child.kill()
         lost = api.last(run)
         assert lost["length_s"] > 0.5

@@ -11,6 +11,7 @@ from backend.projects.sharing import memberships
 from backend.runs import views
 from backend.runs.models import PART_BYTES, Run, RunPart
 from backend.runs.views import Runs
+from tests.backend.accounts.conftest import PUBLIC, Person
 from tests.backend.runs.conftest import SAMPLE, keep
 
 pytestmark = pytest.mark.usefixtures("manager")
@@ -66,6 +67,24 @@ def test_a_viewer_keeps_runs_of_their_own_and_cannot_share_them(people):
     assert change(people.viewer, run, name="Better", note="n", is_pinned=True).json()["name"] == "Better"
     assert change(people.viewer, run, is_shared=True).json()["code"] == "role_too_low"
     assert seen(people.editor, people.project) == []
+
+
+def test_a_guest_with_a_link_sees_shared_runs_only_and_downloads_them(people):
+    shared = keep(people.editor, people.project).json() | {"project": people.project.id}
+    own = keep(people.owner, people.project, name="The owner's").json()
+    assert change(people.editor, shared, is_shared=True).status_code == 200
+    owner, guest = people.owner.user, Person()
+    memberships.make_link(people.project.id, acting_user=owner, days=None)
+    (link,) = memberships.shares(people.project)["links"]
+    opened = guest.page(f"{link['url'].partition(PUBLIC)[2]}?run={shared['id']}&t=1.5")
+    assert (opened.status_code, opened["Location"].endswith(f"?run={shared['id']}&t=1.5")) == (302, True)
+    assert seen(guest, people.project) == ["Kept"]
+    runs = f"/api/v1/projects/{people.project.id}/runs"
+    assert body(guest.client.get(f"{runs}/{shared['id']}/recording")) == SAMPLE
+    for hidden in (f"{runs}/{own['id']}", f"{runs}/{own['id']}/recording"):
+        assert guest.client.get(hidden).status_code == 404
+    assert change(people.editor, shared, is_shared=False).status_code == 200
+    assert guest.client.get(f"{runs}/{shared['id']}/recording").status_code == 404
 
 
 def test_a_deleted_run_and_a_deleted_project_leave_nothing(people):

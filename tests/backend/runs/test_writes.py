@@ -5,12 +5,15 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import pytest
+from django.utils import timezone
 
 from backend.config.environment import environment
+from backend.core.problems import NotFoundError
 from backend.runs import queries, writes
 from backend.runs.errors import NotRecordedError
 from backend.runs.models import Run
-from backend.sessions.choices import SessionState
+from backend.sessions.choices import SessionKind, SessionState
+from backend.sessions.models import Session
 from tests.backend.runs.conftest import SAMPLE, keep
 from tests.fakes.recordings import TOKEN, recordings
 
@@ -61,6 +64,23 @@ def test_without_a_session_that_runs_nothing_is_kept(people, session, monkeypatc
     monkeypatch.setattr(writes, "live_session", lambda *_, **__: session)
     with pytest.raises(NotRecordedError, match="No session of yours"):
         writes.source(people.project.id, acting_user=people.owner.user)
+
+
+def test_a_run_of_an_attached_session_is_kept_in_the_project_that_was_made_of_its_tree(people, monkeypatch):
+    owner = people.owner.user
+    values = {"state": SessionState.READY, "address": "127.0.0.1:1", "created_at": timezone.now()}
+    following = Session.objects.create(user=owner, kind=SessionKind.ATTACHED, target="robot:1667", **values)
+    monkeypatch.setattr(writes, "manager_token", lambda session: f"of {session.id}")
+    found = writes.source(people.project.id, acting_user=owner, attached=following.id)
+    assert (found.address, found.token) == ("127.0.0.1:1", f"of {following.id}")
+    with pytest.raises(NotFoundError):
+        writes.source(people.project.id, acting_user=people.editor.user, attached=following.id)
+    Session.objects.filter(id=following.id).update(state=SessionState.ENDED)
+    with pytest.raises(NotRecordedError, match="No session of yours"):
+        writes.source(people.project.id, acting_user=owner, attached=following.id)
+    running = Session.objects.create(user=owner, project=people.project, **values)
+    with pytest.raises(NotRecordedError, match="follows no other program"):
+        writes.source(people.project.id, acting_user=owner, attached=running.id)
 
 
 def test_two_that_are_kept_at_once_do_not_exceed_the_quota(people, monkeypatch):

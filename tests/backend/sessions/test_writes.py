@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import signal
 from uuid import UUID
 
 import psutil
 import pytest
+from django.apps import apps
 from django.utils import timezone
 
 from backend.projects.models import Project
 from backend.sessions import writes
-from backend.sessions.choices import SessionState
+from backend.sessions.choices import SessionKind, SessionState
+from backend.sessions.launchers.base import OWN_NETWORK_DOMAIN
 from backend.sessions.models import Session
 from tests.backend.sessions.conftest import children, spec
 
@@ -127,6 +130,37 @@ def test_each_session_has_a_ros_domain_of_its_own(api, fake_manager):
     assert children() == []
 
 
+def test_executors_with_networks_of_their_own_share_a_domain_and_are_not_counted_by_domains(
+    api, fake_manager, monkeypatch
+):
+    launcher = fake_manager("echo")
+    monkeypatch.setattr(type(launcher), "shares_network", False)
+    monkeypatch.setattr(writes, "ROS_DOMAINS", range(5, 6))
+    given = []
+    start = launcher.start
+    monkeypatch.setattr(launcher, "start", lambda spec: given.append(spec.ros_domain_id) or start(spec))
+    for name in ("One", "Two"):
+        pid = api.post("projects", {"name": name}, expect=201)["id"]
+        launched(api.post(f"projects/{pid}/session")["id"])
+    assert list(Session.objects.values_list("ros_domain_id", flat=True)) == [None, None]
+    assert given == [OWN_NETWORK_DOMAIN] * 2
+    assert writes.places_left() > 1000
+    writes.end_all_sessions()
+
+
+def test_a_migration_frees_the_domains_of_containers_alone(project, user):
+    states = {"docker": "ready", "process": "starting", "kubernetes": "ended"}
+    for number, (launcher, state) in enumerate(states.items(), 5):
+        Session.objects.create(
+            project=Project.objects.get(), user=user, launcher=launcher, state=state,
+            kind=("interactive", "evaluation")[number % 2], ros_domain_id=number, created_at=timezone.now(),
+        )  # fmt: skip
+    migration = importlib.import_module("backend.sessions.migrations.0007_domains_of_networks")
+    migration.give_back_domains(apps, None)
+    found = dict(Session.objects.values_list("launcher", "ros_domain_id"))
+    assert found == {"docker": None, "process": 6, "kubernetes": 7}
+
+
 def test_a_full_host_says_so(api, project, fake_manager, monkeypatch):
     fake_manager("echo")
     monkeypatch.setattr(writes, "ROS_DOMAINS", range(5, 6))
@@ -181,3 +215,23 @@ def test_the_token_between_relay_and_manager_is_stored_nowhere(api, project, fak
 
 def test_a_project_that_is_not_there_has_no_session(api):
     api.post("projects/00000000-0000-0000-0000-000000000000/session", expect=404)
+
+
+def test_one_session_follows_each_program_and_bad_addresses_start_none(api, fake_manager):
+    fake_manager("echo")
+    first = api.post("sessions/attached", {"address": "robot.local"})
+    assert first["state"] in {"starting", "ready"}
+    assert api.post("sessions/attached", {"address": "robot.local:1667"})["id"] == first["id"]
+    other = api.post("sessions/attached", {"address": "robot.local:1700"})
+    assert other["id"] != first["id"]
+    for address in ("ipc:///tmp/x", "inproc://x", "*:1667", "[::]", "eth0;robot:1667", "robot:99999"):
+        refused = api.post("sessions/attached", {"address": address}, expect=400)
+        assert refused["code"] == "bad_address"
+    for session, address in ((first, "robot.local:1667"), (other, "robot.local:1700")):
+        launched(session["id"])
+        made = Session.objects.get(pk=session["id"])
+        assert (made.kind, made.project) == (SessionKind.ATTACHED, None)
+        arguments = psutil.Process(made.launcher_state["pid"]).cmdline()
+        assert arguments[arguments.index("--attach") + 1] == address
+        api.delete(f"sessions/{session['id']}")
+    assert Session.objects.count() == 2

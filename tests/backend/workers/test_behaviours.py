@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from backend.workers.behaviours import run_tests
+from backend.workers.behaviours import run_coverage, run_tests
 from backend.workers.jobs import JOBS
 from translator.archive import read_folder
 
@@ -62,3 +62,16 @@ def test_a_file_that_cannot_be_read_is_a_problem_like_others(files):
 def test_a_project_with_errors_is_refused(files):
     del files["actions/Turn.py"]
     assert JOBS["behaviour_tests"](files=files)["refused"][0]["code"].startswith("BT")
+
+
+def test_runs_of_the_whole_tree_cover_blocks_and_results(files):
+    """Paths are those of the tree that runs; branches and halts are unknown, and not asked for."""
+    paths = {"": "R", "CheckObstacle::4": "SF", "Turn::5": "R", "not/there": "S", "Forward::6": ""}
+    answer = JOBS["run_coverage"](files=files, seen=paths)
+    nodes = answer["trees"]["MainTree"]["nodes"]
+    items = {node["name"]: node["items"] for node in nodes.values()}
+    assert items["CheckObstacle"] == {"ticked": True, "SUCCESS": True, "FAILURE": True}
+    assert items["Turn"] == {"ticked": True, "RUNNING": True}
+    assert items["Forward"] == {"ticked": False, "RUNNING": False}
+    assert 0 < answer["share"] < 1
+    assert run_coverage(files, {})["share"] == 0

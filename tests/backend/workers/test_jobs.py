@@ -27,11 +27,11 @@ def test_what_the_translator_refuses_is_an_answer() -> None:
 
 def test_an_app_is_a_zip_with_its_universe() -> None:
     files = {**FILES, "universes/yard.yaml": b"name: yard\n", "assets/a.png": b"x"}
-    made = JOBS["app"](files=files, universe="yard", built_in=None)
+    made = JOBS["app"](files=files, universe="yard", built_in=None, revision=3)
     assert made["universe"]["document"] == "name: yard\n"
     with zipfile.ZipFile(io.BytesIO(base64.b64decode(made["universe"]["assets_zip_base64"]))) as assets:
         assert "assets/a.png" in assets.namelist()
-    assert JOBS["app"](files=FILES, universe="empty", built_in=None)["universe"] == "empty"
+    assert JOBS["app"](files=FILES, universe="empty", built_in=None, revision=3)["universe"] == "empty"
 
 
 def test_an_import_proposes_a_universe_and_says_by_which_topics() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 from typing import Any
 
@@ -112,6 +113,32 @@ async def test_while_held_the_blackboard_is_written_and_results_are_forced():
         assert (finished["status"], lines(client)) == ("FAILURE", [])
 
 
+DRIVES = action("""
+def setup(self, node, **kwargs):
+    from geometry_msgs.msg import Twist
+    self.sends = node.create_publisher(Twist, "/cmd_vel", 10)
+    self.hears = node.create_subscription(Twist, "/cmd_vel", self.heard, 100)
+def heard(self, message):
+    print("heard", message.linear.x)
+def update(self):
+    return Status.RUNNING
+""")
+
+
+async def test_while_an_outside_robot_is_held_it_gets_zeros_and_no_callback_runs():
+    async with session() as client:
+        assert await client.ask("set_breakpoints", {"breakpoints": [at("n1", hits=5)]}) == "ack"
+        run = run_data(app(DRIVES)) | {"universe": {"universe": "none"}}
+        assert await client.ask("run", run) == "ack"
+        assert (await client.event("held"))["data"]["outside"]
+        await asyncio.sleep(0.5)  # the time is the test: zeros are sent ten times in a second
+        assert lines(client) == []
+        assert await client.ask("set_breakpoints", {"breakpoints": []}) == "ack"
+        assert await client.ask("continue_run") == "ack"
+        await client.event("log", lambda d: d["text"] == "heard 0.0")
+        await client.event("log", lambda d: lines(client).count("heard 0.0") >= 3)
+
+
 async def test_a_frozen_node_is_released_and_one_node_runs_alone():
     async with session() as client:
         await begin(client)
@@ -207,13 +234,23 @@ def test_what_is_forced_is_noted_with_its_place_in_the_tick():
     host.orders = [[child_messages.Continue()], [force, child_messages.Continue()]]
     assert tree.tick_exactly_once().name == "FAILURE"
     debugger.between_ticks()
-    assert [(name, tick, hook) for name, _, tick, hook in host.inputs] == [("force", 1, 1)]
+    assert [(name, tick, hook) for name, _, tick, hook in host.inputs] == [
+        ("hold", 1, 0),
+        ("hold", 1, 1),
+        ("force", 1, 1),
+    ]
+    assert host.inputs[0][1] == {
+        "uid": 2,
+        "path": "x",
+        "event": "before",
+        "why": "breakpoint 1 before its tick",
+    }
     kinds = [type(message).__name__ for message in sent]
     assert kinds == ["Held", "Released", "Held", "Forced", "Released", "Forced"]
     assert debugger.take_held_s() >= 0
     assert debugger.take_held_s() == 0
     assert debugger.obey(child_messages.ReleaseForced()) is None
-    assert len(host.inputs) == 1, "nothing was forced any more"
+    assert len(host.inputs) == 3, "nothing was forced any more"
 
 
 def test_breakpoints_that_the_tree_refuses_are_named_and_left_out():
@@ -223,7 +260,7 @@ def test_breakpoints_that_the_tree_refuses_are_named_and_left_out():
     assert sent[0].text.startswith("A breakpoint cannot be set: in the condition '1 +'")
     tree.tick_exactly_once()
     assert [message.uid for message in sent if isinstance(message, child_messages.Held)] == [3]
-    assert host.inputs == []
+    assert [name for name, *_ in host.inputs] == ["hold"]
 
 
 def test_nothing_asks_any_more_once_nothing_is_set():

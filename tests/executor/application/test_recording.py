@@ -37,6 +37,33 @@ def test_each_run_begins_with_the_tree_and_its_state():
     assert {m.fields["stamp"] for m in messages if isinstance(m, Record)} == {2_000_000_000}
 
 
+def test_a_port_with_another_text_is_recorded_from_then_on():
+    address = f"bt-studio-test-{secrets.token_hex(8)}"
+    with listen(address) as listener:
+        tree = Tree.from_xml(XML)
+        recorder = ApplicationRecorder(tree, lambda: 2.0, address)
+        recorder.changed()  # nothing is recorded yet
+        recorder.begin("a1")
+        source = take_source(listener)
+        assert source is not None
+        tree.tick_exactly_once()
+        script = next(node for node in tree.nodes if node.type == "Script")
+        script.ports = {"code": "a := 2"}
+        recorder.changed()
+        tree.tick_exactly_once()
+        recorder.close()
+        messages = [message for message in source.messages() if isinstance(message, Record)]
+        source.connection.close()
+    trees = [message.fields for message in messages if message.name == "Tree"]
+    place = script.uid - 1
+    assert [fields["generation"] for fields in trees] == [1, 2]
+    assert ["2" in fields["ports_json"][place] for fields in trees] == [False, True]
+    names = [message.name for message in messages]
+    assert names.index("Tick") < names.index("Tree", 1)  # what was before precedes it
+    ticks = [message.fields["generation"] for message in messages if message.name == "Tick"]
+    assert ticks == [1, 2]
+
+
 def test_without_a_recorder_the_tree_is_not_observed():
     tree = Tree.from_xml(XML)
     recorder = ApplicationRecorder(tree, lambda: 0.0, "")

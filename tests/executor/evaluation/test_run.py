@@ -1,18 +1,12 @@
 """Whole runs of small evaluations: outcomes, measures, and what is drawn."""
 
-import json
-import subprocess
-import sys
-from pathlib import Path
-
 import pytest
 from mcap.reader import make_reader
 
 from executor.evaluation import run
-from executor.evaluation.outcome import read_outcome
+from tests.executor.evaluation.one_by_one import Cells
 from tests.executor.evaluation.projects import DRIVE, write
 
-ROOT = Path(__file__).parents[3]
 pytestmark = [pytest.mark.simulation, pytest.mark.timeout(300)]
 RAISES = DRIVE.replace("twist = Twist()", "raise ValueError('no way')")
 ENDS = DRIVE.replace("Status.RUNNING", "Status.SUCCESS")
@@ -35,23 +29,8 @@ HEAD = "duration_s: 6\nruns: 2\n"
 
 @pytest.fixture(scope="module")
 def cells():
-    process = subprocess.Popen(
-        [sys.executable, "-m", "tests.executor.evaluation.cells"],
-        cwd=ROOT,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-
-    def ask(folder, seed=0, **options):
-        process.stdin.write(json.dumps({"folder": str(folder), "seed": seed, **options}) + "\n")
-        process.stdin.flush()
-        line = process.stdout.readline()
-        assert line, "the run has ended its process"
-        return read_outcome(line)
-
-    with process:
-        yield ask
+    with Cells() as found:
+        yield found
 
 
 def judged(tmp_path, success, rest="", **options):

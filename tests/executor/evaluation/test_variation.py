@@ -1,12 +1,17 @@
 """Addresses, the values that they name, and what is drawn for them."""
 
+import json
+from pathlib import Path
+
 import pytest
 
 from executor.evaluation.plan import make_plan
 from executor.evaluation.variation import InvalidRunError, draw_world, port_text
 from executor.universes.document import DocumentError
 from tests.executor.evaluation.projects import WORLD, project
+from translator.archive import read_folder
 
+ROOT = Path(__file__).resolve().parents[3]
 REST = """duration_s: 5
 runs: 2
 judge: {success: [{never: collision}]}
@@ -62,6 +67,20 @@ def test_each_value_gets_to_its_place():
     assert float(ports["speed"]) == values["ports.MainTree.go.speed"]
     assert ports["count"] == str(values["ports.MainTree.a.count"])
     assert (port_text(True), port_text("slow"), port_text(0.1)) == ("true", "slow", "0.1")
+
+
+def test_a_whole_number_for_a_real_port_stays_real():
+    """A port of a called tree becomes an entry, whose type the text decides."""
+    called = read_folder(ROOT / "backend" / "catalog" / "behaviours")
+    tree = {
+        "format": "bt-studio/diagram", "version": 1, "id": "MainTree", "root": "go", "drafts": [],
+        "nodes": {"go": {"type": "SubTree", "tree": "GoTo", "ports": {"x": "1.0"}}},
+    }  # fmt: skip
+    files = {"trees/MainTree.json": json.dumps(tree)}
+    files |= {path: called[path].decode() for path in ("trees/GoTo.json", "actions/GoToPoint.py")}
+    plan = make_plan(project(REST + "  ports.MainTree.go.x: {choice: [2]}\n", **files), "main")
+    assert drawn(plan, 1).edited(plan.project).trees["MainTree"].nodes["go"].ports["x"] == "2.0"
+    assert (port_text(2, real=True), port_text(2), port_text(True, real=True)) == ("2.0", "2", "true")
 
 
 def test_random_of_the_universe_is_drawn_first_and_vary_wins():

@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,11 @@ from typing import Any
 import pytest
 
 from executor.headless.report import quantiles
+from tests.tree_gardener.debugging.hooked import free_port
+from tree_gardener import Status
+from tree_gardener.groot.client import Groot2Client, SilenceError
+from tree_gardener.groot.protocol import Hook, HookKey, Mode, Position, Unlock
+from tree_gardener.groot.remote import RemoteTree
 
 ROOT = Path(__file__).parents[3]
 EXAMPLES = ROOT / "examples"
@@ -19,10 +25,10 @@ EXAMPLES = ROOT / "examples"
 pytestmark = [pytest.mark.simulation, pytest.mark.timeout(300)]
 
 
-def run(project: Path, duration_s: float, seed: int = 1) -> dict[str, Any]:
+def run(project: Path, duration_s: float, seed: int = 1, *more: str) -> dict[str, Any]:
     command = [sys.executable, str(Path(__file__).with_name("lockstep_run.py"))]
     done = subprocess.run(
-        [*command, str(project), str(duration_s), str(seed)],
+        [*command, str(project), str(duration_s), str(seed), *more],
         env={**os.environ, "PYTHONPATH": str(ROOT)},
         capture_output=True,
         text=True,
@@ -75,6 +81,14 @@ def test_the_same_run_comes_out_the_same(bump_and_go: dict[str, Any]) -> None:
     assert run(EXAMPLES / "laser_bump_and_go", 60)["same"] == bump_and_go["same"]
 
 
+def test_a_run_that_is_held_at_each_node_and_continued_comes_out_the_same(
+    bump_and_go: dict[str, Any],
+) -> None:
+    held = run(EXAMPLES / "laser_bump_and_go", 60, 1, "held")
+    assert held["stops"] > 5 * held["report"]["ticks"]
+    assert held["same"] == bump_and_go["same"]
+
+
 @pytest.mark.timeout(600)
 def test_follow_person_keeps_them_in_sight_and_finds_them_again() -> None:
     result = run(EXAMPLES / "visual_follow_person", 62)
@@ -110,6 +124,45 @@ def test_a_port_changes_the_speed(tmp_path: Path) -> None:
     diagram = project / "trees" / "MainTree.json"
     diagram.write_text(diagram.read_text().replace('"lin_speed": "0.3"', '"lin_speed": "0.15"'))
     assert run(project, 5)["report"]["distance_m"] == pytest.approx(0.15 * 5, rel=0.1)
+
+
+def test_groot2_holds_a_run_until_it_continues_it() -> None:
+    port = free_port()
+    example = str(EXAMPLES / "laser_bump_and_go")
+    command = ["run", example, "--lockstep", "--duration", "3600", "--groot2", str(port)]
+    process = subprocess.Popen([sys.executable, "-m", "backend.cli.main", *command], cwd=ROOT)
+    try:
+        with Groot2Client("127.0.0.1", port) as client:
+            root = first_answer(client, process).nodes[0].uid
+            client.listen()
+            key = HookKey(root, Position.BEFORE)
+            client.insert(
+                [Hook(key, Mode.BREAKPOINT, once=False, desired_status=Status.SKIPPED, enabled=True)]
+            )
+            for _ in range(3):
+                stops_at(client, root)
+                held = client.statuses()
+                assert client.statuses() == held
+                client.unlock(Unlock(key, Status.SKIPPED, remove_when_done=False))
+    finally:
+        process.kill()
+        process.wait()
+
+
+def first_answer(client: Groot2Client, process: "subprocess.Popen[bytes]") -> RemoteTree:
+    while process.poll() is None:
+        try:
+            return client.tree()
+        except SilenceError:
+            continue
+    raise AssertionError("the run has ended")
+
+
+def stops_at(client: Groot2Client, uid: int) -> None:
+    deadline_s = time.monotonic() + 60
+    while client.reached() != [uid]:
+        assert time.monotonic() < deadline_s
+        client.statuses()  # a client that asks nothing counts as gone
 
 
 def test_quantiles() -> None:

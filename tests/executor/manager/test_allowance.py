@@ -35,3 +35,12 @@ def test_a_page_that_reconnects_requests_everything_at_once():
     allowance = Allowance(0.0)
     wanted = ["subscribe"] * 4 + ["echo_topic"] * 24 + ["list_topics", "describe_type", "run"]
     assert all(allowance.take(command, 0.0) == 0.0 for command in wanted)
+
+
+def test_a_flood_of_requests_of_the_python_debugger_passes_a_hundred_a_second():
+    allowance = Allowance(0.0)
+    passed = [0] * 10
+    for n in range(10_000):  # a thousand a second
+        passed[n // 1000] += allowance.take("dap", n / 1000) == 0.0
+    assert passed[0] <= 300, "a page that begins sends its breakpoints at once"
+    assert passed[2:] == [100] * 8

@@ -6,6 +6,7 @@ import errno
 import os
 import shutil
 import tempfile
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -90,3 +91,13 @@ def test_only_the_newest_are_kept(tmp_path, monkeypatch):
     for token in range(1, 6):
         assert not made.unpack(Unpack(token, app_zip())).error
     assert sorted(path.name for path in made._scratch.path.glob("?")) == ["3", "4", "5"]
+
+
+def test_the_folder_of_the_running_application_stays(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    made = Folders(is_alone=False)
+    running = made.unpack(Unpack(1, app_zip())).folder
+    later = [made.unpack(Unpack(token, app_zip(), frozenset({running}))).folder for token in range(2, 8)]
+    assert Path(running).is_dir()
+    assert [folder for folder in later if Path(folder).is_dir()] == later[-2:]
+    made.remove()

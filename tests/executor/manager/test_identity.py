@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from backend.sessions import manager_socket
+from backend.sessions.manager import sockets
 from executor.manager.identity import MOST_CHARACTERS, USER_HEADER, user_of
 
 
@@ -27,4 +27,4 @@ def test_a_long_name_is_cut() -> None:
 
 
 def test_the_web_server_writes_the_same_header() -> None:
-    assert manager_socket.USER_HEADER == USER_HEADER
+    assert sockets.USER_HEADER == USER_HEADER

@@ -2,27 +2,77 @@
 
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING, Final
 
-from executor.manager.manager import free_domain_id, session_programs
+import pytest
+from websockets.exceptions import InvalidHandshake
+
+from backend.sessions.manager.address import open_socket
+from backend.sessions.manager.certificate import make_certificate
+from executor.application.groot import PORT_VARIABLE
+from executor.manager.manager import free_domain_id, main, session_programs
 from executor.recorder.link import ADDRESS_VARIABLE
+from tests.executor.session_client import TOKEN, manager_process
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from executor.session.events import Kind
 
 KINDS: Final[tuple[Kind, ...]] = ("world", "application")
 
 
-def test_a_session_has_a_domain_and_four_programs() -> None:
+def test_a_session_has_a_domain_and_its_programs() -> None:
     domain_id = free_domain_id()
     assert 0 <= domain_id <= 101
     programs = session_programs(domain_id)
-    assert set(programs) == {"world", "application", "recorder", "evaluation"}
+    assert set(programs) == {"world", "application", "exact", "recorder", "evaluation", "adapter"}
+    assert programs["exact"].environment["PYTHONHASHSEED"] == "0"
     for kind in KINDS:
         assert programs[kind].environment["ROS_DOMAIN_ID"] == str(domain_id)
     addresses = {
-        program.environment[ADDRESS_VARIABLE] for kind, program in programs.items() if kind != "evaluation"
+        program.environment[ADDRESS_VARIABLE]
+        for kind, program in programs.items()
+        if kind in ("world", "application", "recorder")
     }
     assert len(addresses) == 1
     assert programs["evaluation"].environment["PYTHONHASHSEED"] == "0"  # equal seeds are equal runs
+    assert PORT_VARIABLE not in programs["application"].environment
+    shown = session_programs(domain_id, groot2=1667)
+    with_port = [name for name, each in shown.items() if PORT_VARIABLE in each.environment]
+    assert with_port == ["application", "exact"]
     assert session_programs(domain_id)["recorder"].environment[ADDRESS_VARIABLE] not in addresses
+
+
+async def test_a_manager_with_a_certificate_speaks_tls_alone(tmp_path: Path) -> None:
+    made = make_certificate("session")
+    files = tmp_path / "tls.crt", tmp_path / "tls.key"
+    for file, text in zip(files, (made.certificate, made.key), strict=True):
+        file.write_text(text)
+    async with manager_process("--tls-cert", str(files[0]), "--tls-key", str(files[1])) as manager:
+        place = f"127.0.0.1:{manager.ready['port']}"
+        secure = f"wss://{place}#{made.digest}"
+        async with open_socket(
+            secure, "control", additional_headers={"Authorization": f"Bearer {TOKEN}"}
+        ) as socket:
+            assert json.loads(await socket.recv())["command"] == "introspection"
+        with pytest.raises((InvalidHandshake, OSError)):
+            async with open_socket(place, "control"):
+                pass
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (("--tls-cert", "missing.crt"), "--tls-cert and --tls-key are given together"),
+        (("--tls-key", "missing.key"), "--tls-cert and --tls-key are given together"),
+        (("--tls-cert", "missing.crt", "--tls-key", "missing.key"), "are no certificate and its key, as PEM"),
+        (("--ram", "--tls-cert", "a", "--tls-key", "b"), "without TLS"),
+    ],
+)
+def test_a_certificate_that_cannot_be_used_is_refused(
+    arguments: tuple[str, ...], sentence: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["--port", "0", *arguments]) == 2
+    assert sentence in capsys.readouterr().err

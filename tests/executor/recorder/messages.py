@@ -42,6 +42,15 @@ MESSAGES: dict[str, dict[str, Any]] = {
         "writer_uid": [2, 2**32 - 1],
     },
     "Log": {"stamp": T_NS, "source": "action", "level": "info", "text": "The way is free", "uid": 2},
+    "Profile": {
+        "stamp": T_NS,
+        "generation": 2,
+        "ticks": 10,
+        "uid": [1, 2],
+        "calls": [10, 12],
+        "total_ms": [2.5, 1.25],
+        "self_ms": [1.25, 1.25],
+    },
     "Fault": {
         "stamp": T_NS,
         "kind": "exception",

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 
-from executor.recorder.event_messages import message_of
+from executor.recorder.event_messages import STEP_HZ, input_fields, message_of
 
 
 @pytest.mark.parametrize(
@@ -51,3 +53,18 @@ def test_a_flag_has_its_own_moment_and_a_stop_is_a_gap():
         "Gap",
         {"stamp": 5, "reason": "recorder_died", "text": "was killed"},
     )
+
+
+def test_what_a_person_did_has_its_place():
+    done = input_fields(0.5, "teleop", {"linear": 0.1}, None)
+    assert (done["stamp"], done["step"], done["tick"], done["hook"]) == (5 * 10**8, STEP_HZ / 2, None, -1)
+    assert (done["command"], json.loads(done["data_json"])) == ("teleop", {"linear": 0.1})
+    held = input_fields(-1.0, "force", {}, 7, 2)
+    assert (held["stamp"], held["tick"], held["hook"]) == (0, 7, 2)
+
+
+def test_large_data_of_an_input_are_a_preview():
+    done = input_fields(0.0, "publish_topic", {"message": {"data": "x" * 10_000}}, 1)
+    shown = json.loads(done["data_json"])
+    assert shown["bytes"] > 10_000
+    assert len(done["data_json"]) < 1000

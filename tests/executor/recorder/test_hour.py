@@ -11,7 +11,8 @@ import psutil
 import pytest
 
 from executor.messages import Poses
-from executor.recorder.run_writer import SEGMENT_NS, RunWriter
+from executor.recorder.moment import SEGMENT_NS
+from executor.recorder.run_writer import RunWriter
 from executor.recorder.shelf import PICTURE, Budgets, Shelf
 from tests.budget import count
 

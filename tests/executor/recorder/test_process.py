@@ -15,11 +15,12 @@ from typing import Any
 import psutil
 import pytest
 from mcap.reader import make_reader
-from mcap.records import Message
+from mcap.records import Attachment, Channel, Message
 
 from executor.manager.identity import USER_HEADER
 from executor.messages import RecordingPart
 from executor.recorder.cdr import decode
+from executor.recorder.definitions import OURS
 from executor.recorder.link import BATCH_S
 from executor.recorder.ordering import SILENT_S
 from executor.recorder.process import LATE_S, LATER_S
@@ -64,8 +65,8 @@ async def running(headers=None, **more):
         await client.close()
 
 
-async def joined(manager, run):
-    """Returns the messages of a run, as (topic, time in s, fields), from the file that HTTP gives."""
+async def fetched(manager, run) -> bytes:
+    """Returns the file of a run that HTTP gives."""
 
     def fetch() -> bytes:
         url = f"http://127.0.0.1:{manager.ready['port']}/recordings/{run}/0"
@@ -77,7 +78,12 @@ async def joined(manager, run):
             raise AssertionError(error.read().decode()) from error
         return data
 
-    data = await asyncio.to_thread(fetch)
+    return await asyncio.to_thread(fetch)
+
+
+async def joined(manager, run):
+    """Returns the messages of a run, as (topic, time in s, fields)."""
+    data = await fetched(manager, run)
     found: list[tuple[str, float, dict[str, Any]]] = []
     for schema, channel, message in make_reader(io.BytesIO(data)).iter_messages():
         fields = decode(schema.name, message.data) if schema and schema.name.startswith("bt_studio") else {}
@@ -85,12 +91,15 @@ async def joined(manager, run):
     return found
 
 
-async def joined_with(manager, client, run, topic):
-    """Returns the messages of a run, once they have some of a topic: processes begin a run one by one."""
+async def joined_with(manager, client, run, topic, text=""):
+    """Returns the messages of a run, once they have some of a topic, and with a text if one is given.
+
+    Processes begin a run one by one, and what the manager tells waits for their messages of the same time.
+    """
     while True:
         at = len(client.events)  # the last segment may be reported while the file is on its way
         found = await joined(manager, run)
-        if any(each == topic for each, _, _ in found):
+        if any(each == topic and text in fields.get("text", "") for each, _, fields in found):
             return found
         await client.event("segment", after=at)
 
@@ -105,6 +114,8 @@ async def flagged(client, text):
 async def test_a_run_holds_tree_ticks_world_topics_lines_and_flags():
     async with running({USER_HEADER: "Ada%20L."}) as (manager, client):
         await client.event("tick", lambda data: data["n"] > 20)
+        await client.ask("teleop", {"linear": 0.1, "angular": 0.0})
+        assert await client.ask("set_tick_rate", {"tick_hz": 20.0}) == "ack"
         segment = await flagged(client, "here")
         found = await joined(manager, segment["run"])
         topics = {topic for topic, _, _ in found}
@@ -116,6 +127,12 @@ async def test_a_run_holds_tree_ticks_world_topics_lines_and_flags():
         assert numbers == list(range(numbers[0], numbers[-1] + 1))
         flags = [(f["text"], f["user"]) for topic, _, f in found if topic == "/bt/flag"]
         assert flags == [("here", "Ada L.")]  # whatever the client says
+        inputs = {f["command"]: f for topic, _, f in found if topic == "/bt/input"}
+        assert json.loads(inputs["teleop"]["data_json"]) == {"linear": 0.1, "angular": 0.0}
+        assert json.loads(inputs["set_tick_rate"]["data_json"]) == {"tick_hz": 20.0}
+        for done in inputs.values():
+            assert (done["hook"], done["tick"] in numbers) == (-1, True)
+            assert abs(done["step"] / 240 - done["stamp"] * 1e-9) < 0.01
 
         where = {"run": segment["run"], "segment": segment["number"], "version": segment["version"]}
         assert await client.ask("read_recording", where | {"offset": 0, "length": 1 << 20}) == "ack"
@@ -177,6 +194,35 @@ async def test_writes_have_their_writer_and_prints_their_node():
         inner = [n for n in printed if {n - 1, n, n + 1} <= written.keys()]
         assert inner
         assert [n for n in inner if not written[n - 1] <= printed[n] <= written[n + 1]] == []
+
+
+def made_of(data: bytes, name: str) -> dict[int, bytes]:
+    """Returns the contents that a file had when each tree came, by the generation of the tree."""
+    content, found, channels = b"", {}, {}
+    for record in RecordReader(io.BytesIO(data), "run"):
+        match record:
+            case Channel():
+                channels[record.id] = record.topic
+            case Attachment() if record.name == name:
+                content = record.data
+            case Message() if channels[record.channel_id] == "/bt/tree":
+                found[decode(f"{OURS}/msg/Tree", record.data)["generation"]] = content
+            case _:
+                pass
+    return found
+
+
+async def test_each_tree_follows_the_files_of_which_it_was_made():
+    changed = WRITES.replace('"tick"', '"another tick"')
+    async with running(app=app_zip(Forward=WRITES)) as (manager, client):
+        run = client.named("segment")[-1]["run"]
+        assert await client.ask("apply", {"app_zip_base64": app_zip(Forward=changed)}) == "ack"
+        found: dict[int, bytes] = {}
+        while 2 not in found:
+            at = len(client.events)
+            await client.event("segment", after=at)
+            found = made_of(await fetched(manager, run), "project/actions/Forward.py")
+        assert [source.decode() for source in found.values()] == [WRITES, changed]
 
 
 def test_a_message_is_on_disk_within_a_second():

@@ -34,6 +34,14 @@ def test_the_diagrams_have_the_room_first_and_the_engine_has_none(tmp_path):
     assert list(project_files(str(tmp_path))) == ["project/trees/Main.json"]
 
 
+def test_the_universe_of_the_project_comes_last_if_it_fits(tmp_path):
+    (tmp_path / "trees").mkdir()
+    (tmp_path / "trees" / "Main.json").write_bytes(bytes(MOST_BYTES - 10))
+    assert list(project_files(str(tmp_path), "name: Yard")) == ["project/trees/Main.json", "universe.yaml"]
+    assert project_files(str(tmp_path), "name: Yard")["universe.yaml"] == b"name: Yard"
+    assert list(project_files(str(tmp_path), "name: Garden")) == ["project/trees/Main.json"]
+
+
 def test_a_folder_that_is_not_there_has_no_files():
     assert project_files("/nowhere/at/all") == {}
 

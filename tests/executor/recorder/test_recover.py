@@ -6,8 +6,9 @@ import io
 
 import pytest
 from mcap.reader import make_reader
+from mcap.records import Attachment, Message
 
-from executor.recorder.reader import RecordingError
+from executor.recorder.reader import RecordingError, RecordReader
 from executor.recorder.recover import join, recover
 from executor.recorder.writer import RecordingWriter, nanoseconds
 from tests.executor.recorder.messages import MESSAGES
@@ -80,6 +81,24 @@ def test_segments_are_joined_with_their_channels_once():
     assert texts(out) == [0, nanoseconds(20), nanoseconds(20)]
 
 
+def test_the_sequence_rises_over_all_segments_of_one_time():
+    """A recorder that was replaced while time stood begins another segment at the same time."""
+    parts = []
+    for number in range(3):
+        file = io.BytesIO()
+        writer = RecordingWriter(file, {})
+        for text in "ab":
+            writer.record("/bt/log", "Log", LOG | {"stamp": nanoseconds(5), "text": f"{number}{text}"})
+        writer.finish()
+        parts.append((io.BytesIO(file.getvalue()), f"{number}.mcap"))
+    out = io.BytesIO()
+    join(parts, out)
+    found = [message for _, _, message in make_reader(io.BytesIO(out.getvalue())).iter_messages()]
+    assert [(message.log_time, message.sequence) for message in found] == [
+        (nanoseconds(5), number) for number in range(1, 7)
+    ]
+
+
 def test_what_is_no_recording_is_refused():
     with pytest.raises(RecordingError, match=r"x\.mcap:0"):
         recover(io.BytesIO(b"{}"), "x.mcap", io.BytesIO())
@@ -96,6 +115,13 @@ def test_a_joined_file_has_each_version_of_an_attached_file_once_in_order():
         parts.append((io.BytesIO(file.getvalue()), f"{number}.mcap"))
     out = io.BytesIO()
     join(parts, out)
+    out.seek(0)
+    found = [
+        record.data if isinstance(record, Attachment) else record.log_time // 10**9
+        for record in RecordReader(out, "joined")
+        if isinstance(record, Attachment | Message)
+    ]
+    assert found == [b"a", 0, 1, b"b", 2, b"a", 3]
     attached = sorted(
         make_reader(io.BytesIO(out.getvalue())).iter_attachments(), key=lambda one: one.log_time
     )

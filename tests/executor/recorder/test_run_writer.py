@@ -12,8 +12,9 @@ from mcap.records import Attachment, Message
 
 from executor.recorder.cdr import decode
 from executor.recorder.joining import join_run
+from executor.recorder.moment import SEGMENT_NS
 from executor.recorder.reader import RecordReader
-from executor.recorder.run_writer import MOST_CHANNELS, SEGMENT_NS, RunWriter
+from executor.recorder.run_writer import MOST_CHANNELS, RunWriter
 from executor.recorder.shelf import PICTURE, Segment, Shelf, file_of, parts_of
 
 SECOND = 1_000_000_000
@@ -79,6 +80,25 @@ def test_a_flush_tells_how_far_the_open_segment_can_be_read(tmp_path):
         assert sum(isinstance(record, Message) for record in reader) == 1
     assert reader.is_cut
     writer.end()
+
+
+def test_changed_files_are_attached_before_the_next_tree_and_in_the_next_segment(tmp_path):
+    files = {"project/a.py": b"code", "project/trees/Main.json": b"old", "universe.yaml": b"name: u"}
+    writer, shelf, _ = writer_in(tmp_path, **files)
+    writer.record(*log(1))
+    writer.change_files({"project/a.py": b"code", "project/trees/Main.json": b"new"})
+    for second in (2, 25):
+        writer.record(*log(second))
+    writer.end()
+    found: list[bytes | int] = []
+    for segment in shelf.segments:
+        with file_of(tmp_path, segment).open("rb") as file:
+            for record in RecordReader(file, "x"):
+                if isinstance(record, Attachment) and record.name != "project/a.py":
+                    found.append(record.data)
+                elif isinstance(record, Message):
+                    found.append(round(record.log_time / SECOND))
+    assert found == [b"old", b"name: u", 1, b"new", 2, b"new", b"name: u", 25]
 
 
 def test_time_never_runs_back_and_wild_times_are_refused(tmp_path):

@@ -132,3 +132,16 @@ def test_ticks_are_written_after_they_ended_with_their_own_times():
     recorder.says("info", "afterwards")
     assert [fields["stamp"] for _, _, fields in said[2:]] == [2, 2, 3, 3, 9]
     assert [topic for topic, _, _ in said[2:]] == ["/bt/blackboard", "/bt/tick"] * 2 + ["/bt/log"]
+
+
+def test_a_hold_of_the_debugger_is_left_out_of_the_duration_of_its_tick():
+    said: list = []
+    tree = Tree.from_xml(XML)
+    recorder = TreeRecorder(tree, lambda *message: said.append(message), lambda: 1, str)
+    recorder.leave_out(3600.0)
+    tree.tick_once()
+    tree.tick_once()
+    recorder.flush()
+    held, after = (tick["duration_ms"] for tick in of(said, "/bt/tick"))
+    assert held == 0.0
+    assert after > 0.0

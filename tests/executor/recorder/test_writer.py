@@ -10,7 +10,7 @@ from rosbags.highlevel import AnyReader
 
 from executor.recorder.cdr import decode
 from executor.recorder.definitions import OURS
-from executor.recorder.writer import FORMAT_VERSION, RecordingWriter, nanoseconds
+from executor.recorder.writer import CHUNK_BYTES, FORMAT_VERSION, RecordingWriter, nanoseconds
 from tests.executor.recorder.messages import MESSAGES, T_NS
 
 ABOUT = {"project": "P", "seed": "1"}
@@ -71,6 +71,20 @@ def test_log_time_never_decreases_and_the_sequence_rises():
     assert [message.log_time for message in messages] == [10**9, 10**9, 10**9, 2 * 10**9]
     assert [message.sequence for message in messages] == [1, 2, 3, 4]
     assert (writer.last_ns, writer.messages) == (2 * 10**9, 4)
+
+
+def test_chunks_have_256_kib_and_are_packed_by_zstd():
+    file = io.BytesIO()
+    writer = RecordingWriter(file, {})
+    size = 10_000
+    for number in range(100):
+        writer.write("/x", "std_msgs/msg/String", number, bytes(size))
+    writer.finish()
+    summary = make_reader(io.BytesIO(file.getvalue())).get_summary()
+    chunks = summary.chunk_indexes
+    assert {chunk.compression for chunk in chunks} == {"zstd"}
+    assert len(chunks) == -(-100 * size // CHUNK_BYTES)
+    assert all(CHUNK_BYTES <= chunk.uncompressed_size < CHUNK_BYTES + 2 * size for chunk in chunks[:-1])
 
 
 def test_negative_time_is_the_begin():

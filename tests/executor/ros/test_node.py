@@ -242,3 +242,17 @@ def test_a_restart_publishes_from_zero(rig: Rig) -> None:
 def test_due_keeps_its_rate_over_time(rate: float) -> None:
     due = Due(rate)
     assert sum(due(i / 240) for i in range(240 * 20)) == rate * 20
+
+
+def test_of_universe_renames_topics_and_publishes_true_poses_as_the_universe_says(context: Context) -> None:
+    universe = load_builtin("walled_room")
+    place = universe.robots[0].model_copy(update={"ground_truth": True, "topics": {"scan": "/told_scan"}})
+    world = BulletWorld(universe.model_copy(update={"robots": (place,)}))
+    node = WorldNode.of_universe(world, context)
+    try:
+        names = {name for name, _ in node.node.get_publisher_names_and_types_by_node("world", "/")}
+        assert {"/told_scan", "/ground_truth/odom"} <= names
+        assert "/scan" not in names
+    finally:
+        node.close()
+        world.close()

@@ -38,6 +38,20 @@ def test_pictures_are_jpeg_at_most_ten_in_a_second():
     assert abs(int(read.mean()) - 200) < 3
 
 
+def test_a_run_whose_time_begins_again_has_pictures_from_its_begin():
+    picture = Image(height=16, width=32, encoding="rgb8", data=bytes(16 * 32 * 3))
+    said = []
+    tap = TopicTap(lambda *message: said.append(message))
+    for now_s in (50.0, 0.0, 0.05, 0.1):
+        tap("/topic", picture, now_s)
+        tap.jpeg("/world/camera/front", b"jpeg", now_s, "front")
+    assert [(topic, now_s) for topic, _, now_s, _ in said] == [
+        (topic, now_s)
+        for now_s in (50.0, 0.0, 0.1)
+        for topic in ("/topic/compressed", "/world/camera/front/compressed")
+    ]
+
+
 def test_depth_is_left_out():
     assert taken((Image(encoding="32FC1"), 0.0)) == []
     assert kind_of(Image()) == "sensor_msgs/msg/Image"
@@ -50,11 +64,16 @@ def test_a_picture_that_is_coded_for_others_is_not_coded_again_and_recorded_once
     tap("/camera/image_raw", Shown(picture, lambda: b"jpeg"), 0.0)
     tap.jpeg("/world/camera/camera", b"jpeg", 0.0, "camera")
     tap.jpeg("/world/camera/other", b"jpeg", 0.0, "other")
-    tap.jpeg("/world/camera/camera", b"smaller", 0.0, "camera")
-    assert [topic for topic, *_ in said] == [
-        "/camera/image_raw/compressed",
-        "/world/camera/other/compressed",
-        "/world/camera/camera/compressed",
+    # Drawn for a client between two pictures of the topic, which has ten in a second.
+    tap.jpeg("/world/camera/camera", b"smaller", 0.05, "camera")
+    tap("/camera/image_raw", Shown(picture, lambda: b"jpeg"), 0.1)
+    tap.jpeg("/world/camera/camera", b"next", 0.15, "camera")
+    tap.jpeg("/world/camera/camera", b"alone", 0.3, "camera")
+    assert [(topic, now_s) for topic, _, now_s, _ in said] == [
+        ("/camera/image_raw/compressed", 0.0),
+        ("/world/camera/other/compressed", 0.0),
+        ("/camera/image_raw/compressed", 0.1),
+        ("/world/camera/camera/compressed", 0.3),
     ]
     assert bytes(deserialize_message(said[0][3], CompressedImage).data) == b"jpeg"
 

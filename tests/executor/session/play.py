@@ -7,7 +7,7 @@ from typing import Any
 from msgspec import convert
 
 from executor import child_messages
-from executor.child_messages import FromApplication, FromWorld, name_of
+from executor.child_messages import FromExact, FromWorld, name_of
 from executor.messages import COMMANDS
 from executor.session.events import (
     ChildExited,
@@ -37,6 +37,7 @@ DATA: dict[str, dict[str, Any]] = {
     "launch_universe": UNIVERSE,
     "run_application": APPLICATION,
     "run": {"universe": UNIVERSE, "application": APPLICATION},
+    "apply": {"app_zip_base64": "eA=="},
     "set_tick_rate": {"tick_hz": 10.0},
     "set_speed": {"speed": 2.0},
     "set_port": {"node_id": "n1", "path": "Act::1", "port": "gain", "value": "2"},
@@ -44,6 +45,10 @@ DATA: dict[str, dict[str, Any]] = {
     "set_breakpoints": {"breakpoints": [{"tree_id": "Main", "node_id": "n1"}]},
     "step_to": {"uid": 2, "path": "Act::2"},
     "force": {"uid": 2, "path": "Act::2"},
+    "control": {"on": True},
+    "profile": {"on": True},
+    "serve_groot2": {"port": 1667},
+    "dap": {"message": {"seq": 1, "type": "request", "command": "initialize"}},
     "teleop": {"linear": 0.1, "angular": 0.0},
     "move_body": {"id": "crate", "pose": [0, 0, 0, 0, 0, 0]},
     "subscribe": {"stream": "poses"},
@@ -77,14 +82,15 @@ ANSWERS = {
 
 def child_message(child: Kind, type_: str, /, **fields: Any) -> Any:
     """Returns a child's message, as its channel would decode it."""
-    return convert({"type": type_, **fields}, FromApplication if child == "application" else FromWorld)
+    return convert({"type": type_, **fields}, FromExact if child == "application" else FromWorld)
 
 
 class Play:
     """A session with a driver and well-behaved children by default."""
 
     def __init__(self, *, driver: str = "d", obedient: bool = True) -> None:
-        self.session = Session(About(version="test", ros_domain_id=41))
+        about = About(version="test", ros_domain_id=41, ros_environment={"ROS_DOMAIN_ID": "41"})
+        self.session = Session(about)
         self.now = 0.0
         self.obedient = obedient
         self.effects: list[Effect] = []
@@ -107,6 +113,8 @@ class Play:
 
     def answers(self, effect: Effect) -> list[Event]:  # noqa: PLR0911 - one line an effect
         """Yields the answers of obedient children and the manager to an effect."""
+        if (found := self._answers_of_exact_run(effect)) is not None:
+            return found
         match effect:
             case Tell(message=child_messages.StartWorld()):
                 return [self._said(effect, "ready", renderer="egl", tf=True, universe="Walled room")]
@@ -129,6 +137,25 @@ class Play:
                 return [Unpacked(effect.token, "/somewhere")]
             case _:
                 return []
+
+    def _answers_of_exact_run(self, effect: Effect) -> list[Event] | None:
+        """Returns what an exact run, or the world that it takes over, answers; None to other effects."""
+        match effect:
+            case Tell(message=child_messages.DumpWorld(request=request)):
+                state = self._said(effect, "world_state", data=b"as it is")
+                return [state, self._said(effect, "answer", request=request)]
+            case Tell(message=child_messages.ForWorld(command=command)):
+                request = getattr(command, "request", None)
+                return [self._said(effect, "answer", request=request)] if request else []
+            case Tell(message=child_messages.StartApplication(replay=replay)) if replay is not None:
+                t_s = 9.0 if replay.until_s is None else replay.until_s
+                fields = {"t": t_s, "ticks": 1, "inputs": 0, "resets": 0, "tick_hz": 20.0}
+                return [self._said(effect, "went_back", **fields), self._said(effect, "ready")]
+            case Tell(kind="application", message=child_messages.Stop()) if self.session.children.host:
+                left = self._said(effect, "world_state", data=b"as it was left")
+                return [left, ChildExited(effect.kind, effect.number, "ended with exit code 0")]
+            case _:
+                return None
 
     @staticmethod
     def _said(effect: Tell, type_: str, /, **fields: Any) -> ChildSaid:

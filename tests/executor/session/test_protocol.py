@@ -25,8 +25,13 @@ from executor.session.stage import About
 from executor.session.steps import STEPS
 from tests.executor.session.play import DATA, Play
 
-NEEDS_RECORDER = {"read_recording": "no_stream", "flag": "not_recorded"}
-"""What a session that is not recorded answers."""
+REFUSED = {
+    "read_recording": "no_stream",
+    "flag": "not_recorded",
+    "control": "not_attached",
+    "go_back": "not_exact",
+}
+"""What a session answers that is neither recorded nor attached."""
 PAIRS = [(state, command) for state in State for command in TABLE]
 
 
@@ -54,8 +59,8 @@ def test_every_command_in_every_state(state, command):
     elif command == "restart_node":
         assert play.reply(request) == "unknown_node"
         assert play.state is before
-    elif command in NEEDS_RECORDER:
-        assert play.reply(request) == NEEDS_RECORDER[command]
+    elif command in REFUSED:
+        assert play.reply(request) == REFUSED[command]
         assert play.state is before
     else:
         assert play.reply(request) == "ack"
@@ -72,7 +77,7 @@ def test_a_viewer_may_look_only(state, command):
     if not TABLE[command].for_viewers:
         assert play.reply(request) == "not_driver"
     else:
-        done = NEEDS_RECORDER.get(command, "ack")
+        done = REFUSED.get(command, "ack")
         assert play.reply(request) == (done if is_legal(state, command) else "wrong_state")
     assert play.state is state
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from executor import child_messages, messages, recorder_messages
 from executor.session.events import (
     ChildExited,
@@ -11,10 +13,13 @@ from executor.session.events import (
     RecordingWanted,
     Spawn,
     StreamOpened,
+    Tell,
+    Unpack,
+    Unpacked,
 )
 from executor.session.ladder import State
 from executor.session.recording import MOST_LOST, SILENT_S
-from tests.executor.session.play import Play
+from tests.executor.session.play import APPLICATION, Play
 
 
 def recorded(state: State = State.APPLICATION_RUNNING) -> Play:
@@ -47,6 +52,51 @@ def test_a_run_begins_at_the_recorder_before_world_and_application():
     assert order.index("begin_recording") < order.index("resume")
 
 
+@pytest.mark.parametrize("command", ["run", "run_application", "restart_application"])
+def test_each_start_of_a_program_begins_a_run(command):
+    play = recorded()
+    assert play.reply(play.command(command)) == "ack"
+    first, second = told(play, recorder_messages.BeginRun)
+    assert first.run != second.run
+    children = [begun.run for begun in told(play, child_messages.BeginRecording)]
+    assert children == [first.run] * 2 + [second.run] * 2
+
+
+@pytest.mark.parametrize("code", ["", "not_applied"])
+def test_the_files_of_a_changed_program_are_recorded_and_those_before_if_it_is_refused(code):
+    play = recorded()
+    play.obedient = False
+    play.command("apply", app_zip_base64="eA==", dry=False)
+    unpack = next(effect for effect in reversed(play.effects) if isinstance(effect, Unpack))
+    play.happens(Unpacked(unpack.token, "/changed"))
+    (asked,) = told(play, child_messages.ApplyApplication)
+    error = {"code": code, "message": "It does not fit."} if code else None
+    play.child_says("application", "answer", request=asked.request, error=error)
+    changes = [(change.run, change.folder) for change in told(play, recorder_messages.ChangeFiles)]
+    run = play.session.recording.run
+    order = [type(effect.message) for effect in play.effects if isinstance(effect, Tell)]
+    assert order.index(recorder_messages.ChangeFiles) < order.index(child_messages.ApplyApplication)
+    assert changes == [(run, "/changed"), *([(run, "/somewhere")] if code else [])]
+
+
+def test_what_would_be_applied_is_not_recorded():
+    play = recorded()
+    assert play.reply(play.command("apply", app_zip_base64="eA==", dry=True)) == "ack"
+    assert told(play, recorder_messages.ChangeFiles) == []
+
+
+def test_the_recording_says_where_the_run_was():
+    play = recorded()
+    own = {"document": "name: Yard", "file": "yard.yaml"}
+    universe = {"universe": own, "robot": "scout", "seed": 7}
+    application = {**APPLICATION, "revision": 12}
+    assert play.reply(play.command("run", universe=universe, application=application)) == "ack"
+    first, second = told(play, recorder_messages.BeginRun)
+    assert (first.about["robot"], first.about.get("revision"), first.universe) == ("", None, "")
+    assert second.about["revision"] == "12"
+    assert (second.about["robot"], second.about["seed"], second.universe) == ("scout", "7", "name: Yard")
+
+
 def test_without_a_wish_nothing_is_recorded():
     play = Play()
     play.climb(State.APPLICATION_RUNNING)
@@ -67,7 +117,7 @@ def test_lines_faults_and_flags_are_recorded():
     play = recorded()
     play.child_says("application", "log", level="info", text="hello", time=2.0)
     assert play.reply(play.command("flag", text="here")) == "ack"
-    lines = [(t.name, t.t, t.data["text"]) for t in told(play, recorder_messages.Told)]
+    lines = [(t.name, t.t, t.data["text"]) for t in told(play, recorder_messages.RunEvent)]
     assert lines == [("log", 2.0, "hello"), ("flag", play.session.sim_time_s, "here")]
 
 
@@ -122,9 +172,9 @@ def test_another_recorder_hears_of_the_flags_and_the_gap():
     play = recorded()
     play.command("flag", text="here")
     play.child_dies("recorder", "was killed by SIGKILL")
-    [flag, again] = [t for t in told(play, recorder_messages.Told) if t.name == "flag"]
+    [flag, again] = [t for t in told(play, recorder_messages.RunEvent) if t.name == "flag"]
     assert again.data == flag.data
-    [gap] = [t for t in told(play, recorder_messages.Told) if t.name == "recording_stopped"]
+    [gap] = [t for t in told(play, recorder_messages.RunEvent) if t.name == "recording_stopped"]
     assert (gap.data["reason"], gap.data["goes_on"]) == ("recorder_died", True)
     for _ in range(MOST_LOST):
         play.child_dies("recorder", "was killed by SIGKILL")

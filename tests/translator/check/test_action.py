@@ -54,3 +54,29 @@ def test_a_type_that_is_no_enumeration_is_reported_at_its_line(make_project, hea
     assert [(item.place.file, item.place.line, item.place.port) for item in found] == [
         ("actions/Paint.py", line, "color") for line in lines
     ]
+
+
+@pytest.mark.parametrize(
+    ("time", "universe", "lines"),
+    [
+        ("exact", "walled_room", [9]),
+        ("live", "walled_room", []),
+        ("exact", "none", []),
+    ],
+)
+def test_an_action_that_waits_is_reported_in_exact_time(make_project, time, universe, lines):
+    source = """import time
+
+import py_trees
+
+
+class Wait(py_trees.behaviour.Behaviour):
+    def update(self):
+        self.waited = True
+        time.sleep(1)
+        return py_trees.common.Status.SUCCESS
+"""
+    project = make_project({"n1": {"type": "Wait"}}, actions={"Wait": source}, time=time, universe=universe)
+    found = [item for item in findings(check_actions, project) if item.code == "BT0622"]
+    assert [(item.place.file, item.place.line) for item in found] == [("actions/Wait.py", n) for n in lines]
+    assert all(item.values["call"] == "time.sleep" for item in found)

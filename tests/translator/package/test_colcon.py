@@ -12,6 +12,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+import yaml
 
 from tests.fakes.launch_modules import launch
 from tests.translator.conftest import EXAMPLES, example_files
@@ -144,14 +145,22 @@ def turning_speed(name):
     return float(turn.ports["ang_speed"])
 
 
-def test_colcon_test_reports_the_behaviour_tests_that_fail(workspace):
+def test_the_workflow_of_a_package_reports_the_behaviour_tests_that_fail(workspace):
+    """Its commands are run as they stand there, but for those that install ROS."""
     name = "laser_bump_and_go"
+    workflow = yaml.safe_load((workspace / "src/.github/workflows" / f"{name}.yml").read_text())
+    [job] = workflow["jobs"].values()
+    commands = [step["run"] for step in job["steps"] if "colcon" in step.get("run", "")]
+    assert [re.search(r"colcon [\w-]+", each)[0] for each in commands] == [
+        "colcon build",
+        "colcon test",
+        "colcon test-result",
+    ]
 
     def tested():
-        paths = [f"src/{package}" for package in (name, "tree_gardener")]
-        for command in (["test", "--base-paths", *paths], ["test-result", "--verbose"]):
+        for command in commands[1:]:
             done = subprocess.run(
-                ["colcon", "--log-base", "log", *command],
+                ["bash", "-e", "-c", command],
                 cwd=workspace,
                 env=environment(workspace),
                 capture_output=True,

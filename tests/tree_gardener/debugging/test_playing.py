@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import pytest
 
-from tests.budget import count
+from tests.budget import count, seeds
 from tests.tree_gardener.debugging import playing
-from tests.tree_gardener.generated.both_ways import RARE, USUAL, cases
+from tests.tree_gardener.generated.both_ways import RARE, USUAL, cases, loadable
 from tree_gardener import Status, Tree
 from tree_gardener.conformance import cases as cases_module
 from tree_gardener.conformance import run_file
@@ -33,8 +33,9 @@ CORPUS = ("focused.jsonl", "throws.jsonl", "timed.jsonl", "added.jsonl", "random
 @pytest.mark.timeout(3600)
 @pytest.mark.parametrize("letters", [USUAL, RARE])
 def test_stops_change_nothing(letters: str) -> None:
-    stops = sum(playing.compare(case, letters) for case in cases(1, count("debugger_continues_trees")))
-    assert stops >= 5 * count("debugger_continues_trees")
+    today = seeds("debugger_continues_trees")
+    stops = sum(playing.compare(case, letters) for case in loadable(today))
+    assert stops >= 5 * len(today)
 
 
 @pytest.mark.timeout(3600)
@@ -43,13 +44,13 @@ def test_breakpoints_in_generated_code_change_nothing_and_stop_where_the_methods
     letters: str, *, changes: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked = _generated_from_the_first_tick(monkeypatch)
-    number = count("debugger_continues_trees")
+    today = seeds("debugger_continues_trees")
     stops = sum(
         playing.compare(case, letters, player=playing.Waiter, changes=changes, is_exact=True)
-        for case in cases(1, number)
+        for case in loadable(today)
     )
-    assert stops >= number // 2
-    assert asked[True] + asked[False] >= number // 10
+    assert stops >= len(today) // 2
+    assert asked[True] + asked[False] >= len(today) // 10
 
 
 def _generated_from_the_first_tick(monkeypatch: pytest.MonkeyPatch) -> Counter[bool]:
@@ -112,7 +113,7 @@ class Stopped(Tree):
 @pytest.mark.timeout(3600)
 def test_every_command_can_be_given_at_every_stop() -> None:
     commands = Counter[str]()
-    for case in cases(1, count("debugger_commands_trees")):
+    for case in loadable(seeds("debugger_commands_trees")):
         commands += playing.play(case, USUAL)
     assert set(commands) == {*playing.COMMANDS}
 

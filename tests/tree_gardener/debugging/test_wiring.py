@@ -4,13 +4,16 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from tests.tree_gardener.debugging.trees import User, named, tree_of
+from tests.tree_gardener.debugging.trees import Leaf, User, named, tree_of
 from tree_gardener import Status, Tree
 from tree_gardener.debugging import Breakpoint, Debugger, Force, Position, Step, When, place_of
 from tree_gardener.debugging.wiring import AskingGuard
+from tree_gardener.ports import node_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from py_trees.common import Status as PyTreesStatus
 
     from tree_gardener.node import Node
 
@@ -199,6 +202,51 @@ def test_a_stop_below_a_parallel_reaches_its_other_children() -> None:
     assert tree.tick_exactly_once() is Status.RUNNING
     assert user.take() == ["l3: it returned RUNNING", "l4: before its tick", "l45: before its tick"]
     assert {named(tree, f"l{number}").behaviour.calls.count("update") for number in range(50)} == {9}
+
+
+class Halting(Leaf):
+    """Halts the tree in the ninth call of the method that its name says."""
+
+    def initialise(self) -> None:
+        super().initialise()
+        self.halt_in("initialise")
+
+    def update(self) -> Any:
+        status = super().update()
+        self.halt_in("update")
+        return status
+
+    def terminate(self, new_status: PyTreesStatus) -> None:
+        super().terminate(new_status)
+        self.halt_in("terminate SUCCESS")
+
+    def halt_in(self, call: str) -> None:
+        if self.calls[-1] == call and call.startswith(self.name[:6]) and self.calls.count(call) == 9:
+            node_of(self).tree.halt()
+
+
+@pytest.mark.parametrize("name", ["initialise.S", "update.S", "terminate.S", "update.R"])
+@pytest.mark.parametrize("is_generated_", [False, True])
+def test_a_step_from_a_halt_within_an_action_ends_at_the_result_of_this_action(
+    name: str, *, is_generated_: bool
+) -> None:
+    control = "ReactiveSequence"
+    acting = f'<Inverter><Inverter><Halting name="{name}"/></Inverter></Inverter>'
+    if name == "update.R":
+        control, acting = "ParallelAll", '<Halting name="update.R"/>'
+    tree = tree_of(f'<{control} name="all">{acting}<Leaf name="w.R"/></{control}>', Halting=Halting)
+    tree.generate_code(on=is_generated_)
+    tree.observe(lambda changes: None)
+    user = User(tree)
+    user.debugger.set_breakpoints([Breakpoint(place_of(named(tree, "w")), When.HALTED)])
+    for _ in range(8):
+        tree.tick_exactly_once()
+    assert user.take() == []
+    assert is_generated(tree, "all") is (is_generated_ and control != "ParallelAll")
+    user.at_next(lambda debugger: debugger.resume(Step.INTO))
+    tree.tick_exactly_once()
+    result = {"S": "SUCCESS", "R": "RUNNING"}[name[-1]]
+    assert user.take() == ["w: it was halted", f"{name[:-2]}: it returned {result}"]
 
 
 def test_what_a_precondition_decides_in_generated_code_is_such_a_stop() -> None:

@@ -23,7 +23,7 @@ from tree_gardener.ports import node_of
 from tree_gardener.values import INT
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from tree_gardener.observe import TickChanges
 
@@ -227,8 +227,12 @@ def compare(case: Case, letters: str = USUAL, *, changes: bool = False) -> tuple
 
 def cases(first: int, count: int) -> list[Case]:
     """Random cases of which the engine loads each."""
-    found = []
-    for seed in range(first, first + count):
+    return list(loadable(range(first, first + count)))
+
+
+def loadable(seeds: range) -> Iterator[Case]:
+    """Makes the random cases of which the engine loads each, one at a time."""
+    for seed in seeds:
         case = generate(seed)
         if seed % 3 == 0:
             case = wide(case)
@@ -236,5 +240,4 @@ def cases(first: int, count: int) -> list[Case]:
             Run(case, is_generated=False, letters=USUAL, changes=False)
         except LoadError:
             continue
-        found.append(case)
-    return found
+        yield case

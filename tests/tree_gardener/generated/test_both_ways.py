@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.budget import count
-from tests.tree_gardener.generated.both_ways import RARE, USUAL, Run, cases, compare
+from tests.budget import seeds
+from tests.tree_gardener.generated.both_ways import RARE, USUAL, Run, cases, compare, loadable
 from tree_gardener.conformance import run_file
 from tree_gardener.generated import code, generation
 from tree_gardener.generated.writer import Writer
@@ -20,13 +20,14 @@ CASES = Path(__file__).parents[2] / "conformance"
 @pytest.mark.parametrize("changes", [False, True])
 def test_random_trees_show_the_same(letters: str, *, changes: bool) -> None:
     seen = inlined = 0
-    for case in cases(1, count("engine_both_ways_trees")):
+    today = seeds("engine_both_ways_trees")
+    for case in loadable(today):
         entries, functions = compare(case, letters, changes=changes)
         seen += entries
         inlined += functions
     # Trees without code, or leaves that are never called, would prove nothing.
-    assert inlined >= count("engine_both_ways_trees")
-    assert seen >= 20 * count("engine_both_ways_trees")
+    assert inlined >= len(today)
+    assert seen >= 20 * len(today)
 
 
 @pytest.mark.parametrize(

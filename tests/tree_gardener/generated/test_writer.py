@@ -34,7 +34,9 @@ HOSTILE = (
     "lambda: eval",
 )
 VARIANTS = [
-    Variant(*(bool(number & bit) for bit in (1, 2, 4, 8, 16))) for number in range(32) if number & 6 != 4
+    Variant(*(bool(number & bit) for bit in (1, 2, 4, 8, 16, 32)))
+    for number in range(64)
+    if number & 6 != 4 and number & 48 != 32
 ]
 BODY = (
     "<Sequence name={name} _skipIf={test} _post={script}><Fallback><ScriptCondition code={test} name={name}/>"

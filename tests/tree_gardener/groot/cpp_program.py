@@ -22,7 +22,7 @@ XML = """<root BTCPP_format="4" main_tree_to_execute="Main">
 
 @contextmanager
 def cpp_program(port: int, xml: str = XML) -> Iterator[subprocess.Popen[str]]:
-    """Runs the program until the end of the block."""
+    """Runs the program until the end of the block, also one whose tree is held."""
     with subprocess.Popen(
         [sys.executable, "-m", "tests.tree_gardener.groot.cpp_program", str(port), xml],
         cwd=ROOT,
@@ -30,7 +30,10 @@ def cpp_program(port: int, xml: str = XML) -> Iterator[subprocess.Popen[str]]:
         stdout=subprocess.DEVNULL,
         text=True,
     ) as process:
-        yield process
+        try:
+            yield process
+        finally:
+            process.kill()
 
 
 def main(port: int, xml: str) -> None:

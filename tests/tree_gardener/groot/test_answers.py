@@ -13,7 +13,7 @@ from tree_gardener import Tree
 from tree_gardener.groot.answers import Answers
 from tree_gardener.groot.hooks import Hooks
 from tree_gardener.groot.mirror import Mirror
-from tree_gardener.groot.protocol import LONGEST_REQUEST
+from tree_gardener.groot.protocol import LONGEST_REQUEST, RequestType
 
 HOOK = {"enabled": True, "uid": 1, "mode": 1, "once": False, "desired_status": "FAILURE", "position": 0}
 
@@ -69,3 +69,44 @@ def test_a_wrong_request_is_answered_with_an_error(answers: Answers, parts: list
     error, why = answers.answer(parts)
     assert error == b"error"
     assert text in why
+
+
+CONTENTS = {
+    "I": json.dumps(HOOK).encode(),
+    "R": b'{"uid": 1, "position": 0}',
+    "U": b'{"uid": 1, "position": 0, "desired_status": "SKIPPED", "remove_when_done": false}',
+    "B": b"Main",
+    "r": b"start",
+}
+
+
+@pytest.mark.parametrize("kind", [each.value for each in RequestType if each is not RequestType.REACHED])
+def test_wrong_lengths_and_unknown_ids_of_each_type_are_refused_and_change_nothing(
+    answers: Answers, kind: str
+) -> None:
+    answers.answer([header("I"), CONTENTS["I"]])
+    before = answers.answer([header("D")])[1:]
+    content = CONTENTS.get(kind)
+    whole = header(kind)
+    wrong: list[list[bytes]] = [[whole[:length], *([content] if content else [])] for length in range(6)]
+    wrong += [[whole + b"x"], [b"\x01" + whole[1:]]]
+    if content is not None:
+        wrong += [[whole], [whole, content, content], [whole, bytes(LONGEST_REQUEST + 1)]]
+    if kind in {"I", "R", "U"}:
+        wrong += [[whole, content[:length]] for length in range(len(content or b""))]
+        wrong += [
+            [whole, json.dumps(json.loads(content or b"") | change).encode()]
+            for change in ({"uid": 2}, {"uid": 0}, {"uid": -1}, {"uid": 1 << 40}, {"position": 7})
+        ]
+        wrong += [[whole, b"[" * 5000], [whole, b"\xff"], [whole, b"null"]]
+    for parts in wrong:
+        reply = answers.answer(parts)
+        assert reply[0] == b"error", parts
+        assert len(reply) == 2
+        assert reply[1]
+    assert answers.answer([header("D")])[1:] == before
+
+
+def test_a_board_that_is_unknown_is_left_out(answers: Answers) -> None:
+    for names in (b"Other", b"main", b"\xff", b"Main/" * 1000):
+        assert msgpack.unpackb(answers.answer([header("B"), names])[1]) == {}

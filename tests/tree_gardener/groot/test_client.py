@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import struct
 import time
 from typing import TYPE_CHECKING
@@ -15,9 +16,12 @@ from tests.tree_gardener.groot.cpp_program import XML, cpp_program
 from tree_gardener import Status, Tree
 from tree_gardener.groot import Groot2Publisher, GrootError
 from tree_gardener.groot.client import LARGEST_REPLY, Groot2Client, SilenceError, read_address
+from tree_gardener.groot.protocol import Hook, HookKey, Mode, Position, Unlock
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from tree_gardener.groot.remote import Transition
 
 DEADLINE_S = 60
 # A busy machine may take its time where nothing goes wrong.
@@ -195,6 +199,7 @@ def test_an_endless_answer_is_not_read() -> None:
         ("robot.local", ("robot.local", 1667)),
         ("127.0.0.1:7", ("127.0.0.1", 7)),
         ("[::1]:1700", ("[::1]", 1700)),
+        ("tcp://robot:5", ("robot", 5)),
     ],
 )
 def test_an_address_is_host_and_port(text: str, address: tuple[str, int]) -> None:
@@ -202,8 +207,96 @@ def test_an_address_is_host_and_port(text: str, address: tuple[str, int]) -> Non
 
 
 @pytest.mark.parametrize(
-    "text", ["", "*:1667", "ipc:///tmp/x", "tcp://host:1", "host:0", "host:65535", "host:x", "a b", "eth0;x"]
+    "text", ["", "*:1667", "ipc:///tmp/x", "host:0", "host:65535", "host:x", "a b", "eth0;x"]
 )
 def test_other_addresses_are_refused(text: str) -> None:
     with pytest.raises(GrootError, match="HOST:PORT"):
         read_address(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("ipc:///tmp/x", "'ipc:' is no program that is reached by TCP"),
+        ("inproc://x", "'inproc:' is no program"),
+        ("*:1667", "stands for every address"),
+        ("0.0.0.0", "stands for every address"),  # noqa: S104 - refused
+        ("[::]:1667", "stands for every address"),
+        ("eth0;robot:1667", "network interface"),
+        ("host:0", "0 is no port"),
+    ],
+)
+def test_the_refusal_of_an_address_says_why(text: str, why: str) -> None:
+    with pytest.raises(GrootError, match=re.escape(why)):
+        read_address(text)
+
+
+def hook(
+    uid: int, mode: Mode = Mode.BREAKPOINT, status: Status = Status.SKIPPED, *, once: bool = False
+) -> Hook:
+    return Hook(HookKey(uid, Position.BEFORE), mode, once, status, enabled=True)
+
+
+def until(read: Callable[[], bool], why: str) -> None:
+    end_s = time.monotonic() + DEADLINE_S
+    while not read():
+        assert time.monotonic() < end_s, why
+        time.sleep(0.01)
+
+
+def test_a_program_of_behaviortree_cpp_is_held_unlocked_and_forced() -> None:
+    port = free_port()
+    with cpp_program(port), Groot2Client("127.0.0.1", port, PATIENT_S) as client:
+        client.listen()
+        client.tree()
+        assert client.hooks() == []
+        until(lambda: _is_reached(client, 3), "the breakpoint is reached")
+        client.unlock(Unlock(HookKey(3, Position.BEFORE), Status.SKIPPED, remove_when_done=False))
+        until(lambda: 3 in client.reached(), "it is reached again")
+        client.remove(HookKey(3, Position.BEFORE))
+        assert client.hooks() == []
+        client.insert([hook(3, Mode.REPLACE, Status.FAILURE)])
+        until(lambda: client.statuses()[0][3].was is Status.FAILURE, "it fails")
+        with pytest.raises(GrootError, match="refuses"):
+            client.remove(HookKey(999, Position.BEFORE))
+
+
+def _is_reached(client: Groot2Client, uid: int) -> bool:
+    """Sets the hook again, since one is not heard that is reached before this client is joined."""
+    if uid in client.reached():
+        return True
+    for each in client.hooks():
+        client.remove(each.key)
+    client.insert([hook(uid)])
+    return False
+
+
+def test_transitions_of_a_program_are_read() -> None:
+    port = free_port()
+    with cpp_program(port), Groot2Client("127.0.0.1", port, PATIENT_S) as client:
+        client.tree()
+        client.record(on=True)
+        found: list[Transition] = []
+
+        def is_all() -> bool:
+            transitions, dropped = client.transitions()
+            assert dropped == 0
+            found.extend(transitions)
+            return {each.uid for each in found} >= set(range(1, 11))
+
+        until(is_all, "all nodes change")
+        times = [each.time_us for each in found]
+        assert times == sorted(times)
+        client.record(on=False)
+
+
+def test_a_connection_that_was_cut_is_reported_once() -> None:
+    port = free_port()
+    with Groot2Client("127.0.0.1", port, PATIENT_S) as client:
+        with Groot2Publisher(Tree.from_xml(XML), port):
+            client.statuses()
+            assert not client.take_cut()
+        with Groot2Publisher(Tree.from_xml(XML), port):
+            client.statuses()
+            assert client.take_cut()
+            assert not client.take_cut()

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
+from typing import TYPE_CHECKING, Any
+
 import pytest
 
 from tests.tree_gardener.trees import subtree
 from tree_gardener import Status, Tree
 from tree_gardener.groot.hooks import Hooks
 from tree_gardener.groot.protocol import GrootError, Hook, HookKey, Mode, Position, Unlock
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 XML = f"<root>{subtree('Main', '<Sequence><AlwaysSuccess/><AlwaysFailure/></Sequence>')}</root>"
 
@@ -97,3 +103,20 @@ def test_a_tree_is_free_of_hooks_afterwards() -> None:
     hooked.hooks.detach()
     assert hooked.tree.tick_exactly_once() is Status.FAILURE
     assert hooked.ticked() is Status.SUCCESS  # a client that comes back finds its hooks
+
+
+def test_a_wait_at_a_breakpoint_is_within_what_its_user_enters() -> None:
+    hooked = Hooked()
+    seen: list[Any] = []
+
+    @contextlib.contextmanager
+    def waiting() -> Iterator[None]:
+        seen.append(list(hooked.reached))
+        hooked.hooks.enable_all(on=False)  # the wait ends at once
+        yield
+        seen.append(["over"])
+
+    hooked.hooks = Hooks(hooked.tree, hooked.reached.append, lambda: None, waiting)
+    hooked.hooks.insert([Hook(HookKey(2, Position.BEFORE), Mode.BREAKPOINT, False, Status.SKIPPED, True)])
+    assert hooked.ticked() is Status.FAILURE
+    assert seen == [[2], ["over"]]

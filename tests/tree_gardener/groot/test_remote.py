@@ -12,7 +12,7 @@ from tests.tree_gardener.groot.cpp_program import XML
 from tree_gardener import Tree
 from tree_gardener.groot import GrootError
 from tree_gardener.groot.document import document_of
-from tree_gardener.groot.remote import read_boards, read_statuses, read_tree
+from tree_gardener.groot.remote import read_boards, read_statuses, read_transitions, read_tree
 
 DOCUMENT = document_of(Tree.from_xml(XML))
 
@@ -42,3 +42,22 @@ def test_boards_have_texts_for_names(document: Any) -> None:
     for name, entries in read_boards(document).items():
         assert isinstance(name, str)
         assert all(isinstance(key, str) for key in entries)
+
+
+@given(st.binary(max_size=300))
+def test_transitions_of_any_bytes_are_read_or_counted(data: bytes) -> None:
+    found, dropped = read_transitions(data)
+    assert len(found) + dropped == -(-len(data) // 9)
+    assert all(0 <= each.time_us < 1 << 48 and 0 <= each.uid < 1 << 16 for each in found)
+
+
+def test_each_node_has_the_one_above_it() -> None:
+    tree = read_tree(bytes(16), DOCUMENT)
+    assert [(node.uid, node.parent) for node in tree.nodes][:6] == [
+        (1, 0),
+        (2, 1),
+        (3, 1),
+        (4, 3),
+        (5, 4),
+        (6, 1),
+    ]

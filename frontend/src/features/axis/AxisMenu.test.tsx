@@ -24,11 +24,20 @@ afterEach(() => {
 
 it('has all commands of the axis, with their keys, and does them', async () => {
   const all = [...markCommands, ...rangeCommands];
-  expect([...AXIS_MENU.flat()].sort()).toEqual(all.map(({ id }) => id).sort());
+  expect([...AXIS_MENU.flat()].sort()).toEqual([...all.map(({ id }) => id), 'time.goBack'].sort());
   show(<AxisMenu />);
   await user.click(screen.getByRole('button', { name: 'Marks, range, changes and zoom' }));
   const loop = await screen.findByTestId('axis-time.loop');
   expect(loop).toBeDisabled();
   await user.click(screen.getByTestId('axis-time.markA'));
   expect(useRange.getState().a).toBe(100);
+});
+
+it('offers what can be done when it is opened, not when the axis was drawn', async () => {
+  show(<AxisMenu />);
+  useRange.setState({ a: 100 });
+  await user.click(screen.getByRole('button', { name: 'Marks, range, changes and zoom' }));
+  expect(await screen.findByTestId('axis-time.clearRange')).toBeEnabled();
+  await user.click(screen.getByTestId('axis-time.clearRange'));
+  expect(useRange.getState().a).toBeNull();
 });

@@ -2,7 +2,8 @@ import { ActionIcon } from '@mantine/core';
 import { IconPencil, IconTrash, IconX } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { canFlag, editFlag, useFlags } from '@/store/moment/flags';
-import { lookAt, type Extent } from '@/store/moment/looking';
+import { lookAtMark } from '@/store/moment/lookAtMark';
+import type { Extent } from '@/store/moment/looking';
 import { useMoment } from '@/store/moment/store';
 import type { Mark } from '@/store/recording/types';
 import { useSessionStore } from '@/store/session/store';
@@ -55,7 +56,7 @@ function MarkLine({ mark, run }: { readonly mark: Mark; readonly run: string }) 
         type="button"
         className={classes['change']}
         aria-current={isShown || undefined}
-        onClick={() => lookAt(mark.t)}
+        onClick={() => lookAtMark(mark)}
       >
         <Icon size={12} aria-hidden="true" className={classes['markIcon']} data-kind={mark.kind} />
         {labelOf(t, mark)}

@@ -29,3 +29,21 @@ it('offers the runs of the session, and the last one as the present', async () =
   expect(useMoment.getState().t).toBeNull();
   expect(extent()?.run).toBe('b');
 });
+
+it('names the run that a branch continues, and the moment', () => {
+  setEngineLink(() => ({ post: vi.fn(), onMessage: () => undefined }));
+  onTestFinished(() => useSessionStore.setState(initialSession, true));
+  useSessionStore.setState({
+    segments: [segment('a'), segment('b'), segment('c')],
+    branches: [
+      { run: 'c', parent: 'a', from_t: 0.52 },
+      { run: 'b', parent: 'gone', from_t: 0.1 },
+    ],
+  });
+  show(<RunSelect run="c" />);
+  expect(screen.getAllByRole('option').map(({ textContent }) => textContent)).toEqual([
+    'Last run, from 0.5 s of run 1',
+    'Run 2',
+    'Run 1',
+  ]);
+});

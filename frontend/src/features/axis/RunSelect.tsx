@@ -12,19 +12,25 @@ export function RunSelect({ run }: { readonly run: string }) {
   const { t } = useTranslation('axis');
   const segments = useSessionStore((state) => state.segments);
   const isKept = useSource((state) => state.kept !== null);
+  const branches = useSessionStore((state) => state.branches);
   const runs = useMemo(() => runsOf(segments), [segments]);
   if (isKept || runs.length < 2) return null;
   const last = runs.at(-1);
+  const label = (value: string, at: number): string => {
+    const name = t(value === last ? 'run.last' : 'run.earlier', { n: at + 1 });
+    const branch = branches.find((each) => each.run === value);
+    const parent = branch ? runs.indexOf(branch.parent) + 1 : 0;
+    return branch && parent > 0 ? t('run.branch', { name, parent, t: branch.from_t.toFixed(1) }) : name;
+  };
   return (
     <NativeSelect
       size="xs"
       className={classes['run']}
       aria-label={t('run.label')}
       data-testid="axis-run"
+      data-branch={branches.some((branch) => branch.run === run) || undefined}
       value={run}
-      data={runs
-        .map((value, at) => ({ value, label: t(value === last ? 'run.last' : 'run.earlier', { n: at + 1 }) }))
-        .reverse()}
+      data={runs.map((value, at) => ({ value, label: label(value, at) })).reverse()}
       onChange={({ currentTarget: { value } }) => (value === last ? lookNow() : openRun(value))}
     />
   );

@@ -2,6 +2,7 @@ import {
   type CSSProperties,
   type KeyboardEvent,
   type PointerEvent,
+  type ReactNode,
   useEffect,
   useMemo,
   useRef,
@@ -12,6 +13,7 @@ import { drawStretch, paletteOf } from '@/features/timeline/draw';
 import { goSeconds, goTicks, lookAt, lookNow, setPlaying, type Extent } from '@/store/moment/looking';
 import { following, markedRange, panned, useRange, within } from '@/store/moment/range';
 import { isPresentRun, useSource } from '@/store/moment/source';
+import { lookAtMark } from '@/store/moment/lookAtMark';
 import { useMoment } from '@/store/moment/store';
 import { editFlag, useFlags } from '@/store/moment/flags';
 import type { Mark } from '@/store/recording/types';
@@ -29,10 +31,8 @@ const PAN_STEP = 0.1;
 
 /** The strip of the run, with the root's status as its colour, its marks, and the moment that is shown. */
 export function Strip({ extent }: { readonly extent: Extent }) {
-  const { t } = useTranslation('axis');
   const strip = useRef<HTMLDivElement>(null);
   const canvas = useRef<HTMLCanvasElement>(null);
-  const moment = useMoment((state) => state.t);
   const overview = useMoment((state) => (state.overview?.run === extent.run ? state.overview : null));
   // The page's own data are those of the present run.
   const isPresent = useSource(isPresentRun);
@@ -54,9 +54,16 @@ export function Strip({ extent }: { readonly extent: Extent }) {
   }, [all, extent.to, from, to, length, width]);
   useZoomByWheel(strip, extent);
   useEffect(() => {
-    const { view: now } = useRange.getState();
-    if (moment !== null && now) useRange.setState({ view: following(now, extent, moment) });
-  }, [moment, extent]);
+    const follow = () => {
+      const { t: moment } = useMoment.getState();
+      const { view: now } = useRange.getState();
+      if (moment !== null && now) useRange.setState({ view: following(now, extent, moment) });
+    };
+    follow();
+    return useMoment.subscribe((now, before) => {
+      if (now.t !== before.t) follow();
+    });
+  }, [extent]);
 
   useEffect(() => {
     const draw = () => {
@@ -86,6 +93,39 @@ export function Strip({ extent }: { readonly extent: Extent }) {
     return () => themed.disconnect();
   }, [overview, isPresent, from, to, length, width]);
 
+  const range = markedRange({ a, b });
+  return (
+    <div className={classes['strip']} ref={strip}>
+      <canvas ref={canvas} className={classes['canvas']} aria-hidden="true" />
+      <Slider extent={extent} from={from} length={length}>
+        {range && (
+          <span
+            className={classes['range']}
+            style={{ left: `${shareOf(range.from) * 100}%`, right: `${(1 - shareOf(range.to)) * 100}%` }}
+          />
+        )}
+      </Slider>
+      {a !== null && a >= from && a <= to && <EndButton name="A" at={a} share={shareOf(a)} />}
+      {b !== null && b >= from && b <= to && <EndButton name="B" at={b} share={shareOf(b)} />}
+      {marks.map((mark) => (
+        <MarkButton key={`${mark.kind}${mark.id ?? ''}${mark.t}`} mark={mark} share={shareOf(mark.t)} />
+      ))}
+    </div>
+  );
+}
+
+interface SliderProps {
+  readonly extent: Extent;
+  /** The begin and the length of the visible part, in s. */
+  readonly from: number;
+  readonly length: number;
+  readonly children: ReactNode;
+}
+
+/** The shown moment as a cursor that is moved by hand or by keys; it alone is rendered at each moment. */
+function Slider({ extent, from, length, children }: SliderProps) {
+  const { t } = useTranslation('axis');
+  const moment = useMoment((state) => state.t);
   const lookThere = ({ currentTarget, clientX }: PointerEvent) => {
     const box = currentTarget.getBoundingClientRect();
     setPlaying(false);
@@ -120,45 +160,31 @@ export function Strip({ extent }: { readonly extent: Extent }) {
   };
 
   const at = moment ?? extent.to;
-  const range = markedRange({ a, b });
   return (
-    <div className={classes['strip']} ref={strip}>
-      <canvas ref={canvas} className={classes['canvas']} aria-hidden="true" />
-      <div
-        className={classes['slider']}
-        role="slider"
-        tabIndex={0}
-        data-testid="axis-strip"
-        aria-label={t('strip')}
-        aria-valuemin={round(extent.from)}
-        aria-valuemax={round(extent.to)}
-        aria-valuenow={round(at)}
-        aria-valuetext={
-          moment === null
-            ? t('now', { to: extent.to.toFixed(1) })
-            : t('at', { t: moment.toFixed(2), to: extent.to.toFixed(1) })
-        }
-        onPointerDown={onPress}
-        onPointerMove={onMove}
-        onKeyDown={onKeyDown}
-      >
-        {range && (
-          <span
-            className={classes['range']}
-            style={{ left: `${shareOf(range.from) * 100}%`, right: `${(1 - shareOf(range.to)) * 100}%` }}
-          />
-        )}
-        <span
-          className={classes['cursor']}
-          data-past={moment === null ? undefined : true}
-          style={{ left: `${shareOf(at) * 100}%` }}
-        />
-      </div>
-      {a !== null && a >= from && a <= to && <EndButton name="A" at={a} share={shareOf(a)} />}
-      {b !== null && b >= from && b <= to && <EndButton name="B" at={b} share={shareOf(b)} />}
-      {marks.map((mark) => (
-        <MarkButton key={`${mark.kind}${mark.id ?? ''}${mark.t}`} mark={mark} share={shareOf(mark.t)} />
-      ))}
+    <div
+      className={classes['slider']}
+      role="slider"
+      tabIndex={0}
+      data-testid="axis-strip"
+      aria-label={t('strip')}
+      aria-valuemin={round(extent.from)}
+      aria-valuemax={round(extent.to)}
+      aria-valuenow={round(at)}
+      aria-valuetext={
+        moment === null
+          ? t('now', { to: extent.to.toFixed(1) })
+          : t('at', { t: moment.toFixed(2), to: extent.to.toFixed(1) })
+      }
+      onPointerDown={onPress}
+      onPointerMove={onMove}
+      onKeyDown={onKeyDown}
+    >
+      {children}
+      <span
+        className={classes['cursor']}
+        data-past={moment === null ? undefined : true}
+        style={{ left: `${Math.min(Math.max((at - from) / length, 0), 1) * 100}%` }}
+      />
     </div>
   );
 }
@@ -178,7 +204,7 @@ function MarkButton({ mark, share }: { readonly mark: Mark; readonly share: numb
       title={`${label} ${advice}`.trim()}
       aria-label={`${label} ${advice}`.trim()}
       onClick={() => {
-        lookAt(mark.t);
+        lookAtMark(mark);
         if (mark.kind === 'stopped') useFlags.setState({ isListed: true });
       }}
       onDoubleClick={() => editFlag(mark)}

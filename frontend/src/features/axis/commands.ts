@@ -6,10 +6,12 @@ import {
   IconChevronRightPipe,
   IconLink,
   IconPlayerPlay,
+  IconArrowBackUp,
 } from '@tabler/icons-react';
 import { registerCommands, type UserCommand } from '@/commands/registry';
 import { t } from '@/i18n';
 import { linkTo, shownAddress } from '@/store/moment/address';
+import { canGoBack, goBack } from '@/store/moment/goBack';
 import { extent, goTicks, goToChange, lookNow, setPlaying } from '@/store/moment/looking';
 import { usePastTree } from '@/store/moment/pastTree';
 import { isLookingBack, useMoment } from '@/store/moment/store';
@@ -47,6 +49,15 @@ const rows: readonly UserCommand[] = [
     shortcut: 'Escape',
     enabled: isLookingBack,
     run: lookNow,
+  },
+  {
+    id: 'time.goBack',
+    group: 'run',
+    labelKey: 'axis:command.goBack',
+    icon: IconArrowBackUp,
+    shortcut: 'Alt+KeyB',
+    enabled: canGoBack,
+    run: () => void goBack(),
   },
   {
     id: 'time.play',

@@ -3,6 +3,7 @@ import {
   IconBugFilled,
   IconCircleCheckFilled,
   IconFlagFilled,
+  IconHandStop,
   IconPlayerRecordFilled,
 } from '@tabler/icons-react';
 import type { MarkKind } from '@/store/recording/types';
@@ -14,4 +15,5 @@ export const MARK_ICONS: Readonly<Record<MarkKind, typeof IconBugFilled>> = {
   finished: IconCircleCheckFilled,
   flag: IconFlagFilled,
   stopped: IconPlayerRecordFilled,
+  held: IconHandStop,
 };

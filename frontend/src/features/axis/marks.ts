@@ -1,6 +1,7 @@
 import { useMemo } from 'react';
 import { marksOfSession } from '@/store/moment/flags';
-import { extent, lookAt } from '@/store/moment/looking';
+import { lookAtMark } from '@/store/moment/lookAtMark';
+import { extent } from '@/store/moment/looking';
 import { isPresentRun, useSource } from '@/store/moment/source';
 import { useMoment } from '@/store/moment/store';
 import type { Mark } from '@/store/recording/types';
@@ -46,5 +47,5 @@ export function goToMark(direction: 1 | -1): void {
   if (!now) return;
   const t = useMoment.getState().t ?? (direction < 0 ? Infinity : now.to);
   const mark = markFrom(marksOfRun(now.run, now.from), t, direction);
-  if (mark) lookAt(mark.t);
+  if (mark) lookAtMark(mark);
 }

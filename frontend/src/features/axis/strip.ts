@@ -61,9 +61,9 @@ export function marksOf(
   return [...recorded, ...seen, ...(own ?? [])].sort((a, b) => a.t - b.t);
 }
 
-/** Drops marks that would lie under another one; a flag stays rather than a fault, which rather than others. */
+/** Drops marks that would lie under another one; a flag stays rather than a fault or a hold, which rather than others. */
 export function apart(marks: readonly Mark[], leastS: number): Mark[] {
-  const rank = { stopped: 0, flag: 1, fault: 2, finished: 3, collision: 4 };
+  const rank = { stopped: 0, flag: 1, fault: 2, held: 3, finished: 4, collision: 5 };
   const kept: Mark[] = [];
   for (const mark of [...marks].sort((a, b) => rank[a.kind] - rank[b.kind] || a.t - b.t))
     if (kept.every((other) => Math.abs(other.t - mark.t) >= leastS)) kept.push(mark);

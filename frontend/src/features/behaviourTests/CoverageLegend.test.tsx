@@ -1,6 +1,6 @@
 import { act, screen } from '@testing-library/react';
 import { beforeEach, expect, it } from 'vitest';
-import { showCoverage, useCoverage } from '@/store/behaviourTests/coverage';
+import { showCoverage, showEvaluated, useCoverage } from '@/store/behaviourTests/coverage';
 import { useTests } from '@/store/behaviourTests/report';
 import { useProjectStore } from '@/store/project';
 import { fakeServer, openProject, show, user } from '../../../harness/testing';
@@ -78,4 +78,24 @@ it('says why the tests did not run', async () => {
 it('says that no test runs a tree', async () => {
   open(undefined, { ...report, coverage: { share: 1, trees: {} } });
   expect(await screen.findByText(/No test runs this tree/)).toBeInTheDocument();
+});
+
+it('shows what the runs of an evaluation covered, until it is closed', async () => {
+  open();
+  act(() => showEvaluated({ name: 'room', revision: 3, runs: 50, coverage: report.coverage }));
+  expect(screen.getByText('room, revision 3: 50 runs')).toBeInTheDocument();
+  expect(screen.queryByRole('combobox')).toBeNull();
+  expect(screen.getByText('66 %')).toBeInTheDocument();
+  // Results of tests that arrive meanwhile change nothing of it.
+  act(() => useTests.setState({ report: null }));
+  expect(screen.getByText('66 %')).toBeInTheDocument();
+  await user.click(screen.getByRole('button', { name: 'Hide the coverage (Alt+C)' }));
+  expect(useCoverage.getState()).toMatchObject({ isShown: false, evaluated: null });
+});
+
+it('says if the runs do not reach the tree', () => {
+  open();
+  const coverage = { share: 1, trees: {} };
+  act(() => showEvaluated({ name: 'room', revision: 3, runs: 1, coverage }));
+  expect(screen.getByText('The runs do not reach this tree.')).toBeInTheDocument();
 });

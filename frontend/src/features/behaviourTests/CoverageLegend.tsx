@@ -1,7 +1,14 @@
 import { ActionIcon, Loader, NativeSelect } from '@mantine/core';
 import { IconX } from '@tabler/icons-react';
+import type { ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
-import { showCoverage, testKey, useCoverage } from '@/store/behaviourTests/coverage';
+import {
+  showCoverage,
+  testKey,
+  useCoverage,
+  type CoveredTree,
+  type EvaluatedCoverage,
+} from '@/store/behaviourTests/coverage';
 import { reportOf, useTests } from '@/store/behaviourTests/report';
 import { useHasTests, useTestsAfterSave } from '@/store/behaviourTests/useTestsAfterSave';
 import { useProjectStore } from '@/store/project';
@@ -13,7 +20,29 @@ const LEVELS = ['never', 'partly', 'fully'] as const;
 /** The legend of the coverage on the canvas, with the share of the tree and the choice of a test. */
 export function CoverageLegend({ treeId }: { readonly treeId: string }) {
   const isShown = useCoverage((state) => state.isShown);
-  return isShown ? <Legend treeId={treeId} /> : null;
+  const evaluated = useCoverage((state) => state.evaluated);
+  if (!isShown) return null;
+  return evaluated ? <EvaluatedLegend treeId={treeId} {...evaluated} /> : <Legend treeId={treeId} />;
+}
+
+/** The legend of the coverage by the runs of an evaluation. */
+function EvaluatedLegend({
+  treeId,
+  name,
+  revision,
+  runs,
+}: { readonly treeId: string } & Pick<EvaluatedCoverage, 'name' | 'revision' | 'runs'>) {
+  const { t } = useTranslation('behaviourTests');
+  const covered = useCoverage((state) => state.trees.get(treeId));
+  return (
+    <Frame
+      label={t('legend.runsLabel')}
+      title={covered ? t('legend.share', { percent: Math.floor(covered.share * 100) }) : t('legend.title')}
+    >
+      <p>{t('legend.runs', { name, revision, count: runs })}</p>
+      {covered ? <Levels covered={covered} /> : <p>{t('legend.notRun')}</p>}
+    </Frame>
+  );
 }
 
 function Legend({ treeId }: { readonly treeId: string }) {
@@ -27,15 +56,10 @@ function Legend({ treeId }: { readonly treeId: string }) {
   const covered = useCoverage((state) => state.trees.get(treeId));
   const ran = report?.tests.filter(({ outcome }) => outcome === 'passed' || outcome === 'failed') ?? [];
   return (
-    <section
-      className={classes['legend']}
-      data-overlay=""
-      aria-label={t('legend.label')}
-      data-testid="coverage-legend"
+    <Frame
+      label={t('legend.label')}
+      title={covered ? t('legend.share', { percent: Math.floor(covered.share * 100) }) : t('legend.title')}
     >
-      <strong title={t('legend.label')}>
-        {covered ? t('legend.share', { percent: Math.floor(covered.share * 100) }) : t('legend.title')}
-      </strong>
       {isRunning && <Loader size={12} aria-label={t('running')} />}
       {!hasTests ? (
         <p>{t('legend.noTests')}</p>
@@ -54,20 +78,25 @@ function Legend({ treeId }: { readonly treeId: string }) {
               ...ran.map((test) => ({ value: testKey(test), label: test.name })),
             ]}
           />
-          {covered ? (
-            <ul>
-              {LEVELS.map((level) => (
-                <li key={level} data-level={level} title={t(`level.${level}`)}>
-                  <LevelSign level={level} />
-                  {t(`legend.${level}`, { count: covered.counts[level] })}
-                </li>
-              ))}
-            </ul>
-          ) : report ? (
-            <p>{t('legend.notThis')}</p>
-          ) : null}
+          {covered ? <Levels covered={covered} /> : report ? <p>{t('legend.notThis')}</p> : null}
         </>
       )}
+    </Frame>
+  );
+}
+
+interface FrameProps {
+  readonly label: string;
+  readonly title: string;
+  readonly children: ReactNode;
+}
+
+function Frame({ label, title, children }: FrameProps) {
+  const { t } = useTranslation('behaviourTests');
+  return (
+    <section className={classes['legend']} data-overlay="" aria-label={label} data-testid="coverage-legend">
+      <strong title={label}>{title}</strong>
+      {children}
       <ActionIcon
         size={24}
         variant="subtle"
@@ -79,5 +108,19 @@ function Legend({ treeId }: { readonly treeId: string }) {
         <IconX size={15} aria-hidden="true" />
       </ActionIcon>
     </section>
+  );
+}
+
+function Levels({ covered }: { readonly covered: CoveredTree }) {
+  const { t } = useTranslation('behaviourTests');
+  return (
+    <ul>
+      {LEVELS.map((level) => (
+        <li key={level} data-level={level} title={t(`level.${level}`)}>
+          <LevelSign level={level} />
+          {t(`legend.${level}`, { count: covered.counts[level] })}
+        </li>
+      ))}
+    </ul>
   );
 }

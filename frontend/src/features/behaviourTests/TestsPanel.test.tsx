@@ -43,6 +43,8 @@ const report = {
   coverage: { share: 0.838, trees: { Main: { share: 0.838, nodes: {} } } },
 };
 
+const whole = { ...report, tests: report.tests.map((each) => ({ ...each, outcome: 'passed' })) };
+
 function open(texts: Record<string, string>, answer: object | null = report) {
   openProject({
     trees: { Main: { r: { type: 'Sequence', children: ['a'] }, a: { type: 'Turn' } } },
@@ -50,7 +52,14 @@ function open(texts: Record<string, string>, answer: object | null = report) {
     texts,
   });
   const { projectId } = useProjectStore.getState();
-  const { requests } = fakeServer(answer ? { [`POST /projects/${projectId}/test`]: answer } : {});
+  const { requests } = fakeServer(
+    answer
+      ? {
+          [`POST /projects/${projectId}/test`]: answer,
+          [`POST /projects/${projectId}/test-with-python`]: whole,
+        }
+      : {},
+  );
   const navigation = watchNavigation();
   show(<TestsPanel />);
   return { ...navigation, requests };
@@ -63,6 +72,17 @@ beforeEach(() => {
 });
 
 describe('TestsPanel', () => {
+  it('runs the tests with real leaves on request', async () => {
+    const { requests } = open({ [FILE]: 'x' });
+    await user.click(await screen.findByRole('button', { name: 'Run with Python' }));
+    expect(await screen.findByTestId('tests-summary')).toBeInTheDocument();
+    await expect
+      .poll(() => useTests.getState().report?.tests.map(({ outcome }) => outcome))
+      .toEqual(['passed', 'passed', 'passed']);
+    expect(requests.some(({ path }) => path.endsWith('/test-with-python'))).toBe(true);
+    expect(screen.queryByRole('button', { name: 'Run with Python' })).toBeNull();
+  });
+
   it('writes a first test where there is none', async () => {
     const { openFile, requests } = open({});
     expect(requests).toEqual([]);
@@ -76,7 +96,7 @@ describe('TestsPanel', () => {
     expect(await screen.findByTestId('tests-summary')).toHaveTextContent('1 passed, 2 failed');
     expect(screen.getByRole('status')).toHaveTextContent('83 % of the trees covered');
     const icons = screen.getAllByRole('img').map((icon) => icon.getAttribute('aria-label'));
-    expect(icons.map((name) => name?.split(':')[0])).toEqual(['Failed', 'Passed', 'Failed', 'Not run here']);
+    expect(icons.map((name) => name?.split(':')[0])).toEqual(['Failed', 'Passed', 'Failed', 'Not run yet']);
   });
 
   it('runs them again on request', async () => {

@@ -10,7 +10,7 @@ import { useTranslation } from 'react-i18next';
 import type { TestFailure, TestOutcome, TestReport } from '@/api/types';
 import { showCoverage, testKey, useCoverage } from '@/store/behaviourTests/coverage';
 import { revealFailure } from '@/store/behaviourTests/failures';
-import { reportOf, runTests, useTests } from '@/store/behaviourTests/report';
+import { NEEDS_PYTHON, reportOf, runTests, useTests } from '@/store/behaviourTests/report';
 import { useHasTests, useTestsAfterSave } from '@/store/behaviourTests/useTestsAfterSave';
 import { useProjectStore } from '@/store/project';
 import { openFile, openTree } from '@/store/project/navigation';
@@ -71,6 +71,17 @@ function Tests() {
         >
           {t('run')}
         </Button>
+        {shown?.tests.some(({ outcome }) => outcome === NEEDS_PYTHON) ? (
+          <Button
+            size="compact-sm"
+            variant="subtle"
+            disabled={isRunning}
+            title={t('withPythonHint')}
+            onClick={() => void runTests({ withPython: true })}
+          >
+            {t('withPython')}
+          </Button>
+        ) : null}
         <div role="status" className={classes['summary']}>
           {isRunning ? <Loader size={14} aria-label={t('running')} /> : null}
           {refused !== null ? (

@@ -61,10 +61,10 @@ describe('a value', () => {
   });
 
   it('that is refused stays in the field, with the reason', async () => {
-    executor.refuse('set_blackboard', 'It is read-only.');
+    executor.refuse('set_blackboard', 'It is read-only.', 'Write another.');
     const field = open('str', 'a');
     await user.type(field, 'b{Enter}');
-    expect(await screen.findByText('It is read-only.')).toBeInTheDocument();
+    expect(await screen.findByText('It is read-only. Write another.')).toBeInTheDocument();
     expect(field).toHaveValue('ab');
     expect(field).toBeInvalid();
   });

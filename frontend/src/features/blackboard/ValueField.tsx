@@ -1,6 +1,7 @@
 import { NativeSelect, TextInput } from '@mantine/core';
 import { useState, type KeyboardEvent } from 'react';
 import { useTranslation } from 'react-i18next';
+import { reasonOf } from '@/api/reason';
 import { send } from '@/store/session/connection';
 import type { BlackboardRow as Row } from '@/store/session/types';
 import { readValue, showValue } from './value';
@@ -25,7 +26,7 @@ export function ValueField({ row }: { readonly row: Row }) {
     if ('wrong' in read) return setRefusal(t(`wrong.${read.wrong}`, { key: row.key }));
     send('set_blackboard', { scope: row.scope, key: row.key, value: read.value }).then(
       () => change(null),
-      (error: Error) => setRefusal(error.message),
+      (error: Error) => setRefusal(reasonOf(error)),
     );
   };
   const onKey = (event: KeyboardEvent) => {

@@ -44,3 +44,33 @@ it('marks blocks, selects and opens them, and offers no place for new ones', asy
   expect(onOpen).toHaveBeenCalledWith('s');
   expect(canvas.querySelector('[class*="plus"]')).toBeNull();
 });
+
+it('draws a tree that is seen from afar as one picture, whose blocks can be pressed', async () => {
+  const leaves = Array.from({ length: 140 }, (_, index) => `n${index}`);
+  const wide: Diagram = {
+    ...emptyDiagram('Main'),
+    root: 'r',
+    nodes: {
+      r: { type: 'Sequence', children: leaves },
+      ...Object.fromEntries(leaves.map((id) => [id, { type: 'Sleep' }])),
+    },
+  };
+  // The picture itself is that of `tinyTree.test.ts`.
+  vi.stubGlobal('Path2D', Object);
+  const onSelect = vi.fn();
+  await showDrawn(
+    <ReadOnlyCanvas
+      diagram={wide}
+      vocabulary={useProjectStore.getState().vocabulary}
+      label="then"
+      selected={null}
+      onSelect={onSelect}
+      onOpen={vi.fn()}
+      marks={new Map()}
+    />,
+  );
+  expect(await screen.findByTestId('tiny-picture')).toBeInTheDocument();
+  expect(screen.getByTestId('node-n7')).toBeEmptyDOMElement();
+  fireEvent.click(screen.getByTestId('node-n7'));
+  expect(onSelect).toHaveBeenCalledWith('n7');
+});

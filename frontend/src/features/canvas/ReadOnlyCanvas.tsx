@@ -20,6 +20,9 @@ import { neighbourByKey } from './gestures/keyboard';
 import { TreeEdge } from './TreeEdge';
 import { useCompact } from './view/compact';
 import { Dots } from './view/Dots';
+import { TinyBlock } from './view/TinyBlock';
+import { TinyPicture } from './view/TinyPicture';
+import { TINY } from './view/tinyTree';
 import { useKnownSizes } from './view/useKnownSizes';
 import { FAR, FIT, LEAST_ZOOM, NAMES } from './view/useViewport';
 import classes from './Canvas.module.css';
@@ -36,9 +39,11 @@ interface Props {
   readonly marks: ReadonlyMap<NodeId, ChangeKind>;
 }
 
-const nodeTypes = { block: Block };
+const nodeTypes = { block: Block, tiny: TinyBlock };
 const edgeTypes = { tree: TreeEdge };
 const NO_PROBLEMS = new Map();
+const NO_EDGES: TreeEdgeType[] = [];
+type AnyNode = Omit<BlockNode, 'type'> & { type?: 'block' | 'tiny' };
 
 /** The canvas of a tree that cannot be edited; it shows the statuses of the moment at which the user looks. */
 export function ReadOnlyCanvas(props: Props) {
@@ -51,6 +56,7 @@ export function ReadOnlyCanvas(props: Props) {
 
 function View({ diagram, vocabulary, label, selected, onSelect, onOpen, marks }: Props) {
   useKnownSizes();
+  const isTiny = useStore((state) => state.transform[2] < TINY);
   const isFar = useStore((state) => state.transform[2] < FAR);
   const hasNamesOnly = useStore(({ transform: [, , zoom] }) => zoom < NAMES && zoom >= FAR);
   const isCompact = useCompact((state) => state.isCompact);
@@ -74,11 +80,12 @@ function View({ diagram, vocabulary, label, selected, onSelect, onOpen, marks }:
   );
   const nodes = useMemo(
     () =>
-      plain.map((node) => {
+      plain.map((node): AnyNode => {
+        if (isTiny) return { ...node, type: 'tiny' };
         const kind = marks.get(node.id);
         return kind === undefined ? node : { ...node, className: classes[`mark_${kind}`] ?? '' };
       }),
-    [plain, marks],
+    [plain, marks, isTiny],
   );
   // The tab may get its size after it was drawn; a view that the user has chosen stays.
   const flow = useReactFlow();
@@ -87,8 +94,8 @@ function View({ diagram, vocabulary, label, selected, onSelect, onOpen, marks }:
   useEffect(() => {
     if (!isMoved.current) void flow.fitView(FIT);
   }, [flow, size]);
-  const onNodeClick = useCallback((_: MouseEvent, { id }: BlockNode) => onSelect(id), [onSelect]);
-  const onNodeDoubleClick = useCallback((_: MouseEvent, { id }: BlockNode) => onOpen(id), [onOpen]);
+  const onNodeClick = useCallback((_: MouseEvent, { id }: AnyNode) => onSelect(id), [onSelect]);
+  const onNodeDoubleClick = useCallback((_: MouseEvent, { id }: AnyNode) => onOpen(id), [onOpen]);
   const onKeyDown = (event: KeyboardEvent) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const next = neighbourByKey(diagram, selected, event.key);
@@ -114,9 +121,9 @@ function View({ diagram, vocabulary, label, selected, onSelect, onOpen, marks }:
       tabIndex={0}
       onKeyDown={onKeyDown}
     >
-      <ReactFlow<BlockNode, TreeEdgeType>
+      <ReactFlow<AnyNode, TreeEdgeType>
         nodes={nodes}
-        edges={edges}
+        edges={isTiny ? NO_EDGES : edges}
         nodeTypes={nodeTypes}
         edgeTypes={edgeTypes}
         onNodeClick={onNodeClick}
@@ -141,6 +148,7 @@ function View({ diagram, vocabulary, label, selected, onSelect, onOpen, marks }:
         attributionPosition="bottom-right"
       >
         <Dots />
+        {isTiny && <TinyPicture nodes={plain} edges={edges} marks={marks} />}
       </ReactFlow>
     </div>
   );

@@ -1,11 +1,14 @@
 import { screen } from '@testing-library/react';
 import { describe, expect, it, vi } from 'vitest';
+import i18next from 'i18next';
 import * as looking from '@/store/moment/looking';
 import type { LogLine } from '@/store/session/types';
 import { useProjectStore } from '@/store/project';
 import { treeNode } from '../../../harness/running';
 import { openProject, show, user, watchNavigation } from '../../../harness/testing';
 import { ConsoleLine } from './ConsoleLine';
+
+const t = i18next.getFixedT(null, 'console');
 
 const line = (more: Partial<LogLine> = {}): LogLine => ({
   id: 1,
@@ -27,13 +30,16 @@ const showLine = (more: Partial<LogLine> = {}, node?: ReturnType<typeof treeNode
       node={node}
       launched={launched}
       isRecorded={false}
+      t={t}
     />,
   );
 const row = () => document.querySelector('[data-level]') as HTMLElement;
 
 it('goes to the moment of a line that was recorded', async () => {
   const look = vi.spyOn(looking, 'lookAt').mockReturnValue(undefined);
-  show(<ConsoleLine line={line()} files={new Set()} node={undefined} launched={undefined} isRecorded />);
+  show(
+    <ConsoleLine line={line()} files={new Set()} node={undefined} launched={undefined} isRecorded t={t} />,
+  );
   await user.click(screen.getByRole('button', { name: '12.35' }));
   expect(look).toHaveBeenCalledWith(12.345);
 });

@@ -1,5 +1,5 @@
+import type { TFunction } from 'i18next';
 import { Fragment, memo } from 'react';
-import { useTranslation } from 'react-i18next';
 import type { TreeNode } from '@/generated/messages';
 import { lookAt } from '@/store/moment/looking';
 import { useProjectStore } from '@/store/project';
@@ -18,6 +18,8 @@ interface ConsoleLineProps {
   readonly launched: string | undefined;
   /** Whether the recording has the moment of the line. */
   readonly isRecorded: boolean;
+  /** The texts of the console: a hook in each line takes longer than the line. */
+  readonly t: TFunction<'console'>;
 }
 
 function showBlock({ tree_id, node_id }: TreeNode): void {
@@ -26,8 +28,7 @@ function showBlock({ tree_id, node_id }: TreeNode): void {
 }
 
 export const ConsoleLine = memo(function ConsoleLine(props: ConsoleLineProps) {
-  const { line, files, node, launched, isRecorded } = props;
-  const { t } = useTranslation('console');
+  const { line, files, node, launched, isRecorded, t } = props;
   if (line.run !== undefined)
     return (
       <div className={classes['divider']} role="separator" aria-label={t('run', { count: line.run })}>

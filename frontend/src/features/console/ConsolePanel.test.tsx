@@ -55,7 +55,14 @@ describe('ConsolePanel', () => {
 
   it('opens the line that a link names', async () => {
     const openFile = vi.fn();
-    setNavigator({ openTree: vi.fn(), aimAt: vi.fn(), renamed: vi.fn(), openTopics: vi.fn(), openFile });
+    setNavigator({
+      openTree: vi.fn(),
+      aimAt: vi.fn(),
+      renamed: vi.fn(),
+      openTopics: vi.fn(),
+      showFile: vi.fn(),
+      openFile,
+    });
     act(() => {
       useSessionStore.setState(appendLogs(initialSession, [log('see Forward.py:12')]));
     });
@@ -157,7 +164,7 @@ describe('ConsolePanel', () => {
     write(log('hello'));
     await userEvent.click(clear);
     expect(useSessionStore.getState().logs).toEqual([]);
-    expect(screen.getByText(/The output of your actions/)).toBeInTheDocument();
+    expect(await screen.findByText(/The output of your actions/)).toBeInTheDocument();
   });
 
   it('follows the end again on demand', async () => {

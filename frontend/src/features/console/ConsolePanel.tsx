@@ -1,29 +1,32 @@
-import { ActionIcon, NativeSelect, TextInput, Tooltip } from '@mantine/core';
-import { IconArrowDown, IconEraser, IconSearch } from '@tabler/icons-react';
 import { useVirtualizer, type Virtualizer } from '@tanstack/react-virtual';
-import { useEffect, useMemo, useRef, useState, type PointerEvent } from 'react';
+import { useCallback, useEffect, useMemo, useRef, useState, type PointerEvent } from 'react';
 import { useTranslation } from 'react-i18next';
-import type { LogLevel } from '@/generated/messages';
 import { useShallow } from 'zustand/react/shallow';
 import { useProjectStore } from '@/store/project';
 import { useExtent } from '@/store/moment/useExtent';
-import { useShownSession } from '@/store/moment/session';
-import { useIsBack } from '@/store/moment/store';
+import { usePastSession, useShownSession } from '@/store/moment/session';
+import { useIsBack, useMoment } from '@/store/moment/store';
+import { useSettled } from '@/store/moment/useSettled';
 import { useSessionStore } from '@/store/session/store';
 import type { LogLine } from '@/store/session/types';
 import classes from './console.module.css';
+import { ConsoleBar } from './ConsoleBar';
 import { ConsoleLine } from './ConsoleLine';
-import { filterLines, LEVELS, useConsoleFilter, type ConsoleFilter } from './filter';
+import { filterLines, useConsoleFilter } from './filter';
 
 const LINE_HEIGHT = 21;
 /** A line with a button is as high as a target must be. */
 const TARGET_HEIGHT = 24;
 const SOURCES = ['all', 'action', 'world', 'manager', 'launch'] as const;
 
+const LINE_STORES = [useMoment, usePastSession, useSessionStore];
+const shownLines = () =>
+  (useMoment.getState().shown === null ? useSessionStore : usePastSession).getState().logs;
+
 /** The output of actions, world and manager. The view follows the end until the user scrolls up. */
 export function ConsolePanel() {
   const { t } = useTranslation('console');
-  const logs = useShownSession((state) => state.logs);
+  const logs = useSettled(shownLines, LINE_STORES);
   const isBack = useIsBack();
   const filePaths = useProjectStore(useShallow((state) => Object.keys(state.files)));
   const files = useMemo(() => new Set(filePaths), [filePaths]);
@@ -43,6 +46,7 @@ export function ConsolePanel() {
     return hasButton ? TARGET_HEIGHT : LINE_HEIGHT;
   };
   const [isFollowing, setFollowing] = useState(true);
+  const toEnd = useCallback(() => setFollowing(true), []);
   const scroller = useRef<HTMLDivElement>(null);
   // The virtualizer has mutable state, so the compiler must not memoise this component.
   // eslint-disable-next-line react-hooks/incompatible-library
@@ -52,7 +56,8 @@ export function ConsolePanel() {
     estimateSize: heightAt,
     getItemKey: (index) => lines[index]?.id ?? index,
     measureElement: heightOf,
-    overscan: 12,
+    // A jump on the time axis replaces the lines before the end; nobody scrolls them meanwhile.
+    overscan: isBack && isFollowing ? 2 : 12,
     initialRect: { width: 600, height: 200 },
   });
 
@@ -77,51 +82,11 @@ export function ConsolePanel() {
 
   return (
     <div className={classes['panel']} data-testid="console">
-      <div className={classes['bar']}>
-        <TextInput
-          size="xs"
-          type="search"
-          className={classes['search']}
-          value={filter.search}
-          placeholder={t('search')}
-          aria-label={t('search')}
-          leftSection={<IconSearch size={14} />}
-          onChange={(event) => useConsoleFilter.setState({ search: event.currentTarget.value })}
-        />
-        <NativeSelect
-          size="xs"
-          value={filter.source}
-          aria-label={t('source')}
-          data={sources}
-          onChange={(event) =>
-            useConsoleFilter.setState({ source: event.currentTarget.value as ConsoleFilter['source'] })
-          }
-        />
-        <NativeSelect
-          size="xs"
-          value={filter.level}
-          aria-label={t('level')}
-          data={LEVELS.map((value) => ({ value, label: t(`levels.${value}`) }))}
-          onChange={(event) => useConsoleFilter.setState({ level: event.currentTarget.value as LogLevel })}
-        />
-        <span className={classes['spacer']} />
-        {isFollowing ? null : (
-          <Tooltip label={t('toEnd')}>
-            <ActionIcon aria-label={t('toEnd')} onClick={() => setFollowing(true)}>
-              <IconArrowDown size={16} />
-            </ActionIcon>
-          </Tooltip>
-        )}
-        <Tooltip label={t('clear')}>
-          <ActionIcon
-            aria-label={t('clear')}
-            disabled={logs.length === 0 || isBack}
-            onClick={() => useSessionStore.setState({ logs: [] })}
-          >
-            <IconEraser size={16} />
-          </ActionIcon>
-        </Tooltip>
-      </div>
+      <ConsoleBar
+        sources={sources}
+        toEnd={isFollowing ? null : toEnd}
+        mayClear={logs.length > 0 && !isBack}
+      />
       <div
         ref={scroller}
         className={classes['scroller']}
@@ -153,6 +118,7 @@ export function ConsolePanel() {
                     node={nodeAt.get(line.node_path)}
                     launched={names.get(line.launch_node)}
                     isRecorded={isRecorded(line)}
+                    t={t}
                   />
                 </div>
               ) : null;

@@ -1,4 +1,4 @@
-import { act, screen } from '@testing-library/react';
+import { act, screen, within } from '@testing-library/react';
 import { afterEach, expect, it } from 'vitest';
 import type { TreeNode } from '@/generated/messages';
 import '@/i18n/editorTexts';
@@ -6,6 +6,7 @@ import { plainBreakpoint } from '@/model/breakpoints';
 import { useBreakpoints } from '@/store/debug/breakpoints';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
+import { attached } from '../../../harness/attached';
 import { show, user } from '../../../harness/testing';
 import { BreakpointFields } from './BreakpointFields';
 
@@ -63,4 +64,17 @@ it('choose one instance of a tree that is called several times', async () => {
   expect(now()?.instance).toEqual(['s2']);
   await user.selectOptions(screen.getByLabelText('Where'), 'in all 2 instances');
   expect(now()?.instance).toBeNull();
+});
+
+it('offer for another program only what its protocol has', () => {
+  useBreakpoints.setState({ list: [plainBreakpoint('Dock', 'd')] });
+  useSessionStore.setState({ attached: attached() });
+  show(<Shown />);
+  const when = within(screen.getByTestId('breakpoint-when')).getAllByRole('option');
+  expect(when.map((each) => each.getAttribute('value'))).toEqual(['before', 'after']);
+  expect(screen.queryByLabelText('From hit')).toBeNull();
+  for (const id of ['breakpoint-condition', 'breakpoint-log']) expect(screen.queryByTestId(id)).toBeNull();
+  act(() => useSessionStore.setState({ attached: null }));
+  expect(screen.getByLabelText('From hit')).toBeInTheDocument();
+  expect(screen.getByTestId('breakpoint-condition')).toBeInTheDocument();
 });

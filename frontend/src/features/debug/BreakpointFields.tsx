@@ -4,14 +4,18 @@ import { useTranslation } from 'react-i18next';
 import type { BreakpointMoment, ResultName, TreeNode } from '@/generated/messages';
 import { MOMENTS, RESULTS, type BlockBreakpoint } from '@/model/breakpoints';
 import { changeBreakpoint } from '@/store/debug/breakpoints';
-import { instanceOf, nodesOf } from '@/store/debug/debugger';
+import { instanceOf, isOwnTree, nodesOf } from '@/store/debug/debugger';
 import { useSessionStore } from '@/store/session/store';
 import classes from './debug.module.css';
+
+/** The moments at which another program can be held. */
+const OF_OTHERS: readonly BreakpointMoment[] = ['before', 'after'];
 
 /** The fields of a breakpoint: when it holds the tree, and under which conditions. */
 export function BreakpointFields({ breakpoint: each }: { readonly breakpoint: BlockBreakpoint }) {
   const { t } = useTranslation('debug');
   const tree = useSessionStore((state) => state.tree);
+  const isOwn = useSessionStore(isOwnTree);
   const nodes = nodesOf({ tree }, each.tree_id, each.node_id);
   const change = (next: Partial<BlockBreakpoint>) => changeBreakpoint(each.tree_id, each.node_id, next);
   return (
@@ -20,7 +24,7 @@ export function BreakpointFields({ breakpoint: each }: { readonly breakpoint: Bl
         size="xs"
         label={t('field.when')}
         value={each.when}
-        data={MOMENTS.map((value) => ({ value, label: t(`when.${value}`) }))}
+        data={(isOwn ? MOMENTS : OF_OTHERS).map((value) => ({ value, label: t(`when.${value}`) }))}
         data-testid="breakpoint-when"
         onChange={({ currentTarget: { value } }) => change({ when: value as BreakpointMoment })}
       />
@@ -34,16 +38,18 @@ export function BreakpointFields({ breakpoint: each }: { readonly breakpoint: Bl
           onChange={({ currentTarget: { value } }) => change({ status: value as ResultName })}
         />
       )}
-      <NumberInput
-        size="xs"
-        label={t('field.hits')}
-        value={each.hits}
-        min={1}
-        max={1_000_000}
-        allowDecimal={false}
-        clampBehavior="strict"
-        onChange={(value) => typeof value === 'number' && value >= 1 && change({ hits: value })}
-      />
+      {isOwn && (
+        <NumberInput
+          size="xs"
+          label={t('field.hits')}
+          value={each.hits}
+          min={1}
+          max={1_000_000}
+          allowDecimal={false}
+          clampBehavior="strict"
+          onChange={(value) => typeof value === 'number' && value >= 1 && change({ hits: value })}
+        />
+      )}
       {nodes.length > 1 && (
         <Instance
           nodes={nodes}
@@ -52,20 +58,24 @@ export function BreakpointFields({ breakpoint: each }: { readonly breakpoint: Bl
           onChange={(instance) => change({ instance })}
         />
       )}
-      <Line
-        label={t('field.condition')}
-        placeholder={t('field.conditionExample')}
-        testId="breakpoint-condition"
-        value={each.condition}
-        onDone={(condition) => change({ condition })}
-      />
-      <Line
-        label={t('field.log')}
-        placeholder={t('field.logExample')}
-        testId="breakpoint-log"
-        value={each.log}
-        onDone={(log) => change({ log })}
-      />
+      {isOwn && (
+        <>
+          <Line
+            label={t('field.condition')}
+            placeholder={t('field.conditionExample')}
+            testId="breakpoint-condition"
+            value={each.condition}
+            onDone={(condition) => change({ condition })}
+          />
+          <Line
+            label={t('field.log')}
+            placeholder={t('field.logExample')}
+            testId="breakpoint-log"
+            value={each.log}
+            onDone={(log) => change({ log })}
+          />
+        </>
+      )}
     </div>
   );
 }

@@ -25,7 +25,7 @@ afterEach(() =>
 
 it('says how to set a breakpoint while there is none', () => {
   show(<BreakpointsPanel />);
-  expect(screen.getByText(/press F9/)).toBeVisible();
+  expect(screen.getByText(/Select a block and press F9/)).toBeVisible();
 });
 
 it('lists breakpoints of blocks that exist; each is shown, switched, edited and removed', async () => {

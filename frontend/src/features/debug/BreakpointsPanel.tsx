@@ -2,6 +2,8 @@ import { ActionIcon, Button, Checkbox, ScrollArea, Switch } from '@mantine/core'
 import { IconChevronDown, IconChevronRight, IconTrash } from '@tabler/icons-react';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { LineList } from '@/features/python/LineList';
+import { StopView } from '@/features/python/StopView';
 import { existing, type BlockBreakpoint } from '@/model/breakpoints';
 import { displayName } from '@/model/diagram';
 import {
@@ -31,6 +33,7 @@ export function BreakpointsPanel() {
   return (
     <ScrollArea h="100%" type="auto" data-testid="breakpoints">
       <div className={classes['panel']}>
+        <StopView />
         {shown.length === 0 ? (
           <p className={classes['note']}>{t('none')}</p>
         ) : (
@@ -59,6 +62,7 @@ export function BreakpointsPanel() {
           ))}
         </ul>
         <ForcedList />
+        <LineList />
       </div>
     </ScrollArea>
   );

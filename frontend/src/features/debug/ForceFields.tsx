@@ -3,13 +3,25 @@ import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { ResultName } from '@/generated/messages';
 import { RESULTS } from '@/model/breakpoints';
-import { canForce, force, nodeOf, nodesOf, release, stepTo } from '@/store/debug/debugger';
+import {
+  blocksSkip,
+  canForce,
+  force,
+  isOwnTree,
+  nodeOf,
+  nodesOf,
+  release,
+  stepTo,
+} from '@/store/debug/debugger';
 import { useDebugMarks } from '@/store/debug/marks';
 import { useIsBack } from '@/store/moment/store';
 import { liveKey } from '@/store/project/live';
 import { useSessionStore } from '@/store/session/store';
 import { useForcedWords } from './words';
 import classes from './debug.module.css';
+
+/** The results that can be forced in another program. */
+const OF_OTHERS: readonly ResultName[] = ['SUCCESS', 'FAILURE'];
 
 interface ForceFieldsProps {
   readonly tree: string;
@@ -25,10 +37,14 @@ export function ForceFields({ tree, node }: ForceFieldsProps) {
   const words = useForcedWords();
   const [status, setStatus] = useState<ResultName>('SUCCESS');
   const [once, setOnce] = useState(false);
+  const [after, setAfter] = useState(false);
   const nodes = nodesOf(session, tree, node);
   const one = nodeOf(session, tree, node);
   if (isBack || !one || !canForce()) return null;
   const isFreeze = status === 'RUNNING';
+  const isOwn = isOwnTree(session);
+  const blocking = isOwn ? blocksSkip(session.tree, one) : null;
+  const results = isOwn ? RESULTS : OF_OTHERS;
   return (
     <>
       {forced && (
@@ -41,7 +57,7 @@ export function ForceFields({ tree, node }: ForceFieldsProps) {
           size="xs"
           aria-label={t('force.result')}
           value={status}
-          data={RESULTS.map((value) => ({ value, label: t(`force.choice.${value}`) }))}
+          data={results.map((value) => ({ value, label: t(`force.choice.${value}`) }))}
           data-testid="force-status"
           onChange={({ currentTarget: { value } }) => setStatus(value as ResultName)}
         />
@@ -52,11 +68,26 @@ export function ForceFields({ tree, node }: ForceFieldsProps) {
           disabled={isFreeze}
           onChange={({ currentTarget: { checked } }) => setOnce(checked)}
         />
+        <Checkbox
+          size="md"
+          label={t('force.after')}
+          title={t('force.afterHelp')}
+          checked={after && !isFreeze}
+          disabled={isFreeze}
+          onChange={({ currentTarget: { checked } }) => setAfter(checked)}
+        />
         <Button
           size="compact-sm"
           variant="default"
           data-testid="force"
-          onClick={() => void force(nodes, { effect: 'result', status, once: once && !isFreeze })}
+          onClick={() =>
+            void force(nodes, {
+              effect: 'result',
+              status,
+              once: once && !isFreeze,
+              after: after && !isFreeze,
+            })
+          }
         >
           {t('force.do')}
         </Button>
@@ -72,17 +103,18 @@ export function ForceFields({ tree, node }: ForceFieldsProps) {
         )}
       </div>
       <div className={classes['buttons']}>
-        {session.held && (
+        {isOwn && session.held && (
           <Button size="compact-sm" variant="default" data-testid="step-to" onClick={() => void stepTo(one)}>
             {t('force.stepTo')}
           </Button>
         )}
-        {one.parent > 0 && (
+        {isOwn && one.parent > 0 && (
           <>
             <Button
               size="compact-sm"
               variant="default"
               title={t('force.skipToHelp')}
+              disabled={blocking !== null}
               onClick={() => void force([one], { effect: 'skip_to' })}
             >
               {t('force.skipTo')}
@@ -98,6 +130,7 @@ export function ForceFields({ tree, node }: ForceFieldsProps) {
           </>
         )}
       </div>
+      {blocking !== null && <p className={classes['note']}>{t('force.skipToNot', { type: blocking })}</p>}
       {nodes.length > 1 && (
         <p className={classes['note']}>{t('force.instances', { count: nodes.length, path: one.path })}</p>
       )}

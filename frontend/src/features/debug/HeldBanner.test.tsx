@@ -4,8 +4,9 @@ import type { Held, TreeNode } from '@/generated/messages';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import '@/i18n/editorTexts';
+import { attached } from '../../../harness/attached';
 import { show, user, watchNavigation } from '../../../harness/testing';
-import { registerCommands } from '@/commands/registry';
+import { registerCommands, useCommandTable } from '@/commands/registry';
 import { registerDebugCommands } from './commands';
 import { HeldBanner } from './HeldBanner';
 
@@ -65,7 +66,7 @@ it('says where and why the tree is held, and opens the block', async () => {
   expect(screen.getByTestId('debug-to')).toBeDisabled();
   await user.click(screen.getByTestId('held-node'));
   expect(openTree).toHaveBeenCalledWith('Main');
-  expect(screen.getAllByRole('button')).toHaveLength(6);
+  expect(screen.getAllByRole('button')).toHaveLength(7);
   expect(screen.getByTestId('debug-to')).toBeEnabled(); // the block is selected now
 });
 
@@ -75,4 +76,17 @@ it('has no buttons for a viewer, and warns of an outside robot', () => {
   expect(screen.getAllByRole('button')).toHaveLength(1);
   expect(screen.getByTestId('held-banner')).toHaveTextContent('the condition is wrong');
   expect(screen.getByTestId('held-banner')).toHaveTextContent('keeps moving');
+});
+
+it('has no steps for a program that is followed: its protocol has none', () => {
+  act(() => useSessionStore.setState({ attached: attached({ controls: true }) }));
+  show(<HeldBanner />);
+  set('driver');
+  expect(screen.getByTestId('debug-continue')).toBeInTheDocument();
+  expect(screen.getAllByRole('button')).toHaveLength(2);
+  const { commands } = useCommandTable.getState();
+  const possible = ['continue', 'over', 'into', 'out', 'tick'].map((id) =>
+    commands[`debug.${id}`]?.enabled?.(),
+  );
+  expect(possible).toEqual([true, false, false, false, false]);
 });

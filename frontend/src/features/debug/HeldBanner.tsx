@@ -2,10 +2,11 @@ import { Group } from '@mantine/core';
 import { IconHandStop } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import type { Held, TreeNode } from '@/generated/messages';
-import { nodesOf } from '@/store/debug/debugger';
+import { isOwnTree, nodesOf } from '@/store/debug/debugger';
 import { useProjectStore } from '@/store/project';
 import { openTree } from '@/store/project/navigation';
 import { useIsBack } from '@/store/moment/store';
+import { usePython } from '@/store/python/stop';
 import { useSessionStore } from '@/store/session/store';
 import { CommandButton } from '@/ui/CommandButton';
 import { useHeldWords } from './words';
@@ -17,8 +18,9 @@ export function HeldBanner() {
   const held = useSessionStore((state) => state.held);
   const tree = useSessionStore((state) => state.tree);
   const isBack = useIsBack();
+  const isInPython = usePython(({ stop }) => stop !== null);
   const node = held ? tree[held.uid - 1] : undefined;
-  if (!held || !node || isBack) return null;
+  if (!held || !node || isBack || isInPython) return null;
   return <Banner held={held} node={node} tree={tree} />;
 }
 
@@ -34,6 +36,7 @@ function Banner({ held, node, tree }: BannerProps) {
   const hasTarget = useProjectStore(
     ({ activeTree, selection: [id] }) => nodesOf({ tree }, activeTree ?? '', id ?? '').length > 0,
   );
+  const canStep = useSessionStore(isOwnTree);
   const words = useHeldWords();
   const path = held.path.flatMap((uid) => tree[uid - 1]?.name ?? []);
   const reveal = () => {
@@ -56,7 +59,7 @@ function Banner({ held, node, tree }: BannerProps) {
       </div>
       {isDriver && (
         <Group gap={2} wrap="nowrap">
-          {[...heldCommands.map(({ id }) => id), 'debug.to'].map((id) => (
+          {(canStep ? [...heldCommands.map(({ id }) => id), 'debug.to'] : ['debug.continue']).map((id) => (
             <CommandButton
               key={id}
               command={id}

@@ -4,6 +4,7 @@ import {
   IconArrowRampRight2,
   IconCircleOff,
   IconPlayerPlayFilled,
+  IconPlayerTrackNext,
   IconHandOff,
 } from '@tabler/icons-react';
 import { registerCommands, type UserCommand } from '@/commands/registry';
@@ -11,11 +12,14 @@ import { switchBreakpoints, useBreakpoints } from '@/store/debug/breakpoints';
 import {
   canDebug,
   canForce,
+  canStep,
+  canStepTree,
   continueRun,
   release,
   stepInto,
   stepOut,
   stepOver,
+  stepTick,
 } from '@/store/debug/debugger';
 import { useSessionStore } from '@/store/session/store';
 
@@ -34,6 +38,7 @@ export const heldCommands: readonly UserCommand[] = [
   {
     ...whenHeld,
     id: 'debug.over',
+    enabled: canStep,
     labelKey: 'debug:command.over',
     icon: IconArrowRampRight2,
     shortcut: 'F10',
@@ -42,6 +47,7 @@ export const heldCommands: readonly UserCommand[] = [
   {
     ...whenHeld,
     id: 'debug.into',
+    enabled: canStep,
     labelKey: 'debug:command.into',
     icon: IconArrowBarDown,
     shortcut: 'F11',
@@ -50,10 +56,19 @@ export const heldCommands: readonly UserCommand[] = [
   {
     ...whenHeld,
     id: 'debug.out',
+    enabled: canStep,
     labelKey: 'debug:command.out',
     icon: IconArrowBarToUp,
     shortcut: 'Shift+F11',
     run: () => void stepOut(),
+  },
+  {
+    ...whenHeld,
+    id: 'debug.tick',
+    labelKey: 'debug:command.tick',
+    icon: IconPlayerTrackNext,
+    enabled: canStepTree,
+    run: () => void stepTick(),
   },
 ];
 

@@ -38,3 +38,16 @@ it('offers the older revisions, the last one first', async () => {
   await user.click(screen.getByRole('button', { name: 'Compare' }));
   expect(compare).toHaveBeenCalledWith(5);
 });
+
+it('says why the revisions cannot be read', async () => {
+  fakeServer({
+    'GET /projects/p1/revisions?limit=100&before=7': Response.json(
+      { title: 'Not found', code: 'not_found', status: 404 },
+      { status: 404 },
+    ),
+  });
+  const props = { projectId: 'p1', before: 7, suggested: null, onCompare: vi.fn(), onCancel: vi.fn() };
+  show(<CompareForm {...props} />);
+  expect(await screen.findByRole('alert')).toHaveTextContent('It is gone');
+  expect(screen.getByRole('button', { name: 'Compare' })).toBeDisabled();
+});

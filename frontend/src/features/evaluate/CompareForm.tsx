@@ -3,6 +3,7 @@ import { useQuery } from '@tanstack/react-query';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { revisions } from '@/api/revisions';
+import { refusalText } from '@/i18n/evaluationReasons';
 import { timeAgo } from '@/i18n/timeAgo';
 
 interface Props {
@@ -42,6 +43,7 @@ export function CompareForm({ projectId, before, suggested, onCompare, onCancel 
   const revision = chosen ?? suggested ?? first;
   return (
     <Group gap={6} align="flex-end">
+      {found.isError ? <p role="alert">{refusalText(t, found.error)}</p> : null}
       <NativeSelect
         size="xs"
         label={t('compare.with')}

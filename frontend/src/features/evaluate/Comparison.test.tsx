@@ -18,7 +18,7 @@ const answer = {
 const open = (body: object) => {
   fakeServer({ 'GET /projects/p1/evaluations/e1/comparison': body });
   const choose = vi.fn();
-  show(<Comparison projectId="p1" evaluation={compared} onChoose={choose} />);
+  show(<Comparison projectId="p1" evaluation={compared} mayReplay onChoose={choose} />);
   return choose;
 };
 

@@ -3,6 +3,7 @@ import { useTranslation } from 'react-i18next';
 import type { Comparison as Compared, Evaluation } from '@/api/evaluations';
 import classes from './evaluate.module.css';
 import { percent, short } from './outcomeText';
+import { refusalText } from '@/i18n/evaluationReasons';
 import { useComparison } from './useComparison';
 
 const SIGNIFICANT = 0.05;
@@ -10,21 +11,23 @@ const SIGNIFICANT = 0.05;
 interface Props {
   readonly projectId: string;
   readonly evaluation: Evaluation;
+  readonly mayReplay: boolean;
+  /** Shows the run of a seed whose outcome changed. */
   readonly onChoose: (seed: number) => void;
 }
 
 /** What changed since the older revision, in plain words, and the seeds whose outcome changed. */
-export function Comparison({ projectId, evaluation, onChoose }: Props) {
+export function Comparison({ projectId, evaluation, mayReplay, onChoose }: Props) {
   const { t } = useTranslation('evaluate');
   const found = useComparison(projectId, evaluation);
   if (found.isPending) return <Loader size={14} aria-label={t('compare.reading')} />;
-  if (found.isError) return <p role="alert">{found.error.message}</p>;
+  if (found.isError) return <p role="alert">{refusalText(t, found.error)}</p>;
   const { data } = found;
   return (
     <div data-testid="evaluation-comparison" className={classes['comparison']}>
       <p>{sentence(t, data, evaluation)}</p>
-      <Seeds label={t('compare.worse')} seeds={data.only_older} onChoose={onChoose} />
-      <Seeds label={t('compare.better')} seeds={data.only_newer} onChoose={onChoose} />
+      <Seeds label={t('compare.worse')} seeds={data.only_older} mayReplay={mayReplay} onChoose={onChoose} />
+      <Seeds label={t('compare.better')} seeds={data.only_newer} mayReplay={mayReplay} onChoose={onChoose} />
       {data.only_older.length + data.only_newer.length === 0 ? (
         <p className={classes['muted']}>{t('compare.same', { count: data.both + data.neither })}</p>
       ) : null}
@@ -59,18 +62,26 @@ function sentence(
 function Seeds({
   label,
   seeds,
+  mayReplay,
   onChoose,
 }: {
   readonly label: string;
   readonly seeds: readonly number[];
+  readonly mayReplay: boolean;
   readonly onChoose: (seed: number) => void;
 }) {
+  const { t } = useTranslation('evaluate');
   if (seeds.length === 0) return null;
   return (
     <div className={classes['seeds']}>
       <span>{label}</span>
       {seeds.slice(0, 200).map((seed) => (
-        <button key={seed} type="button" onClick={() => onChoose(seed)}>
+        <button
+          key={seed}
+          type="button"
+          title={mayReplay ? t('compare.seed', { seed }) : undefined}
+          onClick={() => onChoose(seed)}
+        >
           {seed}
         </button>
       ))}

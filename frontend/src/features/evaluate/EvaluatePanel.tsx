@@ -11,6 +11,7 @@ import { EvaluationActions } from './EvaluationActions';
 import { EvaluationForm } from './EvaluationForm';
 import { History } from './History';
 import { NewEvaluation } from './NewEvaluation';
+import { refusalText } from '@/i18n/evaluationReasons';
 import { Results } from './Results';
 import { StartForm } from './StartForm';
 import { earlierOf, isLive, useEvaluations } from './useEvaluations';
@@ -109,7 +110,7 @@ export function EvaluatePanel() {
         </div>
         <div className={classes['main']}>
           {all.found.isPending && isVisible ? <Loader size={16} aria-label={t('loading')} /> : null}
-          {all.found.isError ? <p role="alert">{all.found.error.message}</p> : null}
+          {all.found.isError ? <p role="alert">{refusalText(t, all.found.error)}</p> : null}
           {mode === 'new' || (name === null && list) ? (
             <NewEvaluation
               names={names}

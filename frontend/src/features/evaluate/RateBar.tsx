@@ -35,12 +35,8 @@ export function RateBar({ evaluation, side }: Props) {
         </div>
       ) : null}
       {isLive(evaluation) ? (
-        <Progress
-          size="sm"
-          value={wanted ? (done / wanted) * 100 : 0}
-          aria-label={t('progress.label')}
-          animated
-        />
+        // Stripes that move would repaint the page all the time, on the processor that the runs need.
+        <Progress size="sm" value={wanted ? (done / wanted) * 100 : 0} aria-label={t('progress.label')} />
       ) : null}
       <p className={classes['muted']} role="status">
         {t('progress.done', { done, wanted: wanted ?? '…' })}

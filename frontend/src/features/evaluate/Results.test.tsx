@@ -27,6 +27,31 @@ it('shows the worst run, its reason, and plays it', async () => {
   );
 });
 
+it('plays the run of a seed whose outcome changed, as the revision that is shown', async () => {
+  const side = done.sides[0]!;
+  const compared = evaluation({ state: 'done', older: 3, sides: [side, { ...side, revision: 3 }] });
+  const older = [outcome(0), outcome(1)];
+  const { requests } = fakeServer({
+    ...answers,
+    'GET /projects/p1/evaluations/e1/outcomes?revision=3&after=0': { items: older, cursor: 5 },
+    'GET /projects/p1/evaluations/e1/comparison': {
+      ...{ difference: [-0.5, -0.9, 0], p: 0.5, both: 1, neither: 0 },
+      ...{ only_older: [1], only_newer: [], measures: [] },
+    },
+    'POST /projects/p1/evaluations/e1/replays': { id: 'r1', state: 'failed', error: 'no room', run: null },
+  });
+  show(<Results projectId="p1" evaluation={compared} mayReplay />);
+  const asked = () => requests.filter(({ method }) => method === 'POST').map(({ body }) => body);
+  await screen.findByText('never collision');
+  await user.click(await screen.findByRole('button', { name: '1' }));
+  expect(screen.getByTestId('evaluation-cell')).toHaveTextContent(/^Seed 1: failure/);
+  await waitFor(() => expect(asked()).toEqual([{ revision: 7, seed: 1 }]));
+  await user.click(screen.getByText('Revision 3'));
+  await screen.findByText(/Seed 1: success/);
+  await user.click(screen.getByRole('button', { name: '1' }));
+  await waitFor(() => expect(asked().at(-1)).toEqual({ revision: 3, seed: 1 }));
+});
+
 it('offers guests no play, and shows why an evaluation failed', async () => {
   fakeServer(answers);
   const failed = evaluation({ state: 'failed', error: 'evaluations/room.yaml:3:1: no' });

@@ -3,6 +3,7 @@ import { IconPlayerPlay } from '@tabler/icons-react';
 import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { Evaluation, Outcome } from '@/api/evaluations';
+import { CoverageButton } from '@/features/behaviourTests/CoverageButton';
 import { cellsOf } from './cells';
 import { Comparison } from './Comparison';
 import classes from './evaluate.module.css';
@@ -10,6 +11,7 @@ import { Measures } from './Measures';
 import { OutcomeGrid } from './OutcomeGrid';
 import { outcomeText } from './outcomeText';
 import { RateBar } from './RateBar';
+import { linesText, reasonText, refusalText } from '@/i18n/evaluationReasons';
 import { useComparison } from './useComparison';
 import { useOutcomes } from './useOutcomes';
 import { useReplay } from './useReplay';
@@ -44,12 +46,16 @@ export function Results({ projectId, evaluation, mayReplay }: Props) {
     if (found && mayReplay) void replay.play(revision, found);
   };
   const stop = () => void replay.cancel();
+  const choose = (seed: number) => {
+    setChosen(seed);
+    play(seed);
+  };
   if (!side) return null;
   return (
     <div className={classes['results']}>
       {evaluation.error ? (
         <Alert color="red" title={t('state.failed')} className={classes['error'] ?? ''}>
-          <pre>{evaluation.error}</pre>
+          <pre>{linesText(t, evaluation.error)}</pre>
         </Alert>
       ) : null}
       {evaluation.older !== null ? (
@@ -65,7 +71,11 @@ export function Results({ projectId, evaluation, mayReplay }: Props) {
         />
       ) : null}
       <RateBar evaluation={evaluation} side={side} />
-      {error ? <p role="alert">{error.message}</p> : null}
+      {evaluation.older !== null && evaluation.state === 'done' ? (
+        <Comparison projectId={projectId} evaluation={evaluation} mayReplay={mayReplay} onChoose={choose} />
+      ) : null}
+      {side.done > 0 ? <CoverageButton projectId={projectId} evaluation={evaluation} side={side} /> : null}
+      {error ? <p role="alert">{refusalText(t, error)}</p> : null}
       {cells > 0 ? (
         <>
           <OutcomeGrid
@@ -80,16 +90,13 @@ export function Results({ projectId, evaluation, mayReplay }: Props) {
           <Group gap="xs" className={classes['cell'] ?? ''}>
             <p role="status" data-testid="evaluation-cell">
               {chosen === null ? t('grid.hint') : outcomeText(t, chosen, row)}
-              {row ? <span className={classes['muted']}> {row.why}</span> : null}
+              {row ? <span className={classes['muted']}> {reasonText(t, row.why)}</span> : null}
             </p>
             {row && mayReplay ? (
               <PlayButton row={row} waits={replay.seed === row.seed} onPlay={play} onCancel={stop} />
             ) : null}
           </Group>
         </>
-      ) : null}
-      {evaluation.older !== null && evaluation.state === 'done' ? (
-        <Comparison projectId={projectId} evaluation={evaluation} onChoose={setChosen} />
       ) : null}
       {bad.length > 0 ? (
         <section aria-label={t('worst.title')}>
@@ -100,7 +107,7 @@ export function Results({ projectId, evaluation, mayReplay }: Props) {
                 <button type="button" className={classes['link']} onClick={() => setChosen(each.seed)}>
                   {outcomeText(t, each.seed, each)}
                 </button>
-                <span className={classes['muted']}>{each.why}</span>
+                <span className={classes['muted']}>{reasonText(t, each.why)}</span>
                 {mayReplay ? (
                   <PlayButton row={each} waits={replay.seed === each.seed} onPlay={play} onCancel={stop} />
                 ) : null}

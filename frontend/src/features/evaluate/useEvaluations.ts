@@ -4,6 +4,7 @@ import { useTranslation } from 'react-i18next';
 import { evaluations, type Evaluation } from '@/api/evaluations';
 import { useProjectStore } from '@/store/project';
 import { saveNow } from '@/store/saving/autosave';
+import { refusalText } from '@/i18n/evaluationReasons';
 
 const LIVE_MS = 1000;
 const IDLE_MS = 20_000;
@@ -36,7 +37,11 @@ export function useEvaluations(isVisible: boolean) {
     try {
       return await call();
     } catch (error) {
-      notifications.show({ color: 'red', title: t(`failed.${what}`), message: (error as Error).message });
+      notifications.show({
+        color: 'red',
+        title: t(`failed.${what}`),
+        message: refusalText(t, error as Error),
+      });
       return null;
     } finally {
       await client.invalidateQueries({ queryKey });

@@ -5,6 +5,7 @@ import { evaluations, type Outcome } from '@/api/evaluations';
 import { runs } from '@/api/runs';
 import { openKept } from '@/store/moment/looking';
 import { storedSource } from '@/store/recording/storedSource';
+import { linesText, refusalText } from '@/i18n/evaluationReasons';
 
 const LOOK_MS = 700;
 
@@ -37,7 +38,8 @@ export function useReplay(projectId: string, evaluationId: string) {
           if (isCurrent()) replay = await evaluations.replay(projectId, evaluationId, replay.id);
         }
         if (!isCurrent()) return;
-        if (replay.run === null) throw new Error(replay.error || t('replay.gone'));
+        if (replay.run === null)
+          throw new Error(replay.error ? linesText(t, replay.error) : t('replay.gone'));
         const run = await runs.get(projectId, replay.run);
         if (isCurrent()) openKept(storedSource(projectId, run), run, end_s);
       } catch (error) {
@@ -45,7 +47,7 @@ export function useReplay(projectId: string, evaluationId: string) {
           notifications.show({
             color: 'red',
             title: t('failed.replay', { seed: wanted }),
-            message: (error as Error).message,
+            message: refusalText(t, error as Error),
           });
       } finally {
         if (isCurrent()) setSeed(null);
@@ -66,7 +68,7 @@ export function useReplay(projectId: string, evaluationId: string) {
       notifications.show({
         color: 'red',
         title: t('failed.cancelReplay'),
-        message: (error as Error).message,
+        message: refusalText(t, error as Error),
       });
     }
   }, [projectId, evaluationId, t]);

@@ -1,6 +1,8 @@
 import { act, fireEvent, screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { OutlineLine } from '@/model/outline';
+import { changeBreakpoint, toggleBreakpoint, useBreakpoints } from '@/store/debug/breakpoints';
+import { useDebugMarks } from '@/store/debug/marks';
 import { useLiveStore } from '@/store/project/live';
 import { useProjectStore } from '@/store/project';
 import { now, openDiagram } from '../../../harness/canvas';
@@ -68,6 +70,28 @@ describe('a line of the outline', () => {
       }),
     );
     expect(row).toHaveAttribute('data-status', 'RUNNING');
+  });
+
+  it('shows the breakpoint of the block, where the tree is held, and what is forced', () => {
+    useBreakpoints.setState({ list: [], areOn: true });
+    toggleBreakpoint('Main', 'a');
+    useDebugMarks.setState({
+      held: new Map([['Main/a', 'here']]),
+      forced: new Map([['Main/a', { status: 'FAILURE', once: false, after: false, alone: false }]]),
+    });
+    const row = open('a');
+    expect(row).toHaveAttribute('data-held', 'here');
+    expect(row).toHaveTextContent('FAILURE');
+    const mark = screen.getByRole('img', { name: 'Breakpoint' });
+    expect(mark).not.toHaveAttribute('data-off');
+    act(() => changeBreakpoint('Main', 'a', { on: false }));
+    expect(mark).toHaveAttribute('data-off');
+    act(() => {
+      toggleBreakpoint('Main', 'a');
+      useDebugMarks.setState({ held: new Map(), forced: new Map() });
+    });
+    expect(row).not.toHaveAttribute('data-held');
+    expect(screen.queryByRole('img', { name: 'Breakpoint' })).toBeNull();
   });
 
   it('reveals its block at a press', () => {

@@ -8,8 +8,8 @@ import type { NodeSpec } from '@/model/vocabulary';
 import { breakpointOf, useBreakpoints } from '@/store/debug/breakpoints';
 import { useDebugMarks } from '@/store/debug/marks';
 import { change } from '@/store/project/edits/blocks';
-import { liveKey, pastOf } from '@/store/project/live';
-import { useShownLive } from '@/store/moment/store';
+import { usePaintedStatus, write, type ShownStatus } from '@/store/moment/statusPainter';
+import { liveKey } from '@/store/project/live';
 import { useProjectStore } from '@/store/project';
 import { FamilyTile } from '@/ui/FamilyTile';
 import classes from './Outline.module.css';
@@ -27,12 +27,16 @@ interface OutlineRowProps {
   readonly wasDragged: { readonly current: boolean };
 }
 
+function paint(row: Element, { status, past }: ShownStatus): void {
+  write(row, 'data-status', past ?? status);
+  write(row, 'data-past', past && '');
+}
+
 /** One line: symbol, name, type if it differs from the name, and status. The list handles its keys. */
 export function OutlineRow(props: OutlineRowProps) {
   const { tree, row, node, spec, isSelected, top, mark, onPress, wasDragged } = props;
   const { t } = useTranslation('outline');
-  const status = useShownLive((state) => state.statuses.get(liveKey(tree, row.id)) ?? 'IDLE');
-  const past = useShownLive((state) => pastOf(state, liveKey(tree, row.id)));
+  const root = usePaintedStatus<HTMLDivElement>(liveKey(tree, row.id), paint);
   const held = useDebugMarks((state) => state.held.get(liveKey(tree, row.id)));
   const forced = useDebugMarks((state) => state.forced.get(liveKey(tree, row.id)));
   const breakpoint = useBreakpoints((state) => breakpointOf(state, tree, row.id));
@@ -41,6 +45,7 @@ export function OutlineRow(props: OutlineRowProps) {
   return (
     // eslint-disable-next-line jsx-a11y/click-events-have-key-events
     <div
+      ref={root}
       id={`outline-${row.id}`}
       role="treeitem"
       tabIndex={-1}
@@ -48,8 +53,6 @@ export function OutlineRow(props: OutlineRowProps) {
       aria-selected={isSelected}
       {...(row.hasChildren ? { 'aria-expanded': !row.isFolded } : {})}
       className={classes['row']}
-      data-status={past ?? status}
-      data-past={past === undefined ? undefined : ''}
       data-held={held}
       data-disabled={node.disabled || undefined}
       data-mark={mark ?? undefined}

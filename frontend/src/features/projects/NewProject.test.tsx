@@ -14,6 +14,7 @@ const template = (id: string) => ({
   conditions: [],
 });
 const onCreate = vi.fn();
+const onAttach = vi.fn();
 
 function open(projects: number) {
   const items = Array.from({ length: projects }, (_, i) => summary(`p${i}`));
@@ -27,6 +28,7 @@ function open(projects: number) {
       pending={null}
       onImport={vi.fn()}
       isImporting={false}
+      onAttach={onAttach}
       importButton={{ current: null }}
     />,
   );
@@ -56,5 +58,11 @@ describe('NewProject', () => {
     await user.click(fold);
     expect(await screen.findByTestId('new-from-laser_bump_and_go')).toBeInTheDocument();
     expect(fold).toHaveAttribute('aria-expanded', 'true');
+  });
+
+  it('asks for the address of a robot to follow', async () => {
+    open(0);
+    await user.click(screen.getByTestId('attach'));
+    expect(onAttach).toHaveBeenCalledOnce();
   });
 });

@@ -1,5 +1,5 @@
 import { Button, FileButton, Group, Skeleton, Text, Title, Tooltip } from '@mantine/core';
-import { IconChevronDown, IconChevronUp, IconPlus, IconUpload } from '@tabler/icons-react';
+import { IconChevronDown, IconChevronUp, IconPlus, IconRobot, IconUpload } from '@tabler/icons-react';
 import type { RefObject } from 'react';
 import { useTranslation } from 'react-i18next';
 import { ExampleShelf } from './examples/ExampleShelf';
@@ -23,6 +23,8 @@ interface NewProjectProps {
   readonly pending: string | null;
   readonly onImport: (file: File) => void;
   readonly isImporting: boolean;
+  /** Asks for the address of a robot to follow. */
+  readonly onAttach: () => void;
   readonly importButton: RefObject<HTMLButtonElement | null>;
 }
 
@@ -30,7 +32,15 @@ interface NewProjectProps {
  * The section with the ways to begin: templates and examples, which are folded once there are projects, and
  * an import.
  */
-export function NewProject({ onCreate, pending, onImport, isImporting, importButton }: NewProjectProps) {
+export function NewProject({
+  onCreate,
+  pending,
+  onImport,
+  isImporting,
+  onAttach,
+  importButton,
+}: NewProjectProps) {
+  const { t: ofAttached } = useTranslation('attached');
   const { t } = useTranslation('projects');
   const { isFolded, isKnown, toggle } = useFold();
   const Chevron = isFolded ? IconChevronDown : IconChevronUp;
@@ -74,6 +84,16 @@ export function NewProject({ onCreate, pending, onImport, isImporting, importBut
                 )}
               </FileButton>
             </div>
+          </Tooltip>
+          <Tooltip label={ofAttached('attachHint')} multiline maw={300} position="bottom-end">
+            <Button
+              variant="default"
+              data-testid="attach"
+              leftSection={<IconRobot size={16} />}
+              onClick={onAttach}
+            >
+              {ofAttached('attach')}
+            </Button>
           </Tooltip>
           <Button
             variant="default"

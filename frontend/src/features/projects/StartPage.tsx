@@ -1,10 +1,11 @@
 import { Group, Loader, Overlay, Text } from '@mantine/core';
 import { IconUpload } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
-import { Suspense, useCallback, useEffect, useRef } from 'react';
+import { Suspense, useCallback, useEffect, useRef, useState } from 'react';
 import { closePalette, usePalette } from '@/commands/palette';
 import { useShortcuts } from '@/commands/shortcuts';
 import { UserMenu } from '@/features/accounts/UserMenu';
+import { AttachDialog } from '@/features/attached/AttachDialog';
 import { MyRuns } from '@/features/runs/MyRuns';
 import { isLog, openNewLog } from '@/features/runs/openNewLog';
 import { ThemeToggle } from '@/ui/ThemeToggle';
@@ -22,8 +23,13 @@ import { useStartCommands } from './useStartCommands';
 
 const CommandPalette = lazyPart(async () => (await import('@/workspace/CommandPalette')).CommandPalette);
 
+interface Props {
+  /** Loads the page of an attached session in advance. */
+  readonly loadAttached?: () => Promise<unknown>;
+}
+
 /** The page that lists the projects and creates new ones. */
-export function StartPage() {
+export function StartPage({ loadAttached }: Props) {
   const { t } = useTranslation('projects');
   const actions = useProjectCommands();
   const { importFile, isImporting, offer, repair, decline } = useImport();
@@ -38,10 +44,12 @@ export function StartPage() {
   const isPaletteOpen = usePalette((state) => state.page !== null);
   const importButton = useRef<HTMLButtonElement>(null);
   const searchField = useRef<HTMLInputElement>(null);
+  const [isAttaching, setAttaching] = useState(false);
   useShortcuts();
   useStartCommands({
     create: (template) => actions.create.mutate(template),
     chooseFile: () => importButton.current?.click(),
+    attach: () => setAttaching(true),
     search: () => searchField.current?.focus(),
   });
 
@@ -79,6 +87,7 @@ export function StartPage() {
           pending={pending}
           onImport={importFile}
           isImporting={isImporting}
+          onAttach={() => setAttaching(true)}
           importButton={importButton}
         />
         <ProjectList actions={actions} searchField={searchField} />
@@ -90,6 +99,7 @@ export function StartPage() {
           </Group>
         ) : null}
       </main>
+      <AttachDialog isOpen={isAttaching} onOpen={loadAttached} onClose={() => setAttaching(false)} />
       <RepairDialog offer={offer} onRepair={repair} onClose={decline} />
       {isPaletteOpen ? (
         <Suspense fallback={null}>

@@ -4,7 +4,7 @@ import { perform, useCommandTable } from '@/commands/registry';
 import { fakeServer, show } from '../../../harness/testing';
 import { useStartCommands } from './useStartCommands';
 
-const actions = { create: vi.fn(), chooseFile: vi.fn(), search: vi.fn() };
+const actions = { create: vi.fn(), chooseFile: vi.fn(), search: vi.fn(), attach: vi.fn() };
 
 function Page() {
   useStartCommands(actions);

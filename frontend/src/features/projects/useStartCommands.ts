@@ -1,4 +1,4 @@
-import { IconPlus, IconSearch, IconUpload } from '@tabler/icons-react';
+import { IconPlus, IconRobot, IconSearch, IconUpload } from '@tabler/icons-react';
 import { useEffect, useEffectEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import { everywhere } from '@/commands/global';
@@ -9,6 +9,7 @@ interface StartCommands {
   readonly create: (template: string) => void;
   readonly chooseFile: () => void;
   readonly search: () => void;
+  readonly attach: () => void;
 }
 
 /** Registers the commands of the start page's buttons, for the command palette and for keys. */
@@ -17,6 +18,7 @@ export function useStartCommands(actions: StartCommands): void {
   const { all: templates } = useSortedTemplates();
   const create = useEffectEvent((template: string) => actions.create(template));
   const chooseFile = useEffectEvent(() => actions.chooseFile());
+  const attach = useEffectEvent(() => actions.attach());
   const search = useEffectEvent(() => actions.search());
   useEffect(() => {
     const news = templates.map((template): UserCommand => ({
@@ -34,6 +36,13 @@ export function useStartCommands(actions: StartCommands): void {
         labelKey: 'projects:import',
         icon: IconUpload,
         run: () => chooseFile(),
+      },
+      {
+        id: 'start.attach',
+        group: 'project',
+        labelKey: 'attached:attach',
+        icon: IconRobot,
+        run: () => attach(),
       },
       {
         id: 'start.search',

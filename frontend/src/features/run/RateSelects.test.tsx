@@ -6,7 +6,7 @@ import { useRunStore } from '@/store/run/store';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import { openProject, show, user } from '../../../harness/testing';
-import { RateMenus, RateSelects } from './RateSelects';
+import { RateMenus, RateSelects, TimeMenu } from './RateSelects';
 
 const tickHz = () => useProjectStore.getState().settings?.tick_hz;
 
@@ -77,5 +77,34 @@ describe('RateMenus', () => {
     useRunStore.setState({ runBlocker: 'guest' });
     open();
     expect(screen.getByTestId('menu-tick-rate')).toBeDisabled();
+  });
+});
+
+describe('TimeMenu', () => {
+  const open = () =>
+    show(
+      <Menu opened>
+        <Menu.Target>
+          <button>menu</button>
+        </Menu.Target>
+        <Menu.Dropdown>
+          <TimeMenu />
+        </Menu.Dropdown>
+      </Menu>,
+    );
+
+  it('sets the time of the project, which is live if nothing is set', async () => {
+    open();
+    expect(screen.getByTestId('menu-time')).toHaveTextContent('Time of the next run: live');
+    await user.hover(screen.getByTestId('menu-time'));
+    fireEvent.click(await screen.findByRole('menuitemradio', { name: 'Exact (time waits for the tree)' }));
+    expect(useProjectStore.getState().settings?.time).toBe('exact');
+    expect(screen.getByTestId('menu-time')).toHaveTextContent('Time of the next run: exact');
+  });
+
+  it('is read-only for users who may not run', () => {
+    useRunStore.setState({ runBlocker: 'guest' });
+    open();
+    expect(screen.getByTestId('menu-time')).toBeDisabled();
   });
 });

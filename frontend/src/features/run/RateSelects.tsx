@@ -2,11 +2,11 @@ import { Menu, Tooltip, UnstyledButton } from '@mantine/core';
 import { IconCheck, IconChevronDown } from '@tabler/icons-react';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { setSpeed, setTickRate } from '@/store/run/commands';
+import { setRunTime, setSpeed, setTickRate } from '@/store/run/commands';
 import { useRunStore } from '@/store/run/store';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
-import { DEFAULT_TICK_HZ, SPEEDS, TICK_RATES } from './rates';
+import { DEFAULT_TICK_HZ, RUN_TIMES, SPEEDS, TICK_RATES } from './rates';
 import classes from './run.module.css';
 
 interface RateSelectProps {
@@ -94,6 +94,36 @@ function useRates(): readonly RateSelectProps[] {
 
 export function RateSelects() {
   return useRates().map((rate) => <RateSelect key={rate.testId} {...rate} />);
+}
+
+/** Whether the time of the next run waits for the tree, as a menu. */
+export function TimeMenu() {
+  const { t } = useTranslation('run');
+  const time = useProjectStore((state) => state.settings?.time ?? 'live');
+  const isDisabled = useRunStore((state) => state.runBlocker !== null);
+  return (
+    <Menu.Sub>
+      <Menu.Sub.Target>
+        <Menu.Sub.Item
+          leftSection={<span className={classes['unchecked']} />}
+          data-testid="menu-time"
+          disabled={isDisabled}
+        >{`${t('time')}: ${t(`times.${time}`)}`}</Menu.Sub.Item>
+      </Menu.Sub.Target>
+      <Menu.Sub.Dropdown>
+        <Menu.RadioGroup
+          value={time}
+          onChange={(chosen) => setRunTime(chosen === 'exact' ? 'exact' : 'live')}
+        >
+          {RUN_TIMES.map((value) => (
+            <Menu.RadioItem key={value} closeMenuOnClick value={value} checkIcon={<IconCheck size={15} />}>
+              {t(`timeChoices.${value}`)}
+            </Menu.RadioItem>
+          ))}
+        </Menu.RadioGroup>
+      </Menu.Sub.Dropdown>
+    </Menu.Sub>
+  );
 }
 
 /** The rates as menus, for windows that are too narrow for both. */

@@ -5,12 +5,13 @@ import { useTranslation } from 'react-i18next';
 import { perform, useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
 import { setStatusRate, STATUS_RATES, useStatusRate } from '@/store/session/statusRate';
-import { RateMenus } from './RateSelects';
+import { RateMenus, TimeMenu } from './RateSelects';
 import { useFollowing } from './following';
 
 const COMMANDS = [
   'run.run',
   'run.restart',
+  'run.apply',
   'run.step10',
   'run.resetWorld',
   'run.world',
@@ -61,6 +62,7 @@ export function RunMenu({ isDisabled }: { readonly isDisabled: boolean }) {
           {t('command.followRunning')}
         </Menu.CheckboxItem>
         <RateMenus />
+        <TimeMenu />
         <Menu.Label>{t('statusRate')}</Menu.Label>
         <Menu.RadioGroup value={String(hz)} onChange={(rate) => setStatusRate(Number(rate))}>
           {STATUS_RATES.map((rate) => (

@@ -2,11 +2,14 @@ import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import type { State } from '@/generated/messages';
 import { perform, useCommandTable } from '@/commands/registry';
 import { useRunStore } from '@/store/run/store';
-import { useTeleop } from '@/store/run/teleop';
+import { canDrive, useTeleop } from '@/store/run/teleop';
+import { atPresent, useMoment } from '@/store/moment/store';
 import { openProject, openSession, type FakeExecutor } from '../../../harness/testing';
 import { registerRunCommands } from './commands';
 import { useFollowing } from './following';
 
+/** What acts on no world, or only ends what does. */
+const OF_THE_PAST = ['run.stop', 'run.followRunning', 'run.kept', 'run.end'];
 let executor: FakeExecutor;
 const table = () => useCommandTable.getState().commands;
 const isEnabled = (id: string) => table()[`run.${id}`]?.enabled?.() ?? true;
@@ -22,8 +25,11 @@ describe('commands of a run', () => {
     ['idle', ['run', 'end']],
     ['connected', ['run', 'end']],
     ['visualization_ready', ['run', 'restart', 'resetWorld', 'end']],
-    ['application_running', ['run', 'pause', 'step', 'stop', 'step10', 'restart', 'resetWorld', 'end']],
-    ['paused', ['run', 'resume', 'step', 'stop', 'step10', 'restart', 'resetWorld', 'end']],
+    [
+      'application_running',
+      ['run', 'pause', 'step', 'stop', 'step10', 'restart', 'apply', 'resetWorld', 'end'],
+    ],
+    ['paused', ['run', 'resume', 'step', 'stop', 'step10', 'restart', 'apply', 'resetWorld', 'end']],
   ] as const)('are available while the executor is %s', (state: State, expected) => {
     executor.emit('state-changed', { state, reason: '' });
     const asked = [
@@ -34,6 +40,7 @@ describe('commands of a run', () => {
       'stop',
       'step10',
       'restart',
+      'apply',
       'resetWorld',
       'takeOver',
       'end',
@@ -47,6 +54,22 @@ describe('commands of a run', () => {
     expect([isEnabled('run'), isEnabled('restart')]).toEqual([false, false]);
     useRunStore.setState({ stage: null, runBlocker: 'guest' });
     expect(isEnabled('run')).toBe(false);
+  });
+
+  it('only stop, end and take over while one looks back', () => {
+    onTestFinished(() => useMoment.setState(atPresent));
+    const isEnabledIn = (state: State) => {
+      executor.emit('state-changed', { state, reason: '' });
+      return Object.values(table())
+        .filter(({ enabled }) => enabled?.() ?? true)
+        .map(({ id }) => id);
+    };
+    useMoment.setState({ t: 1 });
+    expect(isEnabledIn('application_running')).toEqual(OF_THE_PAST);
+    expect(isEnabledIn('paused')).toEqual(OF_THE_PAST);
+    expect(canDrive()).toBe(false);
+    useMoment.setState(atPresent);
+    expect(isEnabledIn('paused')).toContain('run.resume');
   });
 
   it('let a viewer take over', async () => {
@@ -130,6 +153,7 @@ describe('commands of a run', () => {
       ['run.stop', 'Shift+F5', true],
       ['run.step10', '$mod+F10', true],
       ['run.restart', '$mod+Shift+F5', true],
+      ['run.apply', '$mod+Shift+Enter', true],
     ]);
   });
 });

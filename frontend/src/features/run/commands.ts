@@ -11,6 +11,7 @@ import {
   IconRefresh,
   IconRotateClockwise,
   IconSteeringWheel,
+  IconTransform,
   IconWorldBolt,
 } from '@tabler/icons-react';
 import { registerCommands, type UserCommand } from '@/commands/registry';
@@ -35,7 +36,7 @@ import {
   takeOver,
 } from '@/store/run/commands';
 import { toggleFollowing } from './following';
-import { restartProject, runProject } from '@/store/run/run';
+import { applyProject, restartProject, runProject } from '@/store/run/run';
 import { setDriving, useTeleop } from '@/store/run/teleop';
 import { openRunsDialog } from '@/store/dialogs/runs';
 import { isLookingBack } from '@/store/moment/store';
@@ -126,6 +127,16 @@ const rows: UserCommand[] = [
     inTextFields: true,
     enabled: () => canRestart() && useRunStore.getState().stage === null,
     run: () => void restartProject(),
+  },
+  {
+    id: 'run.apply',
+    group: 'run',
+    labelKey: 'run:command.apply',
+    icon: IconTransform,
+    shortcut: '$mod+Shift+Enter',
+    inTextFields: true,
+    enabled: () => (isRunning() || isPaused()) && useRunStore.getState().stage === null,
+    run: () => void applyProject(),
   },
   {
     id: 'run.resetWorld',

@@ -25,7 +25,7 @@ describe('commands for rates', () => {
     expect(TICK_RATES).toEqual([1, 2, 5, 10, 20, 50, 100]);
     expect(TICK_RATES).toContain(DEFAULT_TICK_HZ);
     expect(SPEEDS).toEqual([0.1, 0.25, 0.5, 1, 2, 4, 5, 10, 0]);
-    expect(Object.keys(commands())).toHaveLength(7 + 9 + 5);
+    expect(Object.keys(commands())).toHaveLength(7 + 9 + 2 + 5);
     expect(Object.values(commands()).every(({ group }) => group === 'rates')).toBe(true);
   });
 
@@ -34,6 +34,7 @@ describe('commands for rates', () => {
     expect(label('run.tickRate.5')).toEqual(['run:command.tickRate', { hz: 5 }]);
     expect(label('run.speed.0.5')).toEqual(['run:command.speed', { speed: 0.5 }]);
     expect(label('run.speed.0')).toEqual(['run:command.fullSpeed', { speed: 0 }]);
+    expect(label('run.time.exact')[0]).toBe('run:command.time.exact');
     expect(label('run.statusRate.10')).toEqual(['run:command.statusRate', { hz: 10 }]);
     expect(label('run.statusRate.0')).toEqual(['run:command.everyStatus', { hz: 0 }]);
   });
@@ -42,7 +43,8 @@ describe('commands for rates', () => {
     perform('run.tickRate.5');
     perform('run.speed.0.5');
     perform('run.statusRate.10');
-    expect(useProjectStore.getState().settings?.tick_hz).toBe(5);
+    perform('run.time.exact');
+    expect(useProjectStore.getState().settings).toMatchObject({ tick_hz: 5, time: 'exact' });
     expect(useSessionStore.getState().speed).toBe(0.5);
     expect(useStatusRate.getState().hz).toBe(10);
   });
@@ -52,7 +54,9 @@ describe('commands for rates', () => {
     perform('run.tickRate.5');
     perform('run.speed.0.5');
     perform('run.statusRate.2');
+    perform('run.time.exact');
     expect(useProjectStore.getState().settings?.tick_hz).toBeUndefined();
+    expect(useProjectStore.getState().settings?.time).toBeUndefined();
     expect(useSessionStore.getState().speed).toBe(1);
     expect(useStatusRate.getState().hz).toBe(2);
   });

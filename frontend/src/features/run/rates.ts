@@ -1,5 +1,5 @@
 import { registerCommands, type UserCommand } from '@/commands/registry';
-import { setSpeed, setTickRate } from '@/store/run/commands';
+import { setRunTime, setSpeed, setTickRate } from '@/store/run/commands';
 import { useRunStore } from '@/store/run/store';
 import { setStatusRate, STATUS_RATES } from '@/store/session/statusRate';
 
@@ -9,6 +9,8 @@ export const TICK_RATES = [1, 2, 5, 10, 20, 50, 100] as const;
 export const DEFAULT_TICK_HZ = 20;
 /** The speeds of simulated time that can be chosen; zero means as fast as possible. */
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 5, 10, 0] as const;
+/** Whether time waits for the tree. */
+export const RUN_TIMES = ['exact', 'live'] as const;
 
 const mayRun = () => useRunStore.getState().runBlocker === null;
 
@@ -28,6 +30,13 @@ const rows: readonly UserCommand[] = [
     labelValues: { speed },
     enabled: mayRun,
     run: () => setSpeed(speed),
+  })),
+  ...RUN_TIMES.map((time): UserCommand => ({
+    id: `run.time.${time}`,
+    group: 'rates',
+    labelKey: `run:command.time.${time}`,
+    enabled: mayRun,
+    run: () => setRunTime(time),
   })),
   ...STATUS_RATES.map((hz): UserCommand => ({
     id: `run.statusRate.${hz}`,

@@ -5,7 +5,7 @@ import { useTranslation } from 'react-i18next';
 import type { RunToKeep } from '@/api/runs';
 import { runsOf } from '@/store/recording/liveSource';
 import { useSessionStore } from '@/store/session/store';
-import { runToKeep } from './present';
+import { runToKeep } from './runToKeep';
 
 /** A form that keeps the run of the session, with a name and a note. */
 export function KeepForm({ onKeep }: { readonly onKeep: (run: RunToKeep) => Promise<boolean> }) {

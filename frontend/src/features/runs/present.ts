@@ -1,13 +1,5 @@
 import type { MyRun } from '@/api/runs';
 import { projectPath } from '@/store/route';
-import { extent } from '@/store/moment/looking';
-import { useSource } from '@/store/moment/source';
-
-/** Returns the run of the session at which the user looks, else the last one; undefined without a recording. */
-export function runToKeep(runs: readonly string[]): string | undefined {
-  const shown = useSource.getState().kept ? undefined : extent()?.run;
-  return runs.find((run) => run === shown) ?? runs.at(-1);
-}
 
 /** Returns a duration as minutes and seconds, such as "2:05". */
 export function minutes(seconds: number): string {

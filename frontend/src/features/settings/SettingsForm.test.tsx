@@ -32,6 +32,7 @@ describe('SettingsForm', () => {
     await pick('Ticks a second', '50 Hz');
     await user.click(screen.getByRole('radio', { name: 'Begin again' }));
     await user.click(screen.getByRole('radio', { name: 'Count it as a failure' }));
+    await user.click(screen.getByRole('radio', { name: 'Exact (time waits for the tree)' }));
     await user.click(save());
     expect(settings()).toEqual({
       name: 'Patrol',
@@ -40,6 +41,7 @@ describe('SettingsForm', () => {
       tick_hz: 50,
       on_finish: 'repeat',
       on_error: 'failure',
+      time: 'exact',
     });
     expect(useSettingsDialog.getState().isOpen).toBe(false);
   });
@@ -49,6 +51,7 @@ describe('SettingsForm', () => {
     expect(screen.getByRole('combobox', { name: 'Ticks a second' })).toHaveValue('20 Hz');
     expect(screen.getByRole('radio', { name: 'Stop' })).toBeChecked();
     expect(screen.getByRole('radio', { name: 'Stop the run' })).toBeChecked();
+    expect(screen.getByRole('radio', { name: 'Live (as on a robot)' })).toBeChecked();
   });
 
   it('keeps the changes of another user', async () => {

@@ -2,7 +2,7 @@ import { Button, Group, Radio, Select, Stack, Textarea, TextInput } from '@manti
 import { useState, type FormEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { ProjectSettings } from '@/api/types';
-import { DEFAULT_TICK_HZ, TICK_RATES } from '@/features/run/rates';
+import { DEFAULT_TICK_HZ, RUN_TIMES, TICK_RATES } from '@/features/run/rates';
 import { LIMITS } from '@/generated/limits';
 import { useProjectStore } from '@/store/project';
 import { setTickRate } from '@/store/run/commands';
@@ -107,6 +107,12 @@ export function SettingsForm() {
               value={now.on_error ?? 'stop'}
               options={ERRORS.map((value) => ({ value, label: t(`error.${value}`) }))}
               onChange={(value) => set({ on_error: value === 'failure' ? 'failure' : 'stop' })}
+            />
+            <Choice
+              label={t('time')}
+              value={now.time ?? 'live'}
+              options={RUN_TIMES.map((value) => ({ value, label: t(`times.${value}`) }))}
+              onChange={(value) => set({ time: value === 'exact' ? 'exact' : 'live' })}
             />
           </Stack>
         </fieldset>

@@ -1,7 +1,7 @@
 import { memo, useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { NodeStatus } from '@/generated/messages';
-import { trace } from '@/store/session/trace/trace';
+import { shownTrace, useShownTrace } from '@/store/moment/shownTrace';
 import type { TimelineRow } from './rows';
 import classes from './timeline.module.css';
 
@@ -46,19 +46,33 @@ export const RowButton = memo(function RowButton(props: RowButtonProps) {
   );
 });
 
+interface Summary {
+  readonly status: NodeStatus;
+  readonly seconds: number;
+  readonly times: number;
+}
+
 /** Returns the current and past statuses of a node, updated once a second. */
-function useSummary(uid: number): { status: NodeStatus; seconds: number; times: number } {
-  const [summary, setSummary] = useState(() => ({ status: trace.status(uid), ...trace.runningOf(uid) }));
+function useSummary(uid: number): Summary {
+  const recorded = useShownTrace((state) => state.recorded);
+  const [summary, setSummary] = useState(() => summaryOf(uid));
   useEffect(() => {
-    const timer = setInterval(() => {
-      const next = { status: trace.status(uid), ...trace.runningOf(uid) };
+    const update = () => {
+      const next = summaryOf(uid);
       setSummary((old) =>
         old.status === next.status && old.times === next.times && Math.abs(old.seconds - next.seconds) < 0.1
           ? old
           : next,
       );
-    }, SUMMARY_EVERY_MS);
+    };
+    update();
+    const timer = setInterval(update, SUMMARY_EVERY_MS);
     return () => clearInterval(timer);
-  }, [uid]);
+  }, [uid, recorded]);
   return summary;
+}
+
+function summaryOf(uid: number): Summary {
+  const trace = shownTrace();
+  return { status: trace.status(uid), ...trace.runningOf(uid) };
 }

@@ -1,7 +1,10 @@
-import { createEvent, fireEvent, screen, waitFor } from '@testing-library/react';
+import { act, createEvent, fireEvent, screen, waitFor } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import * as looking from '@/store/moment/looking';
+import { useShownTrace } from '@/store/moment/shownTrace';
+import { atPresent, useMoment } from '@/store/moment/store';
 import { useProjectStore } from '@/store/project';
+import { Trace } from '@/store/session/trace/trace';
 import { runTree, treeNode } from '../../../harness/running';
 import { openProject, show, user, watchNavigation } from '../../../harness/testing';
 import { TimelinePanel } from './TimelinePanel';
@@ -254,7 +257,7 @@ describe('the wheel', () => {
 });
 
 it('looks at the moment of a bar that is clicked, and of nothing else', () => {
-  const look = vi.spyOn(looking, 'lookAtPresentRun').mockReturnValue(undefined);
+  const look = vi.spyOn(looking, 'lookAt').mockReturnValue(undefined);
   run();
   fireEvent.click(rows(), { clientX: 480, clientY: 5, detail: 1 });
   expect(look).toHaveBeenCalledTimes(1);
@@ -265,7 +268,7 @@ it('looks at the moment of a bar that is clicked, and of nothing else', () => {
 });
 
 it('goes to the changes of the row that has the focus, by comma and full stop', async () => {
-  const go = vi.spyOn(looking, 'goToChangeOfPresentRun').mockResolvedValue(true);
+  const go = vi.spyOn(looking, 'goToChange').mockResolvedValue(true);
   run();
   rows().querySelector('button')!.focus();
   await user.keyboard('{ArrowDown}');
@@ -276,4 +279,24 @@ it('goes to the changes of the row that has the focus, by comma and full stop', 
     [2, -1],
     [2, 1],
   ]);
+});
+
+it('shows the run that is open, around the moment at which the user looks', () => {
+  run();
+  const recorded = new Trace(Infinity);
+  recorded.start([treeNode(1, 0, 'other')], 0);
+  recorded.tick([[1, 'RUNNING']], [], 200);
+  recorded.advance(300);
+  onTestFinished(() => {
+    useMoment.setState(atPresent);
+    useShownTrace.setState({ recorded: null, nodes: [] });
+  });
+  act(() => useShownTrace.setState({ recorded, nodes: recorded.nodes }));
+  expect(names()).toEqual(['other']);
+  expect(timeAt(1)).toBe('3:20');
+  act(() => useMoment.setState({ t: 100 }));
+  fireEvent.pointerMove(rows(), { clientX: 300, clientY: 5 });
+  expect(screen.getByRole('presentation')).toHaveTextContent(/idle at 1:40/);
+  act(() => useShownTrace.setState({ recorded: null, nodes: [] }));
+  expect(names()).toEqual(['root', 'drive', 'Turn']);
 });

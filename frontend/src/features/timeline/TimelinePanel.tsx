@@ -19,9 +19,9 @@ import {
 import { useTranslation } from 'react-i18next';
 import { useProjectStore } from '@/store/project';
 import { openTree } from '@/store/project/navigation';
-import { goToChangeOfPresentRun, lookAtPresentRun } from '@/store/moment/looking';
+import { goToChange, lookAt } from '@/store/moment/looking';
+import { followShownTrace, shownTrace, useShownTrace } from '@/store/moment/shownTrace';
 import { useSessionStore } from '@/store/session/store';
-import { trace } from '@/store/session/trace/trace';
 import { cancellable } from '@/ui/cancellable';
 import { useVisible } from '@/ui/hooks/useVisible';
 import { ROW_PX } from './draw';
@@ -39,7 +39,9 @@ const CLICK_PX = 4;
 /** The panel with the statuses of each node over the last ten minutes of the run, one strip per node. */
 export function TimelinePanel() {
   const { t } = useTranslation('timeline');
-  const nodes = useSessionStore((state) => state.tree);
+  const present = useSessionStore((state) => state.tree);
+  const recorded = useShownTrace();
+  const nodes = recorded.recorded ? recorded.nodes : present;
   const [search, setSearch] = useState('');
   const rows = useMemo(() => rowsOf(nodes, search), [nodes, search]);
   const uids = useMemo(() => rows.map((row) => row.uid), [rows]);
@@ -70,6 +72,7 @@ export function TimelinePanel() {
     return view.attach(canvas.current, scroller.current);
   }, [view, isVisible]);
   useEffect(() => view.setRows(uids), [view, uids]);
+  useEffect(() => (isVisible ? followShownTrace() : undefined), [isVisible]);
   useWheel(scroller, canvas, view);
 
   const shareOf = (clientX: number) => {
@@ -110,8 +113,11 @@ export function TimelinePanel() {
     const { from, to } = view.span();
     const time = from + share * (to - from);
     const isBar =
-      row && trace.stretches(row.uid, time, time).some(({ start, end }) => start <= time && end >= time);
-    if (isBar) lookAtPresentRun(time);
+      row &&
+      shownTrace()
+        .stretches(row.uid, time, time)
+        .some(({ start, end }) => start <= time && end >= time);
+    if (isBar) lookAt(time);
   };
 
   const select = (row: TimelineRow) => {
@@ -133,7 +139,7 @@ export function TimelinePanel() {
   /** Goes to the next (1) or previous (-1) change of the row's node. */
   const toChange = (direction: 1 | -1) => {
     const row = rows[active];
-    if (row) void goToChangeOfPresentRun(row.uid, direction);
+    if (row) void goToChange(row.uid, direction);
   };
 
   const onKeyDown = (event: KeyboardEvent) => {

@@ -1,5 +1,5 @@
+import { shownTrace, useShownTrace } from '@/store/moment/shownTrace';
 import { useMoment } from '@/store/moment/store';
-import { trace, HISTORY_S } from '@/store/session/trace/trace';
 import { AXIS_PX, drawTimeline, paletteOf } from './draw';
 import { spanOf, zoomed, type Span } from './span';
 
@@ -25,8 +25,9 @@ export class TimelineView {
     this.redraw();
     let drawnAt = -1;
     const timer = setInterval(() => {
-      if (trace.now === drawnAt) return;
-      drawnAt = trace.now;
+      const { now } = shownTrace();
+      if (now === drawnAt) return;
+      drawnAt = now;
       this.redraw();
     }, REDRAW_MS);
     const resized = new ResizeObserver(this.redraw);
@@ -35,10 +36,17 @@ export class TimelineView {
     const themed = new MutationObserver(this.redraw);
     themed.observe(document.documentElement, { attributeFilter: ['data-mantine-color-scheme'] });
     const unfollow = useMoment.subscribe((state, before) => {
-      if (state.t !== before.t) this.redraw();
+      if (state.t === before.t) return;
+      this.keepInSight(state.t);
+      this.redraw();
+    });
+    const another = useShownTrace.subscribe(() => {
+      this.keepInSight(useMoment.getState().t);
+      this.redraw();
     });
     return () => {
       unfollow();
+      another();
       clearInterval(timer);
       resized.disconnect();
       themed.disconnect();
@@ -54,7 +62,8 @@ export class TimelineView {
   }
 
   span(): Span {
-    return spanOf(this.end, this.length, trace.begin, trace.now);
+    const { begin, now } = shownTrace();
+    return spanOf(this.end, this.length, begin, now);
   }
 
   readonly redraw = (): void => {
@@ -63,7 +72,8 @@ export class TimelineView {
 
   /** Zooms about a point, which is given as a share of the width. */
   zoom(factor: number, share = 1): void {
-    const longest = Math.min(HISTORY_S, trace.now - trace.begin);
+    const { begin, now, lengthS } = shownTrace();
+    const longest = Math.min(lengthS, now - begin);
     this.show(zoomed(this.span(), factor, share, longest));
   }
 
@@ -84,7 +94,8 @@ export class TimelineView {
   }
 
   showAll(): void {
-    this.show({ from: trace.begin, to: trace.now });
+    const { begin, now } = shownTrace();
+    this.show({ from: begin, to: now });
   }
 
   follow(): void {
@@ -93,7 +104,16 @@ export class TimelineView {
 
   private show({ from, to }: Span): void {
     this.length = to - from;
-    this.setEnd(to >= trace.now ? null : Math.max(to, trace.begin + this.length));
+    const { begin, now } = shownTrace();
+    this.setEnd(to >= now ? null : Math.max(to, begin + this.length));
+  }
+
+  /** Moves the range to a past moment that is outside of it. */
+  private keepInSight(moment: number | null): void {
+    if (moment === null) return;
+    const { from, to } = this.span();
+    const length = to - from;
+    if (moment < from || moment > to) this.show({ from: moment - length / 2, to: moment + length / 2 });
   }
 
   private setEnd(end: number | null): void {
@@ -112,7 +132,7 @@ export class TimelineView {
     if (canvas.width !== Math.round(width * ratio)) canvas.width = Math.round(width * ratio);
     if (canvas.height !== Math.round(height * ratio)) canvas.height = Math.round(height * ratio);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    drawTimeline(trace, {
+    drawTimeline(shownTrace(), {
       context,
       width,
       height: Math.max(height, AXIS_PX),

@@ -1,5 +1,5 @@
 import { useTranslation } from 'react-i18next';
-import { trace } from '@/store/session/trace/trace';
+import { shownTrace } from '@/store/moment/shownTrace';
 import { statusesOf, type TimelineRow } from './rows';
 import { timeLabel } from './span';
 import classes from './timeline.module.css';
@@ -18,7 +18,9 @@ const WIDTH_PX = 260;
 /** The tip at the pointer: the status of the node at that time. */
 export function Tip({ x, y, row, time }: TipAt) {
   const { t } = useTranslation(['timeline', 'run']);
-  const stretch = trace.stretches(row.uid, time, time).find((s) => s.start <= time && s.end >= time);
+  const stretch = shownTrace()
+    .stretches(row.uid, time, time)
+    .find((s) => s.start <= time && s.end >= time);
   const left = Math.min(x + OFFSET_PX, window.innerWidth - WIDTH_PX);
   return (
     <div className={classes['tip']} style={{ left, top: y - 44 }} role="presentation">

@@ -9,6 +9,8 @@ import {
 } from '@tabler/icons-react';
 import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { usePastTopics } from '@/store/moment/pastTopics';
+import { useIsBack } from '@/store/moment/store';
 import { unlisten } from '@/store/run/topics';
 import { fieldsOf, type Field } from '@/store/session/fields';
 import { togglePlot, useTopicsStore, type Echo } from '@/store/session/topics';
@@ -25,11 +27,14 @@ export function EchoList() {
 function EchoView({ echo: live }: { readonly echo: Echo }) {
   const { t } = useTranslation('topics');
   const [held, setHeld] = useState<Echo | null>(null);
-  const echo = held ?? live;
+  const isBack = useIsBack();
+  const recorded = usePastTopics((state) => state.messages[live.topic]);
+  const echo = isBack ? { ...live, last: recorded ?? null } : (held ?? live);
+  const message = echo.last?.message;
   const [toggled, setToggled] = useState<ReadonlySet<string>>(new Set());
   const rows = useMemo(
-    () => fieldsOf(echo.last?.message, (path) => toggled.has(path) !== isFoldedAtFirst(path)),
-    [echo, toggled],
+    () => fieldsOf(message, (path) => toggled.has(path) !== isFoldedAtFirst(path)),
+    [message, toggled],
   );
   const toggle = (path: string) => {
     const next = new Set(toggled);
@@ -47,26 +52,34 @@ function EchoView({ echo: live }: { readonly echo: Echo }) {
       <header className={classes['echoHead']}>
         <strong>{topic}</strong>
         <span className={classes['muted']}>
-          {last ? t('heardAt', { time: last.t.toFixed(2), bytes: last.bytes }) : t('waiting')}
+          {last
+            ? t('heardAt', { time: last.t.toFixed(2), bytes: last.bytes })
+            : t(isBack ? 'past.none' : 'waiting')}
         </span>
         <span className={classes['spacer']} />
-        <Tooltip label={t(held ? 'resume' : 'hold')}>
-          <ActionIcon
-            size="sm"
-            aria-label={t(held ? 'resume' : 'hold')}
-            onClick={() => setHeld(held ? null : live)}
-          >
-            {held ? <IconPlayerPlay size={14} /> : <IconPlayerPause size={14} />}
-          </ActionIcon>
-        </Tooltip>
-        {last ? (
+        {isBack ? null : (
+          <Tooltip label={t(held ? 'resume' : 'hold')}>
+            <ActionIcon
+              size="sm"
+              aria-label={t(held ? 'resume' : 'hold')}
+              onClick={() => setHeld(held ? null : live)}
+            >
+              {held ? <IconPlayerPlay size={14} /> : <IconPlayerPause size={14} />}
+            </ActionIcon>
+          </Tooltip>
+        )}
+        {last && !isBack ? (
           <Tooltip label={t('publishOne')}>
             <ActionIcon size="sm" aria-label={t('publishOne')} onClick={() => openPublish(topic, last.type)}>
               <IconSend size={14} />
             </ActionIcon>
           </Tooltip>
         ) : null}
-        <CloseButton size="sm" aria-label={t('unlisten', { topic })} onClick={() => unlisten(topic)} />
+        <CloseButton
+          size="sm"
+          aria-label={t(isBack ? 'past.hide' : 'unlisten', { topic })}
+          onClick={() => unlisten(topic)}
+        />
       </header>
       <div className={classes['fields']}>
         {rows.map((field) => (

@@ -2,6 +2,7 @@ import { Button, Tooltip } from '@mantine/core';
 import { notifications } from '@mantine/notifications';
 import { IconCircleCheck, IconCircleX, IconPlayerPlayFilled, IconRefresh } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
+import { reasonOf } from '@/api/reason';
 import type { LaunchNode } from '@/generated/messages';
 import { useConsoleFilter } from '@/features/console/filter';
 import { showPanel } from '@/workspace/tabs';
@@ -45,7 +46,7 @@ function NodeRow({ node }: { readonly node: LaunchNode }) {
   const Icon = ICONS[node.state];
   const restart = () =>
     restartNode(node.id).catch((error: Error) =>
-      notifications.show({ color: 'red', title: t('refused'), message: error.message }),
+      notifications.show({ color: 'red', title: t('refused'), message: reasonOf(error) }),
     );
   return (
     <li className={classes['node']} data-testid={`launch-${node.name}`} data-state={node.state}>

@@ -4,11 +4,14 @@ import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
-import { lookAtPresentRun } from '@/store/moment/looking';
-import { useMoment } from '@/store/moment/store';
+import { lookAt } from '@/store/moment/looking';
+import { pastRange, pastSamples, usePastTopics, wantRange } from '@/store/moment/pastTopics';
+import { useRange } from '@/store/moment/range';
+import { useIsBack, useMoment } from '@/store/moment/store';
 import { clearPlots, togglePlot, useTopicsStore } from '@/store/session/topics';
 import { dataOf, HEIGHT_PX, markOf, optionsFor } from './chart';
-import { csvOf, download } from './csv';
+import { downloadCsv } from './csv';
+import { PlotNotes } from './PlotNotes';
 import { gestures } from './plotGestures';
 import { unitOf, type TimeRange } from './plotView';
 import classes from './topics.module.css';
@@ -20,12 +23,14 @@ interface PlotProps {
 }
 
 /**
- * A plot of the chosen fields over simulated time, with the moment at which one looks back. The wheel zooms, a drag
- * moves, a double click shows everything, a click goes to its moment.
+ * A plot of the chosen fields over simulated time. While one looks back it is drawn from the recording, for the part
+ * of the run that the time axis shows, with the moment. The wheel zooms, a drag moves, a double click shows
+ * everything, a click goes to its moment.
  */
 export function Plot({ isVisible }: PlotProps) {
   const { t } = useTranslation('topics');
   const plotted = useTopicsStore((state) => state.plotted);
+  const isBack = useIsBack();
   const isDark = useComputedColorScheme('light', { getInitialValueInEffect: false }) === 'dark';
   const host = useRef<HTMLDivElement>(null);
   const timeLabel = t('timeLabel');
@@ -41,8 +46,8 @@ export function Plot({ isVisible }: PlotProps) {
   useEffect(() => {
     const element = host.current;
     if (!element || !isVisible) return;
-    const chart = new uPlot(optionsFor(plotted, element, timeLabel), dataOf(plotted), element);
-    let version = -1;
+    const chart = new uPlot(optionsFor(plotted, element, timeLabel), [[]], element);
+    let version: unknown = null;
     const cursor = document.createElement('div');
     cursor.className = classes['momentCursor'] ?? '';
     cursor.dataset['testid'] = 'plot-cursor';
@@ -54,28 +59,35 @@ export function Plot({ isVisible }: PlotProps) {
       cursor.style.left = `${left}px`;
     };
     const draw = () => {
-      const range = shown.current;
-      chart.setData(dataOf(plotted), range === null);
+      const range = shown.current ?? (isBack ? pastRange() : null);
+      chart.setData(dataOf(plotted, isBack ? pastSamples : undefined), range === null);
       if (range) chart.setScale('x', { ...range });
+      element.dataset['samples'] = String(chart.data[0].length);
       place();
     };
     const show = (range: TimeRange | null) => {
       shown.current = range;
       setZoomed(range !== null);
+      wantRange(range);
       if (range) chart.setScale('x', { ...range });
       else draw();
       place();
     };
     showRange.current = show;
     draw();
-    const endGestures = gestures(chart, element, show, lookAtPresentRun, () => useMoment.getState().t);
-    const endFollowing = useMoment.subscribe((now, before) => {
-      if (now.t !== before.t) place();
-    });
+    const endGestures = gestures(chart, element, show, lookAt, () => useMoment.getState().t);
+    const stops = [
+      useMoment.subscribe((now, before) => {
+        if (now.t !== before.t) place();
+      }),
+      useRange.subscribe((now, before) => {
+        if (isBack && now.view !== before.view) draw();
+      }),
+    ];
     const timer = setInterval(() => {
-      const { plotVersion } = useTopicsStore.getState();
-      if (held.current || plotVersion === version) return;
-      version = plotVersion;
+      const now = isBack ? usePastTopics.getState().series : useTopicsStore.getState().plotVersion;
+      if ((held.current && !isBack) || now === version) return;
+      version = now;
       draw();
     }, REDRAW_MS);
     const resized = new ResizeObserver(() => {
@@ -84,13 +96,13 @@ export function Plot({ isVisible }: PlotProps) {
     resized.observe(element);
     return () => {
       endGestures();
-      endFollowing();
+      for (const stop of stops) stop();
       clearInterval(timer);
       resized.disconnect();
       chart.destroy();
     };
     // The colours of the axes depend on the theme.
-  }, [plotted, isVisible, isDark, timeLabel]);
+  }, [plotted, isVisible, isDark, isBack, timeLabel]);
 
   return (
     <section className={classes['plot']} aria-label={t('plotLabel')} data-testid="plot">
@@ -101,12 +113,12 @@ export function Plot({ isVisible }: PlotProps) {
             type="button"
             className={classes['series']}
             title={t('unplot')}
-            aria-label={t('unplotOf', { path: `${topic}.${path}` })}
+            aria-label={t('unplotOf', { path: `${topic}.${path} ${unitOf(path)}`.trim() })}
             onClick={() => togglePlot(topic, path)}
           >
             <span className={classes['seriesMark']} style={markOf(index)} />
             {topic}.{path}
-            {unitOf(path) ? <span className={classes['muted']}>{unitOf(path)}</span> : null}
+            {unitOf(path) ? <span className={classes['muted']}>{` ${unitOf(path)}`}</span> : null}
           </button>
         ))}
         <span className={classes['spacer']} />
@@ -118,21 +130,24 @@ export function Plot({ isVisible }: PlotProps) {
           </Tooltip>
         ) : null}
         <Tooltip label={t('csv')}>
-          <ActionIcon size={24} aria-label={t('csv')} onClick={() => download('plot.csv', csvOf(plotted))}>
+          <ActionIcon size={24} aria-label={t('csv')} onClick={() => void downloadCsv(plotted)}>
             <IconDownload size={15} />
           </ActionIcon>
         </Tooltip>
-        <Tooltip label={t(isHeld ? 'resume' : 'holdPlot')}>
-          <ActionIcon
-            size={24}
-            aria-label={t(isHeld ? 'resume' : 'holdPlot')}
-            onClick={() => setHeld(!isHeld)}
-          >
-            {isHeld ? <IconPlayerPlay size={14} /> : <IconPlayerPause size={14} />}
-          </ActionIcon>
-        </Tooltip>
+        {isBack ? null : (
+          <Tooltip label={t(isHeld ? 'resume' : 'holdPlot')}>
+            <ActionIcon
+              size={24}
+              aria-label={t(isHeld ? 'resume' : 'holdPlot')}
+              onClick={() => setHeld(!isHeld)}
+            >
+              {isHeld ? <IconPlayerPlay size={14} /> : <IconPlayerPause size={14} />}
+            </ActionIcon>
+          </Tooltip>
+        )}
         <CloseButton size={24} aria-label={t('closePlot')} onClick={clearPlots} />
       </div>
+      {isBack ? <PlotNotes plotted={plotted} /> : null}
       {/* The keys zoom and move the plot, like wheel and drag. */}
       {/* eslint-disable jsx-a11y/no-noninteractive-tabindex */}
       <div

@@ -1,6 +1,7 @@
 import { Alert, Autocomplete, Button, Group, JsonInput, Modal, Stack, Text, Tooltip } from '@mantine/core';
 import { useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { reasonOf } from '@/api/reason';
 import { useIsBack } from '@/store/moment/store';
 import { describeType, publish } from '@/store/run/topics';
 import { CommandError } from '@/store/session/control';
@@ -62,8 +63,7 @@ function PublishForm({ topic: firstTopic, type: firstType }: PublishFormProps) {
       if (error instanceof SyntaxError) return setResult(null);
       // The notice above already says that the world is paused, and how to resume it.
       if (error instanceof CommandError && error.code === 'world_paused') return setResult(null);
-      const { message, hint = '' } = error as Error & { hint?: string };
-      setResult({ isError: true, text: [message, hint].filter(Boolean).join(' ') });
+      setResult({ isError: true, text: reasonOf(error as Error) });
     }
   };
 
@@ -154,7 +154,7 @@ function useDescription(type: string): string | null {
   useEffect(() => {
     if (isKnown || !/^\w+\/msg\/\w+$/.test(type)) return;
     const timer = setTimeout(() => {
-      describeType(type).catch((error: Error) => setRefusal({ type, text: error.message }));
+      describeType(type).catch((error: Error) => setRefusal({ type, text: reasonOf(error) }));
     }, DESCRIBE_AFTER_MS);
     return () => clearTimeout(timer);
   }, [type, isKnown]);

@@ -3,19 +3,27 @@ import { notifications } from '@mantine/notifications';
 import { IconEar, IconEarOff, IconSearch } from '@tabler/icons-react';
 import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { reasonOf } from '@/api/reason';
 import type { TopicInfo } from '@/generated/messages';
-import { listen, unlisten } from '@/store/run/topics';
+import { listen, showRecorded, unlisten } from '@/store/run/topics';
+import { usePastTopics } from '@/store/moment/pastTopics';
+import { useIsBack } from '@/store/moment/store';
 import { useTopicsStore } from '@/store/session/topics';
 import { bytesLabel, rateLabel } from './labels';
 import classes from './topics.module.css';
 
 const sizeClass = `${classes['number']} ${classes['size']}`;
 
-/** The list of all topics with type, rate and size; a click echoes a topic. */
+/** The list of all topics, of a past moment those of the recording, with type, rate and size; a click echoes a topic. */
 export function TopicList() {
   const { t } = useTranslation('topics');
-  const topics = useTopicsStore((state) => state.topics);
-  const isKnown = useTopicsStore((state) => state.isKnown);
+  const isBack = useIsBack();
+  const present = useTopicsStore((state) => state.topics);
+  const isPresentKnown = useTopicsStore((state) => state.isKnown);
+  const past = usePastTopics((state) => state.topics);
+  const isPastKnown = usePastTopics((state) => state.isKnown);
+  const topics = isBack ? past : present;
+  const isKnown = isBack ? isPastKnown : isPresentKnown;
   const [search, setSearch] = useState('');
   const shown = useMemo(() => {
     const wanted = search.trim().toLowerCase();
@@ -34,7 +42,9 @@ export function TopicList() {
         onChange={(event) => setSearch(event.currentTarget.value)}
       />
       {shown.length === 0 ? (
-        <p className={classes['empty']}>{t(isKnown ? 'nothingMatches' : 'asking')}</p>
+        <p className={classes['empty']}>
+          {t(isKnown ? (isBack && topics.length === 0 ? 'past.empty' : 'nothingMatches') : 'asking')}
+        </p>
       ) : (
         <table className={classes['table']}>
           <thead>
@@ -64,18 +74,24 @@ export function TopicList() {
 
 function Row({ topic }: { readonly topic: TopicInfo }) {
   const { t } = useTranslation('topics');
+  const isBack = useIsBack();
   const isEchoed = useTopicsStore((state) => topic.name in state.echoes);
   const toggle = () => {
     if (isEchoed) return unlisten(topic.name);
+    if (isBack) return showRecorded(topic.name);
     listen(topic.name).catch((error: Error) =>
-      notifications.show({ color: 'red', title: t('refused'), message: error.message }),
+      notifications.show({ color: 'red', title: t('refused'), message: reasonOf(error) }),
     );
   };
   const Icon = isEchoed ? IconEarOff : IconEar;
   const ends = [
     topic.type,
-    t('publishers', { names: topic.publishers.join(', ') || '—' }),
-    t('subscribers', { names: topic.subscribers.join(', ') || '—' }),
+    ...(isBack
+      ? []
+      : [
+          t('publishers', { names: topic.publishers.join(', ') || '—' }),
+          t('subscribers', { names: topic.subscribers.join(', ') || '—' }),
+        ]),
   ].join('\n');
   return (
     <tr data-testid={`topic-${topic.name}`} data-echoed={isEchoed || undefined} data-hz={topic.hz ?? ''}>
@@ -85,7 +101,7 @@ function Row({ topic }: { readonly topic: TopicInfo }) {
             type="button"
             className={classes['topic']}
             aria-pressed={isEchoed}
-            aria-label={t(isEchoed ? 'unlisten' : 'listen', { topic: topic.name })}
+            aria-label={t(labelOf(isEchoed, isBack), { topic: topic.name })}
             onClick={toggle}
           >
             <Icon size={14} aria-hidden="true" />
@@ -104,4 +120,9 @@ function Row({ topic }: { readonly topic: TopicInfo }) {
       <td className={sizeClass}>{bytesLabel(topic.bytes_per_s)}</td>
     </tr>
   );
+}
+
+function labelOf(isEchoed: boolean, isBack: boolean): 'unlisten' | 'listen' | 'past.hide' | 'past.show' {
+  if (isBack) return isEchoed ? 'past.hide' : 'past.show';
+  return isEchoed ? 'unlisten' : 'listen';
 }

@@ -1,8 +1,10 @@
-import { screen, waitFor, within } from '@testing-library/react';
+import { act, screen, waitFor, within } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { registerCommands } from '@/commands/registry';
 import type { LaunchNode, TopicInfo } from '@/generated/messages';
 import { useConsoleFilter } from '@/features/console/filter';
+import { usePastTopics } from '@/store/moment/pastTopics';
+import { atPresent, useMoment } from '@/store/moment/store';
 import { useTopicsStore } from '@/store/session/topics';
 import {
   openProject,
@@ -103,9 +105,9 @@ describe('TopicsPanel', () => {
 
   it('reports why a topic cannot be echoed', async () => {
     list();
-    executor.refuse('echo_topic', 'Too many topics.');
+    executor.refuse('echo_topic', 'Too many topics.', 'Stop one.');
     await user.click(screen.getByRole('button', { name: 'Listen to /odom' }));
-    expect(await screen.findByText('Too many topics.')).toBeInTheDocument();
+    expect(await screen.findByText('Too many topics. Stop one.')).toBeInTheDocument();
     expect(screen.queryByRole('region', { name: '/odom' })).toBeNull();
   });
 
@@ -172,6 +174,44 @@ describe('TopicsPanel', () => {
     expect(screen.queryByRole('searchbox')).toBeNull();
   });
 
+  it('shows the recording at a past moment: its topics, the message of then, and no live ones', async () => {
+    list();
+    await user.click(screen.getByRole('button', { name: 'Listen to /odom' }));
+    hear({ x: 11 }, 5);
+    act(() => useMoment.setState({ t: 2 }));
+    const past = { topic: '/odom', type: 'nav_msgs/msg/Odometry', bytes: 64, cut: {} };
+    act(() =>
+      usePastTopics.setState({
+        isKnown: true,
+        topics: [topic('/odom', 'nav_msgs/msg/Odometry', { hz: 30 }), topic('/cmd_vel', 'a/msg/A')],
+        messages: { '/odom': { ...past, t: 1.98, message: { x: 7 } } },
+      }),
+    );
+    expect(screen.queryByTestId('topic-/scan')).toBeNull();
+    const echo = screen.getByRole('region', { name: '/odom' });
+    expect(echo).toHaveTextContent('1.98 s');
+    expect(echo).toHaveTextContent('x7');
+    expect(within(echo).queryByRole('button', { name: /^Publish one|^Pause/ })).toBeNull();
+    await user.click(screen.getByRole('button', { name: 'Show /cmd_vel' }));
+    expect(screen.getByRole('region', { name: '/cmd_vel' })).toHaveTextContent(
+      'No message in the recording until this moment',
+    );
+    await user.click(
+      within(screen.getByTestId('topic-/cmd_vel')).getByRole('button', { name: 'Hide /cmd_vel' }),
+    );
+    expect(screen.queryByRole('region', { name: '/cmd_vel' })).toBeNull();
+    act(() => useMoment.setState(atPresent));
+    expect(screen.getByRole('region', { name: '/odom' })).toHaveTextContent('x11');
+  });
+
+  it('says that a recording has no topics, also without a world', () => {
+    executor.emit('state-changed', { state: 'connected', reason: '' });
+    act(() => useMoment.setState({ t: 2 }));
+    act(() => usePastTopics.setState({ isKnown: true }));
+    expect(screen.getByText('No topic of ROS is in the recording.')).toBeInTheDocument();
+    act(() => useMoment.setState(atPresent));
+  });
+
   describe('launch nodes', () => {
     beforeEach(async () => {
       executor.emit('launch_nodes', {
@@ -210,9 +250,9 @@ describe('TopicsPanel', () => {
     it('restart, or report why not', async () => {
       await user.click(row('driver').getByRole('button', { name: 'Restart' }));
       expect(executor.sentAs('restart_node')).toEqual([{ id: 'n2' }]);
-      executor.refuse('restart_node', 'It is gone.');
+      executor.refuse('restart_node', 'It is gone.', 'Start it.');
       await user.click(row('mapper').getByRole('button', { name: 'Restart' }));
-      expect(await screen.findByText('It is gone.')).toBeInTheDocument();
+      expect(await screen.findByText('It is gone. Start it.')).toBeInTheDocument();
       executor.introduce({ role: 'viewer' });
       expect(row('mapper').getByRole('button', { name: 'Restart' })).toBeDisabled();
     });

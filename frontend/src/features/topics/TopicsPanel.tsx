@@ -2,6 +2,7 @@ import { Button, SegmentedControl } from '@mantine/core';
 import { IconPlugConnected, IconSend } from '@tabler/icons-react';
 import { Suspense, useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { followPastTopics } from '@/store/moment/pastTopics';
 import { useIsBack } from '@/store/moment/store';
 import { perform } from '@/commands/registry';
 import { refreshTopics } from '@/store/run/topics';
@@ -31,14 +32,15 @@ export function TopicsPanel() {
   const hasEchoes = useTopicsStore((state) => Object.keys(state.echoes).length > 0);
   const [shown, setShown] = useState<'topics' | 'nodes'>('topics');
 
+  const isBack = useIsBack();
+  useEffect(() => (isVisible && isBack ? followPastTopics() : undefined), [isVisible, isBack]);
   useEffect(() => {
-    if (!isVisible || !isUp || shown !== 'topics') return;
+    if (!isVisible || !isUp || isBack || shown !== 'topics') return;
     void refreshTopics();
     const timer = setInterval(() => void refreshTopics(), REFRESH_MS);
     return () => clearInterval(timer);
-  }, [isVisible, isUp, shown]);
+  }, [isVisible, isUp, isBack, shown]);
 
-  const isBack = useIsBack();
   const failed = nodes.filter((node) => node.state === 'failed').length;
   return (
     <section ref={panel} className={classes['panel']} data-testid="topics" aria-label={t('label')}>
@@ -78,7 +80,7 @@ export function TopicsPanel() {
       </div>
       {shown === 'nodes' ? (
         <LaunchNodes nodes={nodes} />
-      ) : isUp ? (
+      ) : isUp || isBack ? (
         <div
           className={classes['split']}
           data-wide={hasEchoes || undefined}

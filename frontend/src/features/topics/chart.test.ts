@@ -29,6 +29,16 @@ describe('dataOf', () => {
     expect(times).not.toBe(seriesOf('/odom', 'x').times);
   });
 
+  it('takes the samples of a recording, and leaves gaps in them', () => {
+    const recorded = { times: [0, 1], values: [7, null] };
+    expect(dataOf([x], () => recorded)).toEqual([recorded.times, recorded.values]);
+    const [, first] = dataOf([x, y], (topic) =>
+      topic === '/odom' ? recorded : { times: [0.5], values: [1] },
+    );
+    // uPlot draws on over undefined, and breaks the line at null.
+    expect(first).toEqual([7, undefined, null]);
+  });
+
   it('has all times of several fields, with gaps', () => {
     const [times, first, second] = dataOf([x, y]);
     expect(times).toEqual([1, 2, 3, 4]);
@@ -79,7 +89,7 @@ describe('optionsFor', () => {
       false,
     ]);
     expect(lines.map(({ stroke }) => stroke)).toEqual(many.map((_, index) => colorOf(index)));
-    expect(lines.every(({ spanGaps, points }) => spanGaps === true && points?.show === false)).toBe(true);
+    expect(lines.every(({ spanGaps, points }) => spanGaps === false && points?.show === false)).toBe(true);
   });
 });
 

@@ -1,4 +1,5 @@
 import uPlot from 'uplot';
+import type { Samples } from '@/store/moment/pastTopics';
 import { seriesOf } from '@/store/session/topics';
 import { commonUnit } from './plotView';
 
@@ -21,16 +22,22 @@ export const markOf = (index: number) =>
 
 export type Plotted = readonly { readonly topic: string; readonly path: string }[];
 
+/** Returns the samples of a field: times in s, and their values. */
+export type SamplesOf = (topic: string, path: string) => Samples;
+
 /** Returns all series over the union of their times, with a gap where a series has no sample. */
-export function dataOf(plotted: Plotted): uPlot.AlignedData {
+export function dataOf(plotted: Plotted, samplesOf: SamplesOf = seriesOf): uPlot.AlignedData {
   const tables = plotted.map(({ topic, path }): uPlot.AlignedData => {
-    const { times, values } = seriesOf(topic, path);
-    return [times, values];
+    const { times, values } = samplesOf(topic, path);
+    return [[...times], [...values]];
   });
   const [first] = tables;
   if (!first) return [[]];
-  return tables.length === 1 ? [[...first[0]], [...(first[1] ?? [])]] : uPlot.join(tables);
+  return tables.length === 1 ? first : uPlot.join(tables);
 }
+
+/** Returns a number of an axis as it is, also a very small one. */
+const numberLabel = (value: number): string => String(Number(value.toPrecision(6)));
 
 export function optionsFor(plotted: Plotted, element: HTMLElement, timeLabel: string): uPlot.Options {
   const style = getComputedStyle(element);
@@ -53,7 +60,7 @@ export function optionsFor(plotted: Plotted, element: HTMLElement, timeLabel: st
     cursor: { drag: { x: false, y: false, setScale: false } },
     axes: [
       { ...axis, label: timeLabel, values: (_, ticks) => ticks.map((tick) => `${tick} s`) },
-      { ...axis, size: 56, ...(unit ? { label: unit } : {}) },
+      { ...axis, size: 56, values: (_, ticks) => ticks.map(numberLabel), ...(unit ? { label: unit } : {}) },
     ],
     series: [
       {},
@@ -61,7 +68,8 @@ export function optionsFor(plotted: Plotted, element: HTMLElement, timeLabel: st
         label: `${topic}.${path}`,
         stroke: colorOf(index),
         width: 1.6,
-        spanGaps: true,
+        // Times that only other fields have are no gaps; a null is one.
+        spanGaps: false,
         points: { show: false },
         ...(isDashed(index) ? { dash: [6, 4] } : {}),
       })),

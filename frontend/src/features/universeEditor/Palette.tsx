@@ -4,6 +4,7 @@ import {
   IconCube,
   IconCylinder,
   IconPackage,
+  IconPolygon,
   IconPuzzle,
   IconRobot,
   IconSphere,
@@ -34,6 +35,7 @@ const KIND_ICONS: Readonly<Record<Kind, typeof IconCube>> = {
   ball: IconBallFootball,
   floor: IconSquare,
   person: IconUser,
+  area: IconPolygon,
 };
 
 const chooseThing = (editor: UniverseEditor, name: string, what: Placeable) =>

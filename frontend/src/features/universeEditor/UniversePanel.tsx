@@ -2,6 +2,7 @@ import {
   IconBox,
   IconCube,
   IconCylinder,
+  IconPolygon,
   IconPuzzle,
   IconRobot,
   IconSphere,
@@ -39,6 +40,7 @@ const SHAPE_ICONS = {
 
 function iconOf(thing: Thing): typeof IconBox {
   if (thing.section === 'actors') return IconUser;
+  if (thing.section === 'areas') return IconPolygon;
   return thing.section === 'robots' ? IconRobot : SHAPE_ICONS[thing.shape];
 }
 

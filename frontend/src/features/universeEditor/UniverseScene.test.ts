@@ -90,6 +90,19 @@ describe('UniverseScene', () => {
     expect(color().g).toBeLessThan(pending.g);
   });
 
+  it('draws areas on the floor, with a handle at each corner', () => {
+    const { scene, show } = shown(`${HALL}areas:\n  door: {box: [1, 2, 4, 4]}\n`);
+    const node = scene.nodeOf('door')!;
+    const floor = () => new THREE.Box3().setFromObject(scene.nodeOf('door')!.children[0]!);
+    expect(floor().min.toArray().slice(0, 2)).toEqual([1, 2]);
+    expect(floor().max.toArray().slice(0, 2)).toEqual([4, 4]);
+    const handles = node.children.filter((child) => 'waypoint' in child.userData);
+    expect(handles.map(({ position: { x, y } }) => [x, y])).toContainEqual([4, 4]);
+    expect(handles).toHaveLength(4);
+    show(`${HALL}areas:\n  door: {box: [1, 2, 5, 4]}\n`);
+    expect(floor().max.x).toBe(5);
+  });
+
   it('keeps the objects of things that did not change', () => {
     const { scene, show } = shown(HALL);
     const crate = scene.nodeOf('crate');

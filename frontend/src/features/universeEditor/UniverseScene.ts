@@ -1,8 +1,15 @@
 import * as THREE from 'three';
 import { setThingPose } from '@/features/editor3d/scene/Gizmo';
-import { arrow, box, frameOf, wayOf } from '@/features/editor3d/scene/marks';
+import { arrow, box, floorOf, frameOf, wayOf } from '@/features/editor3d/scene/marks';
 import { arrival, rgba, ThingScene } from '@/features/editor3d/scene/ThingScene';
-import type { ActorThing, ModelThing, RobotThing, Thing, Universe } from '@/model/universe/types';
+import {
+  hasPath,
+  type ActorThing,
+  type ModelThing,
+  type RobotThing,
+  type Thing,
+  type Universe,
+} from '@/model/universe/types';
 import { personShapes } from './person';
 import { pictureName, type EditorTextures } from './textures';
 
@@ -28,7 +35,7 @@ export class UniverseScene extends ThingScene<Thing> {
 
   protected stateOf(thing: Thing): unknown {
     if (thing.section === 'robots') return this.arrivals(this.assets.robot(thing.model));
-    if (thing.section === 'actors') return '';
+    if (hasPath(thing)) return '';
     const isPainted = thing.texture !== '' && this.textures.has(pictureName(thing.texture, thing.tile));
     if (thing.shape === 'mesh') return [arrival(this.assets.mesh(thing.file)), isPainted];
     if (thing.texture) return isPainted;
@@ -38,11 +45,12 @@ export class UniverseScene extends ThingScene<Thing> {
   protected fill(node: THREE.Group, thing: Thing): void {
     if (thing.section === 'models') this.addModel(node, thing);
     else if (thing.section === 'actors') this.addActor(node, thing);
+    else if (thing.section === 'areas') node.add(...floorOf(thing.path));
     else this.addRobot(node, thing);
   }
 
   protected put(node: THREE.Group, thing: Thing): void {
-    if (thing.section === 'actors') node.position.set(0, 0, 0);
+    if (hasPath(thing)) node.position.set(0, 0, 0);
     else setThingPose(node, thing.pose);
   }
 

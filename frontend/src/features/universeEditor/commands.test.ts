@@ -35,7 +35,7 @@ describe('placeThing', () => {
     expect(editor.store.getState().tool).toBe('select');
   });
 
-  const looks: Readonly<Record<Exclude<Kind, 'person'>, object>> = {
+  const looks: Readonly<Record<Exclude<Kind, 'person' | 'area'>, object>> = {
     wall: { shape: 'box', size: [2, 0.15, 1], color: '#e9e4da', pose: [4, 5, 0.5, 0, 0, 0] },
     box: { shape: 'box', size: [0.6, 0.6, 0.6], color: '#3f6fb5', pose: [4, 5, 0.3, 0, 0, 0] },
     cylinder: { shape: 'cylinder', size: [0.3, 0.8], color: '#d9a441', pose: [4, 5, 0.4, 0, 0, 0] },
@@ -56,7 +56,31 @@ describe('placeThing', () => {
   );
 
   it('offers what is tested here', () => {
-    expect([...Object.keys(looks), 'person']).toEqual([...KINDS]);
+    expect([...Object.keys(looks), 'person', 'area']).toEqual([...KINDS]);
+  });
+
+  it('puts an area around the place, which moves, turns, gets corners and goes', () => {
+    const editor = openUniverse();
+    placeThing(editor, { kind: 'area' }, [4.03, 4.98]);
+    expect(readingOf(editor).universe!.raw['areas']).toEqual({ area: { box: [3, 4, 5, 6] } });
+    expect(editor.store.getState().selection).toEqual(['area']);
+    nudge(editor, 1, 0, 0);
+    expect(thing(editor, 'area')).toMatchObject({
+      shape: 'box',
+      path: [
+        [3.1, 4],
+        [5.1, 4],
+        [5.1, 6],
+        [3.1, 6],
+      ],
+    });
+    extendWay(editor, 'area', 3);
+    expect(thing(editor, 'area')).toMatchObject({ shape: 'polygon' });
+    expect(editor.store.getState().waypoint).toBe(4);
+    deleteSelected(editor);
+    expect(thing(editor, 'area')).toMatchObject({ path: { length: 4 } });
+    deleteSelected(editor);
+    expect(thing(editor, 'area')).toBeUndefined();
   });
 
   it('gives a person a path, and a robot its model', () => {

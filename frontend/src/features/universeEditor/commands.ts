@@ -15,16 +15,33 @@ import {
 import { readUniverse } from '@/model/universe/read';
 import { middleOf, rounded, snapped, standingHeight, wallBetween } from '@/model/universe/geometry';
 import { type JsonObject, type Point } from '@/model/document/values';
-import { thingOf, type Section, type Shape, type Thing, type Universe } from '@/model/universe/types';
+import {
+  hasPath,
+  thingOf,
+  type Section,
+  type Shape,
+  type Thing,
+  type Universe,
+} from '@/model/universe/types';
 import { select, textsOf } from '@/features/editor3d/editing';
 import { edit, readingOf, type UniverseEditor } from './editor';
 
 /** The kinds of things in the palette. */
-export const KINDS = ['wall', 'box', 'cylinder', 'sphere', 'crate', 'ball', 'floor', 'person'] as const;
+export const KINDS = [
+  'wall',
+  'box',
+  'cylinder',
+  'sphere',
+  'crate',
+  'ball',
+  'floor',
+  'person',
+  'area',
+] as const;
 export type Kind = (typeof KINDS)[number];
 
 const MODELS: Readonly<
-  Record<Exclude<Kind, 'person'>, { shape: Shape; size: number[] } & Record<string, unknown>>
+  Record<Exclude<Kind, 'person' | 'area'>, { shape: Shape; size: number[] } & Record<string, unknown>>
 > = {
   wall: { shape: 'box', size: [2, 0.15, 1], color: '#e9e4da' },
   box: { shape: 'box', size: [0.6, 0.6, 0.6], color: '#3f6fb5' },
@@ -63,6 +80,10 @@ function itemOf(universe: Universe, what: Placeable, [x, y]: Point): { section: 
       section: 'actors',
       item: { id, model: 'person', color: '#20c020', path, speed: 0.5, loop: true },
     };
+  }
+  if (what.kind === 'area') {
+    const box = [x - 1, y - 1, x + 1, y + 1].map(rounded);
+    return { section: 'areas', item: { id: freeId(universe, 'area'), box } };
   }
   if (what.kind === 'file') {
     const id = freeId(universe, nameOf(what.file));
@@ -111,9 +132,7 @@ function free(editor: UniverseEditor): Point {
   const [x, y] = editor.view?.center() ?? [0, 0];
   const things = readingOf(editor).universe?.things ?? [];
   const isTaken = (at: number) =>
-    things.some(
-      (thing) => thing.section !== 'actors' && Math.hypot(thing.pose[0] - at, thing.pose[1] - y) < 0.3,
-    );
+    things.some((thing) => !hasPath(thing) && Math.hypot(thing.pose[0] - at, thing.pose[1] - y) < 0.3);
   let step = 0;
   while (isTaken(x + step) && step < 10) step += 0.8;
   return [x + step, y];
@@ -172,7 +191,7 @@ export function nudge(editor: UniverseEditor, along: number, aside: number, up: 
     'move',
     (universe) => {
       const actor = key === undefined ? undefined : thingOf(universe, key);
-      const point = actor?.section === 'actors' && waypoint !== null ? actor.path[waypoint] : undefined;
+      const point = actor && hasPath(actor) && waypoint !== null ? actor.path[waypoint] : undefined;
       if (key !== undefined && point && waypoint !== null) {
         return setWaypoint(universe, key, waypoint, [point[0] + dx, point[1] + dy]);
       }
@@ -220,14 +239,16 @@ export function resize(
   );
 }
 
-/** Adds a waypoint half way between a waypoint and the next one. */
+/** Adds a waypoint or a corner half way between one and the next one. */
 export function extendWay(editor: UniverseEditor, key: string, after: number): void {
   edit(editor, 'way', (universe) => {
-    const actor = thingOf(universe, key);
-    if (actor?.section !== 'actors') return { ops: [] };
-    const [x, y] = actor.path[after] ?? [0, 0];
-    const next = actor.path[after + 1] ?? (actor.loop ? actor.path[0] : undefined);
-    const isLast = !next || actor.path.length === 1;
+    const thing = thingOf(universe, key);
+    if (!thing || !hasPath(thing)) return { ops: [] };
+    const { path } = thing;
+    const isClosed = thing.section === 'areas' || thing.loop;
+    const [x, y] = path[after] ?? [0, 0];
+    const next = path[after + 1] ?? (isClosed ? path[0] : undefined);
+    const isLast = !next || path.length === 1;
     const point: Point = isLast ? [x + 1, y] : [(x + next[0]) / 2, (y + next[1]) / 2];
     return addWaypoint(universe, key, after, point);
   });

@@ -123,6 +123,19 @@ describe('a gesture', () => {
     expect(thing('crate')).toMatchObject({ size: [0.4, 0.4, 1], pose: [1, 2, 0.5, 0, 0, 0] });
   });
 
+  it('stretches an area about its middle, and moves one corner of it', () => {
+    const { editor, gesture, thing } = begin(`${HALL}areas:\n  door: {box: [1, 2, 3, 4]}\n`);
+    select(editor, ['door']);
+    gesture('size', (pivot) => pivot.scale.set(2, 1, 3));
+    expect(readingOf(editor).universe!.raw['areas']).toEqual({ door: { box: [0, 2, 4, 4] } });
+    select(editor, ['door'], 2);
+    gesture('move', (pivot) => pivot.position.set(5, 6, 0));
+    expect(readingOf(editor).universe!.raw['areas']).toEqual({ door: { box: [0, 2, 5, 6] } });
+    select(editor, ['door']);
+    gesture('turn', (pivot) => pivot.rotateZ(1));
+    expect(thing('door')).toMatchObject({ shape: 'polygon' });
+  });
+
   it('moves a robot even in the mode that stretches', () => {
     const { editor, gesture, thing } = begin();
     select(editor, ['robot']);

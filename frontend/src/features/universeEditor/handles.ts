@@ -1,9 +1,10 @@
 import * as THREE from 'three';
 import { poseOf, type Handles, type Stand } from '@/features/editor3d/scene/Gizmo';
-import type { Pose } from '@/model/document/values';
+import type { Point, Pose } from '@/model/document/values';
 import { move, place, setWaypoint, turn } from '@/model/universe/edits';
-import { middleOf, stretched } from '@/model/universe/geometry';
-import { thingOf, type Thing } from '@/model/universe/types';
+import { scaled } from '@/model/universe/areas';
+import { middleOf, snapped, stretched } from '@/model/universe/geometry';
+import { hasPath, thingOf, type Thing } from '@/model/universe/types';
 import { resize } from './commands';
 import { edit, readingOf, type UniverseEditor } from './editor';
 import type { UniverseScene } from './UniverseScene';
@@ -24,11 +25,15 @@ export function handlesOf(editor: UniverseEditor, scene: UniverseScene): Handles
       const thing = universe && selection.length === 1 ? thingOf(universe, selection[0] ?? '') : undefined;
       const { position, scale } = pivot;
       const from = new THREE.Vector3().setFromMatrixPosition(start);
-      if (thing && thing.section === 'actors' && waypoint !== null) {
+      if (thing && hasPath(thing) && waypoint !== null) {
         edit(editor, 'way', (now) => setWaypoint(now, thing.key, waypoint, [position.x, position.y]));
       } else if (mode === 'size' && thing?.section === 'models') {
         resize(editor, thing.key, stretched(thing.shape, thing.size, scale.toArray(), grid));
-      } else if (thing && thing.section !== 'actors') {
+      } else if (mode === 'size' && thing?.section === 'areas') {
+        const corners = scaled(thing.path, [from.x, from.y], [scale.x, scale.y]);
+        const onGrid = corners.map(([x, y]): Point => [snapped(x, grid), snapped(y, grid)]);
+        edit(editor, 'size', (now) => place(now, new Map([[thing.key, onGrid]])));
+      } else if (thing && !hasPath(thing)) {
         edit(editor, mode, (now) => place(now, new Map([[thing.key, poseOf(pivot)]])));
       } else if (mode === 'turn') {
         const before = new THREE.Quaternion().setFromRotationMatrix(start);
@@ -52,13 +57,16 @@ function standOf(editor: UniverseEditor): Stand | null {
   const [only] = things;
   if (!only || tool !== 'select' || placing) return null;
   const isOne = things.length === 1;
-  const isPoint = isOne && only.section === 'actors' && waypoint !== null;
-  const canSize = isOne && only.section === 'models' && only.shape !== 'urdf' && only.shape !== 'sdf';
+  const isPoint = isOne && hasPath(only) && waypoint !== null;
+  const canSize =
+    isOne &&
+    (only.section === 'areas' ||
+      (only.section === 'models' && only.shape !== 'urdf' && only.shape !== 'sdf'));
   return {
     pose: pivotOf(things, isPoint ? waypoint : null),
     mode: isPoint || (mode === 'size' && !canSize) ? 'move' : mode,
     turnsFreely: isOne && only.section === 'models',
-    isFlat: things.some(({ section }) => section === 'actors'),
+    isFlat: things.some(hasPath),
     grid,
   };
 }
@@ -66,8 +74,8 @@ function standOf(editor: UniverseEditor): Stand | null {
 function pivotOf(things: readonly Thing[], waypoint: number | null): Pose {
   const [only] = things;
   const isOne = things.length === 1;
-  if (isOne && only && only.section !== 'actors') return only.pose;
-  const point = only?.section === 'actors' && waypoint !== null ? only.path[waypoint] : undefined;
+  if (isOne && only && !hasPath(only)) return only.pose;
+  const point = only && hasPath(only) && waypoint !== null ? only.path[waypoint] : undefined;
   const begin = isOne && only?.section === 'actors' ? only.path[0] : undefined;
   const [x, y] = point ?? begin ?? middleOf(things);
   return [x, y, 0, 0, 0, 0];

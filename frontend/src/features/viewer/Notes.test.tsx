@@ -1,6 +1,7 @@
 import { act, screen, waitFor } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { registerCommands } from '@/commands/registry';
+import { atPresent, useMoment } from '@/store/moment/store';
 import { openSession, show, user } from '../../../harness/testing';
 import { useMoves } from './lastMove';
 import { addMeasured, setMeasuring, useMeasuring } from './measuring';
@@ -50,6 +51,17 @@ describe('a moved body', () => {
     show(<Notes />);
     moved();
     await user.click(screen.getByRole('button', { name: 'Put it back' }));
+    expect(screen.getByTestId('moved')).toBeInTheDocument();
+  });
+
+  it('is not put back while one looks back, but afterwards', async () => {
+    onTestFinished(() => act(() => useMoment.setState(atPresent)));
+    await openSession({ state: 'paused' });
+    show(<Notes />);
+    moved();
+    act(() => useMoment.setState({ t: 1 }));
+    expect(screen.queryByTestId('moved')).toBeNull();
+    act(() => useMoment.setState(atPresent));
     expect(screen.getByTestId('moved')).toBeInTheDocument();
   });
 

@@ -1,6 +1,7 @@
 import { Button, CloseButton } from '@mantine/core';
 import { useEffect } from 'react';
 import { useTranslation } from 'react-i18next';
+import { useIsBack } from '@/store/moment/store';
 import { useSessionStore } from '@/store/session/store';
 import { perform } from '@/commands/registry';
 import { distances, setMeasuring, useMeasuring } from './measuring';
@@ -41,6 +42,7 @@ function Measured() {
 function Moved() {
   const { t } = useTranslation('viewer');
   const last = useMoves((state) => state.last);
+  const isBack = useIsBack();
   const canMove = useSessionStore(({ executor }) =>
     ['universe_ready', 'visualization_ready', 'paused'].includes(executor),
   );
@@ -48,7 +50,7 @@ function Moved() {
   useEffect(() => {
     if (!canMove) useMoves.setState({ last: null });
   }, [canMove]);
-  if (!last || !canMove) return null;
+  if (!last || !canMove || isBack) return null;
   return (
     <div className={classes['note']} role="status" data-testid="moved">
       {t('moved', { body: last.body })}

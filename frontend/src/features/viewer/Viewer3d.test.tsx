@@ -2,6 +2,7 @@ import { act, screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import { registerCommands } from '@/commands/registry';
 import type { Scene } from '@/generated/messages';
+import { atPresent, useMoment } from '@/store/moment/store';
 import { useRunStore } from '@/store/run/store';
 import { frames } from '@/store/session/frames';
 import { useSessionStore } from '@/store/session/store';
@@ -9,6 +10,21 @@ import { streams } from '@/store/session/streams';
 import { pretendWebGl } from '../../../harness/scene';
 import { openProject, show, user } from '../../../harness/testing';
 import { Viewer3d } from './Viewer3d';
+import type * as Picture from './WorldPicture';
+
+type PictureProps = Parameters<typeof Picture.WorldPicture>[0];
+
+const picture = vi.hoisted(() => ({ props: null as PictureProps | null }));
+
+vi.mock('./WorldPicture', async (load) => {
+  const { WorldPicture } = await load<typeof Picture>();
+  return {
+    WorldPicture: (props: PictureProps) => {
+      picture.props = props;
+      return <WorldPicture {...props} />;
+    },
+  };
+});
 
 pretendWebGl('NVIDIA');
 
@@ -67,6 +83,8 @@ describe('the 3D view without a world', () => {
     expect(screen.queryByRole('button', { name: 'Run' })).toBeNull();
     act(() => useSessionStore.setState({ isLaunching: false, executor: 'universe_ready' }));
     expect(screen.getByText('Waiting for the world…')).toBeInTheDocument();
+    act(() => useSessionStore.setState({ executor: 'held', held: null }));
+    expect(screen.getByText(/^Held in Python/)).toBeInTheDocument();
     act(() => useSessionStore.setState({ executor: 'connected' }));
     expect(screen.getByText('Press Run to start the world.')).toBeInTheDocument();
   });
@@ -122,5 +140,19 @@ describe('the 3D view of a world', () => {
     viewer();
     begin();
     expect(screen.queryByTestId('camera-inset')).toBeNull();
+  });
+
+  it('becomes video where it is too slow, but for a past moment, of which there is none', () => {
+    viewer();
+    begin();
+    expect(picture.props?.view.isJudged).toBe(true);
+    act(() => picture.props?.onSlow(2));
+    expect(screen.getByTestId('video-instead')).toBeInTheDocument();
+    onTestFinished(() => useMoment.setState(atPresent));
+    act(() => useMoment.setState({ t: 1 }));
+    expect(screen.getByTestId('viewer-3d')).toBeInTheDocument();
+    expect(picture.props?.view.isJudged).toBe(false);
+    act(() => useMoment.setState(atPresent));
+    expect(screen.getByTestId('video-instead')).toBeInTheDocument();
   });
 });

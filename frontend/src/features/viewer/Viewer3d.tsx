@@ -3,6 +3,7 @@ import { IconCurrentLocation, IconPlayerPlayFilled } from '@tabler/icons-react';
 import { useMemo, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { perform } from '@/commands/registry';
+import { useIsBack } from '@/store/moment/store';
 import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 import { CameraInset } from './pictures/CameraInset';
@@ -40,7 +41,9 @@ export function Viewer3d() {
   const [slowHz, setSlowHz] = useState<number | null>(null);
   const measuring = useMeasuring();
   const canDrag = useSessionStore(canMove);
-  const isJudged = usePageShown() && isVisible && !keeps3d();
+  // The server draws the present alone: a past moment stays in 3D however slow that is.
+  const isBack = useIsBack();
+  const isJudged = usePageShown() && isVisible && !isBack && !keeps3d();
   const view = useMemo<View>(
     () => ({ options, isDark, isVisible, isJudged, canMove: canDrag, measuring }),
     [options, isDark, isVisible, isJudged, canDrag, measuring],
@@ -54,7 +57,7 @@ export function Viewer3d() {
     keepViewOptions(next);
   };
 
-  if (slowHz !== null) {
+  if (slowHz !== null && !isBack) {
     const goBack = () => {
       keep3d();
       setSlowHz(null);
@@ -110,13 +113,16 @@ function NoWorld() {
   const isLaunching = useSessionStore((state) => state.isLaunching);
   const executor = useSessionStore((state) => state.executor);
   const runBlocker = useRunStore((state) => state.runBlocker);
+  // A tree that is held at a block has its place in `held`.
+  const isInPython = useSessionStore((state) => state.executor === 'held' && state.held === null);
   const isWaiting = isLaunching || (executor !== 'idle' && executor !== 'connected');
+  const waiting = isInPython ? 'heldInPython' : isWaiting ? 'waiting' : null;
   return (
     <div className={classes['empty']}>
       <Text size="sm" c="dimmed">
-        {t(isWaiting ? 'waiting' : runBlocker ? `run:runBlocker.${runBlocker}` : 'press')}
+        {t(waiting ?? (runBlocker ? `run:runBlocker.${runBlocker}` : 'press'))}
       </Text>
-      {isWaiting || runBlocker ? null : (
+      {waiting || runBlocker ? null : (
         <Button
           size="xs"
           mt="sm"

@@ -1,5 +1,6 @@
-import { beforeEach, describe, expect, it } from 'vitest';
+import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import type { Introspection } from '@/generated/messages';
+import { atPresent, useMoment } from '@/store/moment/store';
 import { openSession } from '../../../harness/testing';
 import { canMove, moveBack, useMoves } from './lastMove';
 
@@ -18,6 +19,13 @@ describe('canMove', () => {
     const executor = await openSession({ state });
     expect(canMove()).toBe(can);
     executor.introduce({ state, role: 'viewer' } satisfies Partial<Introspection>);
+    expect(canMove()).toBe(false);
+  });
+
+  it('is false while one looks back', async () => {
+    onTestFinished(() => useMoment.setState(atPresent));
+    await openSession({ state: 'paused' });
+    useMoment.setState({ t: 1 });
     expect(canMove()).toBe(false);
   });
 });

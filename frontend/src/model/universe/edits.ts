@@ -10,7 +10,16 @@ import {
   type Point,
   type Pose,
 } from '../document/values';
-import { thingOf, type ActorThing, type Section, type Thing, type Universe } from './types';
+import { areasIn, reshaped, valueOfArea, withCorner } from './areas';
+import {
+  hasPath,
+  thingOf,
+  type ActorThing,
+  type AreaThing,
+  type Section,
+  type Thing,
+  type Universe,
+} from './types';
 
 /** A change of a universe, with the selection after it. */
 export interface Edit {
@@ -18,7 +27,7 @@ export interface Edit {
   readonly select?: readonly string[];
 }
 
-const placeOf = ({ section, index }: Thing): Path => [section, index];
+const placeOf = ({ section, index, id }: Thing): Path => [section, section === 'areas' ? id : index];
 
 /**
  * Returns the operation that writes the default robot, which must exist in the document before it can be
@@ -40,6 +49,7 @@ export function place(universe: Universe, places: ReadonlyMap<string, Pose | rea
   const ops = things.flatMap((thing): Op[] => {
     const where = places.get(thing.key);
     if (where === undefined) return [];
+    if (thing.section === 'areas') return reshaped(thing, where as readonly Point[]);
     const field = thing.section === 'actors' ? 'path' : 'pose';
     const value = tidy(where as Json);
     return [{ kind: 'set', path: [...placeOf(thing), field], value }];
@@ -61,7 +71,7 @@ export function move(
 ): Edit {
   const places = new Map(
     found(universe, keys).map((thing): [string, Pose | readonly Point[]] => {
-      if (thing.section === 'actors') return [thing.key, thing.path.map(([x, y]): Point => [x + dx, y + dy])];
+      if (hasPath(thing)) return [thing.key, thing.path.map(([x, y]): Point => [x + dx, y + dy])];
       const [x, y, z, ...angles] = thing.pose;
       return [thing.key, [x + dx, y + dy, z + dz, ...angles]];
     }),
@@ -73,8 +83,7 @@ export function move(
 export function turn(universe: Universe, keys: readonly string[], angle: number, pivot: Point): Edit {
   const places = new Map(
     found(universe, keys).map((thing): [string, Pose | readonly Point[]] => {
-      if (thing.section === 'actors')
-        return [thing.key, thing.path.map((point) => turned(point, angle, pivot))];
+      if (hasPath(thing)) return [thing.key, thing.path.map((point) => turned(point, angle, pivot))];
       const [x, y, z, roll, pitch, yaw] = thing.pose;
       return [thing.key, [...turned([x, y], angle, pivot), z, roll, pitch, wrapped(yaw + angle)]];
     }),
@@ -153,12 +162,22 @@ export function idProblem(universe: Universe, key: string, id: string): 'name' |
 export function add(universe: Universe, section: Section, things: readonly JsonObject[]): Edit {
   const select = things.map(({ id }) => String(id));
   if (things.length === 0) return { ops: [] };
+  if (section === 'areas') return { ops: addAreas(universe, things), select };
   const implied = section === 'robots' ? written(universe, universe.things) : [];
   const list = implied.length > 0 ? [IMPLIED_ROBOT] : universe.raw[section];
   const op: Op = Array.isArray(list)
     ? { kind: 'insert', path: [section], index: list.length, values: things }
     : { kind: 'set', path: [section], value: things };
   return { ops: [...implied, op], select };
+}
+
+/** Returns the operations that add areas, which are a mapping by name. */
+function addAreas(universe: Universe, areas: readonly JsonObject[]): Op[] {
+  const named = areas.map(({ id, ...area }) => [String(id), area] as const);
+  if (!isObject(universe.raw['areas'])) {
+    return [{ kind: 'set', path: ['areas'], value: Object.fromEntries(named) }];
+  }
+  return named.map(([name, value]) => ({ kind: 'set', path: ['areas', name], value }));
 }
 
 /** Returns the value of a section's item, as a copy. */
@@ -183,8 +202,9 @@ export function duplicate(universe: Universe, keys: readonly string[], [dx, dy]:
 }
 
 function shifted(thing: Thing, dx: number, dy: number): JsonObject {
-  if (thing.section === 'actors') {
-    return { path: thing.path.map(([x, y]) => [rounded(x + dx), rounded(y + dy)]) };
+  if (hasPath(thing)) {
+    const path = thing.path.map(([x, y]): Point => [rounded(x + dx), rounded(y + dy)]);
+    return thing.section === 'areas' ? valueOfArea(path) : { path };
   }
   const [x, y, ...rest] = thing.pose;
   return { pose: [rounded(x + dx), rounded(y + dy), ...rest] };
@@ -198,8 +218,12 @@ export function remove(universe: Universe, keys: readonly string[]): Edit {
     const indexes = things.filter((thing) => thing.section === section).map(({ index }) => index);
     return indexes.length > 0 ? [{ kind: 'remove', path: [section], indexes }] : [];
   });
+  const areas = things.filter(({ section }) => section === 'areas').map(({ id }) => id);
+  const areaOps = areas.map((id): Op => ({ kind: 'unset', path: ['areas', id] }));
+  if (areas.length > 0 && areas.length === areasIn(universe.raw).length)
+    areaOps.splice(0, areas.length, { kind: 'unset', path: ['areas'] });
   return {
-    ops: [...written(universe, things), ...ops, ...withoutRandom(universe, (id) => ids.has(id))],
+    ops: [...written(universe, things), ...ops, ...areaOps, ...withoutRandom(universe, (id) => ids.has(id))],
     select: [],
   };
 }
@@ -219,6 +243,8 @@ function withoutRandom(universe: Universe, isGone: (id: string) => boolean): Op[
 export function rename(universe: Universe, key: string, id: string): Edit {
   const [thing] = found(universe, [key]);
   if (!thing || thing.id === id || idProblem(universe, key, id) !== null) return { ops: [] };
+  if (thing.section === 'areas')
+    return { ops: [{ kind: 'rename', path: ['areas', thing.id], to: id }], select: [id] };
   const { ops } = setField(universe, key, 'id', id);
   const { random } = universe.raw;
   const names = isObject(random) ? Object.keys(random).filter((name) => randomId(name) === thing.id) : [];
@@ -231,29 +257,35 @@ export function rename(universe: Universe, key: string, id: string): Edit {
   return { ops: [...ops, op], select: [id] };
 }
 
-/** Moves one waypoint of a person's path. */
+/** Moves one waypoint of a person's path, or one corner of an area. */
 export function setWaypoint(universe: Universe, key: string, at: number, point: Point): Edit {
-  const actor = actorOf(universe, key);
-  if (!actor || at >= actor.path.length) return { ops: [] };
-  return place(universe, new Map([[key, actor.path.map((own, index) => (index === at ? point : own))]]));
+  const thing = pathOf(universe, key);
+  if (!thing || at >= thing.path.length) return { ops: [] };
+  const path =
+    thing.section === 'areas'
+      ? withCorner(thing, at, point)
+      : thing.path.map((own, index) => (index === at ? point : own));
+  return place(universe, new Map([[key, path]]));
 }
 
-/** Adds a waypoint to a person's path, after the given one. */
+/** Adds a waypoint to a person's path, or a corner to an area, after the given one. */
 export function addWaypoint(universe: Universe, key: string, after: number, point: Point): Edit {
-  const actor = actorOf(universe, key);
-  if (!actor) return { ops: [] };
+  const thing = pathOf(universe, key);
+  if (!thing) return { ops: [] };
+  if (thing.section === 'areas') return { ops: reshaped(thing, thing.path.toSpliced(after + 1, 0, point)) };
   const value: Json = [rounded(point[0]), rounded(point[1])];
-  return { ops: [{ kind: 'insert', path: [...placeOf(actor), 'path'], index: after + 1, values: [value] }] };
+  return { ops: [{ kind: 'insert', path: [...placeOf(thing), 'path'], index: after + 1, values: [value] }] };
 }
 
-/** Removes a waypoint from a person's path, but never the last one. */
+/** Removes a waypoint from a person's path, but never the last one, or a corner of more than three. */
 export function removeWaypoint(universe: Universe, key: string, at: number): Edit {
-  const actor = actorOf(universe, key);
-  if (!actor || actor.path.length < 2 || at >= actor.path.length) return { ops: [] };
-  return { ops: [{ kind: 'remove', path: [...placeOf(actor), 'path'], indexes: [at] }] };
+  const thing = pathOf(universe, key);
+  if (!thing || thing.path.length < 2 || at >= thing.path.length) return { ops: [] };
+  if (thing.section === 'areas') return { ops: reshaped(thing, thing.path.toSpliced(at, 1)) };
+  return { ops: [{ kind: 'remove', path: [...placeOf(thing), 'path'], indexes: [at] }] };
 }
 
-function actorOf(universe: Universe, key: string): ActorThing | null {
+function pathOf(universe: Universe, key: string): ActorThing | AreaThing | null {
   const [thing] = found(universe, [key]);
-  return thing?.section === 'actors' ? thing : null;
+  return thing && hasPath(thing) ? thing : null;
 }

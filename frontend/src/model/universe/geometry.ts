@@ -1,5 +1,5 @@
 import type { Point } from '../document/values';
-import type { ModelThing, Shape, Thing } from './types';
+import { hasPath, type ModelThing, type Shape, type Thing } from './types';
 
 /** Rounds to 0.1 mm or 0.1 mrad, and never returns minus zero. */
 export const rounded = (value: number): number => Math.round(value * 1e4) / 1e4 + 0;
@@ -15,17 +15,15 @@ export function turned([x, y]: Point, angle: number, [px, py]: Point): Point {
   return [px + (x - px) * cos - (y - py) * sin, py + (x - px) * sin + (y - py) * cos];
 }
 
-/** Returns the position of a thing on the floor; for a person, the start of the path. */
+/** Returns the position of a thing on the floor; for a person, the start of the path; of an area, its middle. */
 export function positionOf(thing: Thing): Point {
-  if (thing.section !== 'actors') return [thing.pose[0], thing.pose[1]];
-  return thing.path[0] ?? [0, 0];
+  if (!hasPath(thing)) return [thing.pose[0], thing.pose[1]];
+  return thing.section === 'areas' ? middleOf([thing]) : (thing.path[0] ?? [0, 0]);
 }
 
 /** Returns the centre of several things on the floor. */
 export function middleOf(things: readonly Thing[]): Point {
-  const points = things.flatMap((thing) =>
-    thing.section === 'actors' ? [...thing.path] : [positionOf(thing)],
-  );
+  const points = things.flatMap((thing) => (hasPath(thing) ? [...thing.path] : [positionOf(thing)]));
   const sum = points.reduce<Point>(([sx, sy], [x, y]) => [sx + x, sy + y], [0, 0]);
   return [sum[0] / Math.max(points.length, 1), sum[1] / Math.max(points.length, 1)];
 }

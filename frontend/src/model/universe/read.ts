@@ -1,4 +1,5 @@
 import { color, flag, number, numbers, pose, text, vector } from '../document/reading';
+import { areaOf, areasIn } from './areas';
 import { checkUniverse } from './rules';
 import { placed, remembering, valueOfYaml, type DocumentProblem } from '../document/yaml';
 import { isObject, type Json, type JsonObject, type Path, type Point } from '../document/values';
@@ -9,7 +10,6 @@ import {
   type Light,
   type ModelThing,
   type RobotThing,
-  type Section,
   type Shape,
   type Thing,
   type Universe,
@@ -29,7 +29,10 @@ function read(source: string): Reading {
   if ('problems' in said) return { universe: null, problems: said.problems };
   const universe = isObject(said.raw) ? universeOf(said.raw) : null;
   const thingAt = ([section, index]: Path) =>
-    universe?.things.find((thing) => thing.section === section && thing.index === index)?.key ?? null;
+    universe?.things.find(
+      (thing) =>
+        thing.section === section && (section === 'areas' ? thing.id === index : thing.index === index),
+    )?.key ?? null;
   return { universe, problems: placed(source, checkUniverse(said.raw), thingAt) };
 }
 
@@ -87,25 +90,32 @@ function randomOf(value: unknown): Universe['random'] {
 function thingsOf(raw: JsonObject): Thing[] {
   const things: Thing[] = [];
   const keys = new Set<string>();
+  const keyOf = (id: string): string => {
+    let key = id;
+    for (let count = 2; keys.has(key); count += 1) key = `${id}#${count}`;
+    keys.add(key);
+    return key;
+  };
   for (const section of SECTIONS) {
     const list = section in raw ? raw[section] : section === 'robots' ? [{}] : [];
     if (!Array.isArray(list)) continue;
     for (const [index, said] of (list as Json[]).entries()) {
       if (!isObject(said)) continue;
       const id = text(said['id'], section === 'robots' ? 'robot' : '');
-      let key = id;
-      for (let count = 2; keys.has(key); count += 1) key = `${id}#${count}`;
-      keys.add(key);
-      const thing = thingOf(said, { key, id, index, section });
+      const thing = thingOf(said, { key: keyOf(id), id, index, section });
       if (thing) things.push(thing);
     }
+  }
+  for (const [index, [id, said]] of areasIn(raw).entries()) {
+    const area = areaOf(said, { key: keyOf(id), id, index });
+    if (area) things.push(area);
   }
   return things;
 }
 
 function thingOf(
   said: JsonObject,
-  { section, ...placed }: { key: string; id: string; index: number; section: Section },
+  { section, ...placed }: { key: string; id: string; index: number; section: (typeof SECTIONS)[number] },
 ): Thing | null {
   if (section === 'models') return modelOf(said, { section, ...placed });
   if (section === 'actors') return actorOf(said, { section, ...placed });

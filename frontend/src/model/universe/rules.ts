@@ -1,5 +1,6 @@
 import { checkSchema, type Issue } from '../document/schema';
 import { isObject, type Json, type JsonObject, type Path } from '../document/values';
+import { areaFault, areasIn } from './areas';
 import { FILES, PICTURE, TEXTURES, SECTIONS, SIZE_MEANING, type Shape } from './types';
 import { validate } from '@/generated/universe.schema.json?validator';
 
@@ -26,7 +27,14 @@ export function checkUniverse(raw: Json): Issue[] {
     const said = raw[name];
     return isObject(said) ? checkPaint(said, [name]) : [];
   });
-  return [...found, ...own, ...painted, ...checkLights(raw), ...checkIds(raw), ...checkRandom(raw)];
+  const areas = areasIn(raw).flatMap(([name, area]): Issue[] => {
+    const kind = areaFault(area);
+    return kind ? [{ path: ['areas', name], kind, params: {} }] : [];
+  });
+  return [
+    ...[...found, ...own, ...painted, ...areas],
+    ...[...checkLights(raw), ...checkIds(raw), ...checkRandom(raw)],
+  ];
 }
 
 function checkModel(model: JsonObject, path: Path): Issue[] {

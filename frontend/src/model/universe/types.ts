@@ -28,8 +28,9 @@ export const FILES: Readonly<Partial<Record<Shape, RegExp>>> = {
 export const TEXTURES = ['asphalt', 'brick', 'carpet', 'checker', 'grass', 'tiles', 'wood'] as const;
 export const PICTURE = /\.(png|jpe?g)$/i;
 
-export type Section = 'models' | 'actors' | 'robots';
-export const SECTIONS: readonly Section[] = ['models', 'actors', 'robots'];
+export type Section = 'models' | 'actors' | 'robots' | 'areas';
+/** The sections that are lists; areas are a mapping by name. */
+export const SECTIONS: readonly Exclude<Section, 'areas'>[] = ['models', 'actors', 'robots'];
 
 interface Placed {
   /** The id of the thing, or the id with a mark if two things share it. */
@@ -75,7 +76,17 @@ export interface RobotThing extends Placed {
   readonly topics: Readonly<Record<string, string>>;
 }
 
-export type Thing = ModelThing | ActorThing | RobotThing;
+/** A named area of the floor; `path` are its corners in order. */
+export interface AreaThing extends Placed {
+  readonly section: 'areas';
+  readonly shape: 'box' | 'polygon';
+  readonly path: readonly Point[];
+}
+
+export type Thing = ModelThing | ActorThing | RobotThing | AreaThing;
+
+/** A thing that is points of the floor, and has no pose: a person with a path, or an area. */
+export const hasPath = (thing: Thing): thing is ActorThing | AreaThing => 'path' in thing;
 
 export interface Light {
   readonly direction: Vector;

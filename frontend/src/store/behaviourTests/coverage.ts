@@ -32,7 +32,10 @@ const TICKED = 'ticked';
 export const testKey = ({ file, name }: Pick<TestOutcome, 'file' | 'name'>): string => `${file}: ${name}`;
 
 /** Returns the coverage by all tests, or by one of them. */
-export function coverageOf({ coverage, tests }: TestReport, chosen: string | null): ShownCoverage {
+export function coverageOf(
+  { coverage, tests }: Pick<TestReport, 'coverage' | 'tests'>,
+  chosen: string | null,
+): ShownCoverage {
   const one = chosen === null ? undefined : tests.find((test) => testKey(test) === chosen);
   const blocks = new Map<LiveKey, CoveredBlock>();
   const trees = new Map<string, CoveredTree>();
@@ -56,26 +59,51 @@ export function coverageOf({ coverage, tests }: TestReport, chosen: string | nul
   return { blocks, trees };
 }
 
+/** The blocks and results that the runs of an evaluation have reached. */
+export interface EvaluatedCoverage {
+  readonly name: string;
+  readonly revision: number;
+  readonly runs: number;
+  readonly coverage: TestReport['coverage'];
+}
+
 export interface CoverageView extends ShownCoverage {
   /** Whether the canvas shows the coverage. */
   readonly isShown: boolean;
   /** The test whose coverage is shown, by its key; null: that of all tests. */
   readonly chosen: string | null;
+  /** The evaluation whose runs are shown in place of the tests. */
+  readonly evaluated: EvaluatedCoverage | null;
 }
 
 const NOTHING: ShownCoverage = { blocks: new Map(), trees: new Map() };
 
 /** The coverage that the canvas shows. */
-export const useCoverage = create<CoverageView>(() => ({ isShown: false, chosen: null, ...NOTHING }));
+export const useCoverage = create<CoverageView>(() => ({
+  isShown: false,
+  chosen: null,
+  evaluated: null,
+  ...NOTHING,
+}));
 
 /** Shows the coverage of all tests, or of one, or none. */
 export function showCoverage(isShown: boolean, chosen: string | null = null): void {
-  useCoverage.setState({ isShown, chosen });
+  useCoverage.setState({ isShown, chosen, evaluated: null });
+  refresh();
+}
+
+/** Shows the coverage by the runs of an evaluation. */
+export function showEvaluated(evaluated: EvaluatedCoverage): void {
+  useCoverage.setState({ isShown: true, chosen: null, evaluated });
   refresh();
 }
 
 function refresh(): void {
-  const { isShown, chosen } = useCoverage.getState();
+  const { isShown, chosen, evaluated } = useCoverage.getState();
+  if (evaluated) {
+    useCoverage.setState(coverageOf({ coverage: evaluated.coverage, tests: [] }, null));
+    return;
+  }
   const report = reportOf(useTests.getState(), useProjectStore.getState().projectId);
   const known = report?.tests.some((test) => testKey(test) === chosen) ?? true;
   const now = known ? chosen : null;
@@ -87,5 +115,5 @@ useTests.subscribe((now, before) => {
 });
 useProjectStore.subscribe((now, before) => {
   if (now.projectId === before.projectId) return;
-  useCoverage.setState({ isShown: false, chosen: null, ...NOTHING });
+  useCoverage.setState({ isShown: false, chosen: null, evaluated: null, ...NOTHING });
 });

@@ -36,3 +36,12 @@ it('does nothing without a project', async () => {
   await runTests();
   expect(useTests.getState().project).toBeNull();
 });
+
+it('runs the tests with Python of the project only on request', async () => {
+  openProject({ trees: { Main: { r: { type: 'AlwaysSuccess' } } } });
+  const id = useProjectStore.getState().projectId;
+  const { requests } = fakeServer({ [`POST /projects/${id}/test-with-python`]: report });
+  await runTests({ withPython: true });
+  expect(useTests.getState()).toMatchObject({ report, refused: null });
+  expect(requests.at(-1)?.body).toEqual({ files: [] });
+});

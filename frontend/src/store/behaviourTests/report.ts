@@ -32,8 +32,14 @@ const versionNow = (): string => {
   return `${projectId} ${changeCounter}`;
 };
 
-/** Saves the project and runs its behaviour tests on the server. */
-export async function runTests(): Promise<void> {
+/** The outcome of a test that runs Python of the project, and was left out. */
+export const NEEDS_PYTHON = 'needs_python';
+
+/**
+ * Saves the project and runs its behaviour tests on the server; with `withPython` also those with leaves that
+ * are `real`, where the user's own programs run.
+ */
+export async function runTests({ withPython = false } = {}): Promise<void> {
   const { projectId } = useProjectStore.getState();
   if (projectId === null) return;
   const number = ++last;
@@ -42,7 +48,7 @@ export async function runTests(): Promise<void> {
   useTests.setState({ isRunning: true, asked: versionNow() });
   try {
     await saveNow();
-    const report = await api.test(projectId);
+    const report = await (withPython ? api.testWithPython(projectId) : api.test(projectId));
     if (isCurrent()) useTests.setState({ report, refused: null });
   } catch (error) {
     if (isCurrent()) useTests.setState({ refused: reasonOf(error) });

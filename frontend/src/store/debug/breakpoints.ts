@@ -3,13 +3,18 @@ import {
   changed,
   existing,
   followed,
-  isOn,
   MOST_BREAKPOINTS,
   readBreakpoints,
   toggled,
   type BlockBreakpoint,
 } from '@/model/breakpoints';
 import { useProjectStore } from '@/store/project';
+import { liveKey, type LiveKey } from '@/store/project/live';
+
+type Breakpoints = ReadonlyMap<LiveKey, BlockBreakpoint>;
+
+const byBlock = (list: readonly BlockBreakpoint[]): Breakpoints =>
+  new Map(list.map((each) => [liveKey(each.tree_id, each.node_id), each]));
 
 interface BreakpointsData {
   /** All breakpoints; also those of deleted blocks, which *undo* may bring back. */
@@ -25,9 +30,14 @@ const NONE: BreakpointsData = { list: [], areOn: true, refusal: '' };
 /** The breakpoints of this user in the open project. */
 export const useBreakpoints = create<BreakpointsData>(() => NONE);
 
-/** Returns the breakpoint of a block, or undefined. */
-export const breakpointOf = ({ list }: BreakpointsData, tree: string, node: string) =>
-  list.find((each) => isOn(each, tree, node));
+const indices = new WeakMap<readonly BlockBreakpoint[], Breakpoints>();
+
+/** Returns the breakpoint of a block, or undefined. Every block of the canvas asks at each change of one. */
+export function breakpointOf({ list }: BreakpointsData, tree: string, node: string) {
+  const index = indices.get(list) ?? byBlock(list);
+  indices.set(list, index);
+  return index.get(liveKey(tree, node));
+}
 
 /** Returns the breakpoints of blocks that exist now. */
 export const shownBreakpoints = (): readonly BlockBreakpoint[] =>

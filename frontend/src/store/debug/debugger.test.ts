@@ -3,7 +3,17 @@ import type { Held, TreeNode } from '@/generated/messages';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import { openSession, type FakeExecutor } from '../../../harness/testing';
-import { canDebug, canForce, force, instanceOf, nodeOf, nodesOf, release, stepTo } from './debugger';
+import {
+  canDebug,
+  canForce,
+  force,
+  instanceOf,
+  nodeOf,
+  nodesOf,
+  release,
+  stepTick,
+  stepTo,
+} from './debugger';
 
 const debugged = ({ sent }: FakeExecutor) =>
   sent.filter(({ command }) => ['force', 'release', 'step_to'].includes(command));
@@ -55,11 +65,17 @@ it('finds the nodes of a block, and the one near the hold', () => {
 it('sends what names a node of the running tree', async () => {
   const executor = await openSession();
   await stepTo(tree[2]!);
+  useSessionStore.setState({ tree });
+  await stepTick();
+  useSessionStore.setState({ forced: { nodes: [], alone: 3 } });
+  await stepTick();
   await force(nodesOf({ tree }, 'Dock', 'd'), { effect: 'result', status: 'FAILURE', once: true });
   await release([3]);
   await release();
   const forced = { effect: 'result', status: 'FAILURE', once: true, after: false };
   expect(debugged(executor).map(({ command, data }) => [command, data])).toEqual([
+    ['step_to', { uid: 3, path: '3' }],
+    ['step_to', { uid: 1, path: '1' }],
     ['step_to', { uid: 3, path: '3' }],
     ['force', { uid: 3, path: '3', ...forced }],
     ['force', { uid: 5, path: '5', ...forced }],

@@ -1,5 +1,6 @@
 import type { Force, ForceEffect, TreeNode } from '@/generated/messages';
 import { isLookingBack } from '@/store/moment/store';
+import { goOn, isStopped } from '@/store/python/stop';
 import { hasApplication, isHeld, reported } from '@/store/run/commands';
 import { send } from '@/store/session/connection';
 import { useSessionStore } from '@/store/session/store';
@@ -7,19 +8,36 @@ import type { SessionData } from '@/store/session/types';
 
 const isDriver = () => useSessionStore.getState().introspection?.role === 'driver' && !isLookingBack();
 
-/** Returns whether the user of this page controls the held tree. */
-export const canDebug = (): boolean => isHeld() && isDriver();
+/** Returns whether the user of this page controls the held tree, or the program that is held at a line. */
+export const canDebug = (): boolean => (isHeld() || isStopped()) && isDriver();
+/**
+ * Returns whether the tree is that of this session. Groot2's protocol, by which another program is followed, has no
+ * steps, no conditions, and no results but SUCCESS and FAILURE.
+ */
+export const isOwnTree = ({ attached }: Pick<SessionData, 'attached'>): boolean => attached === null;
+/** Returns whether the held tree or program can make a step. */
+export const canStep = (): boolean => canDebug() && isOwnTree(useSessionStore.getState());
+/** Returns whether the tree is held at a block, and this user can let it make steps. */
+export const canStepTree = (): boolean => canStep() && isHeld() && !isStopped();
 
 /** Returns whether the user of this page can force results now. */
 export const canForce = (): boolean => hasApplication() && isDriver();
 
-export const continueRun = () => reported(send('continue_run', {}));
-export const stepInto = () => reported(send('step_into', {}));
-export const stepOver = () => reported(send('step_over', {}));
-export const stepOut = () => reported(send('step_out', {}));
+/** Continues the tree, or the program that is stopped at a line of Python. */
+export const continueRun = () => (isStopped() ? goOn('continue') : reported(send('continue_run', {})));
+export const stepInto = () => (isStopped() ? goOn('stepIn') : reported(send('step_into', {})));
+export const stepOver = () => (isStopped() ? goOn('next') : reported(send('step_over', {})));
+export const stepOut = () => (isStopped() ? goOn('stepOut') : reported(send('step_out', {})));
 
 /** Lets the held tree continue until a node is to be ticked. */
 export const stepTo = ({ uid, path }: TreeNode) => reported(send('step_to', { uid, path }));
+
+/** Lets the held tree continue to the beginning of its next tick. */
+export async function stepTick(): Promise<void> {
+  const { tree, forced } = useSessionStore.getState();
+  const root = tree[(forced?.alone || 1) - 1];
+  if (root) await stepTo(root);
+}
 
 /** Returns the nodes of the running tree that a block is; several if its tree is called several times. */
 export const nodesOf = ({ tree }: { readonly tree: readonly TreeNode[] }, treeId: string, nodeId: string) =>
@@ -49,6 +67,19 @@ export function nodeOf(session: Held, treeId: string, nodeId: string): TreeNode 
     if (near) return near;
   }
   return found[0];
+}
+
+/** Sequences and fallbacks pass over a skipped child; also by the names that the engine takes for them. */
+const PASSING = new Set([
+  ...['Sequence', 'AsyncSequence', 'SequenceWithMemory', 'ReactiveSequence', 'SequenceStar'],
+  ...['Fallback', 'AsyncFallback', 'ReactiveFallback', 'FallbackStar'],
+  ...['SequentialStar', 'Selector', 'ReactiveSelector'],
+]);
+
+/** Returns the type of the node's parent if siblings before the node cannot be skipped below it; else null. */
+export function blocksSkip(tree: readonly TreeNode[], { parent }: TreeNode): string | null {
+  const type = tree[parent - 1]?.type;
+  return type === undefined || PASSING.has(type) ? null : type;
 }
 
 type Forcing = { readonly effect: ForceEffect } & Partial<Pick<Force, 'status' | 'once' | 'after'>>;

@@ -50,9 +50,11 @@ it('shows them as off after the session has switched them off', async () => {
 it('keeps why the session refused them', async () => {
   const executor = await openSession();
   onTestFinished(followBreakpoints());
-  executor.refuse('set_breakpoints', 'A breakpoint cannot be set');
+  executor.refuse('set_breakpoints', 'A breakpoint cannot be set.', 'Look at it.');
   toggleBreakpoint('Main', 'a');
-  await vi.waitFor(() => expect(useBreakpoints.getState().refusal).toBe('A breakpoint cannot be set'));
+  await vi.waitFor(() =>
+    expect(useBreakpoints.getState().refusal).toBe('A breakpoint cannot be set. Look at it.'),
+  );
   executor.refuse('set_breakpoints', 'It cannot be set either');
   changeBreakpoint('Main', 'a', { condition: '1 +' });
   await vi.waitFor(() => expect(useBreakpoints.getState().refusal).toBe('It cannot be set either'));

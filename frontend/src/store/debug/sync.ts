@@ -1,3 +1,4 @@
+import { reasonOf } from '@/api/reason';
 import { useProjectStore } from '@/store/project';
 import { send } from '@/store/session/connection';
 import { isUnconnected } from '@/store/session/control';
@@ -44,7 +45,7 @@ async function give(): Promise<void> {
     await send('set_breakpoints', data);
   } catch (error) {
     if (isUnconnected(error)) return;
-    refusal = error instanceof Error ? error.message : String(error);
+    refusal = error instanceof Error ? reasonOf(error) : String(error);
   }
   if (useBreakpoints.getState().refusal !== refusal) useBreakpoints.setState({ refusal });
 }

@@ -1,5 +1,5 @@
 import { readFileSync } from 'node:fs';
-import { afterEach, beforeEach, expect, it, vi } from 'vitest';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { useLiveStore, usePastLive } from '@/store/project/live';
 import { useProjectStore } from '@/store/project';
 import { Engine } from '@/store/recording/engine';
@@ -13,10 +13,11 @@ import { segmentOf } from '../../../harness/runs';
 import {
   extent,
   followPresent,
+  followTimeline,
   followWrites,
   goSeconds,
   goTicks,
-  goToChangeOfPresentRun,
+  goToChange,
   goToFault,
   lookAt,
   lookAtPresentRun,
@@ -24,8 +25,10 @@ import {
   openKept,
   openRun,
   setEngineLink,
+  setPlaying,
   storyUntilNow,
 } from './looking';
+import { noRange, useRange } from './range';
 import { usePastSession } from './session';
 import { useSource } from './source';
 import { isLookingBack, useMoment } from './store';
@@ -55,6 +58,13 @@ afterEach(() => {
 
 const shown = (t: number) => vi.waitFor(() => expect(useMoment.getState().shown?.t).toBe(t));
 
+it('takes times of the session, which are not in whole ns, for those of the recording', async () => {
+  lookAt(1 / 3);
+  await shown(333_333_333 / 1e9);
+  lookAt(2 / 3);
+  await shown(666_666_667 / 1e9);
+});
+
 it('shows a moment in all stores, and leaves those of the present alone', async () => {
   const before = useLiveStore.getState();
   lookAt(0.5);
@@ -82,6 +92,70 @@ it('goes a tick at a time, from the present too', async () => {
   await vi.waitFor(() => expect(useMoment.getState().shown?.tick).toBe(tick - 1));
   await goTicks(1);
   await shown(t);
+});
+
+it('goes to the next and the previous change of a node', async () => {
+  lookAt(0.5);
+  await shown(0.5);
+  const { uid } = useMoment.getState().tree.find(({ type }) => type === 'SeesLine')!;
+  const times: number[] = [];
+  while (await goToChange(uid, 1)) times.push(useMoment.getState().t!);
+  const last = times.at(-1)!;
+  expect(times).toEqual([...times].sort((a, b) => a - b));
+  expect(times[0]).toBeGreaterThan(0.5);
+  await goToChange(uid, -1);
+  expect(useMoment.getState().t).toBeLessThan(last);
+});
+
+describe('playing', () => {
+  let draw: FrameRequestCallback[] = [];
+  /** Draws the next picture of the page, at a time in ms. */
+  const drawAt = (ms: number) => draw.splice(0).forEach((paint) => paint(ms));
+
+  beforeEach(() => {
+    draw = [];
+    vi.stubGlobal('requestAnimationFrame', (paint: FrameRequestCallback) => draw.push(paint));
+  });
+  afterEach(() => {
+    setPlaying(false);
+    useRange.setState(noRange);
+    vi.unstubAllGlobals();
+  });
+  const begin = (t: number, speed: number) => {
+    lookAt(t);
+    useMoment.setState({ speed });
+    setPlaying(true);
+    drawAt(1000);
+  };
+  const t = () => useMoment.getState().t;
+
+  it.each([
+    [0.1, 0.21],
+    [1, 0.3],
+    [5, 0.7],
+  ])('passes %s seconds in one', (speed, expected) => {
+    begin(0.2, speed);
+    drawAt(1100);
+    expect(t()).toBeCloseTo(expected);
+  });
+
+  it('ends with the run, and begins again at its start', () => {
+    begin(0.9, 10);
+    drawAt(1100);
+    expect([t(), useMoment.getState().isPlaying]).toEqual([1, false]);
+    begin(1, 1);
+    drawAt(1100);
+    expect(t()).toBeCloseTo(0.1);
+  });
+
+  it('repeats the marked range while it loops', () => {
+    useRange.setState({ a: 0.6, b: 0.4, isLooping: true });
+    begin(0.55, 1);
+    drawAt(1100);
+    expect([t(), useMoment.getState().isPlaying]).toEqual([0.4, true]);
+    drawAt(1150);
+    expect(t()).toBeCloseTo(0.45);
+  });
 });
 
 it('returns to the present by itself when the run is gone, or the user edits', () => {
@@ -163,10 +237,27 @@ it('leaves an earlier run for a moment of the last one', async () => {
   lookAtPresentRun(0.3);
   await shown(0.3);
   expect(extent()).toMatchObject({ run: 'b' });
+});
+
+it('tells the timeline of a run that is open, until another one is', async () => {
+  useSessionStore.setState({ segments: [segment('a'), { ...segment('b'), to_t: 0.8 }] });
+  const told: [number | null, boolean][] = [];
+  const end = followTimeline((timeline, isPresent) => told.push([timeline?.nodes.length ?? null, isPresent]));
+  expect(told).toEqual([[null, true]]);
   openRun('a', 0.5);
   await shown(0.5);
-  await goToChangeOfPresentRun(1, -1);
-  expect(extent()).toMatchObject({ run: 'b' });
+  await vi.waitFor(() => expect(told.at(-1)?.[0]).toBeGreaterThan(2));
+  expect(told.slice(0, 2)).toEqual([
+    [null, true],
+    [null, false],
+  ]);
+  lookNow();
+  expect(told.at(-1)).toEqual([null, true]);
+  end();
+  const count = told.length;
+  openRun('a', 0.5);
+  await shown(0.5);
+  expect(told).toHaveLength(count);
 });
 
 it('tells the writes of a key, the last one first, at the present too', async () => {

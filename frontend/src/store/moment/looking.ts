@@ -2,9 +2,12 @@ import { useProjectStore } from '@/store/project';
 import { usePastLive } from '@/store/project/live';
 import { earlierSource, runsOf } from '@/store/recording/liveSource';
 import { RecordedRun, type EngineLink } from '@/store/recording/recordedRun';
-import type { FromEngine } from '@/store/recording/engine';
+import type { Answers, Ask, FromEngine } from '@/store/recording/engine';
+import type { ProfileSum } from '@/store/recording/profile';
 import type { Story } from '@/store/recording/story';
+import type { RecordedTimeline } from '@/store/recording/timelineOf';
 import type { Changes, EntryName, Moment, Overview, RecordingSource, WriteAt } from '@/store/recording/types';
+import { frames } from '@/store/session/frames';
 import { useSessionStore } from '@/store/session/store';
 import type { LogLine } from '@/store/session/types';
 import { identified, recordedTrees } from './recordedTrees';
@@ -22,12 +25,16 @@ export interface Extent {
   readonly to: number;
 }
 
+/** The pause between two readings of a timeline, which costs the worker time. */
+const TIMELINE_EVERY_MS = 1000;
+
 let recorded: RecordedRun | null = null;
 let lines: readonly LogLine[] = [];
 let linesOf: Overview | null = null;
 let isAsking = false;
 let isOutdated = false;
 let run = '';
+let stopPresent: () => void = () => undefined;
 
 function workerLink(): EngineLink {
   const worker = new Worker(new URL('../recording/recording.worker.ts', import.meta.url), { type: 'module' });
@@ -65,13 +72,16 @@ export function lookAt(t: number, tick: number | null = null): void {
   if (run !== '' && run !== now.run) useRange.setState(noRange);
   run = now.run;
   useMoment.setState({
-    t: Math.min(Math.max(t, now.from), now.to),
+    t: recordedTime(Math.min(Math.max(t, now.from), now.to)),
     tick,
     ...(isFirst ? { failure: '' } : {}),
   });
   theRun().want(t);
   void refresh();
 }
+
+/** Returns a time as recordings have it, in whole ns: times of the session can be a little before theirs. */
+const recordedTime = (t: number): number => Math.round(t * 1e9) / 1e9;
 
 /** Shows a moment of the session's last run, also while another run is open. */
 export function lookAtPresentRun(t: number): void {
@@ -110,6 +120,7 @@ export function lookNow(): void {
 
 function change(source: typeof ofSession): void {
   recorded?.end();
+  stopPresent();
   recorded = null;
   showPresentTrail();
   useSource.setState(source);
@@ -140,12 +151,6 @@ export async function goToChange(uid: number, direction: 1 | -1): Promise<boolea
   return found !== null;
 }
 
-/** As `goToChange`, of the session's last run, also while another run is open. */
-export function goToChangeOfPresentRun(uid: number, direction: 1 | -1): Promise<boolean> {
-  if (!isPresentRun(useSource.getState())) lookNow();
-  return goToChange(uid, direction);
-}
-
 /** Returns the moment from which to continue: at the present, the end of the run, once that was read. */
 async function beginning(): Promise<{ t: number; tick: number | null } | null> {
   const { t, tick } = useMoment.getState();
@@ -170,6 +175,15 @@ export async function changesBetween(from: number, to: number): Promise<Changes 
   // The part with the second moment is read first.
   if (changes === null && useMoment.getState().t === null) run.want(from);
   return changes;
+}
+
+/** Returns the times of nodes in a part of the recording; null while it is not read. */
+export async function profileBetween(from: number, to: number): Promise<ProfileSum | null> {
+  const run = theRun();
+  run.want(useMoment.getState().t ?? to);
+  const sum = await run.ask({ what: 'profile', from, to });
+  if (sum === null && useMoment.getState().t === null) run.want(from);
+  return sum;
 }
 
 /**
@@ -202,6 +216,15 @@ async function readUntil(t: number): Promise<RecordedRun> {
     look();
   });
   return now;
+}
+
+/** Asks the recording that is open; undefined if another one is open when the answer comes. */
+export async function askShown<K extends keyof Answers>(
+  ask: Ask & { what: K },
+): Promise<Answers[K] | undefined> {
+  const now = theRun();
+  const answer = await now.ask<K>(ask);
+  return now === recorded ? answer : undefined;
 }
 
 /** Goes to the last fault of the present run with a message; returns whether it is recorded. */
@@ -241,6 +264,48 @@ export function followWrites(key: EntryName, show: (writes: readonly WriteAt[]) 
   };
 }
 
+/**
+ * Calls back when another run is opened, and with the timeline of an open run when more of it was read; returns
+ * a function that stops it.
+ */
+export function followTimeline(
+  show: (timeline: RecordedTimeline | null, isPresent: boolean) => void,
+): () => void {
+  let isOver = false;
+  let readOf: Overview | null = null;
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const ask = async () => {
+    timer = undefined;
+    const { overview } = useMoment.getState();
+    if (isOver || overview === null || overview === readOf) return;
+    readOf = overview;
+    const now = theRun();
+    const timeline = await now.ask({ what: 'timeline' });
+    if (!isOver && now === recorded && timeline) show(timeline, false);
+  };
+  const look = () => {
+    const pauseMs = readOf === null ? 0 : TIMELINE_EVERY_MS;
+    if (!isPresentRun(useSource.getState())) timer ??= setTimeout(() => void ask(), pauseMs);
+  };
+  const begin = () => {
+    readOf = null;
+    show(null, isPresentRun(useSource.getState()));
+    look();
+  };
+  const stops = [
+    useSource.subscribe(begin),
+    useMoment.subscribe((now, before) => {
+      if (now.overview !== before.overview) look();
+    }),
+  ];
+  begin();
+  return () => {
+    isOver = true;
+    clearTimeout(timer);
+    for (const stop of stops) stop();
+  };
+}
+
 export function setPlaying(isPlaying: boolean): void {
   const { t } = useMoment.getState();
   const now = extent();
@@ -266,9 +331,15 @@ function play(last: number): void {
 }
 
 function theRun(): RecordedRun {
-  recorded ??= new RecordedRun(useSource.getState().source, makeLink(), onOverview, (failure) =>
-    useMoment.setState({ failure }),
-  );
+  if (recorded) return recorded;
+  const { source, kept } = useSource.getState();
+  const link = makeLink();
+  // Segments of a session do not hold the meshes and textures of its world; a kept run does.
+  if (!kept && !isPresentRun({ source, kept }))
+    stopPresent = frames.listen('scene', ({ name, meshes, textures }) =>
+      link.post({ kind: 'present', scene: { name, meshes, textures } }),
+    );
+  recorded = new RecordedRun(source, link, onOverview, (failure) => useMoment.setState({ failure }));
   return recorded;
 }
 

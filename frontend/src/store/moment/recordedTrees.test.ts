@@ -55,6 +55,20 @@ it('shows an attached diagram, with nothing folded, also its parts that did not 
   expect(preorder(main)).toEqual(['n1', 'left', 'right', 'off']);
 });
 
+it('has the port texts that ran, where they are others than those of the file', () => {
+  const leg = JSON.stringify({
+    format: 'bt-studio/diagram',
+    version: 1,
+    id: 'Leg',
+    root: 'a',
+    nodes: { a: { type: 'Step', ports: { length: '0.1', side: 'left' } } },
+    drafts: [],
+  });
+  const { diagram, isAttached } = recordedTrees(ran, { [attachedName('Leg')]: leg })['Leg']!;
+  expect(isAttached).toBe(true);
+  expect(diagram.nodes['a']?.ports).toEqual({ length: '0.3', side: 'left' });
+});
+
 it.each([
   ['is no JSON', '{'],
   ['lacks a node that ran', file({ n1: { type: 'Sequence' } })],

@@ -61,10 +61,21 @@ function attached(id: string, files: Readonly<Record<string, string>>, ran: Node
   try {
     const diagram = parseDiagram(text);
     const holds = [...ran].every(([node, { type }]) => diagram.nodes[node]?.type === type);
-    return holds ? unfolded({ ...diagram, id }) : null;
+    return holds ? unfolded({ ...diagram, id, nodes: withPorts(diagram.nodes, ran) }) : null;
   } catch {
     return null;
   }
+}
+
+/** Returns the blocks of a file with the port texts that ran: a port may be changed while the tree runs. */
+function withPorts(nodes: Diagram['nodes'], ran: Nodes): Diagram['nodes'] {
+  const given = Object.entries(nodes).map(([id, node]) => {
+    const texts = ran.get(id)?.ports;
+    if (!texts || !node.ports) return [id, node];
+    const ports = Object.entries(node.ports).map(([port, text]) => [port, texts[port] ?? text]);
+    return [id, { ...node, ports: Object.fromEntries(ports) as typeof node.ports }];
+  });
+  return Object.fromEntries(given) as Diagram['nodes'];
 }
 
 /** Returns a diagram that hides nothing, since the tree that is shown cannot be unfolded. */

@@ -6,7 +6,7 @@ export type LiveKey = string;
 
 export const liveKey = (tree: string, node: string): LiveKey => `${tree}/${node}`;
 
-interface Flash {
+export interface Flash {
   readonly status: NodeStatus;
   /** Increases with each flash, so that repeating the same flash starts its animation again. */
   readonly count: number;

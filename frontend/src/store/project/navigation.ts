@@ -4,6 +4,8 @@ import { actionPath } from './state';
 export interface Navigator {
   openTree(id: string): void;
   openFile(path: string, line?: number): void;
+  /** Brings a file to the front and leaves the focus where it is: nobody has asked for the file. */
+  showFile(path: string): void;
   /** Shows the topics of the session. */
   openTopics(): void;
   /** Renames the tab of a tree or file. */
@@ -29,6 +31,10 @@ export function openAction(name: string): void {
 
 export function openFile(path: string, line?: number): void {
   navigator?.openFile(path, line);
+}
+
+export function showFile(path: string): void {
+  navigator?.showFile(path);
 }
 
 export function openTopics(): void {

@@ -16,7 +16,14 @@ it('keeps unknown settings', () => {
 });
 
 it('leaves out a setting of a wrong type', () => {
-  const wrong = { tick_hz: '20', universe: 7, robot: null, on_finish: 'never', on_error: 'failure' };
+  const wrong = {
+    tick_hz: '20',
+    universe: 7,
+    robot: null,
+    on_finish: 'never',
+    on_error: 'failure',
+    time: 'soon',
+  };
   expect(read(wrong)).toEqual({ name: 'Test', main_tree: 'MainTree', on_error: 'failure' });
 });
 

@@ -15,6 +15,7 @@ const FITS: Readonly<Record<string, (value: unknown) => boolean>> = {
   robot: isText,
   on_finish: isOneOf('stop', 'repeat'),
   on_error: isOneOf('stop', 'failure'),
+  time: isOneOf('exact', 'live'),
 };
 
 const fits = (key: string, value: unknown): boolean => FITS[key]?.(value) ?? true;

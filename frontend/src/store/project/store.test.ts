@@ -228,7 +228,14 @@ describe('commands', () => {
   });
   it('tell the frame about a new name, so that tabs stay open', () => {
     const renamed = vi.fn();
-    setNavigator({ openTree: vi.fn(), openFile: vi.fn(), openTopics: vi.fn(), aimAt: vi.fn(), renamed });
+    setNavigator({
+      openTree: vi.fn(),
+      openFile: vi.fn(),
+      showFile: vi.fn(),
+      openTopics: vi.fn(),
+      aimAt: vi.fn(),
+      renamed,
+    });
     state().renameAction('Turn', 'Spin');
     state().undo();
     state().renameTree('MainTree', 'Patrol');

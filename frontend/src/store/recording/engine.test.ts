@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { expect, it } from 'vitest';
 import type { Segment } from '@/generated/messages';
 import { segmentOf } from '../../../harness/runs';
-import { Engine, type FromEngine } from './engine';
+import { Engine, type Ask, type FromEngine } from './engine';
 
 const bytes = () => new Uint8Array(readFileSync('../tests/executor/recorder/samples/v1.mcap'));
 const segment = (more: Partial<Segment> = {}) => segmentOf({ to_t: 1, bytes: bytes().length, ...more });
@@ -33,6 +33,26 @@ it('answers as soon as the part with the moment was read', () => {
   expect(told.at(-1)).toMatchObject({ kind: 'overview', overview: { run: 'a', read: [[0, 1]] } });
   expect(ask(0.5)!.tick).toBeGreaterThan(0);
   expect(ask(1.5)).toBeNull();
+});
+
+it('answers with topics, their messages at a moment, and numbers', () => {
+  const { made, told } = engine();
+  const answer = (ask: Ask) => {
+    made.receive({ kind: 'ask', id: 1, ask });
+    return (told.at(-1) as Extract<FromEngine, { kind: 'answer' }>).answer;
+  };
+  const fields = [{ topic: '/cmd_vel', path: 'linear.x' }];
+  const range = { from: 0, to: 1, most: 100 };
+  expect(answer({ what: 'messages', topics: ['/odom'], t: 0.5 })).toBeNull();
+  made.receive({ kind: 'part', segment: segment(), bytes: bytes() });
+  expect(answer({ what: 'topics' })).toContainEqual(expect.objectContaining({ name: '/odom' }));
+  expect(answer({ what: 'messages', topics: ['/odom'], t: 0.5 })).toMatchObject([
+    { topic: '/odom', type: 'nav_msgs/msg/Odometry', t: 0.5 },
+  ]);
+  expect(answer({ what: 'series', fields, range })).toMatchObject({
+    isComplete: true,
+    fields: [{ lack: null }],
+  });
 });
 
 it('keeps what came before a damage, and says where it is', () => {

@@ -1,9 +1,13 @@
-import type { Segment } from '@/generated/messages';
+import type { Segment, TopicInfo } from '@/generated/messages';
 import { Glimpse } from './glimpse';
+import type { ProfileSum } from './profile';
 import { RunIndex } from './runIndex';
 import { indexBegin, SeekIndex, type Range } from './seekIndex';
+import type { PresentScene } from './sceneParts';
 import { SegmentReader } from './segmentReader';
 import type { Story } from './story';
+import type { RecordedTimeline } from './timelineOf';
+import type { FieldName, MessageAt, RecordedSeries, SeriesRange } from './topics/topicQueries';
 import type { Changes, Moment, Overview, TickAt, WriteAt } from './types';
 
 export type Ask =
@@ -24,13 +28,18 @@ export type Ask =
     }
   | { readonly what: 'story'; readonly t: number; readonly tick: number | null }
   | { readonly what: 'trail' }
+  | { readonly what: 'timeline' }
   /** Answered after all that was sent before. */
   | { readonly what: 'ready' }
   | { readonly what: 'index'; readonly bytes: Uint8Array; readonly size: number }
   | { readonly what: 'ranges'; readonly t: number; readonly back: number }
   | { readonly what: 'glimpse'; readonly t: number; readonly pieces: readonly Uint8Array[] }
   | { readonly what: 'writes'; readonly scope: string; readonly key: string }
-  | { readonly what: 'changes'; readonly from: number; readonly to: number };
+  | { readonly what: 'topics' }
+  | { readonly what: 'messages'; readonly topics: readonly string[]; readonly t: number }
+  | { readonly what: 'series'; readonly fields: readonly FieldName[]; readonly range: SeriesRange }
+  | { readonly what: 'changes'; readonly from: number; readonly to: number }
+  | { readonly what: 'profile'; readonly from: number; readonly to: number };
 
 export interface Answers {
   moment: Moment | null;
@@ -38,6 +47,7 @@ export interface Answers {
   change: TickAt | null;
   story: Story | null;
   trail: Float32Array | null;
+  timeline: RecordedTimeline | null;
   ready: null;
   /** Where the index of the file begins, if more than the given bytes are needed; 0 if it was read. */
   index: number | null;
@@ -46,11 +56,16 @@ export interface Answers {
   /** The moments that can be shown now; null if the wanted one is not among them. */
   glimpse: readonly [from: number, to: number] | null;
   writes: readonly WriteAt[] | null;
+  topics: readonly TopicInfo[] | null;
+  messages: readonly MessageAt[] | null;
+  series: RecordedSeries | null;
   changes: Changes | null;
+  profile: ProfileSum | null;
 }
 
 export type ToEngine =
   | { readonly kind: 'begin'; readonly run: string }
+  | { readonly kind: 'present'; readonly scene: PresentScene }
   | {
       readonly kind: 'part';
       readonly segment: Segment;
@@ -72,6 +87,7 @@ export class Engine {
   private readonly failed = new Set<number>();
   private seek: SeekIndex | null = null;
   private glimpse: Glimpse | null = null;
+  private present: PresentScene | null = null;
 
   constructor(private readonly post: (message: FromEngine) => void) {}
 
@@ -79,11 +95,16 @@ export class Engine {
     switch (message.kind) {
       case 'begin':
         this.index = new RunIndex(message.run);
+        this.index.takePresent(this.present);
         this.readers = new Map();
         this.failed.clear();
         this.seek = null;
         this.glimpse = null;
         return;
+      case 'present':
+        this.present = message.scene;
+        this.index.takePresent(message.scene);
+        return this.tell();
       case 'part':
         return this.take(message);
       case 'drop':
@@ -151,10 +172,20 @@ export class Engine {
           return this.index.storyUntil(ask.t, ask.tick);
         case 'trail':
           return this.index.trail();
+        case 'timeline':
+          return this.index.timeline();
         case 'writes':
           return this.index.writesOf(ask);
+        case 'topics':
+          return this.index.topics();
+        case 'messages':
+          return this.messagesAt(ask.topics, ask.t);
+        case 'series':
+          return this.index.series(ask.fields, ask.range);
         case 'changes':
           return this.index.changes(ask.from, ask.to);
+        case 'profile':
+          return this.index.profile(ask.from, ask.to);
       }
     } catch (error) {
       this.post({ kind: 'failed', number: -1, message: (error as Error).message });
@@ -166,6 +197,10 @@ export class Engine {
     return (
       this.index.momentAt(t, known, tick, scene) ?? this.glimpse?.momentAt(t, known, tick, scene) ?? null
     );
+  }
+
+  private messagesAt(topics: readonly string[], t: number): Answers['messages'] {
+    return this.index.messagesAt(topics, t) ?? this.glimpse?.messagesAt(topics, t) ?? null;
   }
 
   /** The index speeds reading up; one that is damaged is left out, since the parts are read without it. */

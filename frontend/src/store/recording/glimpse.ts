@@ -1,6 +1,7 @@
 import type { RunIndex } from './runIndex';
 import { SegmentReader } from './segmentReader';
 import type { SeekIndex } from './seekIndex';
+import type { MessageAt } from './topics/topicQueries';
 import type { Moment } from './types';
 
 /** The moments around one of a recording whose parts before it are not read. */
@@ -38,6 +39,11 @@ export class Glimpse {
   /** As that of `RunIndex`; null for a moment that it does not show. */
   momentAt(t: number, ...known: readonly [number, number | null, number?]): Moment | null {
     return this.from <= t && t <= this.to ? this.index.momentAt(t, ...known) : null;
+  }
+
+  /** As that of `RunIndex`: a message before the bytes that were read is missing. */
+  messagesAt(topics: readonly string[], t: number): MessageAt[] | null {
+    return this.from <= t && t <= this.to ? this.index.messagesAt(topics, t) : null;
   }
 
   /** The moments that it shows. */

@@ -170,3 +170,43 @@ it('shows a moment of a long file before the parts up to it are read', async () 
   await vi.waitFor(() => expect(run.hasUntil(12)).toBe(true));
   expect(await tickAt(11.5)).toBeGreaterThan(5);
 });
+
+it('reads the other parts of a long file after the wanted moment is there, also if it has no index', async () => {
+  const long = await longRecording(12);
+  const read: number[] = [];
+  const link: EngineLink = { post: (message) => engine.receive(message), onMessage: () => {} };
+  const engine = new Engine((message) => link.onMessage(message));
+  const seeking = new EventTarget();
+  let hasIndex = true;
+  const open = () =>
+    new RecordedRun(
+      {
+        segments: () => [segment(0, { bytes: long.length, to_t: 12 })],
+        subscribe: () => () => {},
+        isOneFile: true,
+        read: async (_, offset, length) => {
+          read.push(offset);
+          if (offset !== 0 && !hasIndex) throw new Error('no index');
+          if (offset !== 0) await new Promise((resolve) => seeking.addEventListener('come', resolve));
+          return long.slice(offset, offset + length);
+        },
+      },
+      link,
+      () => {},
+      () => {},
+      1,
+    );
+  const run = open();
+  run.want(8.5);
+  await new Promise((resolve) => setTimeout(resolve, 60));
+  expect(read).toHaveLength(1);
+  expect(read[0]).toBeGreaterThan(0);
+  const answer = setInterval(() => seeking.dispatchEvent(new Event('come')), 5);
+  await vi.waitFor(() => expect(run.hasUntil(12)).toBe(true));
+  clearInterval(answer);
+  run.end();
+  hasIndex = false;
+  const other = open();
+  other.want(8.5);
+  await vi.waitFor(() => expect(other.hasUntil(12)).toBe(true));
+});

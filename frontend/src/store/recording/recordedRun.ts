@@ -3,6 +3,12 @@ import type { Answers, Ask, FromEngine, ToEngine } from './engine';
 import type { Overview, RecordingSource } from './types';
 
 const PART_BYTES = 1 << 20;
+/** What the engine takes at once; until it is done, no moment can be shown. */
+const PIECE_BYTES = 1 << 18;
+/** How long after a wish the other parts wait, so that the moments of a drag come first; at most so long. */
+const QUIET_MS = 200;
+const MOST_QUIET_MS = 1000;
+const LOOK_AGAIN_MS = 25;
 /** What is read from the end of a file for its index; a longer index is read once more. */
 const END_BYTES = 1 << 18;
 /** From how many earlier begins a moment is tried. */
@@ -39,6 +45,8 @@ export class RecordedRun {
   private readonly waiting = new Map<number, (answer: Answers[keyof Answers]) => void>();
   private nextId = 1;
   private isSeeking = false;
+  private wantedAt = -Infinity;
+  private readAt = -Infinity;
   /** The moments that were looked for by the index of their file. */
   private sought = new Set<number>();
   /** The moments that can be shown although the parts before them are not read. */
@@ -62,6 +70,7 @@ export class RecordedRun {
   /** Reads the parts that a moment needs, then the others; null: reads no more. */
   want(t: number | null): void {
     this.wanted = t;
+    this.wantedAt = performance.now();
     this.follow();
   }
 
@@ -164,10 +173,25 @@ export class RecordedRun {
   private async fetch(): Promise<void> {
     this.isFetching = true;
     try {
-      for (let next = this.next(); next !== null; next = this.next()) await this.fetchPart(next);
+      for (let next = this.next(); next !== null; next = this.next()) {
+        await this.quiet();
+        await this.fetchPart(next);
+      }
     } finally {
       this.isFetching = false;
     }
+  }
+
+  /** Waits while a moment is looked for by the index: it is shown first, and the other parts are read after it. */
+  private async quiet(): Promise<void> {
+    const isWaited = () => {
+      if (this.source.isOneFile !== true || this.hasIndex === null || this.wanted === null) return false;
+      const now = performance.now();
+      const isDragged = now - this.wantedAt < QUIET_MS && now - this.readAt < MOST_QUIET_MS;
+      return this.isSeeking || isDragged;
+    };
+    while (isWaited()) await new Promise((resolve) => setTimeout(resolve, LOOK_AGAIN_MS));
+    this.readAt = performance.now();
   }
 
   private async fetchPart(segment: Segment): Promise<void> {
@@ -201,9 +225,11 @@ export class RecordedRun {
 
   /** Gives a part to the engine in small pieces, so that it can answer between them. */
   private async take(segment: Segment, bytes: Uint8Array, isWanted: () => boolean): Promise<void> {
-    for (let at = 0; at < bytes.length && isWanted(); at += PART_BYTES) {
-      const piece = bytes.subarray(at, at + PART_BYTES);
-      this.link.post({ kind: 'part', segment, bytes: piece, isLast: at + PART_BYTES >= bytes.length });
+    for (let at = 0; at < bytes.length; at += PIECE_BYTES) {
+      await this.quiet();
+      if (!isWanted()) return;
+      const piece = bytes.subarray(at, at + PIECE_BYTES);
+      this.link.post({ kind: 'part', segment, bytes: piece, isLast: at + PIECE_BYTES >= bytes.length });
       await this.ask({ what: 'ready' });
     }
   }

@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect, it } from 'vitest';
 import { RunIndex } from './runIndex';
-import { SegmentReader } from './segmentReader';
+import { SegmentReader, type Read } from './segmentReader';
 import { STATUSES, type Moment } from './types';
 
 function sample(name = 'v1'): {
@@ -11,10 +11,11 @@ function sample(name = 'v1'): {
   const index = new RunIndex('r');
   const segment = index.segment(0, 0);
   const raw: { topic: string; t: number; fields: Record<string, unknown> }[] = [];
-  const reader = new SegmentReader('sample', (read) => {
+  const take = (read: Read) => {
     segment.add(read);
     raw.push({ topic: read.topic, t: read.t, fields: read.decode() });
-  });
+  };
+  const reader = new SegmentReader('sample', take, (name, data) => segment.attach(name, data));
   reader.append(new Uint8Array(readFileSync(`../tests/executor/recorder/samples/${name}.mcap`)));
   return { index, raw };
 }
@@ -37,6 +38,22 @@ it('shows at each tick what the ticks until then have told', () => {
     expect(moment.tick).toBe(fields['number']);
     expect(moment.tickT).toBe(t);
   }
+});
+
+it.each(['v2', 'v3'])('shows the world of %s, whose meshes and textures are attached', (name) => {
+  const { scene } = at(sample(name).index, 0.5);
+  const meshes = scene!.objects.flatMap(({ shapes }) => shapes.flatMap(({ mesh }) => mesh || []));
+  expect(Object.keys(scene!.meshes).length + Object.keys(scene!.textures ?? {}).length).toBeGreaterThan(0);
+  expect(meshes.filter((mesh) => !(mesh in scene!.meshes))).toEqual([]);
+});
+
+it('puts a world together again when the present one, whose parts stand in, comes', () => {
+  const { index } = sample('v3');
+  const { sceneId, scene } = at(index, 0.5);
+  index.takePresent({ name: scene!.name, meshes: {} });
+  const next = index.momentAt(0.5, -1, null, sceneId)!;
+  expect(next.sceneId).not.toBe(sceneId);
+  expect(next.scene).toEqual(scene);
 });
 
 it('shows the world, and sends it only to who has another one', () => {
@@ -139,4 +156,46 @@ it('has the flags that were not removed, and the gaps, as marks', () => {
     ['stopped', 1, 'was killed by SIGKILL', undefined],
     ['flag', 0.5, 'The line bends here', 'ada'],
   ]);
+});
+
+it('puts the mark of a hold at the moment of its tick, once that has ended', () => {
+  const index = new RunIndex('r');
+  const segment = index.segment(0, 0);
+  const add = (topic: string, t: number, fields: Record<string, unknown>) =>
+    segment.add({ topic, type: '', t, data: new Uint8Array(), decode: () => fields });
+  const hold = { command: 'hold', hook: 0, data_json: '{"uid":1,"path":"/","why":"breakpoint before"}' };
+  add('/bt/tree', 0, { generation: 1, uid: [1], parent: [0] });
+  add('/bt/input', 1, { ...hold, tick: 4 });
+  const times = () => index.overview().marks.map(({ kind, t }) => [kind, t]);
+  expect(times()).toEqual([['held', 1]]);
+  add('/bt/tick', 1.05, { number: 4 });
+  expect(times()).toEqual([['held', 1.05]]);
+});
+
+it('adds the times of nodes in a part that was read', () => {
+  const { index } = sample();
+  const tree = index.momentAt(1)!.tree!;
+  const row = (t: number, self: number) => ({
+    topic: '/bt/profile',
+    type: 'bt_studio_msgs/msg/Profile',
+    t,
+    data: new Uint8Array(),
+    decode: () => ({
+      generation: index.momentAt(1)!.generation,
+      ticks: 10,
+      uid: [1],
+      calls: [10],
+      total_ms: [self],
+      self_ms: [self],
+    }),
+  });
+  const segment = index.segment(0, 0);
+  const end = segment.until;
+  segment.add(row(end + 0.5, 2));
+  segment.add(row(end + 1, 3));
+  segment.to = end + 1;
+  expect(index.profile(end, end + 1)).toMatchObject({ ticks: 20, tick_ms: 5, tree });
+  expect(index.profile(end, end + 0.5)).toMatchObject({ ticks: 10, tick_ms: 2 });
+  expect(index.profile(0, 0.5)).toMatchObject({ ticks: 0, nodes: [] });
+  expect(index.profile(0, end + 99)).toBeNull();
 });

@@ -1,16 +1,22 @@
-import type { NodeStatus, Scene } from '@/generated/messages';
+import type { NodeStatus, Scene, TopicInfo } from '@/generated/messages';
 import { moved } from './posesAt';
+import { profileSum, type ProfileSum } from './profile';
 import { sceneOf } from './sceneOf';
+import type { PresentScene } from './sceneParts';
 import type { Read } from './segmentReader';
+import { messagesAt, seriesOf, topicsOf, type FieldName, type MessageAt } from './topics/topicQueries';
+import type { RecordedSeries, SeriesRange } from './topics/topicQueries';
 import { SegmentIndex, type State } from './segmentIndex';
 import type { TickStep } from './steps';
 import { storyUntil, type Story } from './story';
+import { TimelineReader, type RecordedTimeline } from './timelineOf';
 import { trailOf } from './trailOf';
 import type {
   Changes,
   EntryAt,
   EntryName,
   FlagMark,
+  Mark,
   Moment,
   Overview,
   PictureAt,
@@ -21,6 +27,8 @@ import type {
 
 /** The bytes of pictures that are kept; beyond them, those of the oldest segments go. */
 const MOST_PICTURE_BYTES = 128 << 20;
+/** The memory of messages of topics; beyond it, the largest topics are thinned. */
+const MOST_TOPIC_BYTES = 128 << 20;
 const MOST_LINES = 20_000;
 const MOST_MARKS = 1000;
 const MOST_WRITES = 500;
@@ -34,6 +42,7 @@ function flagsOf(segments: readonly SegmentIndex[]): FlagMark[] {
 /** All parts of a recording that were read, with the state at each moment. */
 export class RunIndex {
   private readonly segments = new Map<number, SegmentIndex>();
+  private readonly timelineReader = new TimelineReader();
 
   constructor(
     readonly run: string,
@@ -45,9 +54,14 @@ export class RunIndex {
     return new RunIndex(this.run, this.scenes);
   }
 
+  /** Takes the world of the present run, whose parts a recording of the session does not hold. */
+  takePresent(scene: PresentScene | null): void {
+    this.scenes.takePresent(scene);
+  }
+
   segment(number: number, from: number): SegmentIndex {
     let found = this.segments.get(number);
-    if (!found) this.segments.set(number, (found = new SegmentIndex(number, from)));
+    if (!found) this.segments.set(number, (found = new SegmentIndex(number, from, this.scenes.parts)));
     return found;
   }
 
@@ -72,10 +86,17 @@ export class RunIndex {
       run: this.run,
       read: all.map(({ from, until, to }) => [from, Math.max(until, to)] as const),
       root,
-      marks: [...all.flatMap(({ marks }) => marks).slice(-MOST_MARKS), ...flagsOf(all)],
+      marks: [...this.atTicks(all.flatMap(({ marks }) => marks).slice(-MOST_MARKS)), ...flagsOf(all)],
       lines: all.flatMap(({ lines }) => lines).slice(-MOST_LINES),
       faults: all.flatMap(({ faults }) => faults).slice(-MOST_MARKS),
     };
+  }
+
+  /** Moves the marks within a tick to the moment that shows the tick, if it ended. */
+  private atTicks(marks: readonly Mark[]): readonly Mark[] {
+    if (!marks.some(({ tick }) => tick !== undefined)) return marks;
+    const times = new Map(this.ticks().map(({ number, t }) => [number, t]));
+    return marks.map((mark) => ({ ...mark, t: times.get(mark.tick ?? -1) ?? mark.t }));
   }
 
   /**
@@ -155,6 +176,20 @@ export class RunIndex {
     return { statuses, entries, poses: moved(before.posesAt(from), after.posesAt(to)) };
   }
 
+  /** Returns the times of nodes from one time to another; null while a part between them is not read. */
+  profile(from: number, to: number): ProfileSum | null {
+    const all = this.inOrder().filter((each) => each.from < to && Math.max(each.until, each.to) > from);
+    const isWhole = all.every(({ number }, at) => at === 0 || number === (all[at - 1]?.number ?? 0) + 1);
+    if (!isWhole || !this.at(from) || !this.at(to)) return null;
+    const trees = new Map(
+      all.flatMap(({ steps }) =>
+        steps.flatMap((step) => (step.kind === 'tree' ? [[step.generation, step.nodes] as const] : [])),
+      ),
+    );
+    const rows = all.flatMap(({ profile }) => profile);
+    return profileSum(rows, from, to, (generation) => trees.get(generation) ?? []);
+  }
+
   /** Returns the path of the first robot, as far as it was read. */
   trail(): Float32Array {
     const all = this.inOrder();
@@ -165,6 +200,27 @@ export class RunIndex {
       all.flatMap(({ poses }) => poses),
       robot.id,
     );
+  }
+
+  /** Returns the statuses of all nodes over time, as far as they were read. */
+  timeline(): RecordedTimeline | null {
+    return this.timelineReader.read(this.inOrder());
+  }
+
+  /** Returns the topics of robot and project that were read. */
+  topics(): TopicInfo[] {
+    return topicsOf(this.inOrder());
+  }
+
+  /** Returns the last messages of some topics until a moment; null if the part with it is not read. */
+  messagesAt(topics: readonly string[], t: number): MessageAt[] | null {
+    const last = this.at(t);
+    return last && messagesAt(this.inOrder().slice(0, this.inOrder().indexOf(last) + 1), topics, t);
+  }
+
+  /** Returns the numbers of some fields over time, as far as they were read and decoded. */
+  series(fields: readonly FieldName[], range: SeriesRange): RecordedSeries {
+    return seriesOf(this.inOrder(), fields, range);
   }
 
   /** Returns the last writes of a key in all parts that were read, the last one first. */
@@ -182,9 +238,11 @@ export class RunIndex {
     return storyUntil(this.inOrder(), t, tick);
   }
 
-  /** Drops pictures of the oldest segments until the others fit. */
+  /** Drops pictures of the oldest segments, and some messages of topics, until the others fit. */
   trim(): void {
     const all = this.inOrder();
+    for (let sum = bytesOf(all); sum > MOST_TOPIC_BYTES; sum = bytesOf(all))
+      all.reduce((most, each) => (each.topics.bytes > most.topics.bytes ? each : most)).topics.thin();
     let bytes = 0;
     for (const segment of all.toReversed()) {
       for (const list of segment.pictures.values()) for (const { data } of list) bytes += data.length;
@@ -225,8 +283,17 @@ export class RunIndex {
 
 /** The different worlds of a recording: each segment has its world again. */
 class Scenes {
-  private readonly known: { readonly bytes: Uint8Array; readonly scene: Scene | null }[] = [];
-  private readonly ids = new WeakMap<Read, number>();
+  readonly parts = new Map<string, Uint8Array>();
+  private present: PresentScene | null = null;
+  private known: { readonly bytes: Uint8Array | null; readonly scene: Scene | null }[] = [];
+  private ids = new WeakMap<Read, number>();
+
+  /** The worlds are put together again, with other numbers. */
+  takePresent(scene: PresentScene | null): void {
+    this.present = scene;
+    this.ids = new WeakMap();
+    this.known = this.known.map(() => ({ bytes: null, scene: null }));
+  }
 
   /** Returns the number of the world that a message holds; -1 without one. */
   idOf(read: Read | null): number {
@@ -235,8 +302,9 @@ class Scenes {
     if (id === undefined) {
       const { data } = read.decode();
       const bytes = data instanceof Uint8Array ? data : new Uint8Array();
-      id = this.known.findIndex((each) => isEqual(each.bytes, bytes));
-      if (id < 0) id = this.known.push({ bytes: bytes.slice(), scene: sceneOf(bytes) }) - 1;
+      id = this.known.findIndex((each) => each.bytes !== null && isEqual(each.bytes, bytes));
+      if (id < 0)
+        id = this.known.push({ bytes: bytes.slice(), scene: sceneOf(bytes, this.parts, this.present) }) - 1;
       this.ids.set(read, id);
     }
     return id;
@@ -246,6 +314,9 @@ class Scenes {
     return this.known[id]?.scene ?? null;
   }
 }
+
+const bytesOf = (all: readonly SegmentIndex[]): number =>
+  all.reduce((sum, { topics }) => sum + topics.bytes, 0);
 
 const isEqual = (a: Uint8Array, b: Uint8Array): boolean =>
   a.length === b.length && a.every((byte, at) => byte === b[at]);

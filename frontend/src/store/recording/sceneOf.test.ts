@@ -12,7 +12,7 @@ const scene = {
 };
 
 it('reads a scene', () => {
-  expect(sceneOf(encode(scene))).toEqual(scene);
+  expect(sceneOf(encode(scene))).toMatchObject(scene);
 });
 
 it.each([
@@ -26,4 +26,15 @@ it.each([
 ])('does not draw what is no scene: %o', (wrong) => {
   expect(sceneOf(encode({ ...scene, ...wrong }))).toBeNull();
   expect(sceneOf(new Uint8Array([0xc1]))).toBeNull();
+});
+
+it('puts the parts in which the recording holds once, and checks them', () => {
+  const mesh = scene.meshes.m;
+  const shapes = [{ ...shape, shape: 'mesh', mesh: 'm' }];
+  const slim = { ...scene, objects: [{ ...scene.objects[0], shapes }], meshes: { m: { hash: 'aa' } } };
+  expect(sceneOf(encode(slim), new Map([['aa', encode(mesh)]]))?.meshes).toEqual({ m: mesh });
+  expect(sceneOf(encode(slim), new Map([['aa', encode({ positions: 3 })]]))).toBeNull();
+  expect(sceneOf(encode(slim), new Map([['aa', new Uint8Array([0xc1])]]))).toBeNull();
+  expect(sceneOf(encode(slim))?.objects[0]?.shapes).toEqual([]);
+  expect(sceneOf(encode({ ...slim, objects: 3 }))).toBeNull();
 });

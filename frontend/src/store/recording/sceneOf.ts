@@ -1,5 +1,5 @@
-import { decode } from '@msgpack/msgpack';
 import type { Scene } from '@/generated/messages';
+import { wholeScene, type PresentScene } from './sceneParts';
 
 const MOST_OBJECTS = 20_000;
 const MOST_SHAPES = 1000;
@@ -38,11 +38,20 @@ const isLight = (value: unknown): boolean => isRecord(value) && isNumbers(value[
 const isTexture = (value: unknown): boolean =>
   isRecord(value) && value['jpeg'] instanceof Uint8Array && isNumbers(value['tile'], 2);
 
-/** Returns the scene of a recording; null if it cannot be drawn, since a recording may be hostile. */
-export function sceneOf(bytes: Uint8Array): Scene | null {
+const NO_PARTS: ReadonlyMap<string, Uint8Array> = new Map();
+
+/**
+ * Returns the scene of a recording, with its parts as `wholeScene` says; null if it cannot be drawn, since a
+ * recording may be hostile.
+ */
+export function sceneOf(
+  bytes: Uint8Array,
+  parts: ReadonlyMap<string, Uint8Array> = NO_PARTS,
+  present: PresentScene | null = null,
+): Scene | null {
   let value: unknown;
   try {
-    value = decode(bytes);
+    value = wholeScene(bytes, parts, present);
   } catch {
     return null;
   }

@@ -42,3 +42,12 @@ it('reads scenes of version 1, which have their parts within', () => {
   expect(whole.meshes).toEqual({ m: mesh });
   expect(whole.objects[0]!.shapes).toHaveLength(2);
 });
+
+it('takes what is not there from the present world, if it is of the same universe', () => {
+  const frame = scene({ m: { hash: 'aa' } }, { x: { hash: 'bb' } });
+  const present = { name: 'w', meshes: { m: mesh }, textures: { x: { jpeg: bytes, tile: [1, 1] } } };
+  expect(wholeScene(frame, new Map(), present)).toMatchObject({ meshes: { m: mesh }, ground_texture: 'x' });
+  expect(wholeScene(frame, new Map(), { ...present, name: 'other' }).meshes).toEqual({});
+  const own = { ...mesh, indices: new Uint8Array([9]) };
+  expect(wholeScene(frame, new Map([['aa', encode(own)]]), present).meshes).toEqual({ m: own });
+});

@@ -1,4 +1,5 @@
 import { McapStreamReader, type McapTypes } from '@mcap/core';
+import { PART_PREFIX } from './sceneParts';
 import { RecordingError } from './types';
 
 /** Some bytes of a file. */
@@ -14,6 +15,7 @@ const AHEAD_S = 0.25;
 const TREE = '/bt/tree';
 const SCENE = '/world/scene';
 const DIAGRAM = /^project\/trees\/[^/]+\.json$/;
+const isNeeded = (name: string): boolean => DIAGRAM.test(name) || name.startsWith(PART_PREFIX);
 
 interface Chunk {
   readonly from: number;
@@ -43,7 +45,8 @@ export class SeekIndex {
   /** The schemas and channels of the file, as records. */
   readonly definitions: Uint8Array;
   private readonly chunks: Chunk[] = [];
-  private readonly diagrams: Range[] = [];
+  /** The diagrams of the trees, and the meshes and textures of the worlds. */
+  private readonly attached: Range[] = [];
 
   /** @throws RecordingError: the bytes are no index of a file of this size. */
   constructor(bytes: Uint8Array, size: number) {
@@ -59,8 +62,8 @@ export class SeekIndex {
     for (let record = stream.nextRecord(); record; record = stream.nextRecord()) {
       if (record.type === 'Channel') topics.set(record.id, record.topic);
       else if (record.type === 'ChunkIndex') indexes.push(record);
-      else if (record.type === 'AttachmentIndex' && DIAGRAM.test(record.name))
-        this.diagrams.push(inFile(record.offset, record.length));
+      else if (record.type === 'AttachmentIndex' && isNeeded(record.name))
+        this.attached.push(inFile(record.offset, record.length));
       if (record.type === 'Schema' || record.type === 'Channel') left = stream.bytesRemaining();
     }
     this.definitions = bytes.subarray(0, bytes.length - left);
@@ -88,8 +91,8 @@ export class SeekIndex {
     const chunks = this.chunks.slice(first, last + 1).map(({ range }) => range);
     const [begin = 0] = chunks[0] ?? [];
     const [end = 0] = chunks.at(-1) ?? [];
-    const diagrams = this.diagrams.filter(([offset]) => offset < end);
-    const all = [...diagrams, ...chunks].toSorted((a, b) => a[0] - b[0]);
+    const attached = this.attached.filter(([offset]) => offset < end);
+    const all = [...attached, ...chunks].toSorted((a, b) => a[0] - b[0]);
     const bytes = all.reduce((sum, [, length]) => sum + length, 0);
     // From the begin of the file, the parts that are read in their order come as soon.
     return bytes > MOST_BYTES || begin === this.chunks[0]?.range[0] ? null : joined(all);

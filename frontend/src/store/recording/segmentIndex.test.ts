@@ -66,6 +66,20 @@ it('marks faults, collisions, ends and flags, and names the node of a line', () 
   expect(isCollision({ source: 'action', text: 'I bumped into it' })).toBe(false);
 });
 
+it('shows a line and a fault that were written late at the time when they happened', () => {
+  const index = new SegmentIndex(0, 0);
+  const stamp = { sec: 1, nanosec: 345_833_333 };
+  const line = { source: 'world', level: 'warning', text: 'robot bumped into crate', uid: 0 };
+  index.add(read('/bt/log', 1.6, { ...line, stamp }));
+  index.add(read('/bt/fault', 1.7, { kind: 'exception', uid: 2, message: 'no', line: 1, stamp }));
+  index.add(read('/bt/log', 1.8, { ...line, stamp: { sec: 9, nanosec: 0 } })); // of a damaged file
+  index.add(read('/bt/log', 1.9, { ...line, stamp: 'no time' }));
+  const then = 1_345_833_333 / 1e9;
+  expect(index.marks.map(({ t }) => t)).toEqual([then, then, 1.8, 1.9]);
+  expect(index.lines.map(({ t }) => t)).toEqual([then, 1.8, 1.9]);
+  expect(index.faults.map(({ t }) => t)).toEqual([then]);
+});
+
 it('keeps a flag at its own moment, which is before it was set, and marks a gap', () => {
   const index = new SegmentIndex(0, 0);
   const moment = { sec: 1, nanosec: 500_000_000 };
@@ -186,4 +200,19 @@ it('takes poses from the last frame that has all of them', () => {
   expect(firstBytes(15)).toEqual({ 3: 0, 5: 10 });
   expect(firstBytes(25)).toEqual({ 3: 20, 5: 20 });
   expect(firstBytes(35)).toEqual({ 3: 30, 5: 20 });
+});
+
+it('marks where the tree was held, and not the steps from there, nor other inputs', () => {
+  const index = new SegmentIndex(0, 0);
+  const hold = (t: number, tick: number, hook: number, data: unknown) =>
+    index.add(read('/bt/input', t, { command: 'hold', tick, hook, data_json: JSON.stringify(data) }));
+  hold(1, 7, 0, { uid: 2, path: '/a', event: 'before', why: 'breakpoint before its tick' });
+  hold(1, 7, 1, { uid: 2, path: '/a', event: 'after', why: 'step over' });
+  hold(1.05, 8, 0, { uid: 1, path: '/', event: 'before', why: 'one tick' });
+  index.add(read('/bt/input', 2, { command: 'force', tick: 8, hook: 0, data_json: '{"uid":1}' }));
+  index.add(read('/bt/input', 3, { command: 'hold', tick: 9, hook: 0, data_json: '{' }));
+  expect(index.marks).toEqual([
+    { t: 1, kind: 'held', text: '/a: breakpoint before its tick', uid: 2, tick: 7 },
+    { t: 3, kind: 'held', text: '', tick: 9 },
+  ]);
 });

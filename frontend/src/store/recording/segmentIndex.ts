@@ -2,7 +2,10 @@ import { decode } from '@msgpack/msgpack';
 import type { LogLevel, NodeStatus, Poses } from '@/generated/messages';
 import type { Fields } from './cdr';
 import { posesAt, type PosesFrame } from './posesAt';
+import { profileRow, type ProfileRow } from './profile';
+import { PART_PREFIX } from './sceneParts';
 import type { Read } from './segmentReader';
+import { TopicMessages } from './topics/topicMessages';
 import {
   keyframeStep,
   tickStep,
@@ -75,6 +78,7 @@ export interface State {
 /** The content of a segment, sorted by the queries for it. */
 export class SegmentIndex {
   readonly steps: Step[] = [];
+  readonly profile: ProfileRow[] = [];
   readonly lines: RecordedLine[] = [];
   readonly faults: RecordedFault[] = [];
   readonly marks: Mark[] = [];
@@ -84,6 +88,7 @@ export class SegmentIndex {
   readonly scenes: Read[] = [];
   readonly scans: Read[] = [];
   readonly pictures = new Map<string, Read[]>();
+  readonly topics = new TopicMessages();
   /** The last time that was read. */
   until = -Infinity;
   /** The time up to which all of the segment was read, in s; `from` while a part of it is missing. */
@@ -102,6 +107,8 @@ export class SegmentIndex {
   constructor(
     readonly number: number,
     readonly from: number,
+    /** The meshes and textures of scenes by their hash; all segments of a run share them. */
+    private readonly parts = new Map<string, Uint8Array>(),
   ) {
     this.to = from;
   }
@@ -112,6 +119,7 @@ export class SegmentIndex {
     if (t < this.until) throw new RecordingError('damaged', `${topic}: time runs backwards.`, `at ${t} s`);
     this.until = t;
     if (read.type === 'sensor_msgs/msg/CompressedImage') return this.addPicture(read);
+    this.topics.add(read);
     switch (topic) {
       case '/bt/tree': {
         const step = treeStep(t, read.decode(), this.files);
@@ -124,10 +132,14 @@ export class SegmentIndex {
         return this.push(tickStep(t, read.decode()));
       case '/bt/blackboard':
         return this.addWrites(writesStep(t, read.decode()));
+      case '/bt/profile':
+        return void this.profile.push(profileRow(t, read.decode()));
       case '/bt/log':
         return this.addLine(read);
       case '/bt/fault':
         return this.addFault(read);
+      case '/bt/input':
+        return this.addInput(read);
       case '/bt/flag':
         return this.addFlag(read);
       case '/bt/gap':
@@ -143,6 +155,7 @@ export class SegmentIndex {
 
   /** Takes an attached file: it belongs to the trees that follow. */
   attach(name: string, data: Uint8Array): void {
+    if (name.startsWith(PART_PREFIX)) this.parts.set(name.slice(PART_PREFIX.length), data);
     if (!DIAGRAM.test(name)) return;
     this.files = { ...this.files, [name]: TEXT.decode(data) };
   }
@@ -257,8 +270,9 @@ export class SegmentIndex {
     }
   }
 
-  private addLine({ t, decode: told }: Read): void {
-    const { source, level, text, uid } = told();
+  private addLine({ t: writtenAt, decode: told }: Read): void {
+    const { stamp, source, level, text, uid } = told();
+    const t = happenedAt(stamp, writtenAt);
     const line = { t, source: String(source), level: level as LogLevel, text: String(text) };
     this.lines.push({ ...line, path: this.paths.get(Number(uid)) ?? '' });
     if (line.source === 'flag') this.mark(t, 'flag', line.text);
@@ -266,19 +280,30 @@ export class SegmentIndex {
     else if (isCollision(line)) this.mark(t, 'collision', line.text);
   }
 
-  private addFault({ t, decode: told }: Read): void {
+  private addFault({ t: writtenAt, decode: told }: Read): void {
     const fields = told();
+    const t = happenedAt(fields['stamp'], writtenAt);
     const of = (name: string) => String(fields[name] ?? '');
     const uid = Number(fields['uid']);
     const fault = { t, uid, kind: of('kind'), file: of('file'), line: Number(fields['line']) };
     const path = this.paths.get(uid) ?? '';
     this.faults.push({ ...fault, message: of('message'), traceback: of('traceback'), path });
-    this.mark(t, 'fault', of('message'));
+    this.marks.push({ t, kind: 'fault', text: of('message'), ...(uid > 0 ? { uid } : {}) });
   }
 
-  private addFlag({ decode: told }: Read): void {
+  /** Marks where the debugger held the tree; the steps of the user from there are not marked. */
+  private addInput({ t, decode: told }: Read): void {
+    const { command, tick, data_json: json } = told();
+    if (command !== 'hold') return;
+    const { uid, path, why } = holdOf(String(json));
+    if (STEP.test(why)) return;
+    const text = [path, why].filter(Boolean).join(': ');
+    this.marks.push({ t, kind: 'held', text, ...(uid > 0 ? { uid } : {}), tick: Number(tick) });
+  }
+
+  private addFlag({ t, decode: told }: Read): void {
     const { id, moment, text, user } = told();
-    const flag = { t: secondsOf(moment), text: String(text), id: String(id), user: String(user) };
+    const flag = { t: secondsOf(moment) ?? t, text: String(text), id: String(id), user: String(user) };
     this.flags.push({ ...flag, kind: 'flag' });
   }
 
@@ -314,10 +339,30 @@ function countUntil(steps: readonly Step[], t: number): number {
   return low;
 }
 
-/** Returns a `builtin_interfaces/Time` in s. */
-function secondsOf(time: unknown): number {
-  const { sec, nanosec } = time as Fields;
-  return Number(sec) + Number(nanosec) / 1e9;
+/** Returns the time of what arrived late at the recorder: it is written with the time of what was written before. */
+const happenedAt = (stamp: unknown, writtenAt: number): number =>
+  Math.min(secondsOf(stamp) ?? writtenAt, writtenAt);
+
+/** Returns a `builtin_interfaces/Time` in s, the same number as for the time of a message; null: it is none. */
+function secondsOf(time: unknown): number | null {
+  const { sec, nanosec } = (time ?? {}) as Fields;
+  const t = (Number(sec) * 1e9 + Number(nanosec)) / 1e9;
+  return Number.isFinite(t) ? t : null;
+}
+
+/** Why the tree is held after a step of the user. */
+const STEP = /^(step\b|one tick$)/;
+
+/** Returns the data of a hold; of a damaged text there are none. */
+function holdOf(json: string): { uid: number; path: string; why: string } {
+  let told: Readonly<Record<string, unknown>> = {};
+  try {
+    const found: unknown = JSON.parse(json);
+    if (typeof found === 'object' && found !== null) told = { ...found };
+  } catch {
+    // The mark is there all the same.
+  }
+  return { uid: Number(told['uid']) || 0, path: String(told['path'] ?? ''), why: String(told['why'] ?? '') };
 }
 
 /** Whether a line of the world reports a collision. */

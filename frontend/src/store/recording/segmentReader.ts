@@ -7,7 +7,8 @@ export const MOST_CHUNK_BYTES = 64 << 20;
 const MOST_BYTES = 2 ** 31;
 const MOST_CHANNELS = 10_000;
 const MOST_MESSAGES = 10_000_000;
-const MOST_ATTACHED_BYTES = 8 << 20;
+/** The files of a project, and the meshes and textures of its worlds. */
+const MOST_ATTACHED_BYTES = 64 << 20;
 
 export interface Read {
   readonly topic: string;
@@ -87,7 +88,7 @@ export class SegmentReader {
       case 'Message':
         return this.message(record);
       case 'Attachment':
-        // More than a project has is left out; nothing else depends on it.
+        // More than a project and its worlds have is left out; nothing else depends on it.
         this.attached += record.data.length;
         if (this.attached <= MOST_ATTACHED_BYTES) this.attach(record.name, record.data);
     }

@@ -76,7 +76,7 @@ export interface RecordedFault {
   readonly path: string;
 }
 
-export type MarkKind = 'fault' | 'collision' | 'finished' | 'flag' | 'stopped';
+export type MarkKind = 'fault' | 'collision' | 'finished' | 'flag' | 'stopped' | 'held';
 
 export interface Mark {
   readonly t: number;
@@ -86,6 +86,10 @@ export interface Mark {
   readonly id?: string;
   /** Who set a flag, if it is known. */
   readonly user?: string;
+  /** The node at which the tree was held, or that raised a fault. */
+  readonly uid?: number;
+  /** The tick within which the tree was held. */
+  readonly tick?: number;
   /** Why the recording stopped, as the session tells it. */
   readonly stop?: Pick<RecordingStopped, 'reason' | 'goes_on'>;
 }

@@ -1,3 +1,4 @@
+import type { RunTime } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
 import { endSession, send } from '@/store/session/connection';
 import { isUnconnected } from '@/store/session/control';
@@ -83,6 +84,11 @@ export function setTickRate(tickHz: number): void {
   // The running application has the new rate too, so this change does not make the program outdated.
   if (isSame) useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter });
   void reported(send('set_tick_rate', { tick_hz: tickHz }));
+}
+
+/** Sets whether time waits for the tree, in the project's runs from the next one on. */
+export function setRunTime(time: RunTime): void {
+  useProjectStore.getState().setSettings({ time });
 }
 
 /**

@@ -1,6 +1,8 @@
 import { afterEach, expect, it } from 'vitest';
-import { fakeServer, openProject } from '../../../harness/testing';
-import { runProject } from './run';
+import { useProjectStore } from '@/store/project';
+import { fakeServer, openProject, openSession } from '../../../harness/testing';
+import { useApplyQuestion } from './apply';
+import { applyProject, runProject } from './run';
 import { useRunStore } from './store';
 
 afterEach(() => useRunStore.setState(useRunStore.getInitialState(), true));
@@ -15,4 +17,50 @@ it('does not ask the server to run a project in which the last save found errors
     stage: null,
     failure: { stage: 'checking', code: 'check_failed', message: 'bad', diagnostics: [error] },
   });
+});
+
+it('runs the project as the server gives it, with the revision that a recording names', async () => {
+  openProject({});
+  const executor = await openSession();
+  const application = {
+    app_zip_base64: 'eA==',
+    tick_hz: 20,
+    on_finish: 'stop',
+    on_error: 'stop',
+    revision: 7,
+  };
+  fakeServer({ 'GET /projects/p1/app': { ...application, time: 'live', universe: 'empty', robot: null } });
+  expect(await runProject()).toBe(true);
+  expect(executor.sentAs('run')).toMatchObject([{ application }]);
+});
+
+const plan = { dry: true, kept: 1, renewed: [], added: [], removed: [], halted: [], late_ports: [] };
+const node = { path: 'Drive', node_id: 'd', tree_id: 'Main' };
+
+it.each([
+  ['applies at once what halts nothing', [], null, [true, false]],
+  ['asks before something is halted, and applies it', [node], true, [true, false]],
+  ['asks before something is halted, and leaves it', [node], false, [true]],
+] as const)('%s', async (_, halted, answer, sent) => {
+  openProject({});
+  useRunStore.setState({ ranAt: -1 });
+  const executor = await openSession();
+  fakeServer({ 'GET /projects/p1/app': { app_zip_base64: 'eA==', universe: {} } });
+  executor.emit('state-changed', { state: 'application_running', reason: '' });
+  const confirm = executor.takeLong('apply');
+  const applied = applyProject();
+  await expect.poll(() => executor.sentAs('apply')).toHaveLength(1);
+  confirm();
+  executor.emit('applied', { ...plan, halted: [...halted] });
+  if (answer !== null) {
+    await expect.poll(() => useApplyQuestion.getState().plan?.halted).toEqual(halted);
+    expect(useRunStore.getState().stage).toBeNull();
+    useApplyQuestion.getState().answer(answer);
+  }
+  await expect.poll(() => executor.sentAs('apply').length).toBe(sent.length);
+  if (sent.length > 1) confirm();
+  expect(await applied).toBe(answer !== false);
+  expect(executor.sentAs('apply')).toEqual(sent.map((dry) => ({ app_zip_base64: 'eA==', dry })));
+  const { changeCounter } = useProjectStore.getState();
+  expect(useRunStore.getState().ranAt === changeCounter).toBe(answer !== false);
 });

@@ -8,6 +8,7 @@ import { saveNow } from '@/store/saving/autosave';
 import { abandonStart, ensureConnected, send } from '@/store/session/connection';
 import { CommandError, isUnconnected } from '@/store/session/control';
 import { useSessionStore } from '@/store/session/store';
+import { agreesTo, nextPlan } from './apply';
 import { beginProgram } from './livePorts';
 import { useRunStore, type LaunchFailure, type LaunchStage } from './store';
 import { chosenUniverse, useUniverseChoice } from './universeChoice';
@@ -31,14 +32,7 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
     executorReason: '',
   });
   try {
-    await saveNow();
-    const { changeCounter, diagrams } = useProjectStore.getState();
-    useRunStore.setState({ ranAt: changeCounter });
-    beginProgram(diagrams);
-    enter('checking');
-    const errors = errorsOf(useProjectStore.getState().diagnostics);
-    if (errors.length > 0) throw new UnsoundError(errors);
-    const app = await api.app(projectId, useUniverseChoice.getState().universe);
+    const app = await packed(projectId, () => beginAs());
     enter('starting');
     await ensureConnected(projectId);
     enter('launching');
@@ -52,6 +46,50 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
   } finally {
     useRunStore.setState({ stage: null });
     useSessionStore.setState({ isLaunching: false, progress: null });
+  }
+}
+
+/** Saves and checks the project, and returns it as an application; `saved` is called after the save. */
+async function packed(projectId: string, saved: () => void): Promise<AppBundle> {
+  await saveNow();
+  saved();
+  enter('checking');
+  const errors = errorsOf(useProjectStore.getState().diagnostics);
+  if (errors.length > 0) throw new UnsoundError(errors);
+  return api.app(projectId, useUniverseChoice.getState().universe);
+}
+
+/** Makes the project as it is now the program that runs. */
+function beginAs({ changeCounter, diagrams } = useProjectStore.getState()): void {
+  useRunStore.setState({ ranAt: changeCounter });
+  beginProgram(diagrams);
+}
+
+/**
+ * Replaces the running tree by the project as it is now; world and program continue. Asks before it halts
+ * something that runs. Resolves to true if the tree was replaced.
+ */
+export async function applyProject(): Promise<boolean> {
+  const { projectId } = useProjectStore.getState();
+  if (!projectId || useRunStore.getState().stage) return false;
+  wasCancelled = false;
+  useRunStore.setState({ stage: 'saving', failure: null });
+  try {
+    let program = useProjectStore.getState();
+    const { app_zip_base64 } = await packed(projectId, () => (program = useProjectStore.getState()));
+    enter('launching');
+    const planned = nextPlan();
+    await send('apply', { app_zip_base64, dry: true });
+    if (!(await agreesTo(await planned))) return false;
+    enter('launching');
+    await send('apply', { app_zip_base64, dry: false });
+    beginAs(program);
+    return true;
+  } catch (error) {
+    if (!isUnconnected(error) && !wasCancelled) useRunStore.setState({ failure: failureOf(error) });
+    return false;
+  } finally {
+    useRunStore.setState({ stage: null });
   }
 }
 
@@ -79,7 +117,7 @@ function runCommand(app: AppBundle): Commands['run'] {
   const { speed } = useSessionStore.getState();
   useSessionStore.setState({ tickHz: app.tick_hz });
   return {
-    universe: { ...chosenUniverse(app), speed },
+    universe: { ...chosenUniverse(app), speed, time: app.time },
     application: applicationOf(app),
   };
 }
@@ -89,8 +127,9 @@ function applicationOf({
   tick_hz,
   on_finish,
   on_error,
+  revision,
 }: AppBundle): Commands['run_application'] {
-  return { app_zip_base64, tick_hz, on_finish, on_error };
+  return { app_zip_base64, tick_hz, on_finish, on_error, revision };
 }
 
 function failureOf(error: unknown): LaunchFailure {

@@ -14,6 +14,12 @@ export async function listen(topic: string): Promise<void> {
   }
 }
 
+/** Shows the messages of a topic of a recording; a session that has this topic echoes it, too. */
+export function showRecorded(topic: string): void {
+  addEcho(topic);
+  send('echo_topic', { topic, max_hz: ECHO_HZ }).catch(() => undefined);
+}
+
 export function unlisten(topic: string): void {
   dropEcho(topic);
   send('echo_topic', { topic, max_hz: 0 }).catch(() => undefined);

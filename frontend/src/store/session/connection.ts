@@ -106,6 +106,13 @@ class SessionConnection {
     }
   }
 
+  /** Joins a session that follows a program. */
+  async join(found: SessionInfo, projectId: string): Promise<void> {
+    useSessionStore.setState({ projectId });
+    this.session = found;
+    await this.openSocket(found);
+  }
+
   /** Ends the session and all its processes. */
   async endSession(): Promise<void> {
     const left = this.session;
@@ -309,5 +316,6 @@ export const send = connection.send.bind(connection) as SessionConnection['send'
 export const ensureConnected = (projectId: string) => connection.ensureConnected(projectId);
 export const abandonStart = () => connection.abandonStart();
 export const reattach = (projectId: string) => connection.reattach(projectId);
+export const joinSession = (found: SessionInfo, projectId: string) => connection.join(found, projectId);
 export const endSession = () => connection.endSession();
 export const leave = () => connection.leave();

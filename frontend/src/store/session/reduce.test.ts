@@ -48,8 +48,15 @@ const snapshot = (more: Partial<Snapshot> = {}): Snapshot => ({
   segments: [],
   flags: [],
   stops: [],
+  branches: [],
+  repeatable_runs: [],
   held: null,
   forced: null,
+  attached: null,
+  attached_tree: null,
+  profile: null,
+  groot2: null,
+  waiting: { text: '', node_id: '', node_path: '' },
   state: 'application_running',
   tree: null,
   statuses: [],
@@ -379,6 +386,29 @@ it('knows the flags of the present run, and where a recording stopped until a la
   expect(joined).toMatchObject({ flags: set.flags, stops: [stop] });
 });
 
+it('keeps the times of the nodes after a run, and forgets them with the next tree', () => {
+  const message = (command: string, data: unknown) => ({ id: '', command, data, seq: 1, t: 0 });
+  const profile = { on: true, ticks: 3, tick_ms: 1, nodes: [], sample: null, samples: 0, stacks: [] };
+  const measured = reduceAll(initialSession, [message('profile', profile)]);
+  expect(measured.profile).toEqual(profile);
+  const over = { state: 'visualization_ready', reason: '' };
+  const ended = reduce(measured, message('state-changed', over));
+  expect(ended.profile).toEqual({ ...profile, on: false });
+  expect(reduce(ended, message('tree', { nodes: [] })).profile).toBeNull();
+  expect(reduce(initialSession, message('state-changed', over)).profile).toBeNull();
+  expect(reduce(initialSession, message('snapshot', snapshot({ profile }))).profile).toEqual(profile);
+});
+
+it('knows the port for Groot2 until the session has none', () => {
+  const message = (command: string, data: unknown) => ({ id: '', command, data, seq: 1, t: 0 });
+  const served = reduce(initialSession, message('groot2', { port: 1667 }));
+  expect(served.groot2).toBe(1667);
+  expect(reduce(served, message('groot2', { port: 0 })).groot2).toBe(0);
+  const joined = reduce(initialSession, message('snapshot', snapshot({ groot2: { port: 1700 } })));
+  expect(joined.groot2).toBe(1700);
+  expect(reduce(joined, message('snapshot', snapshot({}))).groot2).toBe(0);
+});
+
 describe('a held tree', () => {
   const held: Held = {
     uid: 2,
@@ -412,4 +442,14 @@ describe('a held tree', () => {
     expect(states(message('forced', forced)).forced).toEqual(forced);
     expect(states(message('forced', forced), message('forced', { nodes: [], alone: 0 })).forced).toBeNull();
   });
+});
+
+it('shows the action in which a tick takes long until it returns, or the run stops', () => {
+  const act = { text: "Act 'Act' (actions/Act.py:3)", node_id: 'n1', node_path: 'Act' };
+  const none = { text: '', node_id: '', node_path: '' };
+  const long = reduce(initialSession, message('waiting', act));
+  expect(long.waiting).toEqual(act);
+  expect(reduce(long, message('waiting', none)).waiting).toEqual(none);
+  expect(reduce(long, message('state-changed', { state: 'paused', reason: '' })).waiting).toEqual(none);
+  expect(reduce(initialSession, message('snapshot', snapshot({ waiting: act }))).waiting).toEqual(act);
 });

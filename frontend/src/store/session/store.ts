@@ -3,6 +3,7 @@ import type { ServerMessage } from '@/generated/messages';
 import { useLiveStore } from '@/store/project/live';
 import { feedLastTick } from './trace/lastTick';
 import { feedTrace } from './trace/traceFeed';
+import { feedDap } from './dap';
 import { feedLive, forgetPending, showDueStatuses } from './liveFeed';
 import { appendLogs, initialSession, reduceAll } from './reduce';
 import { feedTopics } from './topics';
@@ -38,6 +39,7 @@ export function flush(): void {
     feedTrace(message);
     feedLastTick(message);
     feedTopics(message);
+    feedDap(message);
   }
   showDueStatuses();
   feedValues(useSessionStore.getState);

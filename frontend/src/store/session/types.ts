@@ -1,5 +1,9 @@
 import type {
+  Applied,
+  Attached,
+  AttachedTree,
   BlackboardEntry,
+  Branch,
   Fault,
   Finished,
   FlagSet,
@@ -9,6 +13,7 @@ import type {
   LaunchNode,
   Log,
   PortSet,
+  Profile,
   Progress,
   RecordingStopped,
   Segment,
@@ -16,6 +21,7 @@ import type {
   State,
   TopicMismatch,
   TreeNode,
+  Waiting,
 } from '@/generated/messages';
 import type { Connection } from './connectionStates';
 
@@ -65,6 +71,8 @@ export interface SessionData {
   finished: Finished | null;
   /** The ports that were changed since the program was started, by node and port. */
   ports: Record<string, PortSet>;
+  /** The last answer to the command *Apply*: what it did, or would do. */
+  applied: Applied | null;
   /** Topics whose ends do not match now. */
   mismatches: TopicMismatch[];
   /** The segments of the recordings of this session that can be read, those of the last run at the end. */
@@ -73,12 +81,28 @@ export interface SessionData {
   flags: FlagSet[];
   /** Where recordings of this session stopped. */
   stops: RecordingStopped[];
+  /** The runs of this session that continue others. */
+  branches: Branch[];
+  /** The runs in which one can go back, those of the last run at the end. */
+  repeatableRuns: string[];
+  /** How far a run is on its way back to a moment, 0 to 1; null while none is. */
+  goingBack: number | null;
   /** Where the debugger holds the tree; null while it does not. */
   held: Held | null;
   /** Whether all breakpoints were off when the last hold ended. */
   areBreakpointsOff: boolean;
   /** What is forced on nodes; null for nothing. */
   forced: Forced | null;
+  /** The program that this session follows; null in a session of a project. */
+  attached: Attached | null;
+  /** Its tree; null before it is known. */
+  attachedTree: AttachedTree | null;
+  /** The times of the nodes, if they are or were measured in this run. */
+  profile: Profile | null;
+  /** The port at which Groot2 can look at the trees of this session; 0 for none. */
+  groot2: number;
+  /** The action in which the present tick takes long; its text is empty for none. */
+  waiting: Waiting;
   sim: Sim | null;
   simTime: number;
   tick: number;

@@ -255,6 +255,7 @@ def test_xml_and_app_of_a_sound_project(api):
         None,
     )
     assert base64.b64decode(app["app_zip_base64"]).startswith(b"PK")
+    assert app["revision"] == api.get(f"projects/{pid}")["revision"]
 
 
 def test_an_app_with_errors_says_which(api, project):

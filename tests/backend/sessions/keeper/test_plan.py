@@ -37,6 +37,15 @@ def test_a_container_may_do_little(monkeypatch):
     assert f"/run/bt-studio/{DOOR}" in config["Cmd"]
 
 
+def test_a_tree_may_be_held_as_long_as_the_environment_says():
+    for given, minutes in (({}, "15"), ({"BT_STUDIO_HOLD_MINUTES": "0"}, "0")):
+        plan = read_plan(given, gate_source="/gate", stack="s")
+        assert f"BT_STUDIO_HOLD_MINUTES={minutes}" in plan.container("id", TOKEN, 1, DOOR)["Env"]
+    for wrong in ("long", "-1", "nan"):
+        with pytest.raises(ValueError, match="BT_STUDIO_HOLD_MINUTES"):
+            read_plan({"BT_STUDIO_HOLD_MINUTES": wrong}, gate_source="/gate", stack="s")
+
+
 def test_limits_come_from_the_environment_and_wrong_ones_are_refused_by_name():
     plan = read_plan({"BT_STUDIO_SESSION_PIDS": "33"}, gate_source="/gate", stack="s")
     assert plan.limits.pids == 33

@@ -47,11 +47,15 @@ def test_the_state_is_json_and_holds_no_secret(launcher_of):
 
 def test_the_child_gets_its_token_and_domain_and_not_our_secrets(launcher_of, monkeypatch):
     monkeypatch.setenv("BT_STUDIO_TOKEN", "ours")
+    monkeypatch.setenv("BT_STUDIO_HOLD_MINUTES", "5")
+    monkeypatch.setenv("BT_STUDIO_APPLICATION_MEMORY_MB", "512")
     started = launcher_of("echo").start(spec(ros_domain_id=77))
     environment = psutil.Process(started.state["pid"]).environ()
     assert environment["BT_STUDIO_MANAGER_TOKEN"] == "t0ken"
     assert (environment["ROS_DOMAIN_ID"], environment["ROS_AUTOMATIC_DISCOVERY_RANGE"]) == ("77", "LOCALHOST")
     assert "BT_STUDIO_TOKEN" not in environment
+    assert environment["BT_STUDIO_HOLD_MINUTES"] == "5"
+    assert environment["BT_STUDIO_APPLICATION_MEMORY_MB"] == "512"
     assert "t0ken" not in " ".join(psutil.Process(started.state["pid"]).cmdline())
 
 
@@ -125,3 +129,11 @@ def test_it_says_that_its_executors_end_with_the_server(launcher_of):
     launcher = launcher_of("echo")
     assert isinstance(launcher, ProcessLauncher)
     assert (launcher.name, launcher.survives_server) == ("process", False)
+
+
+def test_a_stopped_manager_is_killed_without_waiting_for_it(launcher_of):
+    launcher = launcher_of("echo")
+    started = launcher.start(spec())
+    os.kill(started.state["pid"], signal.SIGSTOP)
+    launcher.stop(started.state, timeout_s=3600)  # it would wait for all of it
+    assert not psutil.pid_exists(started.state["pid"])

@@ -1,24 +1,21 @@
 """Sealed runs: honest actions have the outcomes of unsealed runs, and others get hold of nothing."""
 
-import json
 import os
 import socket
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
-from executor.evaluation.outcome import read_outcome
 from executor.evaluation.sealed.run import environment
 from executor.supervision.single_threaded import SINGLE_THREADED
 from tests.budget import count
+from tests.executor.evaluation.one_by_one import Cells
 from tests.executor.evaluation.projects import DRIVE, write
 from tests.executor.evaluation.sealed.attacks import BROWSES, LEAVES, WRITES, action
 
 ROOT = Path(__file__).parents[4]
-pytestmark = [pytest.mark.simulation, pytest.mark.timeout(1800)]
 SEEDS = count("sealed_runs")
+pytestmark = [pytest.mark.simulation, pytest.mark.timeout(1800 if SEEDS < 20 else 7200)]
 HEAD = "duration_s: 2\nruns: 2\n"
 JUDGE = f"{HEAD}judge: {{success: [{{reach: {{area: ahead}}}}]}}\n"
 STAMPED = DRIVE.replace("twist = Twist()", "twist = TwistStamped()").replace(
@@ -51,24 +48,8 @@ faults:
 
 @pytest.fixture(scope="module")
 def cells():
-    process = subprocess.Popen(
-        [sys.executable, "-m", "tests.executor.evaluation.cells"],
-        cwd=ROOT,
-        env={**os.environ, **SINGLE_THREADED},
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-
-    def ask(folder, **options):
-        process.stdin.write(json.dumps({"folder": str(folder), "seed": 0, **options}) + "\n")
-        process.stdin.flush()
-        line = process.stdout.readline()
-        assert line, "the run has ended its process"
-        return read_outcome(line)
-
-    with process:
-        yield ask
+    with Cells({**os.environ, **SINGLE_THREADED}) as found:
+        yield found
 
 
 @pytest.mark.parametrize(

@@ -65,7 +65,7 @@ def test_numbered_files_follow_each_other(tmp_path):
     assert [path.name for path in files_of_bag(folder)] == ["bag_2.mcap", "bag_9.mcap", "bag_10.mcap"]
 
 
-def test_our_own_types_scans_and_lines_are_kept_and_others_are_not(tmp_path):
+def test_our_own_types_scans_numbers_and_lines_are_kept_and_others_are_not(tmp_path):
     kinds = {"Tree": "/bt/tree", "Tick": "/bt/tick", "Log": "/bt/log"}
     ours = [
         (topic, f"bt_studio_msgs/msg/{name}", 10**9, encode(f"bt_studio_msgs/msg/{name}", MESSAGES[name]))
@@ -73,10 +73,11 @@ def test_our_own_types_scans_and_lines_are_kept_and_others_are_not(tmp_path):
     ]
     more = [
         ("/scan", "sensor_msgs/msg/LaserScan", 2 * 10**9, bytes(80)),
+        ("/level", "std_msgs/msg/Float64", 2 * 10**9, b"\0\1\0\0" + bytes(8)),
         ("/x", "std_msgs/msg/Byte", 3, b"\0\1\0\0a"),
     ]
     said = converted(bag([*ours, *more]), tmp_path)
-    assert [each.topic for each in said] == ["/bt/tree", "/bt/tick", "/bt/log", "/scan"]
+    assert [each.topic for each in said] == ["/bt/tree", "/bt/tick", "/bt/log", "/scan", "/level"]
     assert said[0].fields == MESSAGES["Tree"]
 
 

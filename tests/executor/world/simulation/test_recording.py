@@ -78,10 +78,12 @@ def test_scene_poses_dumps_and_pictures_are_sent(monkeypatch):
             camera = Camera(t=t_s, sensor="front", width=2, height=2, jpeg=b"jpeg")
             recorder.picture(Frame("c", "camera/front", msgspec.msgpack.encode(camera)))
         recorder.picture(Frame("c", "view", b""))
+        recorder.did("teleop", {"linear": 0.1, "angular": 0.0})
         recorder.look(0.0)
         messages += source.messages()
         source.connection.close()
     recorder.close()
+    world_s = world.time_s
     assert Others.closed == 1
     world.close()
     assert messages[0] == Mark("a1")
@@ -106,4 +108,7 @@ def test_scene_poses_dumps_and_pictures_are_sent(monkeypatch):
     ]
     pictures = [m for m in messages if isinstance(m, Heard) and m.topic != "/goal"]
     assert [p.topic for p in pictures] == ["/world/camera/front/compressed"] * 2
+    (done,) = [m.fields for m in messages if isinstance(m, Record) and m.topic == "/bt/input"]
+    assert (done["command"], done["tick"], done["hook"]) == ("teleop", None, -1)
+    assert done["stamp"] == round(world_s * 1e9)
     assert len(node.taps) == 1

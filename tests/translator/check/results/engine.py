@@ -6,6 +6,8 @@ import contextlib
 import gzip
 import json
 import re
+import signal
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,6 +36,8 @@ if TYPE_CHECKING:
 
     from translator.project import Project
 
+ENDLESS_S = 0.5
+AGAIN_S = 0.05
 RESULTS = {
     "S": PyTreesStatus.SUCCESS,
     "F": PyTreesStatus.FAILURE,
@@ -122,17 +126,44 @@ def run(case: Case, nodes: dict[str, type]) -> tuple[list[tuple[int, Status]], T
         board.set(key, 1, INT)
     tree = Tree.from_xml(case.xml(), nodes, blackboard=board)
     log = tree.log_results()
-    for tick in range(case.ticks):
-        if tick in case.halts:
-            tree.halt()
-        for when, key, value in case.writes:
-            if when == tick:
-                board.set(key, value, INT)
-        try:
+    with contextlib.suppress(TickError, EndlessError), at_most(ENDLESS_S):
+        for tick in range(case.ticks):
+            if tick in case.halts:
+                tree.halt()
+            for when, key, value in case.writes:
+                if when == tick:
+                    board.set(key, value, INT)
             tree.tick_once() if case.mode == "once" else tree.tick_exactly_once()
-        except TickError:
-            break
     return log, tree
+
+
+class EndlessError(Exception):
+    """A tick does not end: two nodes that yield under a reactive node wake each other up."""
+
+
+@contextlib.contextmanager
+def at_most(limit_s: float) -> Iterator[None]:
+    """Raises `EndlessError` in the block after this processor time; the log until then counts.
+
+    It is raised again until it is heard: Python ignores an exception in a callback of a weak reference.
+    """
+
+    def end(*_: object) -> None:
+        raise EndlessError
+
+    def ignored(found: sys.UnraisableHookArgs) -> None:
+        if found.exc_type is not EndlessError:
+            hook(found)
+
+    before, hook = signal.signal(signal.SIGVTALRM, end), sys.unraisablehook
+    sys.unraisablehook = ignored
+    signal.setitimer(signal.ITIMER_VIRTUAL, limit_s, AGAIN_S)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        signal.signal(signal.SIGVTALRM, before)
+        sys.unraisablehook = hook
 
 
 def expected(project: Project, tree: Tree, may: dict[str, dict[str, int]]) -> dict[int, int]:

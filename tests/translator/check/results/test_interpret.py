@@ -20,6 +20,10 @@ def test_random_trees_return_nothing_else():
     assert not found, next(iter(found.items()))
 
 
+def test_a_tree_whose_tick_never_ends_is_compared_until_then():
+    assert compare(6988) == []
+
+
 def test_the_comparison_notices_a_wrong_rule(monkeypatch):
     from translator.check.results import controls
 

@@ -1,8 +1,7 @@
 import { Handle, Position, type NodeProps } from '@xyflow/react';
 import { IconChevronDown, IconChevronUp, IconPlus } from '@tabler/icons-react';
-import { memo, type CSSProperties, type ReactNode } from 'react';
+import { memo, useLayoutEffect, useRef, type CSSProperties, type ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
-import { useShallow } from 'zustand/react/shallow';
 import { CoverageMark } from '@/features/behaviourTests/CoverageMark';
 import { FailureMark } from '@/features/behaviourTests/FailureMark';
 import { setCollapsed } from '@/model/edits';
@@ -11,7 +10,8 @@ import { useFailuresOf } from '@/store/behaviourTests/failures';
 import { change } from '@/store/project/edits/blocks';
 import { setEditor, toggleExpanded, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
-import { liveKey, pastOf, type LiveKey, type LiveState } from '@/store/project/live';
+import { liveKey } from '@/store/project/live';
+import { paintStatus } from '@/store/moment/statusPainter';
 import { useShownLive } from '@/store/moment/store';
 import { usePortMarks } from '@/store/run/portMarks';
 import { useDebugMarks } from '@/store/debug/marks';
@@ -23,8 +23,9 @@ import { BreakpointMark } from './BreakpointMark';
 import { BlockShape } from './BlockShape';
 import { BlockTitle } from './BlockTitle';
 import { ForcedMark } from './ForcedMark';
+import { HeatMark } from './HeatMark';
 import { ProblemMark } from './ProblemMark';
-import { StatusMark } from './StatusMark';
+import { blockPainter } from './blockPainter';
 import classes from './Block.module.css';
 
 function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<BlockNode>) {
@@ -34,6 +35,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
   const family = spec?.family ?? null;
   // A folded block has its own sign at this place, and a new child would be hidden.
   const grows = data.canGrow && data.folded === 0;
+  const key = inside ? liveKey(inside.tree, inside.node) : liveKey(tree, id);
   const words = (
     <>
       <span className={classes['tile']}>
@@ -42,7 +44,8 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
       <BlockTitle id={id} node={node} t={t} />
       <BlockPorts place={inside ?? { tree, node: id }} node={node} spec={spec} marks={marks} t={t} />
       <BreakpointMark tree={inside?.tree ?? tree} node={inside?.node ?? id} isSelected={selected} t={t} />
-      <ForcedMark block={inside ? liveKey(inside.tree, inside.node) : liveKey(tree, id)} t={t} />
+      <ForcedMark block={key} t={t} />
+      <HeatMark block={key} t={t} />
     </>
   );
   return (
@@ -113,11 +116,17 @@ interface LiveBlockProps {
   readonly children: ReactNode;
 }
 
-/** The frame of a block with its status: a change of it alone draws neither words nor children again. */
+/** The frame of a block. Its status is painted outside of React, which renders it when something else changes. */
 function LiveBlock({ id, data, isSelected, width, height, words, children }: LiveBlockProps) {
   const { node, spec, problem, tree, isHorizontal, inside } = data;
   const key = inside ? liveKey(inside.tree, inside.node) : liveKey(tree, id);
-  const { status, past, flash, fault } = useShownLive(useShallow((state) => shownOf(state, key)));
+  const root = useRef<HTMLDivElement>(null);
+  const mark = useRef<HTMLSpanElement>(null);
+  useLayoutEffect(() => {
+    const [block, sign] = [root.current, mark.current];
+    return block && sign ? paintStatus(key, blockPainter(block, sign)) : undefined;
+  }, [key]);
+  const fault = useShownLive((state) => state.faults.get(key));
   const held = useDebugMarks((state) => state.held.get(key));
   const level = useCoverage((state) => state.blocks.get(key)?.level);
   const failures = useFailuresOf(key);
@@ -130,12 +139,11 @@ function LiveBlock({ id, data, isSelected, width, height, words, children }: Liv
   };
   return (
     <div
+      ref={root}
       className={`${classes['block']} ${isHorizontal ? classes['horizontal'] : ''}`}
       data-testid={`node-${id}`}
       data-type={node.type}
       data-family={family ?? 'unknown'}
-      data-status={status}
-      data-past={past}
       data-held={held}
       data-selected={isSelected || undefined}
       data-disabled={node.disabled || undefined}
@@ -146,9 +154,9 @@ function LiveBlock({ id, data, isSelected, width, height, words, children }: Liv
       data-problem={problem?.severity}
       style={color}
     >
-      <BlockShape family={family} width={width} height={height} flash={flash} />
+      <BlockShape family={family} width={width} height={height} />
       {words}
-      <StatusMark status={fault === undefined ? status : 'FAILURE'} past={past} flash={flash} />
+      <span ref={mark} className={classes['mark']} aria-hidden="true" />
       {fault !== undefined && (
         <ProblemMark
           problem={{ source: 'server', severity: 'error', node: id, code: '', message: fault, hint: '' }}
@@ -162,13 +170,6 @@ function LiveBlock({ id, data, isSelected, width, height, words, children }: Liv
     </div>
   );
 }
-
-const shownOf = (state: LiveState, key: LiveKey) => ({
-  status: state.statuses.get(key) ?? 'IDLE',
-  past: pastOf(state, key),
-  flash: state.flashes.get(key),
-  fault: state.faults.get(key),
-});
 
 /**
  * A block of the canvas. Its wrapper sets the position, so a block renders only when its content, selection

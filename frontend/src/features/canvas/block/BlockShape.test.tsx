@@ -6,9 +6,7 @@ import { BlockShape } from './BlockShape';
 type Props = Parameters<typeof BlockShape>[0];
 
 function open(props: Partial<Props> = {}) {
-  const { container } = show(
-    <BlockShape family="action" width={140} height={66} flash={undefined} {...props} />,
-  );
+  const { container } = show(<BlockShape family="action" width={140} height={66} {...props} />);
   const svg = container.querySelector('svg')!;
   return { svg, paths: [...svg.querySelectorAll(':scope > path')] };
 }
@@ -22,7 +20,7 @@ describe('BlockShape', () => {
     expect(new Set(paths.map((path) => path.getAttribute('d')))).toEqual(
       new Set([outline('action', 140, 66)]),
     );
-    expect(paths).toHaveLength(3);
+    expect(paths).toHaveLength(4);
   });
 
   it('colours the side within the outline', () => {
@@ -38,11 +36,5 @@ describe('BlockShape', () => {
     const { paths } = open({ family: 'subtree' });
     expect(paths[0]).toHaveAttribute('transform', 'translate(4 4)');
     expect(open().svg.querySelector('[transform]')).toBeNull();
-  });
-
-  it('flashes in the colour of the passing status', () => {
-    const { svg } = open({ flash: { status: 'FAILURE', count: 1 } });
-    expect(svg.querySelector('[data-status]')).toHaveAttribute('data-status', 'FAILURE');
-    expect(open().svg.querySelector('[data-status]')).toBeNull();
   });
 });

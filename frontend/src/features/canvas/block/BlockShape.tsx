@@ -1,5 +1,4 @@
 import { memo, useId } from 'react';
-import type { NodeStatus } from '@/generated/messages';
 import type { Family } from '@/model/vocabulary';
 import { outline } from '@/ui/shapes';
 import classes from './Block.module.css';
@@ -8,13 +7,12 @@ interface BlockShapeProps {
   readonly family: Family | null;
   readonly width: number;
   readonly height: number;
-  readonly flash: { readonly status: NodeStatus; readonly count: number } | undefined;
 }
 
 const TILE = 44;
 
 /** The shape of a block: the outline of its family, the coloured side, the ring and the halo. */
-export const BlockShape = memo(function BlockShape({ family, width, height, flash }: BlockShapeProps) {
+export const BlockShape = memo(function BlockShape({ family, width, height }: BlockShapeProps) {
   const clip = useId();
   const path = outline(family, width, height);
   return (
@@ -27,7 +25,7 @@ export const BlockShape = memo(function BlockShape({ family, width, height, flas
       <path className={classes['fill']} d={path} />
       <rect className={classes['side']} width={TILE} height={height} clipPath={`url(#${clip})`} />
       <path className={classes['ring']} d={path} />
-      {flash && <path key={flash.count} className={classes['flash']} data-status={flash.status} d={path} />}
+      <path className={classes['flash']} d={path} />
     </svg>
   );
 });

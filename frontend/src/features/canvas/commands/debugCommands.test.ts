@@ -5,6 +5,7 @@ import { useProjectStore } from '@/store/project';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import { openDiagram } from '../../../../harness/canvas';
+import { attached } from '../../../../harness/attached';
 import { debugged, treeNode } from '../../../../harness/heldTree';
 import { openSession } from '../../../../harness/testing';
 import { debugCommands } from './debugCommands';
@@ -55,6 +56,9 @@ it('force, freeze, release and continue to a block while the user controls the r
   expect(words('forceSUCCESS')).toBeNull();
   hold('driver');
   expect(['to', 'forceSUCCESS', 'release'].map(words)).toEqual(['stepTo', 'forceSuccess', null]);
+  useSessionStore.setState({ attached: attached({ controls: true }) });
+  expect(['to', 'forceSUCCESS', 'forceRUNNING'].map(words)).toEqual([null, 'forceSuccess', null]);
+  useSessionStore.setState({ attached: null });
   useDebugMarks.setState({
     forced: new Map([['Main/a', { status: 'SUCCESS', once: false, after: false, alone: false }]]),
   });

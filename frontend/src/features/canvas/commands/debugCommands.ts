@@ -9,7 +9,16 @@ import {
 } from '@tabler/icons-react';
 import type { ResultName } from '@/generated/messages';
 import { breakpointOf, toggleBreakpoint, useBreakpoints } from '@/store/debug/breakpoints';
-import { canDebug, canForce, force, nodeOf, nodesOf, release, stepTo } from '@/store/debug/debugger';
+import {
+  canForce,
+  canStepTree,
+  force,
+  isOwnTree,
+  nodeOf,
+  nodesOf,
+  release,
+  stepTo,
+} from '@/store/debug/debugger';
 import { useDebugMarks } from '@/store/debug/marks';
 import { liveKey } from '@/store/project/live';
 import { useProjectStore } from '@/store/project';
@@ -33,13 +42,17 @@ function toggleSelected(): void {
   });
 }
 
+/** Whether a result can be forced on the selected blocks; another program that is followed cannot be frozen. */
+const canForceTo = (status: ResultName) =>
+  canForce() && hasRunning() && (status !== 'RUNNING' || isOwnTree(useSessionStore.getState()));
+
 const forcing = (status: ResultName, words: string, icon: Icon): BlockCommand => ({
   id: `debug.force${status}`,
   group: 'run',
   labelKey: `canvas:menu.${words}`,
-  inMenu: () => (canForce() && hasRunning() ? words : null),
+  inMenu: () => (canForceTo(status) ? words : null),
   icon,
-  enabled: () => canForce() && hasRunning(),
+  enabled: () => canForceTo(status),
   run: () => void force(runningNodes(), { effect: 'result', status }),
 });
 
@@ -59,12 +72,12 @@ export const debugCommands: readonly BlockCommand[] = [
     id: 'debug.to',
     group: 'run',
     labelKey: 'debug:command.to',
-    inMenu: () => (canDebug() && selection().length === 1 && hasRunning() ? 'stepTo' : null),
+    inMenu: () => (canStepTree() && selection().length === 1 && hasRunning() ? 'stepTo' : null),
     icon: IconArrowBarToRight,
     shortcut: '$mod+F10',
     when: 'held',
     inTextFields: true,
-    enabled: () => canDebug() && hasRunning(),
+    enabled: () => canStepTree() && hasRunning(),
     run: () => {
       const node = nodeOf(useSessionStore.getState(), tree(), first());
       if (node) void stepTo(node);

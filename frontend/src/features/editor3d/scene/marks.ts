@@ -1,4 +1,5 @@
 import * as THREE from 'three';
+import type { Point } from '@/model/document/values';
 import type { ActorThing } from '@/model/universe/types';
 
 const ACCENT = 0x6f7dff;
@@ -62,14 +63,34 @@ export function arrow(): THREE.Mesh {
   return mesh;
 }
 
-/** Returns a person's path on the floor, with a handle at each waypoint while the person is selected. */
-export function wayOf({ path, loop }: ActorThing): THREE.Object3D[] {
+const AREA = 0x2aa876;
+
+/** Returns an area of the floor, its outline, and a handle at each corner while it is selected. */
+export function floorOf(corners: readonly Point[]): THREE.Object3D[] {
+  const outline = new THREE.Shape(corners.map(([x, y]) => new THREE.Vector2(x, y)));
+  const floor = new THREE.Mesh(
+    new THREE.ShapeGeometry(outline),
+    new THREE.MeshBasicMaterial({
+      color: AREA,
+      transparent: true,
+      opacity: 0.22,
+      side: THREE.DoubleSide,
+      depthWrite: false,
+    }),
+  );
+  floor.position.z = 0.012;
+  floor.userData['isOwn'] = true;
+  return [floor, ...wayOf({ path: corners, loop: true }, AREA)];
+}
+
+/** Returns a path on the floor, with a handle at each of its points while its thing is selected. */
+export function wayOf({ path, loop }: Pick<ActorThing, 'path' | 'loop'>, color = ACCENT): THREE.Object3D[] {
   const closed = loop && path.length > 2 ? [...path, path[0] ?? [0, 0]] : path;
   const points = closed.map(([x, y]) => new THREE.Vector3(x, y, 0.02));
   const line = untouchable(
     new THREE.Line(
       new THREE.BufferGeometry().setFromPoints(points),
-      new THREE.LineBasicMaterial({ color: ACCENT, transparent: true }),
+      new THREE.LineBasicMaterial({ color, transparent: true }),
     ),
   );
   line.userData['isFaint'] = true;

@@ -43,7 +43,7 @@ interface MessageRowProps {
 /** The row of a message: its title, text and hint, and its next step. */
 export function MessageRow({ message, isWhole = false }: MessageRowProps) {
   const { t, i18n } = useTranslation('run');
-  const { kind, tone, titleKey, values, text, hint, link, command } = message;
+  const { kind, tone, titleKey, values, text, hint, link, first, command } = message;
   const title = i18n.exists(`run:${titleKey}`) ? t(titleKey, values) : t('banner.refused');
   const Icon = ICONS[kind];
   return (
@@ -66,7 +66,10 @@ export function MessageRow({ message, isWhole = false }: MessageRowProps) {
         {hint ? <span className={classes['hint']}> {hint}</span> : null}
       </div>
       {link ? <GoButton link={link} /> : null}
-      {command ? <CommandOffer id={command} label={message.commandKey} /> : null}
+      {first ? <CommandOffer id={first.command} label={first.labelKey} /> : null}
+      {command ? (
+        <CommandOffer id={command} label={message.commandKey} isSecond={first !== undefined} />
+      ) : null}
       {message.canDismiss ? (
         <CloseButton size="sm" aria-label={t('dismiss')} onClick={() => dismiss(message)} />
       ) : null}
@@ -74,12 +77,23 @@ export function MessageRow({ message, isWhole = false }: MessageRowProps) {
   );
 }
 
-function CommandOffer({ id, label }: { readonly id: string; readonly label: string | undefined }) {
+interface CommandOfferProps {
+  readonly id: string;
+  readonly label: string | undefined;
+  readonly isSecond?: boolean;
+}
+
+function CommandOffer({ id, label, isSecond = false }: CommandOfferProps) {
   const { t } = useTranslation('run');
   const command = useCommandTable((table) => table.commands[id]);
   const key = label ?? command?.labelKey;
   return key === undefined ? null : (
-    <Button className={classes['button'] ?? ''} size="compact-xs" onClick={() => perform(id)}>
+    <Button
+      className={classes['button'] ?? ''}
+      size="compact-xs"
+      variant={isSecond ? 'default' : 'filled'}
+      onClick={() => perform(id)}
+    >
       {t(key)}
     </Button>
   );

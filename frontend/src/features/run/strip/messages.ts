@@ -37,6 +37,8 @@ export interface StripMessage {
   /** The command that is the next step. Its label is `commandKey`, or the command's own. */
   command?: string;
   commandKey?: string;
+  /** Another next step, which is offered before it. */
+  first?: { command: string; labelKey: string };
   canDismiss: boolean;
   /** The fault that the message reports. */
   fault?: Fault;
@@ -136,6 +138,7 @@ function restartOffer(): StripMessage {
     tone: 'quiet',
     titleKey: 'changedOffer',
     hint: t('run:restartOfferHelp'),
+    first: { command: 'run.apply', labelKey: 'command.apply' },
     command: 'run.restart',
     commandKey: 'restartOffer',
     canDismiss: true,

@@ -15,7 +15,10 @@ export function ManyFields({ editor, count }: { readonly editor: UniverseEditor;
     setColor(wish);
     const { selection } = editor.store.getState();
     const { universe } = readingOf(editor);
-    const painted = selection.filter((key) => universe && thingOf(universe, key)?.section !== 'robots');
+    const painted = selection.filter((key) => {
+      const thing = universe && thingOf(universe, key);
+      return thing && 'color' in thing;
+    });
     edit(editor, 'color', (now) => setFieldOfAll(now, painted, 'color', wish), {
       mergeKey: `color ${selection.join()}`,
     });

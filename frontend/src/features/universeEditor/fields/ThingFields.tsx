@@ -5,6 +5,7 @@ import { ActorFields } from './ActorFields';
 import { edit, type UniverseEditor } from '../editor';
 import { TextField } from '@/features/editor3d/fields';
 import { ModelFields } from './ModelFields';
+import { PathFields } from './PathFields';
 import { RobotFields } from './RobotFields';
 import classes from '@/features/editor3d/editor3d.module.css';
 
@@ -34,6 +35,12 @@ export function ThingFields({ editor, universe, thing }: ThingFieldsProps) {
       {thing.section === 'models' ? <ModelFields editor={editor} thing={thing} /> : null}
       {thing.section === 'actors' ? <ActorFields editor={editor} thing={thing} /> : null}
       {thing.section === 'robots' ? <RobotFields editor={editor} thing={thing} /> : null}
+      {thing.section === 'areas' ? (
+        <>
+          <PathFields editor={editor} thing={thing} />
+          <p className={classes['note']}>{t('areaHint')}</p>
+        </>
+      ) : null}
       {varied.length > 0 ? (
         <p className={classes['note']}>{t('varied', { names: varied.join(', ') })}</p>
       ) : null}

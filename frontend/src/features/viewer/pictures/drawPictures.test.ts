@@ -67,7 +67,7 @@ describe('drawPictures', () => {
     expect([canvas.width, canvas.height]).toEqual([640, 360]);
     expect(drawImage).toHaveBeenCalledExactlyOnceWith(expect.objectContaining({ width: 640 }), 0, 0);
     expect(close).toHaveBeenCalledOnce();
-    expect(shown).toEqual([{ width: 320, height: 240, hz: 0, latencyMs: null }]);
+    expect(shown).toEqual([{ width: 640, height: 360, hz: 0, latencyMs: null }]);
     expect(canvas.dataset['frames']).toBe('1');
   });
 

@@ -48,15 +48,15 @@ export function drawPictures(
       if (canvas.height !== bitmap.height) canvas.height = bitmap.height;
       context.drawImage(bitmap, 0, 0);
       bitmap.close();
-      measure(frame);
+      // Recorded pictures know their size only from the JPEG.
+      measure(frame, { width: canvas.width, height: canvas.height });
     } catch {
       // A damaged picture is skipped, since the next one comes soon.
     }
     void drawNext();
   };
 
-  const measure = (frame: Camera | View) => {
-    const { width, height } = frame;
+  const measure = (frame: Camera | View, size: Pick<Shown, 'width' | 'height'>) => {
     const isFirst = canvas.dataset['frames'] === undefined;
     canvas.dataset['frames'] = String(Number(canvas.dataset['frames'] ?? 0) + 1);
     count += 1;
@@ -64,11 +64,7 @@ export function drawPictures(
     const now = performance.now();
     if (!isFirst && now - since < 1000) return;
     const hz = (count * 1000) / Math.max(now - since, 1);
-    onShown(
-      isFirst
-        ? { width, height, hz: 0, latencyMs: null }
-        : { width, height, hz, latencyMs: (age / count) * 1000 },
-    );
+    onShown(isFirst ? { ...size, hz: 0, latencyMs: null } : { ...size, hz, latencyMs: (age / count) * 1000 });
     count = 0;
     age = 0;
     since = now;

@@ -46,6 +46,28 @@ describe('NodeTrace', () => {
 });
 
 describe('Trace', () => {
+  it('keeps what the blocks did that a changed tree still has', () => {
+    const trace = new Trace();
+    const sub = { ...node(2), type: 'SubTree' };
+    trace.start([node(1), sub, { ...node(3), parent: 2, node_id: 'n1' }], 0);
+    trace.tick(
+      [1, 2, 3].map((uid) => [uid, 'RUNNING']),
+      [],
+      1,
+    );
+    const moved = { ...sub, uid: 3 };
+    trace.replace([{ ...node(1), node_id: 'new' }, { ...node(2), node_id: 'n1' }, moved], 3);
+    trace.tick([[2, 'RUNNING']], [], 4);
+    trace.advance(5);
+    expect(trace.stretches(1, 0, 10)).toEqual([]);
+    expect(trace.stretches(2, 0, 10)).toEqual([
+      { start: 1, end: 3, mask: BIT.RUNNING },
+      { start: 4, end: 5, mask: BIT.RUNNING },
+    ]);
+    expect(trace.stretches(3, 0, 10)).toEqual([{ start: 1, end: 3, mask: BIT.RUNNING }]);
+    expect([trace.begin, trace.run]).toEqual([0, 1]);
+  });
+
   it('returns the past and present statuses of a node', () => {
     const trace = new Trace();
     trace.start([node(1)], 0);

@@ -42,6 +42,9 @@ export class Trace {
   /** The end of the drawn results of the most recent tick that had any. */
   private resultsEnd = 0;
 
+  /** @param lengthS how long the statuses are kept, in simulated seconds. */
+  constructor(readonly lengthS = HISTORY_S) {}
+
   start(nodes: readonly TreeNode[], t: number): void {
     this.nodes = nodes;
     this.begin = t;
@@ -51,6 +54,19 @@ export class Trace {
     this.run += 1;
     this.nodeTraces = new Map();
     this.open = new Map();
+  }
+
+  /** Continues with a changed tree in the same run: blocks that are in both keep what they did. */
+  replace(nodes: readonly TreeNode[], t: number): void {
+    this.advance(t);
+    for (const uid of [...this.open.keys()]) this.change(uid, 'IDLE', t);
+    const old = new Map([...keysOf(this.nodes)].map(([uid, key]) => [key, this.nodeTraces.get(uid)]));
+    this.nodeTraces = new Map();
+    for (const [uid, key] of keysOf(nodes)) {
+      const kept = old.get(key);
+      if (kept) this.nodeTraces.set(uid, kept);
+    }
+    this.nodes = nodes;
   }
 
   /** Adds the changes of a tick. */
@@ -70,7 +86,7 @@ export class Trace {
     this.now = Math.max(this.now, t);
     if (this.now - this.forgottenAt < FORGET_EVERY_S) return;
     this.forgottenAt = this.now;
-    const before = this.now - HISTORY_S;
+    const before = this.now - this.lengthS;
     for (const nodeTrace of this.nodeTraces.values()) nodeTrace.forget(before);
     this.begin = Math.max(this.begin, before);
   }
@@ -114,9 +130,10 @@ export class Trace {
     return { seconds, times };
   }
 
-  keep(): string {
+  /** Returns all as text; neighbouring stretches are joined until there are at most so many. */
+  keep(stretches = KEPT_STRETCHES): string {
     const uids = new Set([...this.nodeTraces.keys(), ...this.open.keys()]);
-    const most = Math.max(8, Math.floor(KEPT_STRETCHES / Math.max(uids.size, 1)));
+    const most = Math.max(8, Math.floor(stretches / Math.max(uids.size, 1)));
     const nodeTraces = [...uids].map((uid): Kept['nodeTraces'][number] => {
       const nodeTrace = new NodeTrace();
       for (const { start, end, mask } of this.stretches(uid, this.begin, this.now))
@@ -142,7 +159,7 @@ export class Trace {
     if (!text) return;
     try {
       const kept = JSON.parse(text) as Kept;
-      if (kept.tree !== signature(this.nodes) || kept.now > t + 1 || t - kept.now > HISTORY_S) return;
+      if (kept.tree !== signature(this.nodes) || kept.now > t + 1 || t - kept.now > this.lengthS) return;
       this.begin = kept.begin;
       for (const [uid, numbers] of kept.nodeTraces) {
         const nodeTrace = this.nodeTrace(uid);
@@ -174,6 +191,18 @@ export class Trace {
     if (!nodeTrace) this.nodeTraces.set(uid, (nodeTrace = new NodeTrace()));
     return nodeTrace;
   }
+}
+
+/** Returns a key for each node that lasts over changes: the ids of the SubTree blocks around it, and its own. */
+function keysOf(nodes: readonly TreeNode[]): Map<number, string> {
+  const keys = new Map<number, string>();
+  const scopes = new Map<number, string>();
+  for (const { uid, parent, type, node_id } of nodes) {
+    const scope = scopes.get(parent) ?? '';
+    keys.set(uid, `${scope}/${node_id}`);
+    scopes.set(uid, type === 'SubTree' ? `${scope}/${node_id}` : scope);
+  }
+  return keys;
 }
 
 const round = (seconds: number) => Math.round(seconds * 100) / 100;

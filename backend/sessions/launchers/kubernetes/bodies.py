@@ -1,0 +1,110 @@
+"""Makes pods and secrets of sessions from the template `docker/kubernetes/executor-pod.yaml`. Pure.
+
+The template is a whole pod. Of it only names, labels and the names of the secret are replaced, so that what
+an administrator has reviewed and bounded is what runs.
+"""
+
+from __future__ import annotations
+
+import copy
+from typing import TYPE_CHECKING, Any, Final
+
+import msgspec
+import yaml
+from lightkube.resources.core_v1 import Pod
+
+if TYPE_CHECKING:
+    from backend.sessions.launchers.base import Spec
+    from backend.sessions.manager.certificate import Certificate
+
+__all__ = ["PORT", "SESSION_LABEL", "TemplateError", "pod_body", "pod_name", "read_template", "secret_body"]
+
+PORT: Final = 7163
+SESSION_LABEL: Final = "bt-studio/session"
+"""The label of pods of sessions, with the id of the session."""
+_SECRET: Final = "SESSION"  # noqa: S105 - the name of the secret in the template
+
+
+class TemplateError(ValueError):
+    """Raised when a file is no template of the pods of sessions; the text says what is wrong."""
+
+
+def read_template(text: str) -> dict[str, Any]:
+    """Returns the template that a YAML file holds.
+
+    Raises:
+        TemplateError: it is no pod with one container that has the secret of its session.
+    """
+    try:
+        found = yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise TemplateError(f"it is not YAML: {error}") from error
+    if not isinstance(found, dict) or found.get("kind") != "Pod" or found.get("apiVersion") != "v1":
+        raise TemplateError("it does not hold one pod (apiVersion: v1, kind: Pod)")
+    containers = (found.get("spec") or {}).get("containers")
+    if not isinstance(containers, list) or len(containers) != 1:
+        raise TemplateError("its pod does not have one container")
+    if _renamed(found, "") == found:
+        raise TemplateError(
+            f"its container does not name the secret {_SECRET}, which holds token and certificate"
+        )
+    try:
+        kept = msgspec.to_builtins(msgspec.convert(found, Pod))
+    except msgspec.ValidationError as error:
+        raise TemplateError(f"it is no pod: {error}") from error
+    if lost := _lost(found, kept):
+        raise TemplateError(f"Kubernetes knows no field {lost}")
+    return found
+
+
+def pod_name(session_id: str) -> str:
+    """Returns the name of a session's pod, and of its secret."""
+    return f"bt-studio-session-{session_id}"
+
+
+def pod_body(template: dict[str, Any], session_id: str) -> dict[str, Any]:
+    """Returns the pod of a session."""
+    name = pod_name(session_id)
+    body: dict[str, Any] = _renamed(copy.deepcopy(template), name)
+    metadata = body.setdefault("metadata", {})
+    metadata["name"] = name
+    metadata["labels"] = {**metadata.get("labels", {}), SESSION_LABEL: session_id}
+    return body
+
+
+def secret_body(spec: Spec, made: Certificate, pod_uid: str) -> dict[str, Any]:
+    """Returns the secret of a session: its token, certificate and key. It goes with its pod."""
+    name = pod_name(spec.session_id)
+    owner = {"apiVersion": "v1", "kind": "Pod", "name": name, "uid": pod_uid}
+    return {
+        "apiVersion": "v1",
+        "kind": "Secret",
+        "metadata": {"name": name, "labels": {SESSION_LABEL: spec.session_id}, "ownerReferences": [owner]},
+        "immutable": True,
+        "stringData": {"token": spec.token, "tls.crt": made.certificate, "tls.key": made.key},
+    }
+
+
+def _lost(asked: Any, kept: Any, at: str = "") -> str:
+    """Returns the place of the first field of a template that its pod does not have; "" if it has all."""
+    if isinstance(asked, dict) and isinstance(kept, dict):
+        for key, value in asked.items():
+            place = f"{at}.{key}".removeprefix(".")
+            if key not in kept and value is not None:
+                return place
+            if lost := _lost(value, kept.get(key), place):
+                return lost
+    if isinstance(asked, list) and isinstance(kept, list):
+        for number, (part, other) in enumerate(zip(asked, kept, strict=True)):
+            if lost := _lost(part, other, f"{at}[{number}]"):
+                return lost
+    return ""
+
+
+def _renamed(value: Any, name: str) -> Any:
+    """Returns a part of a template with the name of the secret in place of the template's."""
+    if isinstance(value, dict):
+        return {key: _renamed(part, name) for key, part in value.items()}
+    if isinstance(value, list):
+        return [_renamed(part, name) for part in value]
+    return name if value == _SECRET else value

@@ -1,0 +1,250 @@
+"""Starts and ends the pods of sessions."""
+
+from __future__ import annotations
+
+import logging
+import math
+import socket
+from time import monotonic, sleep
+from typing import TYPE_CHECKING, Any, Final, TypeVar
+
+import httpx2
+import msgspec
+from django.core.exceptions import ImproperlyConfigured
+from lightkube import ApiError, Client, KubeConfig
+from lightkube.config.client_adapter import verify_cluster
+from lightkube.config.models import User
+from lightkube.core.exceptions import ConfigError
+from lightkube.resources.core_v1 import Pod, Secret
+
+from backend.sessions.errors import HostFullError, LaunchError
+from backend.sessions.launchers.base import UNKNOWN_EXIT, Launcher, Spec, Started, State
+from backend.sessions.launchers.kubernetes.bodies import (
+    PORT,
+    SESSION_LABEL,
+    TemplateError,
+    pod_body,
+    pod_name,
+    read_template,
+    secret_body,
+)
+from backend.sessions.launchers.kubernetes.ends import Cause, read_pod
+from backend.sessions.launchers.kubernetes.pods import Pods
+from backend.sessions.manager.certificate import make_certificate
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from lightkube.config.kubeconfig import SingleConfig
+
+    from backend.sessions.launchers.kubernetes.ends import Seen
+
+__all__ = ["KubernetesLauncher", "open_cluster", "read_settings"]
+
+log = logging.getLogger(__name__)
+
+FORBIDDEN: Final = 403
+NOT_FOUND: Final = 404
+CONFLICT: Final = 409
+TOO_MANY: Final = 429
+QUOTA: Final = "exceeded quota"
+LAST_GRACE_S: Final = 5.0
+"""How long a pod that was killed may need to disappear."""
+UNKNOWN_S: Final = 15.0
+"""How long a pod of which nothing is known counts as running."""
+_SHORTEST_PAUSE_S: Final = 0.5
+# A watch waits for the next event without a limit: a connection that is lost silently must end by itself.
+_KEPT_ALIVE: Final = (
+    (socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1),
+    (socket.IPPROTO_TCP, socket.TCP_KEEPIDLE, 15),
+    (socket.IPPROTO_TCP, socket.TCP_KEEPINTVL, 5),
+    (socket.IPPROTO_TCP, socket.TCP_KEEPCNT, 3),
+)
+Made = TypeVar("Made", Pod, Secret)
+
+
+def open_cluster(template: Path, namespace: str) -> KubernetesLauncher:
+    """Returns the launcher of the cluster in which this server runs, or that `KUBECONFIG` names.
+
+    Args:
+        template: the file of the pod that is made for each session.
+        namespace: the namespace in which pods are made.
+
+    Raises:
+        ImproperlyConfigured: there is no such cluster, or the file is no such template.
+    """
+    config, made = read_settings(template)
+    verify = verify_cluster(config.cluster, config.user or User(), config.abs_file)
+    transport = httpx2.HTTPTransport(verify=verify, socket_options=_KEPT_ALIVE)
+    return KubernetesLauncher(Client(config=config, namespace=namespace, transport=transport), made)
+
+
+def read_settings(template: Path) -> tuple[SingleConfig, dict[str, Any]]:
+    """Returns the cluster and the template, as `open_cluster` finds them; contacts nobody.
+
+    Raises:
+        ImproperlyConfigured: there is no such cluster, or the file is no such template.
+    """
+    try:
+        made = read_template(template.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, TemplateError) as error:
+        raise ImproperlyConfigured(f"BT_STUDIO_POD_TEMPLATE: {template} cannot be used: {error}.") from error
+    sentence = "BT_STUDIO_LAUNCHER=kubernetes: this is no pod of a cluster, and KUBECONFIG names none"
+    try:
+        config = KubeConfig.from_env().get()
+    except (ConfigError, OSError) as error:
+        raise ImproperlyConfigured(f"{sentence}: {error}.") from error
+    if config is None or config.user is None:
+        raise ImproperlyConfigured(f"{sentence}: it has no current context with a user.")
+    return config, made
+
+
+class KubernetesLauncher(Launcher):
+    """Starts executors as pods of one namespace.
+
+    Args:
+        client: the client of the cluster, for the namespace of the sessions.
+        template: the pod that is made for each session (`bodies.read_template`).
+    """
+
+    name = "kubernetes"
+    survives_server = True
+    starts_at_once = 64
+
+    def __init__(self, client: Client, template: dict[str, Any]) -> None:
+        self._client = client
+        self._template = template
+        # msgspec, which reads the objects, does not end if two threads meet a type for the first time.
+        msgspec.convert({}, Pod)
+        msgspec.convert({}, Secret)
+        self._pods = Pods(client)
+        self._unknown_since: dict[str, float] = {}
+
+    def start(self, spec: Spec) -> Started:
+        """Makes a pod and its secret, and waits until the manager in it listens."""
+        deadline_s = monotonic() + spec.start_timeout_s
+        made = make_certificate(spec.session_id)
+        name = pod_name(spec.session_id)
+        pod = self._create(msgspec.convert(pod_body(self._template, spec.session_id), Pod), deadline_s)
+        uid = (pod.metadata.uid if pod.metadata else None) or ""
+
+        def is_decided(seen: Seen | None) -> bool:
+            return seen is not None and seen.uid == uid and seen.is_decided
+
+        try:
+            self._create(msgspec.convert(secret_body(spec, made, uid), Secret), deadline_s)
+            seen, _ = self._pods.wait(name, is_decided, deadline_s)
+            if seen is None or not seen.is_ready:
+                raise _not_started(seen, spec.start_timeout_s)
+        except BaseException:
+            self.stop({"pod": name}, timeout_s=0)
+            raise
+        host = f"[{seen.address}]" if ":" in seen.address else seen.address
+        return Started(f"wss://{host}:{PORT}#{made.digest}", {"pod": name, "uid": uid})
+
+    def poll(self, state: State) -> int | None:
+        """Returns what is known of the pod. While the cluster does not answer, executors count as running."""
+        name = state["pod"]
+        seen = self._pods.get(name)
+        if seen is not None:
+            self._unknown_since.pop(name, None)
+            return seen.exit_status
+        if not self._pods.are_listed:
+            return None
+        # Another web server may have made the pod just now.
+        since_s = self._unknown_since.setdefault(name, monotonic())
+        return UNKNOWN_EXIT if monotonic() - since_s > UNKNOWN_S else None
+
+    def explain(self, state: State) -> str:
+        """Returns the reason why a pod ended, if more is known than its status; otherwise ""."""
+        seen = self._pods.get(state["pod"])
+        return seen.trouble.text if seen and seen.trouble else ""
+
+    def stop(self, state: State, *, timeout_s: float) -> None:
+        """Deletes the pod, with time for the manager to end; its secret goes with it."""
+        name = state["pod"]
+        for grace_s in (timeout_s, 0.0):
+            if not self._delete(name, grace_s):
+                return
+            deadline_s = monotonic() + grace_s + LAST_GRACE_S
+            if self._pods.wait(name, _is_over, deadline_s)[1]:
+                return
+        log.warning("the pod %s does not end", name)
+
+    def running(self) -> list[str]:
+        """Returns the ids of the sessions whose pods have not ended, as the cluster says now."""
+        try:
+            listed = list(self._client.list(Pod, labels={SESSION_LABEL: None}, chunk_size=500))
+        except (httpx2.HTTPError, OSError) as error:
+            log.warning("the cluster does not list the pods of sessions: %s", error)
+            return []
+        living = [pod.metadata for pod in listed if read_pod(pod).exit_status is None]
+        return [found.labels[SESSION_LABEL] for found in living if found and found.labels]
+
+    def state_of(self, session_id: str) -> dict[str, Any]:
+        """Returns the state by which a pod is found, from the id of its session."""
+        return {"pod": pod_name(session_id)}
+
+    def close(self) -> None:
+        """Ends the watch over the pods, which stay."""
+        self._pods.close()
+
+    def _create(self, body: Made, deadline_s: float) -> Made:
+        """Makes an object; asks again while the cluster has too many requests.
+
+        Raises:
+            HostFullError: the quota of the namespace is used up, or the pod's last one has not gone yet.
+            LaunchError: the cluster refuses the object, or does not answer.
+        """
+        while True:
+            try:
+                return self._client.create(body)
+            except ApiError as error:
+                if error.status.code != TOO_MANY or monotonic() >= deadline_s:
+                    raise _refused(error) from error
+                sleep(_pause_s(error))
+            except (httpx2.HTTPError, OSError) as error:
+                if body.metadata and body.metadata.name:  # it may have been made all the same
+                    self._delete(body.metadata.name, 0.0)
+                raise LaunchError(f"The cluster does not answer: {error}.") from error
+
+    def _delete(self, name: str, grace_s: float) -> bool:
+        """Asks for the end of a pod; returns False if there is none."""
+        try:
+            self._client.delete(Pod, name, grace_period=math.ceil(grace_s))
+        except ApiError as error:
+            if error.status.code == NOT_FOUND:
+                return False
+            log.warning("the pod %s is not deleted: %s", name, error.status.message)
+        except (httpx2.HTTPError, OSError) as error:
+            log.warning("the pod %s is not deleted: %s", name, error)
+        return True
+
+
+def _is_over(seen: Seen | None) -> bool:
+    return seen is None or seen.exit_status is not None
+
+
+def _refused(error: ApiError) -> LaunchError | HostFullError:
+    text = error.status.message or str(error)
+    if error.status.code == FORBIDDEN and QUOTA in text:
+        return HostFullError(f"The robots of this server have used up their part of the cluster. ({text})")
+    if error.status.code == CONFLICT:
+        return HostFullError("The last executor of this session has not ended yet.")
+    return LaunchError(f"The cluster refused the executor: {text}", hint="Ask who runs this server.")
+
+
+def _not_started(seen: Seen | None, timeout_s: float) -> LaunchError | HostFullError:
+    """Returns why a pod did not become ready."""
+    if seen is not None and seen.trouble is not None:
+        kind = HostFullError if seen.trouble.cause is Cause.NO_ROOM else LaunchError
+        return kind(seen.trouble.text)
+    if seen is not None and seen.exit_status is not None:
+        return LaunchError(f"The executor ended while it started (status {seen.exit_status}).")
+    return LaunchError(f"The executor was not ready within {timeout_s:.0f} s.")
+
+
+def _pause_s(error: ApiError) -> float:
+    """Returns how long the cluster asks to wait, in s."""
+    asked = error.response.headers.get("Retry-After", "") if error.response is not None else ""
+    return max(_SHORTEST_PAUSE_S, float(asked) if asked.isdecimal() else 0.0)

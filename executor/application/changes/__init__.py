@@ -1,0 +1,1 @@
+"""Changes of a running program: ports, and the whole project."""

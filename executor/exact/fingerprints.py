@@ -1,0 +1,56 @@
+"""Fingerprints of the ticks of an exact run: two runs that have the same ones did the same."""
+
+from __future__ import annotations
+
+import struct
+from hashlib import blake2b
+from typing import TYPE_CHECKING, Any
+
+from executor.replay_messages import FINGERPRINT_BYTES
+
+if TYPE_CHECKING:
+    from executor.world.interface import World
+    from tree_gardener import TickChanges, Tree
+
+__all__ = ["Fingerprints"]
+
+_PLAIN = (bool, int, float, str, bytes, type(None))
+
+
+class Fingerprints:
+    """Computes the fingerprint of each tick: time, poses, statuses, and what was written.
+
+    A value of the blackboard without a plain form counts by its type.
+    """
+
+    def __init__(self, world: World) -> None:
+        self._world = world
+        self._changes: list[TickChanges] = []
+
+    def follow(self, tree: Tree) -> None:
+        """Observes a tree."""
+        tree.observe(self._changes.append)
+
+    def take(self) -> bytes:
+        """Returns the fingerprint of what happened since the last call."""
+        changes, self._changes[:] = list(self._changes), []
+        digest = blake2b(struct.pack("<d", self._world.time_s), digest_size=FINGERPRINT_BYTES)
+        digest.update(self._world.read_poses()().tobytes())
+        for robot in self._world.robots:
+            digest.update(struct.pack("<3d", *robot.pose))
+        for change in changes:
+            digest.update(repr(_plain(change)).encode())
+        return digest.digest()
+
+
+def _plain(change: TickChanges) -> Any:
+    statuses = [[(uid, status.name) for uid, status in part] for part in (change.changed, change.flashed)]
+    written = [
+        (entry.scope, entry.key, _value(entry.value) or entry.type, entry.removed)
+        for entry in change.blackboard
+    ]
+    return change.tick, statuses, written
+
+
+def _value(value: Any) -> str:
+    return repr(value) if isinstance(value, _PLAIN) else ""

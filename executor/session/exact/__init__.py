@@ -1,0 +1,1 @@
+"""Exact runs in a session."""

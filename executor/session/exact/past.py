@@ -1,0 +1,172 @@
+"""Keeps what an exact run had from outside: enough to make it again, up to any moment.
+
+It is kept here, not in the run, since a run may die of what it does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Final
+
+import msgspec
+
+from executor import child_messages
+from executor.child_messages import decode_to_exact
+from executor.replay_messages import FINGERPRINT_BYTES, Replay
+from executor.run_inputs import input_of
+
+if TYPE_CHECKING:
+    from executor.child_messages import Differs, Entered, Fingerprints, StartApplication, WentBack
+    from executor.replay_messages import Input
+
+    Said = Entered | Fingerprints | Differs | WentBack
+
+__all__ = ["MOST_FOLDERS", "MOST_INPUT_BYTES", "MOST_RUNS", "PastRun", "PastRuns"]
+
+MOST_RUNS: Final = 8
+MOST_FOLDERS: Final = 8
+MOST_INPUT_BYTES: Final = 32 << 20
+OWN_BYTES: Final = 256
+"""The memory that an input takes beside its message, about."""
+MOST_TICKS: Final = 2_000_000
+TOO_MUCH: Final = "More was done by hand in this run than is kept"
+TOO_MANY_CHANGES: Final = f"The tree of this run was changed more than {MOST_FOLDERS - 1} times"
+DAMAGED: Final = "What this run had from outside cannot be read"
+TOO_LONG: Final = "This run is too long"
+
+
+@dataclass
+class PastRun:
+    """One run.
+
+    Attributes:
+        start: the message with which it was started.
+        run: its name in the recordings; "" if it is not recorded.
+        inputs: what came from outside, in order.
+        fingerprints: those of its ticks.
+        resets: how often its world was reset.
+        refusal: why it cannot be made again, as the begin of a sentence; "" if it can.
+        folders: the folders with the programs that it used.
+    """
+
+    start: StartApplication
+    run: str = ""
+    inputs: list[Input] = field(default_factory=list)
+    fingerprints: bytearray = field(default_factory=bytearray)
+    resets: int = 0
+    refusal: str = ""
+    folders: tuple[str, ...] = ()
+    input_bytes: int = 0
+    has_begun: bool = False
+
+    def replay(self, until_s: float | None) -> Replay:
+        """Returns how it is made again up to a moment in s; with None, to its end."""
+        return Replay(list(self.inputs), bytes(self.fingerprints), until_s, self.resets)
+
+    def enter(self, entered: Entered) -> None:
+        """Takes something that came from outside."""
+        if self.refusal:
+            return
+        self.inputs.append(entered.input)
+        self.input_bytes += len(entered.input.message) + OWN_BYTES
+        if self.input_bytes > MOST_INPUT_BYTES:
+            self._give_up(TOO_MUCH)
+            return
+        try:
+            command = input_of(decode_to_exact(entered.input.message))
+        except msgspec.MsgspecError:  # users' code runs in the process that sent it
+            self._give_up(DAMAGED)
+            return
+        if isinstance(command, child_messages.Reset):
+            self.resets += 1
+        elif isinstance(command, child_messages.ApplyApplication):
+            self.folders += (command.app_dir,)
+            if len(self.folders) > MOST_FOLDERS:
+                self._give_up(TOO_MANY_CHANGES)
+
+    def tick(self, told: Fingerprints) -> None:
+        """Takes the fingerprints of more ticks."""
+        self.fingerprints += told.data
+        if len(self.fingerprints) > MOST_TICKS * FINGERPRINT_BYTES:
+            self._give_up(TOO_LONG)
+
+    def until(self, reached: WentBack) -> PastRun:
+        """Returns the run as it was at a moment at which another branch begins."""
+        return replace(
+            self,
+            inputs=self.inputs[: reached.inputs],
+            fingerprints=self.fingerprints[: reached.ticks * FINGERPRINT_BYTES],
+            resets=reached.resets,
+        )
+
+    def copy(self) -> PastRun:
+        """Returns a copy that continues by itself."""
+        return replace(self, inputs=list(self.inputs), fingerprints=bytearray(self.fingerprints))
+
+    def _give_up(self, refusal: str) -> None:
+        self.refusal = refusal
+        self.inputs, self.fingerprints, self.folders = [], bytearray(), ()
+
+
+class PastRuns:
+    """The last exact runs in the present world, the newest last; the newest is the present one."""
+
+    def __init__(self) -> None:
+        self._runs: list[PastRun] = []
+
+    def begin(self, start: StartApplication) -> None:
+        """Adds a run that was started."""
+        self._add(PastRun(start, folders=(start.app_dir,)))
+
+    def name(self, run: str) -> None:
+        """Gives the present run the name of its recording."""
+        if self._runs:
+            self._runs[-1].run, self._runs[-1].has_begun = run, True
+
+    def reset(self, run: str) -> None:
+        """Begins another recording of the present run, whose world was reset."""
+        if self._runs:
+            self._add(replace(self._runs[-1].copy(), run=run))
+
+    def branch(self, run: PastRun, reached: WentBack) -> None:
+        """Adds a run that continues another one from a moment."""
+        self._add(replace(run.until(reached), run=""))
+
+    def forget(self) -> None:
+        """Forgets all runs: the world in which they were is gone."""
+        self._runs.clear()
+
+    def drop_unborn(self) -> None:
+        """Forgets a run that did not begin."""
+        if self._runs and not self._runs[-1].has_begun:
+            del self._runs[-1]
+
+    def find(self, run: str) -> PastRun | None:
+        """Returns a run by its name, the present or last one for ""; None if it is not known."""
+        if not run:
+            return self._runs[-1] if self._runs else None
+        return next((each for each in reversed(self._runs) if each.run == run), None)
+
+    def said(self, message: Said) -> None:
+        """Takes what the present run says about itself."""
+        if not self._runs:
+            return
+        if isinstance(message, child_messages.Entered):
+            self._runs[-1].enter(message)
+        elif isinstance(message, child_messages.Fingerprints):
+            self._runs[-1].tick(message)
+
+    @property
+    def names(self) -> list[str]:
+        """The names of the recorded runs that can be made again, the newest last."""
+        return [run.run for run in self._runs if run.run and not run.refusal]
+
+    @property
+    def folders(self) -> frozenset[str]:
+        """The folders that are needed to make these runs again."""
+        return frozenset(folder for run in self._runs for folder in run.folders)
+
+    def _add(self, run: PastRun) -> None:
+        self._runs.append(run)
+        while len(self._runs) > MOST_RUNS or (len(self._runs) > 1 and len(self.folders) > MOST_FOLDERS):
+            del self._runs[0]

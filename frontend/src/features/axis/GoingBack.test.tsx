@@ -1,0 +1,53 @@
+import { act, screen } from '@testing-library/react';
+import { afterEach, beforeEach, expect, it, vi, type MockInstance } from 'vitest';
+import { show, user } from '../../../harness/testing';
+import type { Introspection } from '@/generated/messages';
+import { atPresent, useMoment } from '@/store/moment/store';
+import * as connection from '@/store/session/connection';
+import { initialSession } from '@/store/session/reduce';
+import { useSessionStore } from '@/store/session/store';
+import { segmentOf } from '../../../harness/runs';
+import { registerAxisCommands } from './commands';
+import { GoBackButton, GoingBack } from './GoingBack';
+
+let send: MockInstance<typeof connection.send>;
+const driver = { role: 'driver' } as Introspection;
+
+beforeEach(() => {
+  send = vi.spyOn(connection, 'send').mockResolvedValue(undefined);
+});
+
+afterEach(() => {
+  useSessionStore.setState(initialSession, true);
+  useMoment.setState(atPresent, true);
+});
+
+it('offers the way back only where it is possible', async () => {
+  const unregister = registerAxisCommands();
+  useSessionStore.setState({
+    connection: 'open',
+    introspection: driver,
+    segments: [segmentOf({ run: 'a', to_t: 8 })],
+  });
+  useMoment.setState({ t: 2 });
+  show(<GoBackButton />);
+  expect(screen.queryByRole('button')).toBeNull();
+  act(() => useSessionStore.setState({ repeatableRuns: ['a'] }));
+  await user.click(screen.getByRole('button', { name: 'Go back to here' }));
+  expect(send).toHaveBeenCalledWith('go_back', { run: 'a', t: 2 });
+  expect(screen.queryByRole('button')).toBeNull(); // the present is shown
+  unregister();
+});
+
+it('shows how far the run is on its way, and ends it for the driver', async () => {
+  useSessionStore.setState({ introspection: driver });
+  show(<GoingBack />);
+  expect(screen.queryByRole('status')).toBeNull();
+  act(() => useSessionStore.setState({ goingBack: 0.45 }));
+  expect(screen.getByRole('status').textContent).toContain('made again');
+  expect(screen.getByRole('progressbar').getAttribute('aria-valuenow')).toBe('45');
+  await user.click(screen.getByRole('button', { name: 'Cancel' }));
+  expect(send).toHaveBeenCalledWith('cancel', {});
+  act(() => useSessionStore.setState({ introspection: { role: 'viewer' } as Introspection }));
+  expect(screen.queryByRole('button')).toBeNull();
+});

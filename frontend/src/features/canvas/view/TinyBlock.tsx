@@ -1,0 +1,12 @@
+import type { NodeProps } from '@xyflow/react';
+import { memo } from 'react';
+import type { BlockNode } from '../flow';
+import classes from '../Canvas.module.css';
+
+/** A block that has a few pixels: the picture of the whole tree shows it, and this is what is pressed. */
+export const TinyBlock = memo(
+  function TinyBlock({ id, data }: NodeProps<BlockNode>) {
+    return <div className={classes['tinyBlock']} data-testid={`node-${id}`} data-type={data.node.type} />;
+  },
+  (a, b) => a.data === b.data,
+);

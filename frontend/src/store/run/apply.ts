@@ -1,0 +1,39 @@
+import { create } from 'zustand';
+import type { Applied } from '@/generated/messages';
+import { useSessionStore } from '@/store/session/store';
+import { useRunStore } from './store';
+
+interface Asking {
+  /** The plan of *Apply* to which the user must agree; null if there is none. */
+  readonly plan: Applied | null;
+  readonly answer: (agrees: boolean) => void;
+}
+
+const nobody: Asking = { plan: null, answer: () => undefined };
+
+/** The question whether a changed tree may halt what runs. */
+export const useApplyQuestion = create<Asking>(() => nobody);
+
+/** Waits for the next answer to *Apply*. Events reach the store a frame after the reply. */
+export function nextPlan(): Promise<Applied> {
+  return new Promise((resolve) => {
+    const end = useSessionStore.subscribe(({ applied }, before) => {
+      if (applied === null || applied === before.applied) return;
+      end();
+      resolve(applied);
+    });
+  });
+}
+
+/** Returns whether a plan does something that the user must know before. */
+export const asksFirst = ({ halted, late_ports }: Applied): boolean =>
+  halted.length > 0 || late_ports.length > 0;
+
+/** Asks the user if need be; resolves to whether the tree is to be replaced. */
+export async function agreesTo(plan: Applied): Promise<boolean> {
+  if (!asksFirst(plan)) return true;
+  useRunStore.setState({ stage: null });
+  const agrees = await new Promise<boolean>((answer) => useApplyQuestion.setState({ plan, answer }));
+  useApplyQuestion.setState(nobody);
+  return agrees;
+}

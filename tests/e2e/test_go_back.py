@@ -1,0 +1,72 @@
+"""An exact run is taken back to a moment, and runs on from there."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.e2e.accessibility import expect_no_findings
+from tests.e2e.server import wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from playwright.sync_api import Browser
+
+    from tests.e2e.studio import Studio
+
+pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
+
+
+def test_an_exact_run_goes_back_and_runs_on(
+    open_studio: Callable[[Browser], Studio], browser_without_webgl: Browser
+) -> None:
+    studio = open_studio(browser_without_webgl)
+    page = studio.page
+    studio.new_from("laser_bump_and_go")
+    studio.command("Time of the next run: exact")
+    studio.saved()
+    studio.run()
+    wait_until(lambda: studio.stat("t") > 5, "the robot drives for a while")
+    studio.at("pause").click()
+    studio.expect_state("paused")
+    expect(studio.at("axis-go-back")).to_have_count(0)
+
+    studio.at("axis-strip").focus()
+    for _ in range(3):
+        page.keyboard.press("Shift+ArrowLeft")
+    expect(studio.at("axis-go-back")).to_be_visible()
+    wait_until(lambda: studio.at("time-axis").get_attribute("data-shown") is not None, "the past is shown")
+    moment = float(studio.at("time-axis").get_attribute("data-shown") or "nan")
+    for scheme in ("dark", "light"):
+        page.evaluate("s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme)
+        expect_no_findings(page, f"the way back is offered, {scheme}")
+        studio.picture(f"go-back-{scheme}")
+    page.set_viewport_size({"width": 390, "height": 800})
+    expect(studio.at("axis-go-back")).to_be_in_viewport()
+    studio.picture("go-back-narrow")
+    page.set_viewport_size({"width": 1440, "height": 900})
+    page.keyboard.press("Alt+b")
+    wait_until(lambda: abs(studio.stat("t") - moment) < 0.2, "world and program are back")
+    studio.expect_state("paused")
+    expect(studio.at("axis-run")).to_contain_text("of run 1")
+    studio.picture("gone-back")
+    page.set_viewport_size({"width": 390, "height": 800})
+    studio.picture("gone-back-narrow")
+    page.set_viewport_size({"width": 1440, "height": 900})
+
+    studio.at("resume").click()
+    studio.expect_state("application_running")
+    wait_until(lambda: studio.stat("t") > moment + 1, "it runs on")
+    studio.at("pause").click()
+    studio.expect_state("paused")
+    studio.at("axis-run").select_option(index=1)
+    expect(studio.at("time-axis")).to_have_attribute("data-past", "true")
+    studio.at("axis-strip").focus()
+    page.keyboard.press("End")
+    studio.at("axis-go-back").click()
+    wait_until(lambda: studio.stat("t") > moment + 2, "the run before is at its end again")
+    studio.expect_state("paused")
+    studio.end_session()

@@ -1,0 +1,110 @@
+"""The project whose tree runs, and a changed one that is loaded beside it."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from executor.application.changes.program import NoTreeError, Program
+from tests.executor.application.real_application import action
+from tree_gardener import LoadError, ManualClock
+
+TREE = "<Sequence _bts_id='s'><Act _bts_id='a'/><Other _bts_id='o'/></Sequence>"
+
+
+def written(folder: Path, tree: str = TREE, *, helper: str = "", extra: str = "", **actions: str) -> Path:
+    folder.mkdir()
+    code = "".join(
+        f"<Action name='{name}'><![CDATA[{source.replace('class Act(', f'class {name}(')}]]></Action>"
+        for name, source in actions.items()
+    )
+    text = f"<root BTCPP_format='4'><BehaviorTree ID='Main'>{tree}</BehaviorTree><Code>{code}</Code></root>"
+    (folder / "self_contained_tree.xml").write_text(text)
+    if helper:
+        (folder / "helper.py").write_text(helper)
+    if extra:
+        (folder / "extra.txt").write_text(extra)
+    return folder
+
+
+RUNS = action("def update(self):\n    return Status.RUNNING")
+ENDS = action("def update(self):\n    return Status.SUCCESS")
+HELPED = "import helper\n" + action(
+    "def update(self):\n    return Status.RUNNING if helper.WAITS else Status.SUCCESS"
+)
+
+
+@pytest.fixture
+def program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Makes a program in a folder, and leaves no trace of it."""
+    monkeypatch.chdir(tmp_path)
+    paths, modules = list(sys.path), dict(sys.modules)
+    yield lambda folder: Program(folder, ManualClock())
+    sys.path[:] = paths
+    for name in [name for name in sys.modules if name not in modules]:
+        del sys.modules[name]
+
+
+def test_an_action_whose_code_is_the_same_keeps_its_class(program, tmp_path: Path):
+    running = program(written(tmp_path / "1", Act=RUNS, Other=ENDS))
+    tree = running.load()
+    classes = [type(node.behaviour) for node in tree.nodes[1:]]
+    change = running.change(written(tmp_path / "2", Act=RUNS, Other=RUNS), tree)
+    again = [type(node.behaviour) for node in change.swap.new.nodes[1:]]
+    assert again[0] is classes[0]
+    assert again[1] is not classes[1]
+    assert Path.cwd() == tmp_path / "2"
+
+
+def test_an_action_changes_with_a_module_that_it_imports(program, tmp_path: Path):
+    running = program(written(tmp_path / "1", helper="WAITS = True", Act=HELPED, Other=ENDS))
+    tree = running.load()
+    tree.tick_exactly_once()
+    same = running.change(written(tmp_path / "2", helper="WAITS = True", Act=HELPED, Other=ENDS), tree)
+    assert same.swap.plan.halted == ()
+    same.undo()
+    change = running.change(written(tmp_path / "3", helper="WAITS = False", Act=HELPED, Other=ENDS), tree)
+    assert change.swap.plan.halted == (("a",),)
+    assert change.swap.run().tick_exactly_once().name == "SUCCESS"
+
+
+def test_a_change_that_is_undone_leaves_folder_modules_and_classes(program, tmp_path: Path):
+    running = program(written(tmp_path / "1", helper="WAITS = True", Act=HELPED, Other=ENDS))
+    tree = running.load()
+    before = sys.modules["actions.Act"], sys.modules["helper"], list(sys.path), list(sys.meta_path)
+    change = running.change(written(tmp_path / "2", helper="WAITS = False", Act=HELPED, Other=RUNS), tree)
+    change.undo()
+    assert (sys.modules["actions.Act"], sys.modules["helper"], sys.path, sys.meta_path) == before
+    assert Path.cwd() == tmp_path / "1"
+    assert tree.tick_exactly_once().name == "RUNNING"
+
+
+@pytest.mark.parametrize(
+    ("tree", "code", "text"),
+    [
+        ("<Sequence _bts_id='s'/>", RUNS, "Sequence has 0 children"),
+        (TREE, "def", "Python cannot read it"),
+        (TREE, "raise ValueError('no')", "ValueError: no"),
+    ],
+)
+def test_a_project_that_does_not_load_changes_nothing(program, tmp_path: Path, tree, code, text):
+    running = program(written(tmp_path / "1", Act=RUNS, Other=ENDS))
+    old = running.load()
+    module = sys.modules["actions.Act"]
+    with pytest.raises(LoadError, match=text):
+        running.change(written(tmp_path / "2", tree, Act=code, Other=ENDS), old)
+    assert sys.modules["actions.Act"] is module
+    assert Path.cwd() == tmp_path / "1"
+
+
+def test_a_folder_without_a_project_is_refused_and_a_later_change_works(program, tmp_path: Path):
+    running = program(written(tmp_path / "1", Act=RUNS, Other=ENDS))
+    tree = running.load()
+    (tmp_path / "2").mkdir()
+    for folder in (tmp_path / "2", tmp_path / "nowhere"):
+        with pytest.raises(NoTreeError, match="the project has no"):
+            running.change(folder, tree)
+    assert Path.cwd() == tmp_path / "1"
+    assert running.change(written(tmp_path / "3", Act=RUNS, Other=ENDS), tree).swap.plan.halted == ()

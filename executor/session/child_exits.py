@@ -8,10 +8,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from executor import messages
-from executor.session import steps
+from executor.child_messages import Finished
 from executor.session.exact import hosting
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.questions import answer_late
+from executor.session.running import stop_moving
 
 if TYPE_CHECKING:
     from executor.session.child import Child
@@ -33,6 +34,8 @@ def exited(stage: Stage, event: ChildExited) -> None:
     if child.is_stopping:
         _stopped(stage)
         return
+    if child.said(Finished) is not None:
+        return  # the step that begins the run says so, when it comes to its end
     what = "The simulated world" if event.kind == "world" else "The application"
     message = f"{what} {event.reason}."
     lines = "\n".join(event.last_lines)
@@ -71,6 +74,6 @@ def _fall(stage: Stage, child: Child, message: str) -> None:
         stage.run.universe = None
         stage.children.drop("application", reason="was ended, since the simulated world is gone")
     else:
-        steps.stop_moving(stage)
+        stop_moving(stage)
     stage.enter(rung, message)
     stage.children.replenish()

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from executor import child_messages, messages
 from executor.child_messages import Fault, Finished
-from executor.session import child_events, child_exits, immediate, steps, streaming
+from executor.session import child_events, child_exits, immediate, running, steps, streaming
 from executor.session.children import Children
 from executor.session.clients import Clients
 from executor.session.debugger import attaching, holding
@@ -65,7 +65,6 @@ __all__ = ["Session"]
 _log = logging.getLogger(__name__)
 
 _CLIMBING: Final = frozenset({"launch_universe", "run_application", "run", "restart_application", "go_back"})
-RETIRE_GRACE_S: Final = 2.0
 
 
 @dataclass
@@ -279,18 +278,20 @@ class Session:
     def _after_forward(self, child: Child, message: Struct) -> None:
         """Leaves the state of a running application after the run, and stops the robot when a tick hangs."""
         if isinstance(message, Finished) and self.state in HAS_APPLICATION and not child.is_stopping:
-            steps.stop_moving(self)
-            self.children.drop(child.kind, grace_s=RETIRE_GRACE_S, reason="finished its run")
-            self.enter(State.VISUALIZATION_READY, message.message or "The run ended.")
-            self.children.replenish()
-            if self.attaching is not None and self.is_free:
-                self.begin_own("restart_application", steps.restart_application(self, messages.Empty()))
+            running.retire(self, child)
+            if self.is_free:
+                self._attach_again()
         elif isinstance(message, child_messages.Entered | child_messages.Fingerprints):
             self.past.said(message)
         elif isinstance(message, child_messages.WorldState):
             hosting.give_back(self, child, message.data)
         elif isinstance(message, Fault) and message.kind == "timeout":
             self.children.tell_world(child_messages.StopRobot())
+
+    def _attach_again(self) -> None:
+        """Follows the attached program again, which was started again."""
+        if self.attaching is not None and self.state is State.VISUALIZATION_READY:
+            self.begin_own("restart_application", steps.restart_application(self, messages.Empty()))
 
     # --- commands ---------------------------------------------------------------------------------
 
@@ -370,6 +371,8 @@ class Session:
                 self._job = None
                 for client, request in job.askers:
                     self._ack(client, request)
+                if job.command in ("attach", "restart_application"):
+                    self._attach_again()
             except StepFailed as failure:
                 self._job = None
                 self._fail(job, failure)

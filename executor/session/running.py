@@ -33,10 +33,12 @@ if TYPE_CHECKING:
 
 __all__ = [
     "await_tick",
+    "begun",
     "go",
     "hold_world",
     "pause",
     "resume",
+    "retire",
     "set_blackboard",
     "step",
     "stop_moving",
@@ -46,6 +48,7 @@ __all__ = [
 TICK_PATIENCE_S: Final = 1.0
 ROUNDS_OF_PATIENCE: Final = 5
 INTERRUPT_PATIENCE_S: Final = 1.0
+RETIRE_GRACE_S: Final = 2.0
 
 
 def stop_moving(stage: Stage) -> None:
@@ -69,6 +72,31 @@ def go(stage: Stage, application: Child) -> Step:
     yield confirmed(world, "resume")
     late = "The application did not resume in time."
     yield Wait(answered(application, Resumed), REPLY_TIMEOUT_S, late)
+
+
+def begun(stage: Stage, application: Child) -> None:
+    """Enters the state of a run whose time passes, or the one after it: its first tick may have ended it.
+
+    Raises:
+        StepFailed: the application died meanwhile.
+    """
+    if application.said(Finished) is not None:
+        retire(stage, application)
+    elif application.is_alive:
+        settle(stage, application)
+    else:
+        raise StepFailed("process_died", f"The application {application.exit_reason}.")
+
+
+def retire(stage: Stage, application: Child) -> None:
+    """Leaves the state of a run that ended by itself, and lets its process end."""
+    stop_moving(stage)
+    if stage.children.get("application") is application:
+        stage.children.drop("application", grace_s=RETIRE_GRACE_S, reason="finished its run")
+    finished = application.said(Finished)
+    message = finished.message if finished is not None else ""
+    stage.enter(State.VISUALIZATION_READY, message or "The run ended.")
+    stage.children.replenish()
 
 
 def pause(stage: Stage, _: Struct) -> Step:
@@ -176,7 +204,7 @@ def resume(stage: Stage, _: Struct) -> Step:
             stage.children.tell_application(child_messages.Pause())
             stage.children.tell_world(child_messages.Pause())
         raise
-    settle(stage, application)
+    begun(stage, application)
 
 
 def step(stage: Stage, _: Struct) -> Step:

@@ -15,18 +15,17 @@ from executor import child_messages, messages
 from executor.apply_messages import Apply
 from executor.child_messages import ApplicationReady, Failed, Fault, StartWorld, WorldReady
 from executor.session import streaming
-from executor.session.debugger.holding import settle
 from executor.session.exact.going_back import go_back
 from executor.session.exact.hosting import choose, expect, host, state_of_world
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.running import (
+    begun,
     go,
     hold_world,
     pause,
     resume,
     set_blackboard,
     step,
-    stop_moving,
     terminate_application,
 )
 from executor.session.waits import (
@@ -49,7 +48,7 @@ if TYPE_CHECKING:
     from executor.session.events import Unpacked
     from executor.session.stage import Stage
 
-__all__ = ["RESET_TIMEOUT_S", "STEPS", "attach", "restart_application", "stop_moving"]
+__all__ = ["RESET_TIMEOUT_S", "STEPS", "attach", "restart_application"]
 
 Data = TypeVar("Data", bound="Struct")
 
@@ -275,7 +274,7 @@ def _await_application(stage: Stage, application: Child, tries: int = 2, state: 
             return
         stage.children.replenish()
         raise
-    settle(stage, application)
+    begun(stage, application)
 
 
 def _run(stage: Stage, data: messages.Run) -> Step:

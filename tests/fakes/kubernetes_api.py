@@ -61,6 +61,7 @@ class FakeCluster:
         self.asked: list[tuple[str, str]] = []
         self.is_dead = False
         self._objects: dict[tuple[str, str], dict[str, Any]] = {}
+        self._removals: dict[str, Callable[[], None]] = {}
         self._events: list[tuple[int, str, dict[str, Any]]] = []
         self._version = 100
         self._oldest = 0
@@ -122,11 +123,18 @@ class FakeCluster:
             pod["status"] = {**pod.get("status", {}), **status}
             self._note("MODIFIED", "pods", pod)
 
+    def when_removed(self, name: str, do: Callable[[], None]) -> None:
+        """Registers what a node does when a pod is gone."""
+        with self.changed:
+            self._removals[name] = do
+
     def remove(self, kind: str, name: str) -> None:
         with self.changed:
             found = self._objects.pop((kind, name), None)
             if found is None:
                 return
+            if kind == "pods" and (do := self._removals.pop(name, None)):
+                do()
             self._note("DELETED", kind, found)
             uid = found["metadata"]["uid"]
             for other, owned in list(self._objects.items()):

@@ -108,7 +108,10 @@ async def flagged(client, text):
     """Flags the present moment, and waits until the recording reaches it."""
     at = len(client.events)
     assert await client.ask("flag", {"text": text, "user": "somebody else"}) == "ack"
-    return (await client.event("segment", after=at))["data"]
+    flag = (await client.event("flag", lambda data: data["text"] == text, after=at))["data"]
+    return (
+        await client.event("segment", lambda d: d["run"] == flag["run"] and d["to_t"] > flag["t"], after=at)
+    )["data"]
 
 
 async def test_a_run_holds_tree_ticks_world_topics_lines_and_flags():

@@ -56,7 +56,7 @@ def first_tick_ends_the_run(play: Play, command: str) -> str:
 
 
 def the_world_confirms(play: Play) -> None:
-    """It says that its time passes, as it was told last."""
+    """It answers the last order to resume."""
     orders = [
         effect.message.request
         for effect in play.effects

@@ -17,6 +17,16 @@ class Apply(Struct, forbid_unknown_fields=True):
     dry: bool = False
 
 
+class RunOn(Struct, forbid_unknown_fields=True):
+    """Resumes a paused run, with the tree of an app zip if there is one: as `apply`, then `resume`.
+
+    After `go_back` it is what would have happened with that tree. Refused as `apply` is; then the run stays
+    paused, and its tree is as it was.
+    """
+
+    app_zip_base64: str = ""
+
+
 class AppliedNode(Struct):
     """A node of the tree: its path, and the block of the diagram from which it was made."""
 

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Final, Literal
 import msgspec
 from msgspec import Meta, Struct
 
-from executor.apply_messages import Apply
+from executor.apply_messages import Apply, RunOn
 from executor.attach_messages import Control, ServeGroot2
 from executor.debug_messages import Dap, Force, Release, SetBreakpoints, StepTo
 from executor.evaluation_events import Evaluate
@@ -257,6 +257,7 @@ COMMANDS: Final[dict[str, type[Struct]]] = {
     "resume": Empty,
     "step": Empty,
     "go_back": GoBack,
+    "run_on": RunOn,
     "cancel": Empty,
     "set_tick_rate": SetTickRate,
     "set_speed": SetSpeed,

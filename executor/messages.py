@@ -17,7 +17,7 @@ from typing import Any, Final, Literal
 
 from msgspec import UNSET, Struct, UnsetType
 
-from executor.apply_messages import Applied
+from executor.apply_messages import Applied, RunOn
 from executor.attach_messages import Attached, AttachedTree, AttachState, Control, Groot2, ServeGroot2
 from executor.command_messages import (
     COMMANDS,
@@ -138,6 +138,7 @@ __all__ = [
     "RestartNode",
     "Run",
     "RunApplication",
+    "RunOn",
     "SampledStack",
     "Scan",
     "Scene",

@@ -116,6 +116,9 @@ TABLE: Final[dict[str, Row]] = {
     "go_back": _move(
         RUNNABLE, State.PAUSED, "Takes world and program of an exact run back to a moment, and pauses there."
     ),
+    "run_on": _move(
+        frozenset({State.PAUSED}), State.APPLICATION_RUNNING, "Resumes with a changed tree, which continues."
+    ),
     "terminate_application": _move(
         RUNNABLE,
         State.VISUALIZATION_READY,

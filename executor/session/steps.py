@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final, TypeVar
 from msgspec import structs
 
 from executor import child_messages, messages
-from executor.apply_messages import Apply
+from executor.apply_messages import Apply, RunOn
 from executor.child_messages import ApplicationReady, Failed, Fault, StartWorld, WorldReady
 from executor.session import streaming
 from executor.session.exact.going_back import go_back
@@ -197,6 +197,13 @@ def _apply(stage: Stage, data: Apply) -> Step:
         return
     stage.run.folder, stage.run.plan = folder, unpacked.plan
     stage.run.application = structs.replace(stage.run.application, app_zip_base64=data.app_zip_base64)
+
+
+def _run_on(stage: Stage, data: RunOn) -> Step:
+    """Resumes, with a changed tree if there is one; where that is refused, all stays as it is."""
+    if data.app_zip_base64:
+        yield from _apply(stage, Apply(data.app_zip_base64))
+    yield from resume(stage, data)
 
 
 def restart_application(stage: Stage, data: Struct) -> Step:
@@ -417,6 +424,7 @@ STEPS: Final[dict[str, Callable[[Stage, Struct], Step]]] = {
     "run_application": _typed(messages.RunApplication, _run_application),
     "run": _typed(messages.Run, _run),
     "apply": _typed(Apply, _apply),
+    "run_on": _typed(RunOn, _run_on),
     "go_back": _typed(messages.GoBack, go_back),
     "restart_application": restart_application,
     "pause": pause,

@@ -70,3 +70,41 @@ def test_an_exact_run_goes_back_and_runs_on(
     wait_until(lambda: studio.stat("t") > moment + 2, "the run before is at its end again")
     studio.expect_state("paused")
     studio.end_session()
+
+
+def test_the_touch_of_a_crate_is_undone_from_three_seconds_before(
+    open_studio: Callable[[Browser], Studio], browser_without_webgl: Browser
+) -> None:
+    studio = open_studio(browser_without_webgl)
+    page = studio.page
+    studio.new_from("laser_bump_and_go")
+    studio.command("Time of the next run: exact")
+    studio.set_port("n4", "obs_dist", "0.3")
+    studio.saved()
+    studio.run()
+    wait_until(lambda: studio.stat("collisions") > 0, "the robot touches a crate", deadline_s=120)
+    studio.at("pause").click()
+    studio.expect_state("paused")
+    touched, before = studio.stat("t"), studio.stat("collisions")
+    studio.set_port("n4", "obs_dist", "1.2")
+    studio.saved()
+    expect(studio.at("axis-run-on")).to_be_visible()
+    studio.at("axis-strip").focus()
+    for _ in range(3):
+        page.keyboard.press("Shift+ArrowLeft")
+    wait_until(lambda: studio.at("time-axis").get_attribute("data-shown") is not None, "the past is shown")
+    for scheme in ("dark", "light"):
+        page.evaluate("s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme)
+        expect_no_findings(page, f"to run on is offered, {scheme}")
+        studio.picture(f"run-on-{scheme}")
+    page.set_viewport_size({"width": 390, "height": 800})
+    expect(studio.at("axis-run-on")).to_be_in_viewport()
+    studio.picture("run-on-narrow")
+    page.set_viewport_size({"width": 1440, "height": 900})
+    page.keyboard.press("Alt+Shift+b")
+    expect(studio.at("axis-run")).to_contain_text("of run 1")
+    studio.expect_state("application_running")
+    wait_until(lambda: studio.stat("t") > touched + 5, "it runs on past the moment of the touch")
+    assert studio.stat("collisions") < before
+    studio.picture("ran-on")
+    studio.end_session()

@@ -61,6 +61,16 @@ export interface Apply {
   dry?: boolean;
 }
 
+/**
+ * Resumes a paused run, with the tree of an app zip if there is one: as `apply`, then `resume`.
+ *
+ * After `go_back` it is what would have happened with that tree. Refused as `apply` is; then the run stays
+ * paused, and its tree is as it was.
+ */
+export interface RunOn {
+  app_zip_base64?: string;
+}
+
 /** A node of the tree: its path, and the block of the diagram from which it was made. */
 export interface AppliedNode {
   path: string;
@@ -1130,6 +1140,7 @@ export interface Commands {
   resume: Empty;
   step: Empty;
   go_back: GoBack;
+  run_on: RunOn;
   cancel: Empty;
   set_tick_rate: SetTickRate;
   set_speed: SetSpeed;

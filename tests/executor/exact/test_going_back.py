@@ -6,6 +6,7 @@ that it hears on /scan, /odom and /cmd_vel, and of random numbers, to the blackb
 
 from __future__ import annotations
 
+import base64
 import random
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +19,8 @@ from executor.replay_messages import FINGERPRINT_BYTES, Replay
 from tests.budget import count
 from tests.executor.exact.exact_runs import ExactRun, app_folder, hashing_app, start_message
 from tests.executor.exact.test_process import exact, ready
-from tests.executor.session_client import SessionClient, manager_process
+from tests.executor.session_client import ROOT, SessionClient, manager_process
+from translator import load, to_app_zip
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -204,6 +206,54 @@ async def test_a_session_goes_back_runs_on_and_returns_to_where_it_was() -> None
         assert (await client.ask("go_back", {"run": "ffffffffffff"}))["code"] == "unknown_run"
         assert await client.ask("disconnect") == "ack"
         await client.close()
+
+
+async def test_the_touch_of_a_crate_is_undone_by_a_changed_tree_from_before() -> None:
+    async with manager_process() as manager:
+        client = await SessionClient(manager.ready["port"]).open()
+        near = exact(bump_and_go("0.3"))
+        near["universe"]["speed"] = 0.0
+        at = await ready(client, near)
+        log = await client.event("log", lambda d: "bumped into" in d["text"], after=at)
+        touched_s = log["data"]["time"]
+        assert await client.ask("pause") == "ack"
+
+        at = len(client.events)
+        assert await client.ask("go_back", {"t": touched_s - 3.0}) == "ack"
+        before = client.named("tick", at)[-1]
+        for bad in ("", "eA==", "@", near["application"]["app_zip_base64"][:-40]):
+            refused = await client.ask("run_on", {"app_zip_base64": bad, "more": 1})
+            assert refused["code"] == "bad_data"
+            if bad:
+                refused = await client.ask("run_on", {"app_zip_base64": bad})
+                assert refused["code"] in ("bad_archive", "not_applied")
+            assert client.state == "paused"
+        at = len(client.events)
+        far = bump_and_go("1.2")
+        assert await client.ask("apply", {"app_zip_base64": far, "dry": True}) == "ack"
+        plan = client.named("applied", at)[-1]
+        assert (plan["dry"], plan["added"], plan["removed"], plan["halted"]) == (True, [], [], [])
+        assert await client.ask("run_on", {"app_zip_base64": far}) == "ack"
+        assert client.state == "application_running"
+        await client.event("tick", lambda d: d["n"] > before["n"] + 300, after=at)
+        assert not [d for d in client.named("log", at) if "bumped into" in d["text"]]
+
+        # The branch has the changed tree from its moment on: it can be taken back, too.
+        assert await client.ask("go_back", {"t": touched_s + 2.0}) == "ack"
+        assert client.named("differs", at) == []
+        assert await client.ask("disconnect") == "ack"
+        await client.close()
+
+
+def bump_and_go(distance: str) -> str:
+    """Returns the app of *Laser bump and go* that turns at a distance in m."""
+    folder = ROOT / "examples/laser_bump_and_go"
+    files = {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*.*")}
+    files = {name: data for name, data in files.items() if "__pycache__" not in name}
+    tree = files["trees/MainTree.json"].decode()
+    assert '"obs_dist": "1.0"' in tree
+    files["trees/MainTree.json"] = tree.replace('"obs_dist": "1.0"', f'"obs_dist": "{distance}"').encode()
+    return base64.b64encode(to_app_zip(load(files))).decode()
 
 
 async def stepped(client: SessionClient, after: int, ticks: int, last: int = 0) -> dict[int, str]:

@@ -37,6 +37,7 @@ DATA: dict[str, dict[str, Any]] = {
     "launch_universe": UNIVERSE,
     "run_application": APPLICATION,
     "run": {"universe": UNIVERSE, "application": APPLICATION},
+    "run_on": {"app_zip_base64": "eA=="},
     "apply": {"app_zip_base64": "eA=="},
     "set_tick_rate": {"tick_hz": 10.0},
     "set_speed": {"speed": 2.0},

@@ -24,7 +24,9 @@ afterEach(() => {
 
 it('has all commands of the axis, with their keys, and does them', async () => {
   const all = [...markCommands, ...rangeCommands];
-  expect([...AXIS_MENU.flat()].sort()).toEqual([...all.map(({ id }) => id), 'time.goBack'].sort());
+  expect([...AXIS_MENU.flat()].sort()).toEqual(
+    [...all.map(({ id }) => id), 'time.goBack', 'time.runOn'].sort(),
+  );
   show(<AxisMenu />);
   await user.click(screen.getByRole('button', { name: 'Marks, range, changes and zoom' }));
   const loop = await screen.findByTestId('axis-time.loop');

@@ -4,14 +4,14 @@ import { useTranslation } from 'react-i18next';
 import { useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
 import { canFlag } from '@/store/moment/flags';
-import { canGoBack } from '@/store/moment/goBack';
+import { canGoBack, canRunOn } from '@/store/moment/goBack';
 import { useRange } from '@/store/moment/range';
 import { useMoment } from '@/store/moment/store';
 import { useSessionStore } from '@/store/session/store';
 
 /** The commands for marks, range, changes and zoom, in groups. */
 export const AXIS_MENU = [
-  ['time.goBack'],
+  ['time.goBack', 'time.runOn'],
   ['time.flag', 'time.marks', 'time.markBack', 'time.markForth'],
   ['time.markA', 'time.markB', 'time.loop', 'time.clearRange'],
   ['time.whatChanged'],
@@ -46,6 +46,7 @@ function Items() {
   useMoment((state) => state.t);
   useSessionStore(canFlag);
   useSessionStore(canGoBack);
+  useSessionStore(canRunOn);
   return AXIS_MENU.map((ids, at) => [
     at > 0 ? <Menu.Divider key={`before ${ids[0]}`} /> : null,
     ...ids.map((id) => {

@@ -8,7 +8,7 @@ import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import { segmentOf } from '../../../harness/runs';
 import { registerAxisCommands } from './commands';
-import { GoBackButton, GoingBack } from './GoingBack';
+import { GoBackButton, GoingBack, RunOnButton } from './GoingBack';
 
 let send: MockInstance<typeof connection.send>;
 const driver = { role: 'driver' } as Introspection;
@@ -36,6 +36,18 @@ it('offers the way back only where it is possible', async () => {
   await user.click(screen.getByRole('button', { name: 'Go back to here' }));
   expect(send).toHaveBeenCalledWith('go_back', { run: 'a', t: 2 });
   expect(screen.queryByRole('button')).toBeNull(); // the present is shown
+  unregister();
+});
+
+it('offers to run on where the run is paused, for the driver', () => {
+  const unregister = registerAxisCommands();
+  useSessionStore.setState({ connection: 'open', introspection: driver });
+  show(<RunOnButton />);
+  expect(screen.queryByRole('button')).toBeNull();
+  act(() => useSessionStore.setState({ executor: 'paused' }));
+  expect(screen.getByRole('button', { name: 'Run on' })).toBeVisible();
+  act(() => useSessionStore.setState({ introspection: { role: 'viewer' } as Introspection }));
+  expect(screen.queryByRole('button')).toBeNull();
   unregister();
 });
 

@@ -1,35 +1,70 @@
 import { Button, Progress, Tooltip } from '@mantine/core';
-import { IconArrowBackUp } from '@tabler/icons-react';
+import { IconArrowBackUp, IconArrowForwardUp } from '@tabler/icons-react';
+import type { ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
 import { perform, useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
-import { canGoBack, cancelGoBack } from '@/store/moment/goBack';
+import { canGoBack, cancelGoBack, canRunOn } from '@/store/moment/goBack';
 import { useMoment } from '@/store/moment/store';
 import { useSource } from '@/store/moment/source';
+import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 import classes from './axis.module.css';
 
 /** A button that takes world and program back to the shown moment, where that is possible. */
 export function GoBackButton() {
-  const { t } = useTranslation('axis');
-  const command = useCommandTable(({ commands }) => commands['time.goBack']);
   // What `canGoBack` asks for.
   useMoment((state) => state.t === null);
   useSource();
-  const isPossible = useSessionStore(canGoBack);
-  if (!command || !isPossible) return null;
+  return useSessionStore(canGoBack) ? (
+    <AxisButton
+      command="time.goBack"
+      words="goBack"
+      testId="axis-go-back"
+      icon={<IconArrowBackUp size={14} />}
+    />
+  ) : null;
+}
+
+/** A button that lets the run continue with the tree as it is now: from the shown moment, or from its pause. */
+export function RunOnButton() {
+  // What `canRunOn` asks for.
+  useMoment((state) => state.t === null);
+  useSource();
+  useRunStore((state) => state.stage);
+  return useSessionStore(canRunOn) ? (
+    <AxisButton
+      command="time.runOn"
+      words="runOn"
+      testId="axis-run-on"
+      icon={<IconArrowForwardUp size={14} />}
+    />
+  ) : null;
+}
+
+interface AxisButtonProps {
+  readonly command: string;
+  readonly words: 'goBack' | 'runOn';
+  readonly testId: string;
+  readonly icon: ReactNode;
+}
+
+function AxisButton({ command: id, words, testId, icon }: AxisButtonProps) {
+  const { t } = useTranslation('axis');
+  const command = useCommandTable(({ commands }) => commands[id]);
+  if (!command) return null;
   return (
-    <Tooltip label={`${t('goBack.help')} (${keysOf(command)})`} multiline w={280}>
+    <Tooltip label={`${t(`${words}.help`)} (${keysOf(command)})`} multiline w={280}>
       <Button
         size="compact-xs"
         variant="default"
         className={classes['goBack']}
-        aria-label={t('goBack.label')}
-        leftSection={<IconArrowBackUp size={14} />}
-        data-testid="axis-go-back"
-        onClick={() => perform('time.goBack')}
+        aria-label={t(`${words}.label`)}
+        leftSection={icon}
+        data-testid={testId}
+        onClick={() => perform(id)}
       >
-        <span className={classes['goBackText']}>{t('goBack.label')}</span>
+        <span className={classes['goBackText']}>{t(`${words}.label`)}</span>
       </Button>
     </Tooltip>
   );

@@ -16,7 +16,7 @@ import { copyShownLink } from './commands';
 import { AxisMenu } from './AxisMenu';
 import { Changes } from './Changes';
 import { FlagForm } from './FlagForm';
-import { GoBackButton, GoingBack } from './GoingBack';
+import { GoBackButton, GoingBack, RunOnButton } from './GoingBack';
 import { Marks } from './Marks';
 import { RunSelect } from './RunSelect';
 import { Strip } from './Strip';
@@ -125,6 +125,7 @@ function Axis({ extent }: { readonly extent: Extent }) {
         </Tooltip>
       ) : null}
       {isBack ? <GoBackButton /> : null}
+      <RunOnButton />
       <CommandButton command="tests.moment" size={26} testId="axis-test" />
       <Tooltip label={`${t('toLive')} (Esc)`} disabled={!isBack}>
         <Button

@@ -7,11 +7,12 @@ import {
   IconLink,
   IconPlayerPlay,
   IconArrowBackUp,
+  IconArrowForwardUp,
 } from '@tabler/icons-react';
 import { registerCommands, type UserCommand } from '@/commands/registry';
 import { t } from '@/i18n';
 import { linkTo, shownAddress } from '@/store/moment/address';
-import { canGoBack, goBack } from '@/store/moment/goBack';
+import { canGoBack, canRunOn, goBack, runOn } from '@/store/moment/goBack';
 import { extent, goTicks, goToChange, lookNow, setPlaying } from '@/store/moment/looking';
 import { usePastTree } from '@/store/moment/pastTree';
 import { isLookingBack, useMoment } from '@/store/moment/store';
@@ -58,6 +59,15 @@ const rows: readonly UserCommand[] = [
     shortcut: 'Alt+KeyB',
     enabled: canGoBack,
     run: () => void goBack(),
+  },
+  {
+    id: 'time.runOn',
+    group: 'run',
+    labelKey: 'axis:command.runOn',
+    icon: IconArrowForwardUp,
+    shortcut: 'Alt+Shift+KeyB',
+    enabled: canRunOn,
+    run: () => void runOn(),
   },
   {
     id: 'time.play',

@@ -18,6 +18,11 @@ it('shows which blocks are halted, and applies or not', async () => {
   await user.click(screen.getByTestId('apply-anyway'));
   expect(await asked).toBe(true);
 
+  const on = agreesTo(plan, 'runOn');
+  expect(await screen.findByText('Run on with the changed tree?')).toBeVisible();
+  await user.click(screen.getByRole('button', { name: 'Run on' }));
+  expect(await on).toBe(true);
+
   const late = [{ path: 'Sequence::2/Drive::3', node_id: 'd', tree_id: 'Main', port: 'speed' }];
   const again = agreesTo({ ...plan, halted: [], late_ports: late });
   expect(await screen.findByText('Sequence/Drive: speed')).toBeVisible();

@@ -6,10 +6,15 @@ import { useApplyQuestion } from '@/store/run/apply';
 /** The question before a changed tree halts something that runs: what happens to which blocks. */
 export function ApplyDialog() {
   const { t } = useTranslation('run');
-  const { plan, answer } = useApplyQuestion();
+  const { name, plan, answer } = useApplyQuestion();
   const refuse = () => answer(false);
   return (
-    <Modal opened={plan !== null} onClose={refuse} title={t('apply.title')} centered>
+    <Modal
+      opened={plan !== null}
+      onClose={refuse}
+      title={t(name === 'apply' ? 'apply.title' : 'apply.runOnTitle')}
+      centered
+    >
       {plan ? (
         <Stack gap="sm" data-testid="apply-plan">
           <Text size="sm">{t('apply.kept', { count: plan.kept })}</Text>
@@ -26,7 +31,7 @@ export function ApplyDialog() {
               {t('apply.cancel')}
             </Button>
             <Button onClick={() => answer(true)} data-autofocus data-testid="apply-anyway">
-              {t('command.apply')}
+              {t(name === 'apply' ? 'command.apply' : 'apply.runOn')}
             </Button>
           </Group>
         </Stack>

@@ -5,12 +5,14 @@ import { CommandError } from '@/store/session/control';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import { useRunStore } from '@/store/run/store';
+import { fakeServer, openProject } from '../../../harness/testing';
 import { segmentOf } from '../../../harness/runs';
-import { canGoBack, cancelGoBack, goBack } from './goBack';
+import { canGoBack, cancelGoBack, canRunOn, goBack, runOn } from './goBack';
 import { ofSession, useSource } from './source';
 import { atPresent, useMoment } from './store';
 
 let send: MockInstance<typeof connection.send>;
+const plan = { dry: true, kept: 1, renewed: [], added: [], removed: [], halted: [], late_ports: [] };
 const driver = { role: 'driver' } as Introspection;
 
 beforeEach(() => {
@@ -73,4 +75,58 @@ it('shows why it was refused', async () => {
 it('can be cancelled', async () => {
   await cancelGoBack();
   expect(send).toHaveBeenCalledWith('cancel', {});
+});
+
+it('runs on from the shown moment, or from where the run is paused, but only as the driver', () => {
+  expect(canRunOn()).toBe(true);
+  useSessionStore.setState({ repeatableRuns: [] });
+  expect(canRunOn()).toBe(false);
+  useMoment.setState({ t: null });
+  expect(canRunOn()).toBe(false);
+  useSessionStore.setState({ executor: 'paused' });
+  expect(canRunOn()).toBe(true);
+  useRunStore.setState({ stage: 'launching' });
+  expect(canRunOn()).toBe(false);
+  useRunStore.setState({ stage: null });
+  useSessionStore.setState({ introspection: { role: 'viewer' } as Introspection });
+  expect(canRunOn()).toBe(false);
+});
+
+it('saves and checks the project, goes back, and runs on with it', async () => {
+  openProject({});
+  fakeServer({ 'GET /projects/p1/app': { app_zip_base64: 'eA==', universe: {} } });
+  send.mockImplementation((command) => {
+    // The plan comes a frame after the reply.
+    if (command === 'apply') setTimeout(() => useSessionStore.setState({ applied: plan }));
+    return Promise.resolve();
+  });
+  await runOn();
+  expect(send.mock.calls).toEqual([
+    ['go_back', { run: 'a', t: 3.25 }],
+    ['apply', { app_zip_base64: 'eA==', dry: true }],
+    ['run_on', { app_zip_base64: 'eA==' }],
+  ]);
+  expect(useRunStore.getState().stage).toBeNull();
+});
+
+it('goes nowhere with a project that has errors', async () => {
+  openProject({
+    diagnostics: [{ code: 'BT0601', severity: 'error', message: 'bad', hint: 'Correct it.' }],
+  });
+  fakeServer({});
+  await runOn();
+  expect(send).not.toHaveBeenCalled();
+  expect(useMoment.getState().t).toBe(3.25);
+  expect(useRunStore.getState().failure).toMatchObject({ message: 'bad' });
+});
+
+it('stays where it is if the tree is refused', async () => {
+  useMoment.setState({ t: null });
+  useSessionStore.setState({ executor: 'paused' });
+  openProject({});
+  fakeServer({ 'GET /projects/p1/app': { app_zip_base64: 'eA==', universe: {} } });
+  send.mockRejectedValue(new CommandError('not_applied', 'It is no tree.', 'Mend it.'));
+  await runOn();
+  expect(send.mock.calls).toEqual([['apply', { app_zip_base64: 'eA==', dry: true }]]);
+  expect(useRunStore.getState().failure).toMatchObject({ message: 'It is no tree.' });
 });

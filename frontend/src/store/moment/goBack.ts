@@ -1,5 +1,7 @@
 import { useSessionStore } from '@/store/session/store';
-import { reported } from '@/store/run/commands';
+import { isPaused, reported } from '@/store/run/commands';
+import { runOnProject } from '@/store/run/run';
+import { useRunStore } from '@/store/run/store';
 import { send } from '@/store/session/connection';
 import { extent, lookNow } from './looking';
 import { useSource } from './source';
@@ -16,12 +18,27 @@ export function canGoBack(): boolean {
 }
 
 /** Takes world and program back to the shown moment, where they are paused, and shows them there. */
-export async function goBack(): Promise<void> {
+export const goBack = () => reported(toShown());
+
+async function toShown(): Promise<void> {
   const { t } = useMoment.getState();
   const run = extent()?.run;
   if (t === null || run === undefined || !canGoBack()) return;
   lookNow();
-  await reported(send('go_back', { run, t }));
+  await send('go_back', { run, t });
+}
+
+/** Whether the run can continue with the tree as it is now: from the shown moment, or where it is paused. */
+export function canRunOn(): boolean {
+  const { connection, introspection } = useSessionStore.getState();
+  if (useRunStore.getState().stage !== null) return false;
+  if (useMoment.getState().t !== null) return canGoBack();
+  return connection === 'open' && introspection?.role === 'driver' && isPaused();
+}
+
+/** Goes back to the shown moment, if one is shown, and runs on with the project as it is now. */
+export async function runOn(): Promise<void> {
+  if (canRunOn()) await runOnProject(toShown);
 }
 
 /** Ends the way back; the run can be taken back again, also to its end. */

@@ -3,13 +3,17 @@ import type { Applied } from '@/generated/messages';
 import { useSessionStore } from '@/store/session/store';
 import { useRunStore } from './store';
 
+/** What replaces the tree: *Apply*, or *Run on*. */
+export type Exchange = 'apply' | 'runOn';
+
 interface Asking {
+  readonly name: Exchange;
   /** The plan of *Apply* to which the user must agree; null if there is none. */
   readonly plan: Applied | null;
   readonly answer: (agrees: boolean) => void;
 }
 
-const nobody: Asking = { plan: null, answer: () => undefined };
+const nobody: Asking = { name: 'apply', plan: null, answer: () => undefined };
 
 /** The question whether a changed tree may halt what runs. */
 export const useApplyQuestion = create<Asking>(() => nobody);
@@ -30,10 +34,10 @@ export const asksFirst = ({ halted, late_ports }: Applied): boolean =>
   halted.length > 0 || late_ports.length > 0;
 
 /** Asks the user if need be; resolves to whether the tree is to be replaced. */
-export async function agreesTo(plan: Applied): Promise<boolean> {
+export async function agreesTo(plan: Applied, name: Exchange = 'apply'): Promise<boolean> {
   if (!asksFirst(plan)) return true;
   useRunStore.setState({ stage: null });
-  const agrees = await new Promise<boolean>((answer) => useApplyQuestion.setState({ plan, answer }));
+  const agrees = await new Promise<boolean>((answer) => useApplyQuestion.setState({ name, plan, answer }));
   useApplyQuestion.setState(nobody);
   return agrees;
 }

@@ -8,7 +8,7 @@ import { saveNow } from '@/store/saving/autosave';
 import { abandonStart, ensureConnected, send } from '@/store/session/connection';
 import { CommandError, isUnconnected } from '@/store/session/control';
 import { useSessionStore } from '@/store/session/store';
-import { agreesTo, nextPlan } from './apply';
+import { agreesTo, nextPlan, type Exchange } from './apply';
 import { beginProgram } from './livePorts';
 import { useRunStore, type LaunchFailure, type LaunchStage } from './store';
 import { chosenUniverse, useUniverseChoice } from './universeChoice';
@@ -69,7 +69,23 @@ function beginAs({ changeCounter, diagrams } = useProjectStore.getState()): void
  * Replaces the running tree by the project as it is now; world and program continue. Asks before it halts
  * something that runs. Resolves to true if the tree was replaced.
  */
-export async function applyProject(): Promise<boolean> {
+export const applyProject = () =>
+  exchanged('apply', (app_zip_base64) => send('apply', { app_zip_base64, dry: false }));
+
+/**
+ * Lets a paused run continue with the project as it is now; asks before it halts something that runs.
+ * `arrive` first takes the run to the moment from which it continues, once the project is known to be sound.
+ * Resolves to true if it runs on.
+ */
+export const runOnProject = (arrive: () => Promise<void>) =>
+  exchanged('runOn', (app_zip_base64) => send('run_on', { app_zip_base64 }), arrive);
+
+/** Saves and checks the project, shows what it would do to the running tree, and makes the exchange. */
+async function exchanged(
+  name: Exchange,
+  exchange: (app: string) => Promise<void>,
+  arrive?: () => Promise<void>,
+): Promise<boolean> {
   const { projectId } = useProjectStore.getState();
   if (!projectId || useRunStore.getState().stage) return false;
   wasCancelled = false;
@@ -78,11 +94,12 @@ export async function applyProject(): Promise<boolean> {
     let program = useProjectStore.getState();
     const { app_zip_base64 } = await packed(projectId, () => (program = useProjectStore.getState()));
     enter('launching');
+    await arrive?.();
     const planned = nextPlan();
     await send('apply', { app_zip_base64, dry: true });
-    if (!(await agreesTo(await planned))) return false;
+    if (!(await agreesTo(await planned, name))) return false;
     enter('launching');
-    await send('apply', { app_zip_base64, dry: false });
+    await exchange(app_zip_base64);
     beginAs(program);
     return true;
   } catch (error) {

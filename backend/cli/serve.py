@@ -70,7 +70,7 @@ def serve_page(page: str, *, browser: bool, ready_file: Path | None) -> None:
             )
         judge_workers(settings)
         if settings.launcher == "kubernetes":
-            _check_cluster(settings.pod_template)
+            _check_cluster(settings.pod_template, settings.tools_template)
         _serve(page, open_browser=browser, ready_file=ready_file)
     except InvalidEnvironmentError as error:
         raise CliError(str(error), status=2) from error
@@ -78,14 +78,14 @@ def serve_page(page: str, *, browser: bool, ready_file: Path | None) -> None:
         raise CliError(str(error)) from error
 
 
-def _check_cluster(template: Path) -> None:
+def _check_cluster(template: Path, tools_template: Path) -> None:
     from django.core.exceptions import ImproperlyConfigured
 
     from backend.config.server import ServeError
     from backend.sessions.launchers.kubernetes.launcher import read_settings
 
     try:
-        read_settings(template)
+        read_settings(template, tools_template)
     except ImproperlyConfigured as error:
         raise ServeError(str(error)) from error
 

@@ -72,6 +72,11 @@ class Environment(TeamSettings):
         default=Path("/etc/bt-studio/executor-pod.yaml"),
         description="The pod that `kubernetes` makes for each session (docker/kubernetes/executor-pod.yaml).",
     )
+    tools_template: Path = Field(
+        default=Path("/etc/bt-studio/tools-pod.yaml"),
+        description="The pod that `kubernetes` makes for a user who edits Python "
+        "(docker/kubernetes/tools-pod.yaml).",
+    )
     pod_namespace: str = Field(
         default="bt-studio-sessions", description="The namespace in which `kubernetes` makes these pods."
     )
@@ -181,7 +186,9 @@ class Environment(TeamSettings):
         """
         return self.is_team and self.is_postgresql and self.launcher != "process"
 
-    @field_validator("data_dir", "frontend_dir", "templates_dir", "keeper_folder", "pod_template")
+    @field_validator(
+        "data_dir", "frontend_dir", "templates_dir", "keeper_folder", "pod_template", "tools_template"
+    )
     @classmethod
     def _absolute(cls, value: Path) -> Path:
         return value.expanduser().absolute()

@@ -15,16 +15,17 @@ from uuid import UUID, uuid5
 
 from asgiref.sync import sync_to_async
 from django.conf import settings
-from websockets.asyncio.client import ClientConnection, unix_connect
 from websockets.exceptions import InvalidHandshake, WebSocketException
-from websockets.sync.client import unix_connect as sync_unix_connect
 
 from backend.config.environment import environment
 from backend.language.errors import CheckerUnavailableError, UnavailableError
 from backend.sessions.errors import HostFullError, LaunchError
+from backend.sessions.manager.address import open_socket, open_sync_socket
 from backend.sessions.writes import launcher
 
 if TYPE_CHECKING:
+    from websockets.asyncio.client import ClientConnection
+
     from backend.accounts.models import User
 
 _NAMESPACE: Final = UUID("1d0a2f0e-6f0b-5c5e-9b57-0f6a1a8f6c11")
@@ -34,7 +35,7 @@ TESTS_S: Final = 90.0
 _ATTEMPTS: Final = 3
 _PAUSE_S: Final = 0.3
 _MAX_BYTES: Final = 16 << 20
-paths: Final[dict[str, str]] = {}
+addresses: Final[dict[str, str]] = {}
 """The addresses of opened tools, by their ids."""
 
 
@@ -48,12 +49,12 @@ def token(made_id: str) -> str:
     return hmac.new(settings.SECRET_KEY.encode(), f"tools {made_id}".encode(), hashlib.sha256).hexdigest()
 
 
-def _path(made_id: str, *, is_known_good: bool) -> str:
+def _address(made_id: str, *, is_known_good: bool) -> str:
     """Returns the address of the tools. Calls the launcher, unless the known address can still be used."""
-    if not is_known_good or made_id not in paths:
+    if not is_known_good or made_id not in addresses:
         limit_s = environment().session_start_timeout_s
-        paths[made_id] = launcher().open_tools(made_id, token(made_id), timeout_s=limit_s)
-    return paths[made_id]
+        addresses[made_id] = launcher().open_tools(made_id, token(made_id), timeout_s=limit_s)
+    return addresses[made_id]
 
 
 def _options(made_id: str) -> dict[str, Any]:
@@ -76,10 +77,9 @@ async def open_editor(user: User) -> ClientConnection:
     problem: Exception = TimeoutError()
     for attempt in range(_ATTEMPTS):
         try:
-            path = await sync_to_async(_path, thread_sensitive=False)(made_id, is_known_good=attempt == 0)
-            return await unix_connect(
-                path, "ws://localhost/language", ping_interval=None, **_options(made_id)
-            )
+            find = sync_to_async(_address, thread_sensitive=False)
+            address = await find(made_id, is_known_good=attempt == 0)
+            return await open_socket(address, "language", ping_interval=None, **_options(made_id))
         except HostFullError as error:
             raise UnavailableError("Too many people edit Python on this server just now.") from error
         except LaunchError as error:
@@ -115,8 +115,8 @@ def _ask(user: User, what: str, text: str, limit_s: float) -> str:
     problem: Exception = TimeoutError()
     for attempt in range(_ATTEMPTS):
         try:
-            path = _path(made_id, is_known_good=attempt == 0)
-            with sync_unix_connect(path, f"ws://localhost/{what}", **_options(made_id)) as socket:
+            address = _address(made_id, is_known_good=attempt == 0)
+            with open_sync_socket(address, what, **_options(made_id)) as socket:
                 socket.send(text)
                 answer = socket.recv(timeout=limit_s)
                 return answer if isinstance(answer, str) else answer.decode()

@@ -181,6 +181,7 @@ def maintain(*, is_for_orphans: bool = False) -> None:
     """Runs one round of maintenance for all servers."""
     if is_for_orphans:
         writes.end_orphans()
+        writes.launcher().tidy()
     for session in ready_sessions():
         writes.refresh(session)
     end_idle()

@@ -65,7 +65,7 @@ def launcher() -> Launcher:
     if settings.launcher == "kubernetes":
         from backend.sessions.launchers.kubernetes.launcher import open_cluster  # noqa: PLC0415 - large, and rarely used
 
-        return open_cluster(settings.pod_template, settings.pod_namespace)
+        return open_cluster(settings.pod_template, settings.tools_template, settings.pod_namespace)
     return ProcessLauncher(settings.data_dir / "logs", recordings=settings.data_dir / "recordings")
 
 

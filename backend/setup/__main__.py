@@ -30,7 +30,7 @@ FRONTEND = ROOT / "frontend"
 STAMPS = ROOT / "var" / "setup"
 NEEDED_NODE = (20, 19)
 INTERFACE_PROGRAMS = ("build_interfaces", "generate_interfaces", "interface_definitions")
-TEST_PACKAGES = ("chromium", "libegl1", "libgl1-mesa-dri", "postgresql", "redis-server")
+TEST_PACKAGES = ("chromium", "libegl1", "libgl1-mesa-dri", "postgresql", "redis-server", "kubernetes-client")
 
 
 class Step(NamedTuple):
@@ -287,7 +287,7 @@ def run(command: list[str], cwd: Path = ROOT) -> None:
 
 
 def ensure_debian_packages() -> None:
-    """Installs Chromium, EGL, PostgreSQL and Redis for the tests, if the user is root."""
+    """Installs Chromium, EGL, PostgreSQL, Redis and kubectl for the tests, if the user is root."""
     missing = [name for name, present in test_programs() if not present]
     if not missing:
         return
@@ -311,6 +311,7 @@ def test_programs() -> list[tuple[str, bool]]:
         bool(drivers),
         any(Path("/usr/lib/postgresql").glob("*/bin/initdb")),
         shutil.which("redis-server") is not None,
+        shutil.which("kubectl") is not None,
     )
     return list(zip(TEST_PACKAGES, present, strict=True))
 

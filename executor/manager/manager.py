@@ -14,7 +14,6 @@ import random
 import secrets
 import signal
 import socket
-import ssl
 import sys
 from collections import deque
 from dataclasses import dataclass
@@ -28,6 +27,7 @@ from executor.application.groot import PORT_VARIABLE
 from executor.manager.admission import Admission, is_loopback
 from executor.manager.environment import WrongVariableError, mebibytes, number
 from executor.manager.gate import fetch_listener
+from executor.manager.tls import CertificateError, server_context
 from executor.recorder.link import ADDRESS_VARIABLE
 from executor.ros.environment import discovery_port, lockstep_environment, ros_environment
 from executor.session.events import (
@@ -55,6 +55,8 @@ from executor.supervision.single_threaded import SINGLE_THREADED
 from executor.supervision.supervisor import Supervisor
 
 if TYPE_CHECKING:
+    import ssl
+
     from executor.child_messages import Frame
     from executor.manager.folders import Folders
     from executor.manager.server import SessionServer
@@ -390,20 +392,12 @@ def _token(options: argparse.Namespace) -> str:
 
 def _tls(options: argparse.Namespace) -> ssl.SSLContext | None:
     """Returns what encrypts the connections, from the files of a certificate and its key."""
-    if not options.tls_cert and not options.tls_key:
-        return None
-    if not options.tls_cert or not options.tls_key:
-        raise _UsageError("--tls-cert and --tls-key are given together")
-    if options.ram:
+    if options.ram and options.tls_cert and options.tls_key:
         raise _UsageError("the RAM dialect is spoken on loopback alone, without TLS")
-    context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
-    context.minimum_version = ssl.TLSVersion.TLSv1_3
     try:
-        context.load_cert_chain(options.tls_cert, options.tls_key)
-    except (OSError, ValueError) as error:
-        files = f"{options.tls_cert} and {options.tls_key}"
-        raise _UsageError(f"{files} are no certificate and its key, as PEM: {error}") from error
-    return context
+        return server_context(options.tls_cert, options.tls_key)
+    except CertificateError as error:
+        raise _UsageError(str(error)) from error
 
 
 def main(arguments: list[str] | None = None) -> int:

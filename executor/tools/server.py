@@ -10,7 +10,7 @@ from http import HTTPStatus
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from websockets.asyncio.server import ServerConnection, unix_serve
+from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
 from executor.tools.behaviours import serve_behaviours
@@ -19,6 +19,7 @@ from executor.tools.language import serve_editor
 
 if TYPE_CHECKING:
     import socket
+    import ssl
 
     from websockets.http11 import Request, Response
 
@@ -33,15 +34,19 @@ class ToolsServer:
     """Serves the editors of one user.
 
     Args:
-        listener: the unix socket on which the server listens.
+        listener: the socket on which the server listens.
         token: the token that clients must send as `Authorization: Bearer`.
         grace_s: the seconds for which the server waits without clients before it ends.
+        tls: what encrypts connections from another machine; None on a unix socket.
     """
 
-    def __init__(self, listener: socket.socket, token: str, *, grace_s: float) -> None:
+    def __init__(
+        self, listener: socket.socket, token: str, *, grace_s: float, tls: ssl.SSLContext | None = None
+    ) -> None:
         self._listener = listener
         self._expected = f"Bearer {token}".encode()
         self._grace_s = grace_s
+        self._tls = tls
         self._clients = 0
         self._ended = asyncio.Event()
         self._timer: asyncio.TimerHandle | None = None
@@ -52,7 +57,7 @@ class ToolsServer:
             self._root = Path(folder)
             options = {"process_request": self._check, "max_size": MAX_MESSAGE_BYTES, "compression": None}
             options |= {"ping_interval": HEARTBEAT_S, "ping_timeout": HEARTBEAT_S}
-            async with unix_serve(self._serve, sock=self._listener, **options):  # type: ignore[arg-type]
+            async with serve(self._serve, sock=self._listener, ssl=self._tls, **options):  # type: ignore[arg-type]
                 self._wait_for_clients()
                 await self._ended.wait()
 

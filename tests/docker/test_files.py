@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import importlib.util
 import re
+import shutil
+import subprocess
 
 import kubernetes_validate
 import pytest
@@ -35,7 +37,41 @@ def test_one_command_applies_all_manifests():
     pod = web["spec"]["template"]["spec"]
     assert {"name": "pod", "configMap": {"name": made["name"]}} in pod["volumes"]
     folder = next(m["mountPath"] for m in pod["containers"][0]["volumeMounts"] if m["name"] == "pod")
-    assert f"{folder}/{made['files'][0]}" == str(Environment.model_fields["pod_template"].default)
+    defaults = [str(Environment.model_fields[name].default) for name in ("pod_template", "tools_template")]
+    assert [f"{folder}/{name}" for name in made["files"]] == defaults
+
+
+def test_what_is_applied_is_what_kubernetes_takes_with_the_templates_as_they_are():
+    kubectl = shutil.which("kubectl")
+    assert kubectl, "kubectl is missing: apt install kubernetes-client"
+    command = [kubectl, "kustomize", str(DOCKER / "kubernetes")]
+    rendered = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    found = list(yaml.safe_load_all(rendered))
+    for document in found:
+        kubernetes_validate.validate(document, KUBERNETES, strict=True)
+    (templates,) = (document for document in found if document["kind"] == "ConfigMap")
+    assert templates["metadata"]["name"] == "bt-studio-pod"
+    assert set(templates["data"]) == {"executor-pod.yaml", "tools-pod.yaml"}
+    for name, text in templates["data"].items():
+        assert yaml.safe_load(text) == yaml.safe_load((DOCKER / "kubernetes" / name).read_text())
+    by_kind = {document["kind"]: document for document in found}
+    web, scaler = by_kind["Deployment"], by_kind["HorizontalPodAutoscaler"]
+    assert "replicas" not in web["spec"], "the autoscaler sets it"
+    assert scaler["spec"]["scaleTargetRef"]["name"] == web["metadata"]["name"]
+
+
+def test_the_images_of_all_pods_are_renamed_by_one_command():
+    text = (REPOSITORY / "docs/how-to/run-on-kubernetes.md").read_text()
+    pattern, replacement = re.search(r"sed -i 's#(.*)#(.*)#' ", text).groups()
+    for name in ("web.yaml", "executor-pod.yaml", "tools-pod.yaml"):
+        renamed = re.sub(
+            pattern.replace(r"\(", "(").replace(r"\)", ")"),
+            replacement,
+            (DOCKER / "kubernetes" / name).read_text(),
+        )
+        images = re.findall(r"image: (.*)", renamed)
+        assert images
+        assert all(re.fullmatch(r"registry\.example/bt-studio-(web|executor):1", image) for image in images)
 
 
 def test_the_web_servers_may_do_in_the_namespace_of_sessions_what_the_launcher_does_and_no_more():

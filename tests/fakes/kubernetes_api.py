@@ -183,6 +183,13 @@ class FakeCluster:
                 threading.Timer(min(grace_s, 0.2), self.remove, (kind, name)).start()
             return found
 
+    def read(self, kind: str, name: str) -> dict[str, Any]:
+        with self.changed:
+            found = self._objects.get((kind, name))
+            if found is None:
+                raise ApiError(404, "NotFound", f'{kind} "{name}" not found')
+            return found
+
     def list(self, kind: str, label: str) -> dict[str, Any]:
         with self.changed:
             items = [found for (of, _), found in self._objects.items() if of == kind and _has(found, label)]
@@ -307,7 +314,7 @@ class _Handler(BaseHTTPRequestHandler):
         if verb == "list":
             return 200, api.list(kind, query.get("labelSelector", ""))
         if verb == "get":
-            return 200, api.object(kind, name or "")
+            return 200, api.read(kind, name or "")
         grace = query.get("gracePeriodSeconds")
         return 200, api.delete(kind, name or "", None if grace is None else float(grace))
 

@@ -14,6 +14,7 @@ import time
 from typing import TYPE_CHECKING, Any, Self
 
 from backend.sessions.launchers.kubernetes.bodies import PORT
+from tests.docker.engine import REPOSITORY
 from tests.fakes.kubernetes_api import READY, FakeCluster
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ class Node:
             "stringData"
         ]
         files = self._folder / name
-        files.mkdir()
+        files.mkdir(exist_ok=True)
         for item in pod["spec"]["volumes"][0]["secret"]["items"]:
             (files / item["path"]).write_text(secret[item["key"]])
         mount = container["volumeMounts"][0]["mountPath"]
@@ -69,7 +70,7 @@ class Node:
         ]
         environment = {**os.environ, container["env"][0]["name"]: secret["token"]}
         program = container.get("command", ["python", "-m", "executor.manager"])[1:]
-        process = subprocess.Popen([sys.executable, *program, *arguments], env=environment)
+        process = subprocess.Popen([sys.executable, *program, *arguments], cwd=REPOSITORY, env=environment)
         self.processes.append(process)
         _await_port(address)
         cluster.set_status(name, phase="Running", podIP=address, conditions=[READY])

@@ -11,8 +11,9 @@ JSON object that the caller stores and passes to the other methods, also after a
     stop(state)      ends the executor and all that it started, first by a signal that it can handle.
                      Returns when nothing is left; it is no error if the executor has ended.
     explain(state)   why an executor ended, if more is known than its status; else "".
-    open_tools(id, token)  where a user's tools listen (`executor.tools`), as the path of a unix socket;
-                     starts them if needed. Raises LaunchError if the launcher has no containers.
+    open_tools(id, token)  the address at which a user's tools listen (`executor.tools`); starts them.
+                     Raises LaunchError if the launcher has no containers.
+    tidy()           removes tools that have ended; called every minute by one web server.
     recordings       the folder in which recordings are left, one folder a session; None if they end with it.
     shares_network   whether executors share one network, so that each needs a ROS domain of its own.
     starts_at_once   how many executors may be starting at a time; each start takes a thread that waits.
@@ -101,6 +102,9 @@ class Launcher:
     def open_tools(self, tools_id: str, token: str, *, timeout_s: float) -> str:
         """Starts a user's tools, and returns the address at which they listen."""
         raise LaunchError("Without containers there are none for users' files.")
+
+    def tidy(self) -> None:
+        """Removes tools that have ended by themselves."""
 
     def running(self) -> list[str]:
         """Returns the ids of the sessions whose executors run."""

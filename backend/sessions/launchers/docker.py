@@ -50,11 +50,11 @@ class DockerLauncher(Launcher):
         return Started(f"unix:{answer['socket']}", {"session": spec.session_id})
 
     def open_tools(self, tools_id: str, token: str, *, timeout_s: float) -> str:
-        """Returns the path at which a user's tools listen; starts their container if necessary."""
+        """Returns the address at which a user's tools listen; starts their container if necessary."""
         body = {"tools": tools_id, "token": token, "timeout_s": timeout_s}
         status, answer = self._ask("POST", "/tools", body, timeout_s=timeout_s + MARGIN_S)
         _raise_for(status, answer)
-        return str(answer["socket"])
+        return f"unix:{answer['socket']}"
 
     def poll(self, state: State) -> int | None:
         """Returns the keeper's answer. While the keeper does not answer, executors count as running."""

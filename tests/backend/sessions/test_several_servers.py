@@ -94,6 +94,7 @@ class Team:
             "KUBECONFIG": str(config),
             "BT_STUDIO_LAUNCHER": "kubernetes",
             "BT_STUDIO_POD_TEMPLATE": str(REPOSITORY / "docker/kubernetes/executor-pod.yaml"),
+            "BT_STUDIO_TOOLS_TEMPLATE": str(REPOSITORY / "docker/kubernetes/tools-pod.yaml"),
             "BT_STUDIO_POD_NAMESPACE": NAMESPACE,
             "BT_STUDIO_SESSION_START_TIMEOUT_S": "60",
             "BT_STUDIO_WORKERS": "1",

@@ -1,12 +1,13 @@
-"""Makes pods and secrets of sessions from the template `docker/kubernetes/executor-pod.yaml`. Pure.
+"""Makes pods and secrets from the templates `*-pod.yaml` in `docker/kubernetes`. Pure.
 
-The template is a whole pod. Of it only names, labels and the names of the secret are replaced, so that what
+A template is a whole pod. Of it only names, labels and the names of the secret are replaced, so that what
 an administrator has reviewed and bounded is what runs.
 """
 
 from __future__ import annotations
 
 import copy
+from enum import StrEnum
 from typing import TYPE_CHECKING, Any, Final
 
 import msgspec
@@ -14,15 +15,37 @@ import yaml
 from lightkube.resources.core_v1 import Pod
 
 if TYPE_CHECKING:
-    from backend.sessions.launchers.base import Spec
     from backend.sessions.manager.certificate import Certificate
 
-__all__ = ["PORT", "SESSION_LABEL", "TemplateError", "pod_body", "pod_name", "read_template", "secret_body"]
+__all__ = [
+    "DIGEST",
+    "KIND_LABEL",
+    "PORT",
+    "Kind",
+    "TemplateError",
+    "id_label",
+    "pod_body",
+    "pod_name",
+    "read_template",
+    "secret_body",
+]
 
 PORT: Final = 7163
-SESSION_LABEL: Final = "bt-studio/session"
-"""The label of pods of sessions, with the id of the session."""
+KIND_LABEL: Final = "bt-studio/kind"
+"""The label of all pods that we make."""
+DIGEST: Final = "bt-studio/certificate"
+"""The annotation with the SHA-256 of a pod's certificate."""
 _SECRET: Final = "SESSION"  # noqa: S105 - the name of the secret in the template
+
+
+class Kind(StrEnum):
+    """The purpose of a pod: a session, or the tools of a user."""
+
+    SESSION = "session"
+    TOOLS = "tools"
+
+
+_ID_LABELS: Final = {Kind.SESSION: "bt-studio/session", Kind.TOOLS: "bt-studio/tools"}
 
 
 class TemplateError(ValueError):
@@ -57,31 +80,36 @@ def read_template(text: str) -> dict[str, Any]:
     return found
 
 
-def pod_name(session_id: str) -> str:
-    """Returns the name of a session's pod, and of its secret."""
-    return f"bt-studio-session-{session_id}"
+def pod_name(kind: Kind, made_id: str) -> str:
+    """Returns the name of a pod, and of its secret."""
+    return f"bt-studio-{kind}-{made_id}"
 
 
-def pod_body(template: dict[str, Any], session_id: str) -> dict[str, Any]:
-    """Returns the pod of a session."""
-    name = pod_name(session_id)
+def id_label(kind: Kind) -> str:
+    """Returns the label with the id of a session, or of tools."""
+    return _ID_LABELS[kind]
+
+
+def pod_body(template: dict[str, Any], kind: Kind, made_id: str, digest: str) -> dict[str, Any]:
+    """Returns a pod; `digest` is the SHA-256 of the certificate that will be in its secret."""
+    name = pod_name(kind, made_id)
     body: dict[str, Any] = _renamed(copy.deepcopy(template), name)
     metadata = body.setdefault("metadata", {})
     metadata["name"] = name
-    metadata["labels"] = {**metadata.get("labels", {}), SESSION_LABEL: session_id}
+    metadata["labels"] = {**metadata.get("labels", {}), KIND_LABEL: kind.value, id_label(kind): made_id}
+    metadata["annotations"] = {**metadata.get("annotations", {}), DIGEST: digest}
     return body
 
 
-def secret_body(spec: Spec, made: Certificate, pod_uid: str) -> dict[str, Any]:
-    """Returns the secret of a session: its token, certificate and key. It goes with its pod."""
-    name = pod_name(spec.session_id)
+def secret_body(name: str, token: str, made: Certificate, pod_uid: str) -> dict[str, Any]:
+    """Returns the secret of a pod: its token, certificate and key. It goes with its pod."""
     owner = {"apiVersion": "v1", "kind": "Pod", "name": name, "uid": pod_uid}
     return {
         "apiVersion": "v1",
         "kind": "Secret",
-        "metadata": {"name": name, "labels": {SESSION_LABEL: spec.session_id}, "ownerReferences": [owner]},
+        "metadata": {"name": name, "ownerReferences": [owner]},
         "immutable": True,
-        "stringData": {"token": spec.token, "tls.crt": made.certificate, "tls.key": made.key},
+        "stringData": {"token": token, "tls.crt": made.certificate, "tls.key": made.key},
     }
 
 

@@ -11,6 +11,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Final
 
 from backend.sessions.launchers.base import UNKNOWN_EXIT
+from backend.sessions.launchers.kubernetes.bodies import DIGEST
 
 if TYPE_CHECKING:
     from lightkube.models.core_v1 import ContainerState, PodCondition, PodStatus
@@ -57,12 +58,14 @@ class Seen:
 
     Attributes:
         address: its address in the cluster; "" before it has one.
+        digest: the SHA-256 of its certificate.
         is_ready: whether its manager listens.
         exit_status: how its container ended, or `UNKNOWN_EXIT`; None while it has not.
     """
 
     uid: str
     address: str = ""
+    digest: str = ""
     is_ready: bool = False
     exit_status: int | None = None
     trouble: Trouble | None = None
@@ -107,8 +110,9 @@ def read_pod(pod: Pod) -> Seen:
     """Returns what a pod says of itself."""
     metadata, status = pod.metadata, pod.status
     uid = (metadata.uid if metadata else None) or ""
+    digest = (metadata.annotations or {}).get(DIGEST, "") if metadata else ""
     if status is None:
-        return Seen(uid)
+        return Seen(uid, digest=digest)
     conditions = {condition.type: condition for condition in status.conditions or []}
     state = _container(status)
     is_lost = bool(metadata and metadata.deletionTimestamp) and "DisruptionTarget" in conditions
@@ -117,6 +121,7 @@ def read_pod(pod: Pod) -> Seen:
     return Seen(
         uid=uid,
         address=status.podIP or "",
+        digest=digest,
         is_ready=not has_ended and ready is not None and ready.status == "True",
         exit_status=_exit_status(state) if has_ended else None,
         trouble=_trouble(status, conditions, state),

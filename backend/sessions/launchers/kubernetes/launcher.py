@@ -1,4 +1,4 @@
-"""Starts and ends the pods of sessions."""
+"""Starts and ends the pods of sessions and tools."""
 
 from __future__ import annotations
 
@@ -21,8 +21,9 @@ from backend.sessions.errors import HostFullError, LaunchError
 from backend.sessions.launchers.base import UNKNOWN_EXIT, Launcher, Spec, Started, State
 from backend.sessions.launchers.kubernetes.bodies import (
     PORT,
-    SESSION_LABEL,
+    Kind,
     TemplateError,
+    id_label,
     pod_body,
     pod_name,
     read_template,
@@ -33,6 +34,7 @@ from backend.sessions.launchers.kubernetes.pods import Pods
 from backend.sessions.manager.certificate import make_certificate
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     from lightkube.config.kubeconfig import SingleConfig
@@ -63,32 +65,33 @@ _KEPT_ALIVE: Final = (
 Made = TypeVar("Made", Pod, Secret)
 
 
-def open_cluster(template: Path, namespace: str) -> KubernetesLauncher:
+def open_cluster(template: Path, tools_template: Path, namespace: str) -> KubernetesLauncher:
     """Returns the launcher of the cluster in which this server runs, or that `KUBECONFIG` names.
 
     Args:
         template: the file of the pod that is made for each session.
+        tools_template: the file of the pod that is made for each user's tools.
         namespace: the namespace in which pods are made.
 
     Raises:
         ImproperlyConfigured: there is no such cluster, or the file is no such template.
     """
-    config, made = read_settings(template)
+    config, made = read_settings(template, tools_template)
     verify = verify_cluster(config.cluster, config.user or User(), config.abs_file)
     transport = httpx2.HTTPTransport(verify=verify, socket_options=_KEPT_ALIVE)
     return KubernetesLauncher(Client(config=config, namespace=namespace, transport=transport), made)
 
 
-def read_settings(template: Path) -> tuple[SingleConfig, dict[str, Any]]:
-    """Returns the cluster and the template, as `open_cluster` finds them; contacts nobody.
+def read_settings(template: Path, tools_template: Path) -> tuple[SingleConfig, dict[Kind, dict[str, Any]]]:
+    """Returns the cluster and the templates, as `open_cluster` finds them; contacts nobody.
 
     Raises:
         ImproperlyConfigured: there is no such cluster, or the file is no such template.
     """
-    try:
-        made = read_template(template.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, TemplateError) as error:
-        raise ImproperlyConfigured(f"BT_STUDIO_POD_TEMPLATE: {template} cannot be used: {error}.") from error
+    made = {
+        Kind.SESSION: _read_template("BT_STUDIO_POD_TEMPLATE", template),
+        Kind.TOOLS: _read_template("BT_STUDIO_TOOLS_TEMPLATE", tools_template),
+    }
     sentence = "BT_STUDIO_LAUNCHER=kubernetes: this is no pod of a cluster, and KUBECONFIG names none"
     try:
         config = KubeConfig.from_env().get()
@@ -99,21 +102,32 @@ def read_settings(template: Path) -> tuple[SingleConfig, dict[str, Any]]:
     return config, made
 
 
+def _read_template(variable: str, file: Path) -> dict[str, Any]:
+    try:
+        return read_template(file.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, TemplateError) as error:
+        raise ImproperlyConfigured(f"{variable}: {file} cannot be used: {error}.") from error
+
+
+class _TakenError(HostFullError):
+    """A pod of this name exists."""
+
+
 class KubernetesLauncher(Launcher):
     """Starts executors as pods of one namespace.
 
     Args:
         client: the client of the cluster, for the namespace of the sessions.
-        template: the pod that is made for each session (`bodies.read_template`).
+        templates: the pods that are made for sessions and tools (`bodies.read_template`).
     """
 
     name = "kubernetes"
     survives_server = True
     starts_at_once = 64
 
-    def __init__(self, client: Client, template: dict[str, Any]) -> None:
+    def __init__(self, client: Client, templates: dict[Kind, dict[str, Any]]) -> None:
         self._client = client
-        self._template = template
+        self._templates = templates
         # msgspec, which reads the objects, does not end if two threads meet a type for the first time.
         msgspec.convert({}, Pod)
         msgspec.convert({}, Secret)
@@ -122,25 +136,59 @@ class KubernetesLauncher(Launcher):
 
     def start(self, spec: Spec) -> Started:
         """Makes a pod and its secret, and waits until the manager in it listens."""
-        deadline_s = monotonic() + spec.start_timeout_s
-        made = make_certificate(spec.session_id)
-        name = pod_name(spec.session_id)
-        pod = self._create(msgspec.convert(pod_body(self._template, spec.session_id), Pod), deadline_s)
+        return self._bring_up(Kind.SESSION, spec.session_id, spec.token, spec.start_timeout_s)
+
+    def open_tools(self, tools_id: str, token: str, *, timeout_s: float) -> str:
+        """Returns the address at which a user's tools listen; makes their pod if there is none.
+
+        Another web server may have made it, or be making it.
+        """
+        name, deadline_s = pod_name(Kind.TOOLS, tools_id), monotonic() + timeout_s
+        while True:
+            try:
+                return self._bring_up(Kind.TOOLS, tools_id, token, deadline_s - monotonic()).address
+            except _TakenError:
+                seen = self._await_other(name, deadline_s)
+            if seen is not None and seen.is_ready:
+                return _address(seen)
+            if monotonic() >= deadline_s:
+                self.stop({"pod": name}, timeout_s=0)
+                raise _not_started(seen, timeout_s)
+
+    def _await_other(self, name: str, deadline_s: float) -> Seen | None:
+        """Waits for a pod that exists already; deletes it if it has ended or does not start."""
+        found = self._look(name)
+        if found is None:
+            return None
+        if found.exit_status is None:
+            found, _ = self._pods.wait(name, _decided(found.uid), deadline_s)
+        if found is not None and (found.is_ready or not found.is_decided):
+            return found
+        self.stop({"pod": name}, timeout_s=0)
+        return None
+
+    def tidy(self) -> None:
+        """Deletes the pods of tools that have ended by themselves."""
+        for pod in self._list(Kind.TOOLS):
+            if pod.metadata and pod.metadata.name and read_pod(pod).exit_status is not None:
+                self._delete(pod.metadata.name, 0.0)
+
+    def _bring_up(self, kind: Kind, made_id: str, token: str, timeout_s: float) -> Started:
+        deadline_s = monotonic() + timeout_s
+        made = make_certificate(made_id)
+        name = pod_name(kind, made_id)
+        body = pod_body(self._templates[kind], kind, made_id, made.digest)
+        pod = self._create(msgspec.convert(body, Pod), deadline_s)
         uid = (pod.metadata.uid if pod.metadata else None) or ""
-
-        def is_decided(seen: Seen | None) -> bool:
-            return seen is not None and seen.uid == uid and seen.is_decided
-
         try:
-            self._create(msgspec.convert(secret_body(spec, made, uid), Secret), deadline_s)
-            seen, _ = self._pods.wait(name, is_decided, deadline_s)
+            self._create(msgspec.convert(secret_body(name, token, made, uid), Secret), deadline_s)
+            seen, _ = self._pods.wait(name, _decided(uid), deadline_s)
             if seen is None or not seen.is_ready:
-                raise _not_started(seen, spec.start_timeout_s)
+                raise _not_started(seen, timeout_s)
         except BaseException:
             self.stop({"pod": name}, timeout_s=0)
             raise
-        host = f"[{seen.address}]" if ":" in seen.address else seen.address
-        return Started(f"wss://{host}:{PORT}#{made.digest}", {"pod": name, "uid": uid})
+        return Started(_address(seen), {"pod": name, "uid": uid})
 
     def poll(self, state: State) -> int | None:
         """Returns what is known of the pod. While the cluster does not answer, executors count as running."""
@@ -173,21 +221,39 @@ class KubernetesLauncher(Launcher):
 
     def running(self) -> list[str]:
         """Returns the ids of the sessions whose pods have not ended, as the cluster says now."""
-        try:
-            listed = list(self._client.list(Pod, labels={SESSION_LABEL: None}, chunk_size=500))
-        except (httpx2.HTTPError, OSError) as error:
-            log.warning("the cluster does not list the pods of sessions: %s", error)
-            return []
+        listed = self._list(Kind.SESSION)
         living = [pod.metadata for pod in listed if read_pod(pod).exit_status is None]
-        return [found.labels[SESSION_LABEL] for found in living if found and found.labels]
+        return [found.labels[id_label(Kind.SESSION)] for found in living if found and found.labels]
 
     def state_of(self, session_id: str) -> dict[str, Any]:
         """Returns the state by which a pod is found, from the id of its session."""
-        return {"pod": pod_name(session_id)}
+        return {"pod": pod_name(Kind.SESSION, session_id)}
 
     def close(self) -> None:
         """Ends the watch over the pods, which stay."""
         self._pods.close()
+
+    def _list(self, kind: Kind) -> list[Pod]:
+        try:
+            return list(self._client.list(Pod, labels={id_label(kind): None}, chunk_size=500))
+        except (httpx2.HTTPError, OSError) as error:
+            log.warning("the cluster does not list its pods: %s", error)
+            return []
+
+    def _look(self, name: str) -> Seen | None:
+        """Returns what the cluster says of a pod now; None if there is none.
+
+        Raises:
+            LaunchError: the cluster does not answer.
+        """
+        try:
+            return read_pod(self._client.get(Pod, name))
+        except ApiError as error:
+            if error.status.code == NOT_FOUND:
+                return None
+            raise _refused(error) from error
+        except (httpx2.HTTPError, OSError) as error:
+            raise LaunchError(f"The cluster does not answer: {error}.") from error
 
     def _create(self, body: Made, deadline_s: float) -> Made:
         """Makes an object; asks again while the cluster has too many requests.
@@ -221,6 +287,16 @@ class KubernetesLauncher(Launcher):
         return True
 
 
+def _address(seen: Seen) -> str:
+    host = f"[{seen.address}]" if ":" in seen.address else seen.address
+    return f"wss://{host}:{PORT}#{seen.digest}"
+
+
+def _decided(uid: str) -> Callable[[Seen | None], bool]:
+    """Returns a condition: it is known whether the pod with this uid is ready."""
+    return lambda seen: seen is not None and seen.uid == uid and seen.is_decided
+
+
 def _is_over(seen: Seen | None) -> bool:
     return seen is None or seen.exit_status is not None
 
@@ -230,7 +306,7 @@ def _refused(error: ApiError) -> LaunchError | HostFullError:
     if error.status.code == FORBIDDEN and QUOTA in text:
         return HostFullError(f"The robots of this server have used up their part of the cluster. ({text})")
     if error.status.code == CONFLICT:
-        return HostFullError("The last executor of this session has not ended yet.")
+        return _TakenError("The last executor of this session has not ended yet.")
     return LaunchError(f"The cluster refused the executor: {text}", hint="Ask who runs this server.")
 
 

@@ -1,4 +1,4 @@
-"""Knows all pods of sessions: a thread lists them, then watches what changes.
+"""Knows all pods of sessions and tools: a thread lists them, then watches what changes.
 
 No call waits for the cluster but `wait`. While it does not answer, what was known last holds. A watch that is
 too old (410 Gone) or broken begins again with a list, which also shows which pods were deleted meanwhile.
@@ -17,7 +17,7 @@ import httpx2
 from lightkube.resources.core_v1 import Pod
 
 from backend.sessions.launchers.base import UNKNOWN_EXIT
-from backend.sessions.launchers.kubernetes.bodies import SESSION_LABEL
+from backend.sessions.launchers.kubernetes.bodies import KIND_LABEL
 from backend.sessions.launchers.kubernetes.ends import Cause, Seen, Trouble, read_pod
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ _BROKEN: Final = (httpx2.HTTPError, OSError, ValueError, RuntimeError)
 
 
 class Pods:
-    """The pods of sessions in the namespace of a client. `close` ends its thread."""
+    """The pods of sessions and tools in the namespace of a client. `close` ends its thread."""
 
     def __init__(self, client: Client) -> None:
         self._client = client
@@ -105,7 +105,7 @@ class Pods:
             pause_s = min(LONGEST_PAUSE_S, 2 * pause_s)
 
     def _list(self) -> str:
-        listed = self._client.list(Pod, labels={SESSION_LABEL: None}, chunk_size=500)
+        listed = self._client.list(Pod, labels={KIND_LABEL: None}, chunk_size=500)
         found = {pod.metadata.name or "": read_pod(pod) for pod in listed if pod.metadata}
         with self._changed:
             for name in self._living.keys() - found.keys():
@@ -117,7 +117,7 @@ class Pods:
 
     def _watch(self, version: str) -> None:
         for kind, pod in self._client.watch(
-            Pod, labels={SESSION_LABEL: None}, server_timeout=WATCH_S, resource_version=version
+            Pod, labels={KIND_LABEL: None}, server_timeout=WATCH_S, resource_version=version
         ):
             if self._closing.is_set():
                 return

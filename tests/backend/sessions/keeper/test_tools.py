@@ -39,7 +39,7 @@ def test_a_users_tools_are_started_once_and_found_again(host_of):
     assert len(set(paths)) == 1
     assert names(host) == [f"stack-tools-{tools_id}"]
     with socket.socket(socket.AF_UNIX) as client:
-        client.connect(paths[0])
+        client.connect(paths[0].removeprefix("unix:"))
     assert host.launcher.running() == [], "tools are no session, and no orphan of one"
 
 

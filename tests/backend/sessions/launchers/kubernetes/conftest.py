@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from lightkube import Client, KubeConfig
 from lightkube.config.models import Cluster, User
 
-from backend.sessions.launchers.kubernetes.bodies import read_template
+from backend.sessions.launchers.kubernetes.bodies import Kind, read_template
 from backend.sessions.launchers.kubernetes.launcher import KubernetesLauncher
 from tests.docker.engine import REPOSITORY
 from tests.fakes.kubernetes_api import NAMESPACE, FakeCluster
@@ -17,6 +17,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 TEMPLATE = REPOSITORY / "docker" / "kubernetes" / "executor-pod.yaml"
+TOOLS_TEMPLATE = TEMPLATE.with_name("tools-pod.yaml")
+
+
+def templates() -> dict[Kind, dict[str, Any]]:
+    """Returns the templates that we ship."""
+    files = {Kind.SESSION: TEMPLATE, Kind.TOOLS: TOOLS_TEMPLATE}
+    return {kind: read_template(file.read_text()) for kind, file in files.items()}
 
 
 @pytest.fixture
@@ -33,7 +40,7 @@ def client(cluster: FakeCluster) -> Client:
 
 @pytest.fixture
 def launcher(cluster: FakeCluster, client: Client) -> Iterator[KubernetesLauncher]:
-    made = KubernetesLauncher(client, read_template(TEMPLATE.read_text()))
+    made = KubernetesLauncher(client, templates())
     yield made
     cluster.die()  # a watch that waits for the next event is not interrupted otherwise
     made.close()

@@ -7,15 +7,17 @@ import pytest
 import yaml
 
 from backend.sessions.launchers.kubernetes.bodies import (
+    DIGEST,
+    KIND_LABEL,
     PORT,
-    SESSION_LABEL,
+    Kind,
     TemplateError,
+    id_label,
     pod_body,
     read_template,
     secret_body,
 )
 from backend.sessions.manager.certificate import make_certificate
-from tests.backend.sessions.conftest import spec
 from tests.backend.sessions.launchers.kubernetes.conftest import TEMPLATE
 from tests.fakes.kubernetes_api import VERSION
 
@@ -24,11 +26,16 @@ TEXT = TEMPLATE.read_text()
 
 def test_a_pod_is_the_template_with_names_of_its_own() -> None:
     template = read_template(TEXT)
-    pod = pod_body(template, "3f2a")
+    pod = pod_body(template, Kind.SESSION, "3f2a", "d1")
     kubernetes_validate.validate(pod, VERSION, strict=True)
     name = "bt-studio-session-3f2a"
     assert pod["metadata"]["name"] == name
-    assert pod["metadata"]["labels"] == {"app": "bt-studio-session", SESSION_LABEL: "3f2a"}
+    assert pod["metadata"]["labels"] == {
+        "app": "bt-studio-session",
+        KIND_LABEL: "session",
+        id_label(Kind.SESSION): "3f2a",
+    }
+    assert pod["metadata"]["annotations"] == {DIGEST: "d1"}
     assert pod["spec"]["volumes"][0]["secret"]["secretName"] == name
     assert template == read_template(TEXT), "the template itself stays as it is"
     assert yaml.safe_dump(pod["spec"]).replace(name, "SESSION") == yaml.safe_dump(template["spec"])
@@ -37,7 +44,7 @@ def test_a_pod_is_the_template_with_names_of_its_own() -> None:
 
 def test_a_secret_goes_with_its_pod_and_never_changes() -> None:
     made = make_certificate("s1")
-    secret = secret_body(spec(), made, "the uid")
+    secret = secret_body("bt-studio-session-s1", "t0ken", made, "the uid")
     kubernetes_validate.validate(secret, VERSION, strict=True)
     assert secret["immutable"] is True
     assert secret["metadata"]["ownerReferences"][0]["uid"] == "the uid"

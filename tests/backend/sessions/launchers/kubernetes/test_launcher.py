@@ -15,7 +15,7 @@ from lightkube import Client
 from backend.sessions.errors import HostFullError, LaunchError
 from backend.sessions.launchers.base import UNKNOWN_EXIT
 from backend.sessions.launchers.kubernetes import launcher as module
-from backend.sessions.launchers.kubernetes.bodies import pod_name
+from backend.sessions.launchers.kubernetes.bodies import Kind, pod_name
 from tests.backend.sessions.conftest import spec
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from backend.sessions.launchers.kubernetes.launcher import KubernetesLauncher
     from tests.fakes.kubernetes_api import FakeCluster
 
-NAME = pod_name("s1")
+NAME = pod_name(Kind.SESSION, "s1")
 
 
 def until(launcher: KubernetesLauncher, state: dict[str, Any], status: int | None) -> None:
@@ -143,7 +143,7 @@ def test_what_the_cluster_refuses_is_said(
     cluster: FakeCluster, launcher: KubernetesLauncher, change: tuple[str, dict[str, Any]], sentence: str
 ) -> None:
     where, fields = change
-    pod = launcher._template["spec"]
+    pod = launcher._templates[Kind.SESSION]["spec"]
     (pod if where == "spec" else pod["containers"][0]).update(fields)
     with pytest.raises(LaunchError, match=sentence):
         launcher.start(spec())
@@ -260,7 +260,7 @@ def test_a_pod_on_a_lost_node_has_ended_although_it_is_still_there(
 def test_the_pod_of_another_server_counts_as_running_until_it_is_surely_unknown(
     launcher: KubernetesLauncher, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    state = {"pod": pod_name("other")}
+    state = {"pod": pod_name(Kind.SESSION, "other")}
     launcher._pods.wait("none", lambda _: launcher._pods.are_listed, time.monotonic() + 20)
     assert launcher.poll(state) is None
     monkeypatch.setattr(module, "UNKNOWN_S", -1.0)

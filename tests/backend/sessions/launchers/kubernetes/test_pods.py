@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from backend.sessions.launchers.base import UNKNOWN_EXIT
 from backend.sessions.launchers.kubernetes import pods as module
-from backend.sessions.launchers.kubernetes.bodies import pod_name
+from backend.sessions.launchers.kubernetes.bodies import Kind, pod_name
 from tests.backend.sessions.conftest import spec
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from backend.sessions.launchers.kubernetes.launcher import KubernetesLauncher
     from tests.fakes.kubernetes_api import FakeCluster
 
-NAME = pod_name("s1")
+NAME = pod_name(Kind.SESSION, "s1")
 
 
 def soon() -> float:
@@ -39,8 +39,8 @@ def test_a_watch_that_is_too_old_begins_again_and_misses_no_end(
     assert ended
     assert seen is not None
     assert seen.exit_status == UNKNOWN_EXIT
-    cluster.remove("pods", pod_name("s2"))  # the new watch hears this
-    assert launcher._pods.wait(pod_name("s2"), has_ended, soon())[1]
+    cluster.remove("pods", pod_name(Kind.SESSION, "s2"))  # the new watch hears this
+    assert launcher._pods.wait(pod_name(Kind.SESSION, "s2"), has_ended, soon())[1]
     assert [verb for verb, _ in cluster.asked].count("list") >= 2
 
 
@@ -58,11 +58,14 @@ def test_the_ends_of_many_pods_do_not_fill_the_memory(
 ) -> None:
     monkeypatch.setattr(module, "MOST_ENDED", 2)
     for number in range(4):
-        name = pod_name(f"n{number}")
+        name = pod_name(Kind.SESSION, f"n{number}")
         launcher.start(spec(session_id=f"n{number}"))
         cluster.remove("pods", name)
         assert launcher._pods.wait(name, has_ended, soon())[1]
-    assert [number for number in range(4) if launcher._pods.get(pod_name(f"n{number}"))] == [2, 3]
+    assert [number for number in range(4) if launcher._pods.get(pod_name(Kind.SESSION, f"n{number}"))] == [
+        2,
+        3,
+    ]
 
 
 def test_an_end_that_is_awaited_when_the_server_ends_is_not_awaited_longer(

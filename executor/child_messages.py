@@ -155,7 +155,7 @@ class DumpWorld(Asked, tag="dump"):
     """Requests the state of the world; a `WorldState` comes before the answer."""
 
 
-class LoadWorld(Message, tag="load"):
+class LoadWorld(Asked, tag="load"):
     """Restores a state of this world that another process sent."""
 
     data: bytes
@@ -236,6 +236,8 @@ class StartApplication(Message, tag="start"):
     """The state with which that world begins; empty for its initial state."""
     replay: Replay | None = None
     """What the exact run does before it is ready: an earlier one again, up to a moment."""
+    blackboard_json: str = ""
+    """The recorded entries with which the blackboard of a live run begins; "" for none."""
 
 
 class ConnectDebugger(Message, tag="connect_debugger"):
@@ -704,6 +706,7 @@ Request = (
     | SetSpeed
     | MoveBody
     | DumpWorld
+    | LoadWorld
     | ListTopics
     | EchoTopic
     | PublishTopic

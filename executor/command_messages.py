@@ -233,12 +233,14 @@ class Flag(Struct, forbid_unknown_fields=True):
 
 
 class GoBack(Struct, forbid_unknown_fields=True):
-    """Takes world and program of an exact run back to the moment `t` in s, where they are paused.
+    """Takes world and program of a run back to the moment `t` in s, where they are paused.
 
     The moment is that after the first tick that is not earlier; without `t` it is the end of the run. `run`
-    is one of this session in the present world, "" the present or last one. It is made again from its begin,
-    and the events `going_back` say how far it is. What follows is recorded as a run of its own (`branch`).
-    Refused with `not_exact`, `unknown_run`, or `not_repeatable`.
+    is one of this session in the present world, "" the present or last one. An exact run is made again from
+    its begin, and the events `going_back` say how far it is. The world of a live run goes back to its last
+    recorded state that is not later (they are 5 s apart), and its tree begins again, with the recorded
+    blackboard; a line of the console names the entries that are left empty. What follows is recorded as a run
+    of its own (`branch`). Refused with `no_run`, `unknown_run`, `not_repeatable`, or `not_recorded`.
     """
 
     run: Annotated[str, Meta(max_length=64)] = ""

@@ -480,6 +480,8 @@ class Snapshot(Struct):
     """The runs of this session that continue others."""
     repeatable_runs: list[str] = []
     """The runs in which one can go back."""
+    live_runs: list[str] = []
+    """Those of them that are live: their world goes back, and their tree begins again."""
     held: Held | None = None
     forced: Forced | None = None
     attached: Attached | None = None

@@ -61,6 +61,16 @@ class ReadSegment(Asked, tag="read_segment"):
     length: int
 
 
+class FindKeyframe(Asked, tag="find_keyframe"):
+    """Requests the last recorded state of a run's world that is not later than `t` in s; null is its end.
+
+    A `WorldKeyframe` comes before the answer.
+    """
+
+    run: str
+    t: float | None
+
+
 # --- from the recorder ----------------------------------------------------------------------------
 
 
@@ -79,7 +89,15 @@ class Stopped(Message, tag="stopped"):
     detail: str
 
 
-ToRecorder = StartRecorder | Stop | BeginRun | ChangeFiles | RunEvent | ReadSegment
-FromRecorder = Beat | Log | Answer | Frame | Recorded | Stopped
+class WorldKeyframe(Message, tag="keyframe"):
+    """The recorded state of a world at a moment `t` in s, and the blackboard, as in the recording."""
+
+    t: float
+    world: bytes
+    blackboard_json: str
+
+
+ToRecorder = StartRecorder | Stop | BeginRun | ChangeFiles | RunEvent | ReadSegment | FindKeyframe
+FromRecorder = Beat | Log | Answer | Frame | Recorded | Stopped | WorldKeyframe
 decode_to_recorder: Final = msgspec.msgpack.Decoder(ToRecorder).decode
 decode_from_recorder: Final = msgspec.msgpack.Decoder(FromRecorder).decode

@@ -59,9 +59,13 @@ class Branch(Struct):
 
 
 class RepeatableRuns(Struct):
-    """The runs of this session in which one can go back, the present or last one at the end."""
+    """The runs of this session in which one can go back, the present or last one at the end.
+
+    Of those that are `live`, the world goes back to a recorded state, and the tree begins again there.
+    """
 
     runs: list[str]
+    live: list[str] = []
 
 
 class GoingBack(Struct):

@@ -47,6 +47,7 @@ SPIN_S: Final = 0.05
 DISCOVERY_S: Final = 0.8
 GOODBYE_S: Final = 0.5
 DEBUGGER_S: Final = 6.0
+MOST_NAMED: Final = 20
 LATE_DEBUGGER: Final = "The Python debugger was late: breakpoints in Python hold the run only from now on."
 
 
@@ -413,6 +414,8 @@ class Application:
         from tree_gardener.runner import Runner  # noqa: PLC0415
 
         self._groot.follow(tree)
+        if start.blackboard_json:
+            self._restore(tree, start.blackboard_json)
         tree.setup(node=self._graph.node)
         self._runner = Runner(
             tree,
@@ -436,6 +439,18 @@ class Application:
             self._channel.send(child_messages.Log("warning", f"{refused.message} {refused.hint}"))
         tree.current = self._pulse.current
         self._runner.pause()
+
+    def _restore(self, tree: Tree, blackboard_json: str) -> None:
+        """Begins with a recorded blackboard; names what it cannot have."""
+        from executor.application.recorded_board import restore  # noqa: PLC0415 - with the engine
+
+        empty = restore(tree, blackboard_json)
+        self._reporter.restate(tree)
+        if empty:
+            more = f", and {len(empty) - MOST_NAMED} more" if len(empty) > MOST_NAMED else ""
+            names = ", ".join(empty[:MOST_NAMED])
+            text = f"Left empty, since the recording does not hold these values: {names}{more}."
+            self._channel.send(child_messages.Log("warning", text, of_world=True))
 
     def _leave_out(self, held_s: float) -> None:
         if self._profile is not None and self._recorder is not None:

@@ -29,11 +29,12 @@ from executor import __version__, child_messages, recorder_messages
 from executor.messages import Error, RecordingPart, Segment
 from executor.recorder.definitions import DefinitionError
 from executor.recorder.event_messages import message_of
+from executor.recorder.keyframes import find_keyframe
 from executor.recorder.link import ADDRESS_VARIABLE, BATCH_S, Dump, Heard, Mark, Record, Until, next_batch_s
 from executor.recorder.ordering import Ordering
 from executor.recorder.project_files import project_files, project_name
 from executor.recorder.run_writer import LATEST_NS, RunWriter
-from executor.recorder.shelf import Budgets, Shelf
+from executor.recorder.shelf import Budgets, Shelf, file_of
 from executor.recorder.sources import MOST_SOURCES, BrokenSource, Source, listen, take_source
 from executor.recorder_messages import FromRecorder, ToRecorder, decode_to_recorder
 from executor.supervision.channel import Channel, ChannelClosed, ChannelError
@@ -143,6 +144,8 @@ class RecorderProcess:
                     self._tell(message)
                 case recorder_messages.ReadSegment():
                     self._answer(message)
+                case recorder_messages.FindKeyframe():
+                    self._answer_keyframe(message)
 
     def _begin(self, message: recorder_messages.BeginRun) -> None:
         about = {**message.about, "bt_studio": __version__, "python": platform.python_version()}
@@ -192,6 +195,26 @@ class RecorderProcess:
         error = self._read(message)
         self._channel.send(child_messages.Answer(request=message.request, error=error))
 
+    def _answer_keyframe(self, message: recorder_messages.FindKeyframe) -> None:
+        """Sends the state of a world at a moment; what waits to be written is written before."""
+        self._take_all()
+        self._write_ready(all_=True)
+        if self._writer is not None:
+            self._guarded(self._writer.flush)
+        known = [one for one in self._segments() if one.run == message.run and one.bytes]
+        until_ns = None if message.t is None else round(message.t * 1e9)
+        folder = self._shelf.folder if self._shelf is not None else Path()
+        newest = sorted(known, key=lambda one: one.number, reverse=True)
+        found = find_keyframe([file_of(folder, one) for one in newest], until_ns)
+        error = None
+        if found is None:
+            text = "The recording has no state of the world that is so early."
+            error = Error("not_recorded", text, "Go back to a later moment, or press Run.")
+        else:
+            t_s = found.t_ns * 1e-9
+            self._channel.send(recorder_messages.WorldKeyframe(t_s, found.world, found.blackboard_json))
+        self._channel.send(child_messages.Answer(request=message.request, error=error))
+
     def _read(self, message: recorder_messages.ReadSegment) -> Error | None:
         segment = self._find(message)
         if segment is None or self._shelf is None:
@@ -207,11 +230,15 @@ class RecorderProcess:
         return None
 
     def _find(self, message: recorder_messages.ReadSegment) -> shelf.Segment | None:
+        wanted = (message.run, message.segment, message.version)
+        return next((one for one in self._segments() if (one.run, one.number, one.version) == wanted), None)
+
+    def _segments(self) -> list[shelf.Segment]:
+        """Returns all segments, with the open one."""
         known = list(self._shelf.segments) if self._shelf is not None else []
         if self._writer is not None:
             known.append(self._writer.open_segment)
-        wanted = (message.run, message.segment, message.version)
-        return next((one for one in known if (one.run, one.number, one.version) == wanted), None)
+        return known
 
     def _announce(self, segment: shelf.Segment) -> None:
         self._has_told = True

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from executor.adapter_messages import ToAdapter
     from executor.child_messages import Request, ToApplication, ToExact, ToWorld
     from executor.evaluation_messages import ToEvaluation
-    from executor.recorder_messages import ReadSegment, ToRecorder
+    from executor.recorder_messages import FindKeyframe, ReadSegment, ToRecorder
     from executor.session.events import ChildExited, ChildLooked, ChildSaid, ChildTraced, Effect, Kind
 
     Told = ToWorld | ToExact | ToRecorder | ToEvaluation | ToAdapter
@@ -119,12 +119,12 @@ class Children:
         """Sends a message to debugpy's adapter, if there is one."""
         self._tell("adapter", message)
 
-    def ask(self, kind: Kind, message: Request | ReadSegment, token: str) -> None:
+    def ask(self, kind: Kind, message: Request | ReadSegment | FindKeyframe, token: str) -> None:
         """Sends a request to the holder of a kind; its answer will have the same token."""
         message.request = token
         self._tell(kind, message)
 
-    def order(self, kind: Kind, message: Request | ReadSegment) -> tuple[Child, str]:
+    def order(self, kind: Kind, message: Request | ReadSegment | FindKeyframe) -> tuple[Child, str]:
         """Sends a request that no client asked for.
 
         Returns the child and the token of the expected answer.

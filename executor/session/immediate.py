@@ -167,7 +167,7 @@ def _set_speed(stage: Stage, event: CommandCame, data: messages.SetSpeed) -> Non
 def _reset_world(stage: Stage, event: CommandCame, _: Struct) -> None:
     _ask(stage, event, "world", child_messages.Reset(), patience_s=RESET_TIMEOUT_S)
     stage.recording.begin(resets=True)
-    if stage.children.host is not None:
+    if stage.state in HAS_APPLICATION:
         stage.past.reset(stage.recording.run)
 
 

@@ -90,6 +90,7 @@ class Mirror:
         self.stops: deque[RecordingStopped] = deque(maxlen=STOPS)
         self.branches: deque[Branch] = deque(maxlen=BRANCHES)
         self.repeatable_runs: list[str] = []
+        self.live_runs: list[str] = []
         self.runs = 0
         self._logged = 0
         self._run_starts: deque[tuple[int, int]] = deque(maxlen=LOG_LINES)
@@ -144,7 +145,7 @@ class Mirror:
             case Branch():
                 self.branches.append(event)
             case RepeatableRuns():
-                self.repeatable_runs = event.runs
+                self.repeatable_runs, self.live_runs = event.runs, event.live
             case Held():
                 self.held = event
             case Released():
@@ -198,6 +199,7 @@ class Mirror:
             stops=list(self.stops),
             branches=list(self.branches),
             repeatable_runs=self.repeatable_runs,
+            live_runs=self.live_runs,
             held=self.held,
             forced=self.forced,
             attached=self.attached,

@@ -136,8 +136,9 @@ class Session:
         self._advance()
         self._expire()
         self.python.follow()
-        if (names := self.past.names) != self.mirror.repeatable_runs:
-            self.output.emit(messages.RepeatableRuns(names))
+        names, live = self.past.names, self.past.live_names
+        if names != self.mirror.repeatable_runs or live != self.mirror.live_runs:
+            self.output.emit(messages.RepeatableRuns(names, live))
         application = self.children.get("application")
         if application is None or not application.is_started:
             self.nodes.stop(self)

@@ -116,7 +116,8 @@ class Recording:
     def said(self, event: ChildSaid) -> None:
         """Handles a message of the recorder."""
         stage = self._stage
-        if stage.children.of(event) is None:
+        child = stage.children.of(event)
+        if child is None:
             return
         self._silent_s = 0.0
         match event.message:
@@ -129,6 +130,10 @@ class Recording:
                 stage.output.emit(messages.Log("manager", "warning", text, time=t_s))
             case child_messages.Log(level=level, text=text):
                 stage.output.emit(messages.Log("manager", level, text, time=stage.sim_time_s))
+            case recorder_messages.WorldKeyframe() as found:
+                child.note(found)
+            case child_messages.Answer() as reply if child.take_answer(reply):
+                pass  # the session itself asked
             case child_messages.Answer(request=request, error=error) if request is not None:
                 question = stage.questions.answered(request)
                 if question is not None:

@@ -18,6 +18,7 @@ from executor.session import streaming
 from executor.session.exact.going_back import go_back
 from executor.session.exact.hosting import choose, expect, host, state_of_world
 from executor.session.ladder import HAS_APPLICATION, State
+from executor.session.live.going_back import go_back_live
 from executor.session.running import (
     begun,
     go,
@@ -195,8 +196,17 @@ def _apply(stage: Stage, data: Apply) -> Step:
         raise
     if data.dry or stage.run.application is None:
         return
+    stage.past.changed(stage.sim_time_s, folder)
     stage.run.folder, stage.run.plan = folder, unpacked.plan
     stage.run.application = structs.replace(stage.run.application, app_zip_base64=data.app_zip_base64)
+
+
+def _go_back(stage: Stage, data: messages.GoBack) -> Step:
+    """Takes a run back: an exact one is made again, the world of a live one goes back to a keyframe."""
+    past = stage.past.find(data.run)
+    if past is not None and not past.is_exact:
+        return go_back_live(stage, past, data.t)
+    return go_back(stage, data)
 
 
 def _run_on(stage: Stage, data: RunOn) -> Step:
@@ -243,7 +253,7 @@ def _start_application(stage: Stage, state: bytes = b"") -> Child:
         world_state=state,
     )
     stage.children.tell_application(start)
-    if application.is_exact:
+    if application.is_exact or not (stage.run.is_outside or stage.attaching is not None):
         stage.past.begin(start)
     if stage.attaching is not None and stage.attaching.controls:
         stage.children.tell_application(child_messages.Control(on=True))
@@ -267,12 +277,11 @@ def _await_application(stage: Stage, application: Child, tries: int = 2, state: 
         _progress(stage, "run_application", 1.0, "The application runs")
         host(stage, application)
         stage.recording.begin()
-        if application.is_exact:
+        if stage.attaching is None and not stage.run.is_outside:
             stage.past.name(stage.recording.run)
         yield from go(stage, application)
     except StepFailed as failure:
-        if application.is_exact:
-            stage.past.drop_unborn()
+        stage.past.drop_unborn()
         if stage.children.get("application") is application:
             stage.children.drop("application")
         has_world = stage.state.reaches(State.VISUALIZATION_READY)
@@ -425,7 +434,7 @@ STEPS: Final[dict[str, Callable[[Stage, Struct], Step]]] = {
     "run": _typed(messages.Run, _run),
     "apply": _typed(Apply, _apply),
     "run_on": _typed(RunOn, _run_on),
-    "go_back": _typed(messages.GoBack, go_back),
+    "go_back": _typed(messages.GoBack, _go_back),
     "restart_application": restart_application,
     "pause": pause,
     "resume": resume,

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 __all__ = ["go_back"]
 
 SILENT_S: Final = 60.0
-NO_RUN: Final = "There is no exact run to go back in."
-NO_RUN_HINT: Final = "Set the time of the run to exact, and press Run."
+NO_RUN: Final = "There is no run to go back in."
+NO_RUN_HINT: Final = "Press Run first."
 UNKNOWN: Final = "This run cannot be made again: it is too long ago, or was in another world."
 UNKNOWN_HINT: Final = "Go back in a later run."
 
@@ -50,7 +50,7 @@ def _found(stage: Stage, run: str) -> PastRun:
     if past is None:
         if run and stage.past.find("") is not None:
             raise StepFailed("unknown_run", UNKNOWN, UNKNOWN_HINT)
-        raise StepFailed("not_exact", NO_RUN, NO_RUN_HINT)
+        raise StepFailed("no_run", NO_RUN, NO_RUN_HINT)
     if past.refusal:
         raise StepFailed("not_repeatable", f"{past.refusal}: it cannot be made again.", "Press Run.")
     return past

@@ -72,7 +72,7 @@ def give_back(stage: Stage, child: Child, state: bytes = b"") -> None:
         return
     stage.children.host = None
     if state:
-        stage.children.tell_world(child_messages.LoadWorld(state))
+        stage.children.tell_world(child_messages.LoadWorld(data=state))
     else:
         stage.output.emit(messages.Log("manager", "info", _AS_BEFORE))
     stage.children.tell_world(child_messages.SetSpeed(stage.mirror.speed))

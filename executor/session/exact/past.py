@@ -1,4 +1,6 @@
-"""Keeps what an exact run had from outside: enough to make it again, up to any moment.
+"""Keeps what a run had from outside: enough to make an exact one again, up to any moment.
+
+Of a live run it keeps its program: the state of its world is in the recording.
 
 It is kept here, not in the run, since a run may die of what it does.
 """
@@ -47,6 +49,7 @@ class PastRun:
         resets: how often its world was reset.
         refusal: why it cannot be made again, as the begin of a sentence; "" if it can.
         folders: the folders with the programs that it used.
+        changes: when a live run got another program, in s, and the folder of that.
     """
 
     start: StartApplication
@@ -56,8 +59,18 @@ class PastRun:
     resets: int = 0
     refusal: str = ""
     folders: tuple[str, ...] = ()
+    changes: tuple[tuple[float, str], ...] = ()
     input_bytes: int = 0
     has_begun: bool = False
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether it can be made again."""
+        return self.start.world is not None
+
+    def folder_at(self, t_s: float) -> str:
+        """Returns the folder of the program that a live run had at a moment in s."""
+        return next((folder for at_s, folder in reversed(self.changes) if at_s <= t_s), self.start.app_dir)
 
     def replay(self, until_s: float | None) -> Replay:
         """Returns how it is made again up to a moment in s; with None, to its end."""
@@ -109,7 +122,7 @@ class PastRun:
 
 
 class PastRuns:
-    """The last exact runs in the present world, the newest last; the newest is the present one."""
+    """The last runs in the present world, the newest last; the newest is the present one."""
 
     def __init__(self) -> None:
         self._runs: list[PastRun] = []
@@ -131,6 +144,14 @@ class PastRuns:
     def branch(self, run: PastRun, reached: WentBack) -> None:
         """Adds a run that continues another one from a moment."""
         self._add(replace(run.until(reached), run=""))
+
+    def changed(self, t_s: float, folder: str) -> None:
+        """Notes that a live present run has another program; an exact one says so itself."""
+        if self._runs and not ((run := self._runs[-1]).is_exact or run.refusal):
+            run.changes += ((t_s, folder),)
+            run.folders += (folder,)
+            if len(run.folders) > MOST_FOLDERS:
+                run.refusal, run.folders, run.changes = TOO_MANY_CHANGES, (), ()
 
     def forget(self) -> None:
         """Forgets all runs: the world in which they were is gone."""
@@ -158,8 +179,13 @@ class PastRuns:
 
     @property
     def names(self) -> list[str]:
-        """The names of the recorded runs that can be made again, the newest last."""
+        """The names of the recorded runs in which one can go back, the newest last."""
         return [run.run for run in self._runs if run.run and not run.refusal]
+
+    @property
+    def live_names(self) -> list[str]:
+        """Those of them that are live: only their world goes back."""
+        return [run.run for run in self._runs if run.run and not run.refusal and not run.is_exact]
 
     @property
     def folders(self) -> frozenset[str]:

@@ -6,7 +6,7 @@ from typing import Any
 
 from msgspec import convert
 
-from executor import child_messages
+from executor import child_messages, recorder_messages
 from executor.child_messages import FromExact, FromWorld, name_of
 from executor.messages import COMMANDS
 from executor.session.events import (
@@ -128,6 +128,10 @@ class Play:
                 if message.request:
                     answers.append(self._said(effect, "answer", request=message.request))
                 return answers
+            case Tell(message=recorder_messages.FindKeyframe(t=t_s)):
+                frame = recorder_messages.WorldKeyframe(t_s or 9.0, b"as it was", '[["","k","int",3]]')
+                reply = self._said(effect, "answer", request=getattr(effect.message, "request", None))
+                return [ChildSaid(effect.kind, effect.number, frame), reply]
             case Tell(message=message) if getattr(message, "request", None):
                 return [self._said(effect, "answer", request=getattr(message, "request", None))]
             case Tell(kind="application", message=message) if type(message) in ANSWERS:

@@ -29,7 +29,7 @@ REFUSED = {
     "read_recording": "no_stream",
     "flag": "not_recorded",
     "control": "not_attached",
-    "go_back": "not_exact",
+    "go_back": "no_run",
 }
 """What a session answers that is neither recorded nor attached."""
 PAIRS = [(state, command) for state in State for command in TABLE]
@@ -58,6 +58,9 @@ def test_every_command_in_every_state(state, command):
         assert play.state is before
     elif command == "restart_node":
         assert play.reply(request) == "unknown_node"
+        assert play.state is before
+    elif command == "go_back" and state in HAS_APPLICATION:
+        assert play.reply(request) == "not_recorded"
         assert play.state is before
     elif command in REFUSED:
         assert play.reply(request) == REFUSED[command]

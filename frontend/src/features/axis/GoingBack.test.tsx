@@ -39,6 +39,19 @@ it('offers the way back only where it is possible', async () => {
   unregister();
 });
 
+it('says of a live run that its program begins again', async () => {
+  const unregister = registerAxisCommands();
+  useSessionStore.setState({
+    ...{ connection: 'open', introspection: driver, repeatableRuns: ['a'], liveRuns: ['a'] },
+    segments: [segmentOf({ run: 'a', to_t: 8 })],
+  });
+  useMoment.setState({ t: 2 });
+  show(<GoBackButton />);
+  await user.hover(screen.getByRole('button', { name: 'Go back to here' }));
+  expect(await screen.findByText(/begins again there/)).toBeVisible();
+  unregister();
+});
+
 it('offers to run on where the run is paused, for the driver', () => {
   const unregister = registerAxisCommands();
   useSessionStore.setState({ connection: 'open', introspection: driver });

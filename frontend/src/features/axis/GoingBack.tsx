@@ -4,7 +4,7 @@ import type { ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
 import { perform, useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
-import { canGoBack, cancelGoBack, canRunOn } from '@/store/moment/goBack';
+import { beginsAgain, canGoBack, cancelGoBack, canRunOn } from '@/store/moment/goBack';
 import { useMoment } from '@/store/moment/store';
 import { useSource } from '@/store/moment/source';
 import { useRunStore } from '@/store/run/store';
@@ -52,9 +52,10 @@ interface AxisButtonProps {
 function AxisButton({ command: id, words, testId, icon }: AxisButtonProps) {
   const { t } = useTranslation('axis');
   const command = useCommandTable(({ commands }) => commands[id]);
+  const help = useSessionStore(beginsAgain) ? t('goBack.helpLive') : t(`${words}.help`);
   if (!command) return null;
   return (
-    <Tooltip label={`${t(`${words}.help`)} (${keysOf(command)})`} multiline w={280}>
+    <Tooltip label={`${help} (${keysOf(command)})`} multiline w={280}>
       <Button
         size="compact-xs"
         variant="default"

@@ -17,6 +17,10 @@ export function canGoBack(): boolean {
   return repeatableRuns.includes(run);
 }
 
+/** Whether the shown run is live: then only its world goes back, and the tree begins again. */
+export const beginsAgain = (): boolean =>
+  useMoment.getState().t !== null && useSessionStore.getState().liveRuns.includes(extent()?.run ?? '');
+
 /** Takes world and program back to the shown moment, where they are paused, and shows them there. */
 export const goBack = () => reported(toShown());
 

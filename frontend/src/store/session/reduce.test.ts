@@ -50,6 +50,7 @@ const snapshot = (more: Partial<Snapshot> = {}): Snapshot => ({
   stops: [],
   branches: [],
   repeatable_runs: [],
+  live_runs: [],
   held: null,
   forced: null,
   attached: null,

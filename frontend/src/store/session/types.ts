@@ -85,6 +85,8 @@ export interface SessionData {
   branches: Branch[];
   /** The runs in which one can go back, those of the last run at the end. */
   repeatableRuns: string[];
+  /** Those of them that are live: their world goes back, and their tree begins again. */
+  liveRuns: string[];
   /** How far a run is on its way back to a moment, 0 to 1; null while none is. */
   goingBack: number | null;
   /** Where the debugger holds the tree; null while it does not. */

@@ -14,7 +14,7 @@ from executor.session.events import RecordingWanted, Send, StreamOpened
 from executor.session.exact.going_back import NO_RUN
 from executor.session.ladder import State
 from tests.executor.session.exact.test_hosting import RUN, running, started, told
-from tests.executor.session.play import APPLICATION, HELD, UNIVERSE, Play
+from tests.executor.session.play import APPLICATION, HELD, Play
 
 TELEOP = msgspec.msgpack.encode(child_messages.ForWorld(child_messages.Teleop(0.1, 0.2)))
 
@@ -121,13 +121,13 @@ def test_an_earlier_run_of_the_same_world_is_found_and_one_of_another_world_is_n
     assert play.reply(play.command("go_back", run=first)) == "unknown_run"
 
 
-def test_a_live_run_is_refused_and_continues() -> None:
+def test_without_a_run_it_is_refused() -> None:
     play = Play()
-    play.command("run", universe=UNIVERSE, application=APPLICATION)
-    assert play.reply(play.command("go_back", t=0.5)) == "not_exact"
+    play.climb(State.VISUALIZATION_READY)
+    assert play.reply(play.command("go_back", t=0.5)) == "no_run"
     sent = [effect.payload for effect in play.effects if isinstance(effect, Send)]
     assert any(getattr(payload, "message", "") == NO_RUN for payload in sent)
-    assert play.state is State.APPLICATION_RUNNING
+    assert play.state is State.VISUALIZATION_READY
 
 
 def test_a_run_with_too_much_is_refused_and_continues() -> None:

@@ -154,3 +154,25 @@ def test_what_is_too_much_is_refused(monkeypatch: pytest.MonkeyPatch, limit: str
         run.enter(entered(TELEOP))
         run.tick(Fingerprints(b"12345678"))
     assert words in run.refusal
+
+
+def test_a_live_run_keeps_the_programs_that_it_had() -> None:
+    runs = PastRuns()
+    runs.changed(1.0, "/nothing")
+    runs.begin(StartApplication("/app", 20.0))
+    runs.name("live")
+    assert (runs.names, runs.live_names) == (["live"], ["live"])
+    runs.changed(2.0, "/two")
+    runs.changed(4.0, "/four")
+    run = runs.find("live")
+    assert run is not None
+    assert not run.is_exact
+    assert [run.folder_at(t_s) for t_s in (0.0, 2.0, 3.9, 9.0)] == ["/app", "/two", "/two", "/four"]
+    assert runs.folders == {"/app", "/two", "/four"}
+    for number in range(MOST_FOLDERS):
+        runs.changed(5.0, f"/{number}")
+    assert (runs.names, runs.live_names) == ([], [])
+    runs.begin(start())
+    runs.name("exact")
+    runs.changed(1.0, "/other")
+    assert (runs.names, runs.live_names, runs.folders) == (["exact"], [], {"/app"})

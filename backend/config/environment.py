@@ -83,6 +83,11 @@ class Environment(TeamSettings):
     max_sessions: int = Field(
         default=0, ge=0, description="How many executors may run at once; further ones wait. 0: no limit."
     )
+    warm_sessions: int = Field(
+        default=0,
+        ge=0,
+        description="How many pods `kubernetes` keeps ready for the next sessions, which then start at once.",
+    )
     session_idle_minutes: float = Field(
         default=0,
         ge=0,

@@ -31,6 +31,7 @@ from backend.sessions.lease import CARE, holder, is_alone
 from backend.sessions.manager.holds import is_held
 from backend.sessions.models import Session
 from backend.sessions.signals import sessions_maintained
+from backend.sessions.warm.pool import end_leftovers, keep_warm
 from backend.sessions.watch import watchmen
 
 if TYPE_CHECKING:
@@ -182,10 +183,12 @@ def maintain(*, is_for_orphans: bool = False) -> None:
     if is_for_orphans:
         writes.end_orphans()
         writes.launcher().tidy()
+        end_leftovers()
     for session in ready_sessions():
         writes.refresh(session)
     end_idle()
     writes.start_queued()
+    keep_warm()
     sessions_maintained.send_robust(Session)
 
 

@@ -1,4 +1,4 @@
-"""Sessions, leases and the drain."""
+"""Sessions, executors that wait for one, leases and the drain."""
 
 from __future__ import annotations
 
@@ -27,6 +27,19 @@ class Lease(models.Model):
     name = models.CharField(max_length=40, primary_key=True)
     owner = models.CharField(max_length=100)
     until = models.DateTimeField()
+
+
+class WarmExecutor(models.Model):
+    """An executor that was started ahead of a session, which a session claims; it is never given back.
+
+    `claimed_by` is no foreign key: an executor whose session's row is deleted stays claimed.
+    """
+
+    id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
+    address = models.CharField(max_length=200, blank=True)
+    launcher_state = models.JSONField(default=dict)
+    created_at = models.DateTimeField()
+    claimed_by = models.UUIDField(null=True)
 
 
 class Session(models.Model):

@@ -33,6 +33,7 @@ from backend.sessions.models import LIVE_STATES, RUNNING_STATES, Session
 from backend.sessions.ros_domains import domains_on_this_host
 from backend.sessions.signals import session_ends
 from backend.sessions.targets import read_target
+from backend.sessions.warm.claims import claim, key_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -77,9 +78,12 @@ def workers() -> ThreadPoolExecutor:
 
 def manager_token(session: Session) -> str:
     """Returns the secret that relay and manager share; it is derived from the session, and so not stored."""
-    return hmac.new(
-        settings.SECRET_KEY.encode(), f"manager {session.id}".encode(), hashlib.sha256
-    ).hexdigest()
+    return token_of(key_of(session))
+
+
+def token_of(made_id: str) -> str:
+    """Returns the secret of the executor with an id: that of its session, or its own if it is a warm one."""
+    return hmac.new(settings.SECRET_KEY.encode(), f"manager {made_id}".encode(), hashlib.sha256).hexdigest()
 
 
 def start_session(project_id: UUID, *, acting_user: User) -> Session:
@@ -411,7 +415,8 @@ def _launch(session: Session) -> None:
     try:
         if not _begins(session):
             return
-        started = launcher().start(spec)
+        warm = None if session.target else claim(session.id, launcher())
+        started = warm or launcher().start(spec)
     except HostFullError as error:
         # The host's refusal counts more than our number. The session keeps its place in the queue.
         log.info("session %s waits: %s", session.id, error.detail)

@@ -84,6 +84,7 @@ class ManagerSettings:
         token: the token that clients must send; with "" none is needed, and only local clients are accepted.
         domain_id: the domain of the session's ROS graph; None selects an unused one.
         grace_s: the seconds for which a session without clients stays alive; 0 is without limit.
+        patience_s: the seconds after the start at which the grace for the first client begins.
         listener: a unix socket on which the manager listens too.
         tls: what encrypts connections to the port; None leaves them as they are, for this machine.
         is_closed_off: whether the session's ROS graph is isolated, as in a container.
@@ -101,6 +102,7 @@ class ManagerSettings:
     token: str = ""
     domain_id: int | None = None
     grace_s: float = 300.0
+    patience_s: float = 0.0
     is_closed_off: bool = False
     is_ram: bool = False
     records: bool = True
@@ -189,6 +191,7 @@ class Manager:
             ros_environment={} if settings.is_closed_off else ros_environment(self.domain_id),
             outside_domain_id=outside_domain_id(),
             grace_s=settings.grace_s,
+            patience_s=settings.patience_s,
             hold_limit_s=60.0 * number("BT_STUDIO_HOLD_MINUTES", 15),
         )
         self.session = Session(about, now_s=loop.time())
@@ -424,6 +427,7 @@ def main(arguments: list[str] | None = None) -> int:
         token,
         options.domain_id,
         grace_s,
+        options.patience,
         is_closed_off=listener is not None,
         is_ram=options.ram,
         records=not options.no_recording,
@@ -473,6 +477,12 @@ def _parser() -> argparse.ArgumentParser:
         "--grace",
         type=float,
         help="seconds that a session lives without clients; 300, or no limit with --ram",
+    )
+    parser.add_argument(
+        "--patience",
+        type=float,
+        default=0.0,
+        help="seconds after the start at which the grace for the first client begins",
     )
     parser.add_argument("--tls-cert", help="certificate, as PEM, with which connections are encrypted")
     parser.add_argument("--tls-key", help="its private key, as PEM")

@@ -86,7 +86,7 @@ class Session:
         self.now_s = now_s
         self.mirror = Mirror()
         self.output = Output(self.mirror)
-        self.clients = Clients(now_s)
+        self.clients = Clients(now_s + about.patience_s)
         self.questions = Questions()
         self.children = Children(self.output.effect, lambda: self.now_s, self.questions.token, self._lost)
         self.run = LastRun()

@@ -46,6 +46,8 @@ class About:
     ros_environment: Mapping[str, str] = field(default_factory=dict)
     outside_domain_id: int = 0
     grace_s: float = 300.0
+    patience_s: float = 0.0
+    """Seconds after the start at which the grace for the first client begins."""
     promote_s: float = 5.0
     hold_limit_s: float = 900.0
     """Seconds after which a tree that the debugger holds runs on; 0 is without limit."""

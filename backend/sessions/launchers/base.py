@@ -13,6 +13,10 @@ JSON object that the caller stores and passes to the other methods, also after a
     explain(state)   why an executor ended, if more is known than its status; else "".
     open_tools(id, token)  the address at which a user's tools listen (`executor.tools`); starts them.
                      Raises LaunchError if the launcher has no containers.
+    keeps_warm       whether executors can be started ahead of their sessions (`sessions.warm`). If so:
+    warm(spec)       as `start`, for an executor that waits; the id of `spec` is its own.
+    warm_running()   the states of all that run, by their ids, also of those that were claimed.
+    warm_state_of(id)  the state of one of which only the id is known.
     tidy()           removes tools that have ended; called every minute by one web server.
     recordings       the folder in which recordings are left, one folder a session; None if they end with it.
     shares_network   whether executors share one network, so that each needs a ROS domain of its own.
@@ -41,6 +45,7 @@ OWN_NETWORK_DOMAIN: Final = 1
 """The ROS domain of every executor that has a network of its own."""
 _METHODS: Final = ("start", "poll", "stop")
 _SURVIVORS_OWE: Final = ("running", "state_of")
+_WARM_OWE: Final = ("warm", "warm_running", "warm_state_of")
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,11 +76,13 @@ class Launcher:
     shares_network: ClassVar[bool] = False
     starts_at_once: ClassVar[int] = 4
     survives_server: ClassVar[bool] = False
+    keeps_warm: ClassVar[bool] = False
     recordings: Path | None = None
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         owed = _METHODS + (_SURVIVORS_OWE if cls.survives_server else ())
+        owed += _WARM_OWE if cls.keeps_warm else ()
         missing = [method for method in owed if getattr(cls, method) is getattr(Launcher, method)]
         if missing or not cls.name:
             lacking = ", ".join(missing or ["name"])
@@ -102,6 +109,18 @@ class Launcher:
     def open_tools(self, tools_id: str, token: str, *, timeout_s: float) -> str:
         """Starts a user's tools, and returns the address at which they listen."""
         raise LaunchError("Without containers there are none for users' files.")
+
+    def warm(self, spec: Spec) -> Started:
+        """Starts an executor that waits for its session."""
+        raise NotImplementedError
+
+    def warm_running(self) -> dict[str, dict[str, Any]]:
+        """Returns the states of the executors that were started warm, by their ids."""
+        return {}
+
+    def warm_state_of(self, made_id: str) -> dict[str, Any]:
+        """Returns the state of a warm executor by its id."""
+        return {}
 
     def tidy(self) -> None:
         """Removes tools that have ended by themselves."""

@@ -403,3 +403,8 @@ def test_a_spare_that_dies_is_mentioned_and_not_started_again_at_once():
     assert "ImportError" in play.sent("log")[0].text
     assert play.did(Spawn) == []
     assert play.reply(play.command("run")) == "ack"
+
+
+def test_a_session_that_was_started_ahead_waits_longer_for_its_first_client() -> None:
+    session = Session(About(version="test", grace_s=5.0, patience_s=100.0), now_s=2.0)
+    assert session.deadline_s == 107.0

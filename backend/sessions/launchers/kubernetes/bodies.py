@@ -31,6 +31,8 @@ __all__ = [
 ]
 
 PORT: Final = 7163
+PATIENCE_S: Final = 3600
+"""How long a warm pod waits for its session before it ends by itself; the pool replaces it earlier."""
 KIND_LABEL: Final = "bt-studio/kind"
 """The label of all pods that we make."""
 DIGEST: Final = "bt-studio/certificate"
@@ -39,13 +41,18 @@ _SECRET: Final = "SESSION"  # noqa: S105 - the name of the secret in the templat
 
 
 class Kind(StrEnum):
-    """The purpose of a pod: a session, or the tools of a user."""
+    """The purpose of a pod: a session, one that will claim it, or the tools of a user."""
 
     SESSION = "session"
+    WARM = "warm"
     TOOLS = "tools"
 
 
-_ID_LABELS: Final = {Kind.SESSION: "bt-studio/session", Kind.TOOLS: "bt-studio/tools"}
+_ID_LABELS: Final = {
+    Kind.SESSION: "bt-studio/session",
+    Kind.WARM: "bt-studio/warm",
+    Kind.TOOLS: "bt-studio/tools",
+}
 
 
 class TemplateError(ValueError):
@@ -97,6 +104,9 @@ def pod_body(template: dict[str, Any], kind: Kind, made_id: str, digest: str) ->
     metadata = body.setdefault("metadata", {})
     metadata["name"] = name
     metadata["labels"] = {**metadata.get("labels", {}), KIND_LABEL: kind.value, id_label(kind): made_id}
+    if kind is Kind.WARM:
+        container = body["spec"]["containers"][0]
+        container["args"] = [*container.get("args", []), f"--patience={PATIENCE_S}"]
     metadata["annotations"] = {**metadata.get("annotations", {}), DIGEST: digest}
     return body
 

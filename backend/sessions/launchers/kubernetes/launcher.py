@@ -123,6 +123,7 @@ class KubernetesLauncher(Launcher):
 
     name = "kubernetes"
     survives_server = True
+    keeps_warm = True
     starts_at_once = 64
 
     def __init__(self, client: Client, templates: dict[Kind, dict[str, Any]]) -> None:
@@ -137,6 +138,18 @@ class KubernetesLauncher(Launcher):
     def start(self, spec: Spec) -> Started:
         """Makes a pod and its secret, and waits until the manager in it listens."""
         return self._bring_up(Kind.SESSION, spec.session_id, spec.token, spec.start_timeout_s)
+
+    def warm(self, spec: Spec) -> Started:
+        """Makes a pod that waits for its session, as `start` does."""
+        return self._bring_up(Kind.WARM, spec.session_id, spec.token, spec.start_timeout_s)
+
+    def warm_running(self) -> dict[str, dict[str, Any]]:
+        """Returns the states of the warm pods that have not ended, as the cluster says now."""
+        return {made_id: self.warm_state_of(made_id) for made_id in self._living(Kind.WARM)}
+
+    def warm_state_of(self, made_id: str) -> dict[str, Any]:
+        """Returns the state by which a warm pod is found, from its id."""
+        return {"pod": pod_name(Kind.WARM, made_id)}
 
     def open_tools(self, tools_id: str, token: str, *, timeout_s: float) -> str:
         """Returns the address at which a user's tools listen; makes their pod if there is none.
@@ -177,7 +190,8 @@ class KubernetesLauncher(Launcher):
         deadline_s = monotonic() + timeout_s
         made = make_certificate(made_id)
         name = pod_name(kind, made_id)
-        body = pod_body(self._templates[kind], kind, made_id, made.digest)
+        template = self._templates[Kind.SESSION if kind is Kind.WARM else kind]
+        body = pod_body(template, kind, made_id, made.digest)
         pod = self._create(msgspec.convert(body, Pod), deadline_s)
         uid = (pod.metadata.uid if pod.metadata else None) or ""
         try:
@@ -221,9 +235,7 @@ class KubernetesLauncher(Launcher):
 
     def running(self) -> list[str]:
         """Returns the ids of the sessions whose pods have not ended, as the cluster says now."""
-        listed = self._list(Kind.SESSION)
-        living = [pod.metadata for pod in listed if read_pod(pod).exit_status is None]
-        return [found.labels[id_label(Kind.SESSION)] for found in living if found and found.labels]
+        return self._living(Kind.SESSION)
 
     def state_of(self, session_id: str) -> dict[str, Any]:
         """Returns the state by which a pod is found, from the id of its session."""
@@ -232,6 +244,10 @@ class KubernetesLauncher(Launcher):
     def close(self) -> None:
         """Ends the watch over the pods, which stay."""
         self._pods.close()
+
+    def _living(self, kind: Kind) -> list[str]:
+        living = [pod.metadata for pod in self._list(kind) if read_pod(pod).exit_status is None]
+        return [found.labels[id_label(kind)] for found in living if found and found.labels]
 
     def _list(self, kind: Kind) -> list[Pod]:
         try:

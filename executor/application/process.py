@@ -442,7 +442,7 @@ class Application:
 
     def _restore(self, tree: Tree, blackboard_json: str) -> None:
         """Begins with a recorded blackboard; names what it cannot have."""
-        from executor.application.recorded_board import restore  # noqa: PLC0415 - with the engine
+        from executor.application.changes.recorded_board import restore  # noqa: PLC0415 - with the engine
 
         empty = restore(tree, blackboard_json)
         self._reporter.restate(tree)

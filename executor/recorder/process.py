@@ -29,13 +29,13 @@ from executor import __version__, child_messages, recorder_messages
 from executor.messages import Error, RecordingPart, Segment
 from executor.recorder.definitions import DefinitionError
 from executor.recorder.event_messages import message_of
-from executor.recorder.keyframes import find_keyframe
 from executor.recorder.link import ADDRESS_VARIABLE, BATCH_S, Dump, Heard, Mark, Record, Until, next_batch_s
 from executor.recorder.ordering import Ordering
 from executor.recorder.project_files import project_files, project_name
 from executor.recorder.run_writer import LATEST_NS, RunWriter
 from executor.recorder.shelf import Budgets, Shelf, file_of
 from executor.recorder.sources import MOST_SOURCES, BrokenSource, Source, listen, take_source
+from executor.recorder.summary.keyframes import find_keyframe
 from executor.recorder_messages import FromRecorder, ToRecorder, decode_to_recorder
 from executor.supervision.channel import Channel, ChannelClosed, ChannelError
 from executor.supervision.confine import die_with_parent

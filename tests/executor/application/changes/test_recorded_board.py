@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from executor.application.recorded_board import restore
+from executor.application.changes.recorded_board import restore
 from tree_gardener import Tree
 
 TEXT = """<root BTCPP_format='4' main_tree_to_execute='Main'>

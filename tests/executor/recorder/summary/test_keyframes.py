@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from executor.recorder.keyframes import Found, find_keyframe
+from executor.recorder.summary.keyframes import Found, find_keyframe
 from executor.recorder.writer import RecordingWriter
 from tests.executor.recorder.messages import MESSAGES
 

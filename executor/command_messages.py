@@ -247,6 +247,22 @@ class GoBack(Struct, forbid_unknown_fields=True):
     t: Annotated[float, Meta(ge=0)] | None = None
 
 
+class NameBranch(Struct, forbid_unknown_fields=True):
+    """Gives a branch a name, or none; the event `branch` follows. Refused with `unknown_branch`."""
+
+    run: Annotated[str, Meta(min_length=1, max_length=64)]
+    name: Annotated[str, Meta(max_length=80)]
+
+
+class DropBranch(Struct, forbid_unknown_fields=True):
+    """Throws a branch away, with its recording; the event `branch` follows.
+
+    Refused with `unknown_branch`, or with `present_run` for that of the present.
+    """
+
+    run: Annotated[str, Meta(min_length=1, max_length=64)]
+
+
 COMMANDS: Final[dict[str, type[Struct]]] = {
     "dap": Dap,
     "connect": Empty,
@@ -260,6 +276,9 @@ COMMANDS: Final[dict[str, type[Struct]]] = {
     "step": Empty,
     "go_back": GoBack,
     "run_on": RunOn,
+    "branches": Empty,
+    "name_branch": NameBranch,
+    "drop_branch": DropBranch,
     "cancel": Empty,
     "set_tick_rate": SetTickRate,
     "set_speed": SetSpeed,

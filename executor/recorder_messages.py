@@ -61,6 +61,12 @@ class ReadSegment(Asked, tag="read_segment"):
     length: int
 
 
+class DropRun(Message, tag="drop_run"):
+    """Removes the recording of an earlier run."""
+
+    run: str
+
+
 class FindKeyframe(Asked, tag="find_keyframe"):
     """Requests the last recorded state of a run's world that is not later than `t` in s; null is its end.
 
@@ -97,7 +103,7 @@ class WorldKeyframe(Message, tag="keyframe"):
     blackboard_json: str
 
 
-ToRecorder = StartRecorder | Stop | BeginRun | ChangeFiles | RunEvent | ReadSegment | FindKeyframe
+ToRecorder = StartRecorder | Stop | BeginRun | ChangeFiles | RunEvent | ReadSegment | FindKeyframe | DropRun
 FromRecorder = Beat | Log | Answer | Frame | Recorded | Stopped | WorldKeyframe
 decode_to_recorder: Final = msgspec.msgpack.Decoder(ToRecorder).decode
 decode_from_recorder: Final = msgspec.msgpack.Decoder(FromRecorder).decode

@@ -51,11 +51,16 @@ class RecordingStopped(Struct):
 
 
 class Branch(Struct):
-    """A run continues another one: `run` is as `parent` was up to the moment `from_t` in s."""
+    """A run continues another one: `run` is as `parent` was up to the moment `from_t` in s.
+
+    It is sent again when the branch gets a `name`, and when it was thrown away (`is_gone`).
+    """
 
     run: str
     parent: str
     from_t: float
+    name: str = ""
+    is_gone: bool = False
 
 
 class RepeatableRuns(Struct):

@@ -144,6 +144,8 @@ class RecorderProcess:
                     self._tell(message)
                 case recorder_messages.ReadSegment():
                     self._answer(message)
+                case recorder_messages.DropRun(run=run):
+                    self._drop(run)
                 case recorder_messages.FindKeyframe():
                     self._answer_keyframe(message)
 
@@ -194,6 +196,12 @@ class RecorderProcess:
     def _answer(self, message: recorder_messages.ReadSegment) -> None:
         error = self._read(message)
         self._channel.send(child_messages.Answer(request=message.request, error=error))
+
+    def _drop(self, run: str) -> None:
+        """Removes what was recorded of an earlier run; what still arrives of it is left out."""
+        if self._shelf is not None and (self._writer is None or self._writer.run != run):
+            self._refused.add(run)
+            self._shelf.drop_run(run)
 
     def _answer_keyframe(self, message: recorder_messages.FindKeyframe) -> None:
         """Sends the state of a world at a moment; what waits to be written is written before."""

@@ -136,6 +136,11 @@ class Shelf:
         self._parts[run] = size
         return True
 
+    def drop_run(self, run: str) -> None:
+        """Removes all segments of a run."""
+        for segment in [one for one in self.segments if one.run == run]:
+            self._drop(segment)
+
     def next_number(self, run: str) -> int:
         """Returns the number of a run's next segment."""
         return max((one.number for one in self.segments if one.run == run), default=-1) + 1

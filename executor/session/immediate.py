@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final, TypeVar
 from msgspec import Struct
 
 from executor import child_messages, messages, recorder_messages
-from executor.session import streaming
+from executor.session import branching, streaming
 from executor.session.clients import MOST_ECHOED_BY_VIEWER, MOST_STREAMS
 from executor.session.debugger.python import HELD_IN_PYTHON, HELD_IN_PYTHON_HINT, HELD_IN_PYTHON_TEXT
 from executor.session.ladder import HAS_APPLICATION, State
@@ -323,6 +323,9 @@ IMMEDIATE: Final[dict[str, Callable[[Stage, CommandCame], None]]] = {
     "teleop": _typed(messages.Teleop, _teleop),
     "read_recording": _typed(messages.ReadRecording, _read_recording),
     "flag": _typed(messages.Flag, _flag),
+    "branches": _typed(messages.Empty, branching.branches),
+    "name_branch": _typed(messages.NameBranch, branching.name_branch),
+    "drop_branch": _typed(messages.DropBranch, branching.drop_branch),
     "evaluate": _typed(messages.Evaluate, _evaluate),
     "take_over": _typed(messages.Empty, _take_over),
     "ping": _typed(messages.Empty, _ping),
@@ -355,6 +358,8 @@ ANSWER_LATER: Final = frozenset(
         "restart_node",
         "read_recording",
         "flag",
+        "name_branch",
+        "drop_branch",
         "evaluate",
     }
 )

@@ -172,6 +172,9 @@ TABLE: Final[dict[str, Row]] = {
         WORLD_UP,
         "Sets, changes or removes a mark of the user at a moment of the present run.",
     ),
+    "branches": _act(ANY, "Answers with a `branch` event for each branch of the session.", for_viewers=True),
+    "name_branch": _act(ANY, "Gives a branch a name."),
+    "drop_branch": _act(ANY, "Throws a branch away, with its recording."),
     "evaluate": _act(
         ANY, "Runs seeds of an evaluation beside the ladder; answers with `evaluation_` events."
     ),

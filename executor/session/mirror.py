@@ -143,7 +143,7 @@ class Mirror:
             case RecordingStopped():
                 self.stops.append(event)
             case Branch():
-                self.branches.append(event)
+                self._apply_branch(event)
             case RepeatableRuns():
                 self.repeatable_runs, self.live_runs = event.runs, event.live
             case Held():
@@ -243,6 +243,13 @@ class Mirror:
         # A later run is recorded again, so what was missed before it is not shown any more.
         runs = {run for run, _, _ in self.segments}
         self.stops = deque((stop for stop in self.stops if stop.run in runs), maxlen=STOPS)
+
+    def _apply_branch(self, event: Branch) -> None:
+        others = [branch for branch in self.branches if branch.run != event.run]
+        at = next((n for n, branch in enumerate(self.branches) if branch.run == event.run), len(others))
+        self.branches = deque(
+            [*others[:at], *([] if event.is_gone else [event]), *others[at:]], maxlen=BRANCHES
+        )
 
     def _apply_flag(self, event: FlagSet) -> None:
         if any(flag.run != event.run for flag in self.flags.values()):

@@ -162,6 +162,10 @@ class PastRuns:
         if self._runs and not self._runs[-1].has_begun:
             del self._runs[-1]
 
+    def drop(self, run: str) -> None:
+        """Forgets a run that is thrown away."""
+        self._runs = [each for each in self._runs if each.run != run]
+
     def find(self, run: str) -> PastRun | None:
         """Returns a run by its name, the present or last one for ""; None if it is not known."""
         if not run:

@@ -539,6 +539,21 @@ export interface GoBack {
   t?: number | null;
 }
 
+/** Gives a branch a name, or none; the event `branch` follows. Refused with `unknown_branch`. */
+export interface NameBranch {
+  run: string;
+  name: string;
+}
+
+/**
+ * Throws a branch away, with its recording; the event `branch` follows.
+ *
+ * Refused with `unknown_branch`, or with `present_run` for that of the present.
+ */
+export interface DropBranch {
+  run: string;
+}
+
 /** The envelope of a command; `data` is decoded as `COMMANDS[command]`. */
 export interface ClientMessage {
   id: string;
@@ -666,11 +681,17 @@ export interface RecordingStopped {
   goes_on: boolean;
 }
 
-/** A run continues another one: `run` is as `parent` was up to the moment `from_t` in s. */
+/**
+ * A run continues another one: `run` is as `parent` was up to the moment `from_t` in s.
+ *
+ * It is sent again when the branch gets a `name`, and when it was thrown away (`is_gone`).
+ */
 export interface Branch {
   run: string;
   parent: string;
   from_t: number;
+  name: string;
+  is_gone: boolean;
 }
 
 /**
@@ -1149,6 +1170,9 @@ export interface Commands {
   step: Empty;
   go_back: GoBack;
   run_on: RunOn;
+  branches: Empty;
+  name_branch: NameBranch;
+  drop_branch: DropBranch;
   cancel: Empty;
   set_tick_rate: SetTickRate;
   set_speed: SetSpeed;

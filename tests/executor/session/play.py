@@ -60,6 +60,8 @@ DATA: dict[str, dict[str, Any]] = {
     "read_recording": {"run": "abc", "segment": 0, "version": 0, "offset": 0, "length": 100},
     "flag": {"text": "here"},
     "evaluate": {"job": "a1", "app_zip_base64": "eA==", "evaluation": "room"},
+    "name_branch": {"run": "abc", "name": "wider"},
+    "drop_branch": {"run": "abc"},
     "restart_node": {"id": "launch/extra.launch.yaml:talker"},
 }
 
@@ -166,7 +168,7 @@ class Play:
     def _said(effect: Tell, type_: str, /, **fields: Any) -> ChildSaid:
         return ChildSaid(effect.kind, effect.number, child_message(effect.kind, type_, **fields))
 
-    def command(self, name: str, client: str = "d", **data: Any) -> str:
+    def command(self, name: str, /, client: str = "d", **data: Any) -> str:
         """Sends a command; returns the id of the request."""
         self._requests += 1
         request = f"r{self._requests}"

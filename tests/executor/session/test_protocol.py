@@ -29,6 +29,8 @@ REFUSED = {
     "read_recording": "no_stream",
     "flag": "not_recorded",
     "control": "not_attached",
+    "name_branch": "unknown_branch",
+    "drop_branch": "unknown_branch",
     "go_back": "no_run",
 }
 """What a session answers that is neither recorded nor attached."""

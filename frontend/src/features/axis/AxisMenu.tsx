@@ -3,6 +3,7 @@ import { IconAdjustmentsHorizontal } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
+import { canChangeBranch } from '@/store/moment/branches';
 import { canFlag } from '@/store/moment/flags';
 import { canGoBack, canRunOn } from '@/store/moment/goBack';
 import { useRange } from '@/store/moment/range';
@@ -11,7 +12,7 @@ import { useSessionStore } from '@/store/session/store';
 
 /** The commands for marks, range, changes and zoom, in groups. */
 export const AXIS_MENU = [
-  ['time.goBack', 'time.runOn'],
+  ['time.goBack', 'time.runOn', 'time.branch'],
   ['time.flag', 'time.marks', 'time.markBack', 'time.markForth'],
   ['time.markA', 'time.markB', 'time.loop', 'time.clearRange'],
   ['time.whatChanged'],
@@ -47,6 +48,7 @@ function Items() {
   useSessionStore(canFlag);
   useSessionStore(canGoBack);
   useSessionStore(canRunOn);
+  useSessionStore(canChangeBranch);
   return AXIS_MENU.map((ids, at) => [
     at > 0 ? <Menu.Divider key={`before ${ids[0]}`} /> : null,
     ...ids.map((id) => {

@@ -36,13 +36,13 @@ it('names the run that a branch continues, and the moment', () => {
   useSessionStore.setState({
     segments: [segment('a'), segment('b'), segment('c')],
     branches: [
-      { run: 'c', parent: 'a', from_t: 0.52 },
-      { run: 'b', parent: 'gone', from_t: 0.1 },
+      { run: 'c', parent: 'a', from_t: 0.52, name: 'Wider', is_gone: false },
+      { run: 'b', parent: 'gone', from_t: 0.1, name: '', is_gone: false },
     ],
   });
   show(<RunSelect run="c" />);
   expect(screen.getAllByRole('option').map(({ textContent }) => textContent)).toEqual([
-    'Last run, from 0.5 s of run 1',
+    'Wider, from 0.5 s of run 1',
     'Run 2',
     'Run 1',
   ]);

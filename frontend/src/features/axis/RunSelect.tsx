@@ -17,8 +17,8 @@ export function RunSelect({ run }: { readonly run: string }) {
   if (isKept || runs.length < 2) return null;
   const last = runs.at(-1);
   const label = (value: string, at: number): string => {
-    const name = t(value === last ? 'run.last' : 'run.earlier', { n: at + 1 });
     const branch = branches.find((each) => each.run === value);
+    const name = branch?.name || t(value === last ? 'run.last' : 'run.earlier', { n: at + 1 });
     const parent = branch ? runs.indexOf(branch.parent) + 1 : 0;
     return branch && parent > 0 ? t('run.branch', { name, parent, t: branch.from_t.toFixed(1) }) : name;
   };

@@ -14,6 +14,7 @@ import { CommandButton } from '@/ui/CommandButton';
 import classes from './axis.module.css';
 import { copyShownLink } from './commands';
 import { AxisMenu } from './AxisMenu';
+import { BranchForm } from './BranchForm';
 import { Changes } from './Changes';
 import { FlagForm } from './FlagForm';
 import { GoBackButton, GoingBack, RunOnButton } from './GoingBack';
@@ -75,6 +76,7 @@ export function TimeAxis() {
       <Changes end={extent.to} />
       <Marks extent={extent} />
       <FlagForm />
+      <BranchForm />
       {missing && <Unrecorded stop={missing} />}
       {/* A branch that has not run on yet has a length, too, so that one can look at the run before. */}
       <Axis extent={{ ...extent, to: Math.max(extent.to, extent.from + SHORTEST_S) }} />

@@ -8,10 +8,12 @@ import {
   IconPlayerPlay,
   IconArrowBackUp,
   IconArrowForwardUp,
+  IconGitBranch,
 } from '@tabler/icons-react';
 import { registerCommands, type UserCommand } from '@/commands/registry';
 import { t } from '@/i18n';
 import { linkTo, shownAddress } from '@/store/moment/address';
+import { canChangeBranch, changeBranch } from '@/store/moment/branches';
 import { canGoBack, canRunOn, goBack, runOn } from '@/store/moment/goBack';
 import { extent, goTicks, goToChange, lookNow, setPlaying } from '@/store/moment/looking';
 import { usePastTree } from '@/store/moment/pastTree';
@@ -68,6 +70,14 @@ const rows: readonly UserCommand[] = [
     shortcut: 'Alt+Shift+KeyB',
     enabled: canRunOn,
     run: () => void runOn(),
+  },
+  {
+    id: 'time.branch',
+    group: 'run',
+    labelKey: 'axis:command.branch',
+    icon: IconGitBranch,
+    enabled: canChangeBranch,
+    run: changeBranch,
   },
   {
     id: 'time.play',

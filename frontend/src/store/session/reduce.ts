@@ -1,5 +1,6 @@
 import type {
   BlackboardEntry,
+  Branch,
   Events,
   Fault,
   FlagSet,
@@ -156,7 +157,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
   },
   flag: ({ flags }, data) => ({ flags: withFlag(flags, data) }),
   recording_stopped: ({ stops }, data) => ({ stops: [...stops, data] }),
-  branch: ({ branches }, data) => ({ branches: [...branches, data] }),
+  branch: ({ branches }, data) => ({ branches: withBranch(branches, data) }),
   repeatable_runs: (_, data) => ({ repeatableRuns: data.runs, liveRuns: data.live }),
   going_back: (_, data) => ({ goingBack: data.fraction < 1 ? data.fraction : null }),
   held: (_, data) => ({ held: data, isHanging: false, areBreakpointsOff: false }),
@@ -251,6 +252,15 @@ function withSegment(segments: readonly Segment[], changed: Segment): Segment[] 
 function withFlag(flags: readonly FlagSet[], changed: FlagSet): FlagSet[] {
   const others = flags.filter(({ run, id }) => run === changed.run && id !== changed.id);
   return changed.text === '' ? others : [...others, changed];
+}
+
+/** Puts a branch in its place; one that was thrown away is gone. */
+function withBranch(branches: readonly Branch[], changed: Branch): Branch[] {
+  if (changed.is_gone) return branches.filter(({ run }) => run !== changed.run);
+  const isKnown = branches.some(({ run }) => run === changed.run);
+  return isKnown
+    ? branches.map((branch) => (branch.run === changed.run ? changed : branch))
+    : [...branches, changed];
 }
 
 const isSameMismatch = (a: TopicMismatch, b: TopicMismatch): boolean =>

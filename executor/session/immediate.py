@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Final, TypeVar
 from msgspec import Struct
 
 from executor import child_messages, messages, recorder_messages
-from executor.session import branching, streaming
+from executor.session import streaming
 from executor.session.clients import MOST_ECHOED_BY_VIEWER, MOST_STREAMS
 from executor.session.debugger.python import HELD_IN_PYTHON, HELD_IN_PYTHON_HINT, HELD_IN_PYTHON_TEXT
+from executor.session.exact import branching
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.questions import ANSWER_S
 from executor.session.recording import FlagRefused

@@ -204,6 +204,13 @@ async def test_a_session_goes_back_runs_on_and_returns_to_where_it_was() -> None
         assert await client.ask("go_back", {"run": run}) == "ack"
         assert hashes(client, at)[max(end)] == end[max(end)]
         assert (await client.ask("go_back", {"run": "ffffffffffff"}))["code"] == "unknown_run"
+
+        at = len(client.events)
+        for bad in ({}, {"run": 1}, {"run": ""}, {"run": "a" * 65}, {"run": "a", "more": 1}):
+            assert (await client.ask("drop_branch", bad))["code"] == "bad_data"
+        assert (await client.ask("name_branch", {"run": "a", "name": "b" * 81}))["code"] == "bad_data"
+        assert await client.ask("drop_branch", {"run": branch["run"]}) == "ack"
+        await client.event("segment", lambda d: (d["run"], d["bytes"]) == (branch["run"], 0), after=at)
         assert await client.ask("disconnect") == "ack"
         await client.close()
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from executor import recorder_messages
-from executor.session import branching
 from executor.session.events import ClientJoined, Send
+from executor.session.exact import branching
 from tests.executor.session.exact.test_going_back import recorded
 from tests.executor.session.exact.test_hosting import told
 

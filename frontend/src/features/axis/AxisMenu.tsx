@@ -3,7 +3,7 @@ import { IconAdjustmentsHorizontal } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
-import { canChangeBranch } from '@/store/moment/branches';
+import { canChangeBranch } from '@/store/dialogs/branches';
 import { canFlag } from '@/store/moment/flags';
 import { canGoBack, canRunOn } from '@/store/moment/goBack';
 import { useRange } from '@/store/moment/range';

@@ -2,7 +2,7 @@ import { Button, TextInput } from '@mantine/core';
 import { type SubmitEvent, useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { Branch } from '@/generated/messages';
-import { dropBranch, nameBranch, useBranchForm } from '@/store/moment/branches';
+import { dropBranch, nameBranch, useBranchForm } from '@/store/dialogs/branches';
 import { useSessionStore } from '@/store/session/store';
 import classes from './axis.module.css';
 

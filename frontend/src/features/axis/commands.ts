@@ -13,7 +13,7 @@ import {
 import { registerCommands, type UserCommand } from '@/commands/registry';
 import { t } from '@/i18n';
 import { linkTo, shownAddress } from '@/store/moment/address';
-import { canChangeBranch, changeBranch } from '@/store/moment/branches';
+import { canChangeBranch, changeBranch } from '@/store/dialogs/branches';
 import { canGoBack, canRunOn, goBack, runOn } from '@/store/moment/goBack';
 import { extent, goTicks, goToChange, lookNow, setPlaying } from '@/store/moment/looking';
 import { usePastTree } from '@/store/moment/pastTree';

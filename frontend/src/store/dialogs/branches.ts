@@ -2,8 +2,8 @@ import { create } from 'zustand';
 import type { Branch } from '@/generated/messages';
 import { send } from '@/store/session/connection';
 import { useSessionStore } from '@/store/session/store';
-import { extent, lookNow } from './looking';
-import { useSource } from './source';
+import { extent, lookNow } from '@/store/moment/looking';
+import { useSource } from '@/store/moment/source';
 
 /** The branch whose form is open, by its run; null while none is. */
 export const useBranchForm = create<{ readonly run: string | null }>(() => ({ run: null }));

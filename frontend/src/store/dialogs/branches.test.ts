@@ -12,8 +12,8 @@ import {
   shownBranch,
   useBranchForm,
 } from './branches';
-import { ofSession, useSource } from './source';
-import { atPresent, useMoment } from './store';
+import { ofSession, useSource } from '@/store/moment/source';
+import { atPresent, useMoment } from '@/store/moment/store';
 
 let send: MockInstance<typeof connection.send>;
 const branch = { run: 'a', parent: 'o', from_t: 2, name: '', is_gone: false };

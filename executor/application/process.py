@@ -81,6 +81,8 @@ class Application:
         self._profile: ApplicationProfile | None = None
         self._zeros: Zeros | None = None
         self._connect_by_s: float | None = None
+        self._begin_s: float | None = None
+        """The time until it resumes, where the clock may still be that of before."""
         self._is_connected = False
 
     def run(self) -> None:
@@ -89,6 +91,7 @@ class Application:
         start = self._wait_for_start()
         if start is None:
             return
+        self._begin_s = start.time_s
         with self._pulse.busy("loading"):
             self._channel.send(child_messages.Starting())
             self._redirect_output()
@@ -201,7 +204,7 @@ class Application:
         if self._recorder is not None:
             self._recorder.did(command, data, tick, hook)
 
-    def _obey(self, message: ToApplication) -> None:  # noqa: C901, PLR0912 - one case a message
+    def _obey(self, message: ToApplication) -> None:  # noqa: C901, PLR0912, PLR0915 - one case a message
         from executor.application.changes.live_ports import set_port  # noqa: PLC0415 - as all of the engine
         from executor.application.python_debugger import trace  # noqa: PLC0415 - as above
         from tree_gardener.debugging import DebuggingEnded  # noqa: PLC0415 - as above
@@ -225,9 +228,11 @@ class Application:
                 runner.pause()
                 self._channel.send(child_messages.Paused())
             case child_messages.Resume():
+                self._begin_s = None
                 runner.resume()
                 self._channel.send(child_messages.Resumed())
             case child_messages.StepTick():
+                self._begin_s = None
                 runner.step()
                 self._guarded(lambda: runner.tick_due(self._graph.now()))
                 self._reporter.flush(now=True)
@@ -460,6 +465,8 @@ class Application:
     # --- running ----------------------------------------------------------------------------------
 
     def _now(self) -> float:
+        if self._begin_s is not None:
+            return self._begin_s
         return self._graph.now()  # called through this object, since the graph may be replaced at the start
 
     def _on_clock(self, now_s: float) -> None:

@@ -108,3 +108,47 @@ def test_the_touch_of_a_crate_is_undone_from_three_seconds_before(
     assert studio.stat("collisions") < before
     studio.picture("ran-on")
     studio.end_session()
+
+
+def test_a_live_run_goes_back_and_its_branch_gets_a_name_and_goes(
+    open_studio: Callable[[Browser], Studio], browser_without_webgl: Browser
+) -> None:
+    studio = open_studio(browser_without_webgl)
+    page = studio.page
+    studio.new_from("laser_bump_and_go")
+    studio.run()
+    wait_until(lambda: studio.stat("t") > 8, "the robot drives for a while")
+    studio.at("pause").click()
+    studio.expect_state("paused")
+    for number in range(2):
+        studio.at("axis-strip").focus()
+        page.keyboard.press("Shift+ArrowLeft")
+        wait_until(
+            lambda: studio.at("time-axis").get_attribute("data-shown") is not None, "the past is shown"
+        )
+        studio.at("axis-go-back").click()
+        expect(studio.at("axis-run")).to_contain_text(f"of run {number + 1}")
+        studio.expect_state("paused")
+        studio.at("resume").click()
+        wait_until(lambda n=number: studio.stat("t") > 6 + n, "it runs on")
+        studio.at("pause").click()
+        studio.expect_state("paused")
+    studio.at("axis-run").select_option(index=1)
+    expect(studio.at("time-axis")).to_have_attribute("data-past", "true")
+    studio.command("Name the shown branch")
+    studio.at("branch-name").fill("wider turns")
+    for scheme in ("dark", "light"):
+        page.evaluate("s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme)
+        expect_no_findings(page, f"a branch gets a name, {scheme}")
+        studio.picture(f"branch-{scheme}")
+    page.set_viewport_size({"width": 390, "height": 800})
+    expect(studio.at("branch-drop")).to_be_in_viewport()
+    studio.picture("branch-narrow")
+    page.set_viewport_size({"width": 1440, "height": 900})
+    studio.at("branch-keep").click()
+    expect(studio.at("axis-run")).to_contain_text("wider turns")
+    studio.command("Name the shown branch")
+    studio.at("branch-drop").click()
+    studio.at("branch-drop").click()
+    expect(studio.at("axis-run")).not_to_contain_text("wider turns")
+    studio.end_session()

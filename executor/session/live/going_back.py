@@ -94,9 +94,10 @@ def _start(stage: Stage, past: PastRun, found: WorldKeyframe) -> Child:
         profile=stage.hold.profile,
         groot2=stage.hold.groot2,
         is_debugged=False,
+        time_s=found.t,
         blackboard_json=found.blackboard_json,
     )
     stage.children.tell_application(start)
-    stage.past.begin(structs.replace(start, blackboard_json=""))
+    stage.past.begin(structs.replace(start, time_s=None, blackboard_json=""))
     stage.nodes.start(stage, stage.run.plan)
     return application

@@ -127,6 +127,8 @@ async def test_a_real_live_run_goes_back_and_runs_on() -> None:
         assert client.named("repeatable_runs", at)[-1]["live"][-1] == branch["run"]
         at = len(client.events)
         assert await client.ask("resume") == "ack"
+        segment = await client.event("segment", lambda d: d["run"] == branch["run"] and d["bytes"])
+        assert segment["data"]["from_t"] == pytest.approx(branch["from_t"], abs=0.01)
         tick = await client.event("tick", lambda d: d["n"] > 5, after=at)
         assert branch["from_t"] <= tick["t"] < late_s
         assert await client.ask("disconnect") == "ack"

@@ -44,12 +44,14 @@ class Fingerprints:
 
 
 def _plain(change: TickChanges) -> Any:
-    statuses = [[(uid, status.name) for uid, status in part] for part in (change.changed, change.flashed)]
-    written = [
+    # Changes have no order that means anything: it depends on when an observer, as a recording, begins.
+    changed = sorted((uid, status.name) for uid, status in change.changed)
+    flashed = [(uid, status.name) for uid, status in change.flashed]
+    written = sorted(
         (entry.scope, entry.key, _value(entry.value) or entry.type, entry.removed)
         for entry in change.blackboard
-    ]
-    return change.tick, statuses, written
+    )
+    return change.tick, changed, flashed, written
 
 
 def _value(value: Any) -> str:

@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 import time
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +16,8 @@ from executor import child_messages
 from executor.child_messages import ForWorld, StartApplication, StartWorld, decode_from_exact
 from executor.manager.archive import unpack
 from executor.manager.manager import session_programs
+from executor.recorder.link import ADDRESS_VARIABLE
+from executor.recorder_messages import BeginRun, StartRecorder, decode_from_recorder
 from executor.supervision.channel import Channel, ChannelClosed, socket_pair
 from tests.executor.session_client import ROOT
 from translator import load, to_app_zip
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from executor.replay_messages import Input
+    from executor.supervision.processes import Program
 
 HASHING = """
         from hashlib import blake2b
@@ -86,10 +89,22 @@ def app_folder(more: str = "") -> Iterator[Path]:
 
 
 def start_message(
-    folder: Path, seed: int = 3, universe: str = "walled_room", **more: Any
+    folder: Path, seed: int = 3, universe: str = "walled_room", robot: str | None = None, **more: Any
 ) -> StartApplication:
-    world = StartWorld(universe, seed=seed, speed=0.0)
+    world = StartWorld(universe, robot=robot, seed=seed, speed=0.0)
     return StartApplication(str(folder), 20.0, on_finish="repeat", seed=seed, world=world, **more)
+
+
+def _started(program: Program, decode: Any) -> tuple[subprocess.Popen[bytes], Channel[Any, Any]]:
+    ours, theirs = socket_pair()
+    with theirs:
+        process = subprocess.Popen(
+            [*program.arguments, "--channel-fd", str(theirs.fileno())],
+            cwd=ROOT,
+            env={**os.environ, **program.environment},
+            pass_fds=[theirs.fileno()],
+        )
+    return process, Channel(ours.detach(), decode)
 
 
 @dataclass
@@ -97,25 +112,28 @@ class ExactRun:
     """A process of an exact run, and what it said."""
 
     start: StartApplication
+    recordings: Path | None = None
+    """The folder in which a recorder records the run; None for no recorder."""
     said: list[Any] = field(default_factory=list)
     inputs: list[Input] = field(default_factory=list)
     prints: bytearray = field(default_factory=bytearray)
 
     def __post_init__(self) -> None:
-        program = session_programs(3)["exact"]
-        ours, theirs = socket_pair()
-        environment = {**os.environ, **program.environment}
-        environment.pop("BT_STUDIO_RECORDER", None)
-        with theirs:
-            self.process = subprocess.Popen(
-                [*program.arguments, "--channel-fd", str(theirs.fileno())],
-                cwd=ROOT,
-                env=environment,
-                pass_fds=[theirs.fileno()],
-            )
-        self.channel: Channel[Any, Any] = Channel(ours.detach(), decode_from_exact)
+        programs = session_programs(3)
+        program, environment = programs["exact"], dict(programs["exact"].environment)
+        self._recorder: tuple[subprocess.Popen[bytes], Channel[Any, Any]] | None = None
+        if self.recordings is None:
+            del environment[ADDRESS_VARIABLE]
+        else:
+            self._recorder = _started(programs["recorder"], decode_from_recorder)
+            self._recorder[1].send(StartRecorder(str(self.recordings), is_whole=True))
+        self.process, self.channel = _started(replace(program, environment=environment), decode_from_exact)
         self.channel.send(self.start)
         self.until(lambda m: isinstance(m, (child_messages.ApplicationReady, child_messages.Fault)))
+        if self._recorder is not None:
+            self._recorder[1].send(BeginRun("a" * 12, {}, self.start.app_dir))
+            self.tell(ForWorld(child_messages.BeginRecording("a" * 12)))
+            self.tell(child_messages.BeginRecording("a" * 12))
 
     def tell(self, message: Any) -> None:
         self.channel.send(message)
@@ -165,6 +183,10 @@ class ExactRun:
 
     def close(self) -> None:
         self.channel.close()
+        if self._recorder is not None:
+            process, channel = self._recorder
+            channel.close()
+            process.wait(30)
         if self.process.wait(30) < 0:
             raise AssertionError(self.process.returncode)
 

@@ -50,6 +50,23 @@ def test_each_part_counts():
     assert prints_of() not in others
 
 
+def test_the_order_of_changes_does_not_count():
+    """An observer that begins late, as a recording does, changes the order in the next tick."""
+    robots: list[Any] = []
+    world: Any = SimpleNamespace(time_s=1.0, robots=robots, read_poses=lambda: lambda: np.zeros(1))
+    found = set()
+    for order in (1, -1):
+        observers: list[Any] = []
+        tree: Any = SimpleNamespace(observe=observers.append)
+        fingerprints = Fingerprints(world)
+        fingerprints.follow(tree)
+        changed = [(1, Status.RUNNING), (2, Status.SUCCESS)][::order]
+        entries = [BlackboardChange("", key, "int", 1, removed=False, writer_uid=1) for key in "ab"][::order]
+        observers[0](TickChanges(1, changed, [], entries, 0.1))
+        found.add(fingerprints.take())
+    assert len(found) == 1
+
+
 def test_a_value_without_a_plain_form_counts_by_its_type():
     assert prints_of(value=object()) == prints_of(value=object())
     assert prints_of(value=[1]) != prints_of(value={})

@@ -208,6 +208,26 @@ WorldCommand = (
 """A command for a world that was started."""
 
 
+# --- to an exact run ------------------------------------------------------------------------------
+
+
+class KeepSnapshots(Message, tag="keep_snapshots"):
+    """Sets whether the run makes snapshots of itself."""
+
+    is_on: bool
+
+
+class TakeSnapshot(Message, tag="take_snapshot"):
+    """Makes a snapshot now; the answer is a `SnapshotTaken` or a `NoSnapshots`."""
+
+
+class Awake(Message, tag="awake"):
+    """Makes the copy of a snapshot make the run again from there, up to a moment."""
+
+    replay: Replay
+    speed: float
+
+
 # --- to the application ---------------------------------------------------------------------------
 
 
@@ -615,6 +635,39 @@ class WentBack(Message, tag="went_back"):
     tick_hz: float
 
 
+class SnapshotTaken(Message, tag="snapshot_taken"):
+    """The run has made a snapshot of itself.
+
+    Attributes:
+        number: its number in this process.
+        t: the simulated time in s.
+        ticks: the number of ticks that were made before.
+        inputs: the number of inputs that had entered.
+        resets: the number of resets of the world among them.
+        is_at_tick: whether nothing was simulated since the last tick.
+        cost_s: the processor time in s that the run had taken up to there.
+        draws: whether the run draws pictures.
+        is_wanted: whether the session asked for it.
+    """
+
+    number: int
+    t: float
+    ticks: int
+    inputs: int
+    resets: int
+    is_at_tick: bool
+    cost_s: float
+    draws: bool = False
+    is_wanted: bool = False
+
+
+class NoSnapshots(Message, tag="no_snapshots"):
+    """The run makes no snapshots of itself now, for a reason: the end of a sentence."""
+
+    reason: str
+    is_wanted: bool = False
+
+
 ToWorld = StartWorld | Stop | DumpWorld | LoadWorld | WorldCommand
 FromWorld = (
     Beat
@@ -677,7 +730,7 @@ FromApplication = (
     | Fault
     | Finished
 )
-ToExact = ToApplication | ForWorld
+ToExact = ToApplication | ForWorld | KeepSnapshots | TakeSnapshot | Awake
 FromExact = (
     FromApplication
     | Failed
@@ -693,6 +746,8 @@ FromExact = (
     | GoingBack
     | Differs
     | WentBack
+    | SnapshotTaken
+    | NoSnapshots
 )
 decode_to_world: Final = msgspec.msgpack.Decoder(ToWorld).decode
 decode_from_world: Final = msgspec.msgpack.Decoder(FromWorld).decode

@@ -26,6 +26,7 @@ from executor.ros.environment import ros_environment
 from executor.run_inputs import done_by
 from executor.supervision.channel import Channel, ChannelClosed, ChannelError
 from executor.supervision.confine import die_with_parent
+from executor.supervision.parking import PARKING
 from executor.supervision.pulse import Pulse
 from executor.supervision.threads import own
 
@@ -84,10 +85,12 @@ class Application:
         self._begin_s: float | None = None
         """The time until it resumes, where the clock may still be that of before."""
         self._is_connected = False
+        self.pid = os.getpid()
+        """The process that it is; a process that an action forked must not close the ROS node."""
 
     def run(self) -> None:
         """Runs until the run is over or the manager is gone."""
-        own(threading.Thread(target=self._listen, name="listener", daemon=True)).start()
+        self._start_listener()
         start = self._wait_for_start()
         if start is None:
             return
@@ -135,14 +138,19 @@ class Application:
 
     # --- commands ---------------------------------------------------------------------------------
 
+    def _start_listener(self) -> None:
+        own(threading.Thread(target=self._listen, name="listener", daemon=True)).start()
+
     def _listen(self) -> None:
         """Receives the manager's messages on a separate thread, since the main thread waits for ROS."""
+        spot = PARKING.spot()
         try:
             while True:
-                message = self._channel.receive()
-                if message is not None:
-                    self._commands.put(message)
-                    self._graph.wake()
+                self._channel.wait()
+                with spot:
+                    while (message := self._channel.receive(0)) is not None:
+                        self._commands.put(message)
+                        self._graph.wake()
         except ChannelClosed:
             os._exit(0)  # without a manager the run has no purpose
         except ChannelError as error:
@@ -563,10 +571,9 @@ def serve(
 
     prepare()
     application = make(channel, pulse)
-    own_pid = os.getpid()
     try:
         application.run()
-        if os.getpid() == own_pid:  # a process that an action forked must not close the ROS node
+        if os.getpid() == application.pid:
             application.close()
     except ChannelClosed:
         pass

@@ -20,7 +20,8 @@ _PASSES: Final = (child_messages.Starting, child_messages.GoingBack, child_messa
 class Gate:
     """Sends messages to the session; while it is closed, only those that do not belong to the past.
 
-    `send_state` sends what the session must know of the past all the same: changed ports, and forced results.
+    `send_state` sends what the session must know of the past all the same: changed ports, and forced results,
+    also from before it was closed, since a snapshot may be all that is left of that.
     """
 
     def __init__(self, channel: Channel[Any, Any]) -> None:
@@ -38,23 +39,26 @@ class Gate:
         self._is_closed = False
 
     def send_state(self) -> None:
-        """Sends what has changed meanwhile, and holds still."""
+        """Sends what has changed since the run began, and holds still."""
         for message in self._ports.values():
             self._channel.send(message)
         if self._forced is not None:
             self._channel.send(self._forced)
-        self._ports, self._forced = {}, None
 
     def send(self, message: Struct) -> None:
         """Sends a message, or keeps it back."""
         if not self._is_closed or isinstance(message, _PASSES):
             self._channel.send(message)
-        elif isinstance(message, child_messages.PortSet):
+        if isinstance(message, child_messages.PortSet):
             self._ports[message.path, message.node_id, message.port] = message
         elif isinstance(message, child_messages.Forced):
             self._forced = message
         elif isinstance(message, child_messages.Applied):
             self._ports = {}  # the ports are those of the changed tree
+
+    def wait(self) -> None:
+        """Waits until the session has sent something."""
+        self._channel.wait()
 
     def receive(self, timeout_s: float | None = None) -> Any:
         """Returns the next message of the session; None after the timeout."""

@@ -51,6 +51,10 @@ class ExactGraph:
         """Interrupts a wait of `spin_once`; thread-safe."""
         self._woken.set()
 
+    def renew(self) -> None:
+        """Waits by itself in a copy of the process: a thread that it does not have may hold the lock."""
+        self._woken = threading.Event()
+
     def is_connected(self) -> bool:
         """Returns True: topics within a process are connected when they exist."""
         return True

@@ -63,6 +63,9 @@ class ExactLoop(SimulationLoop):
         self._base_step = stepper.done
         self._number = self._ticks = 0
         self._credit = 0
+        self._last_tick_step = stepper.done
+        self.rests_after_tick: Callable[[], bool] = lambda: False
+        """Whether the loop does nothing more for now just after a tick."""
         self._is_fresh = True
         """Whether the sensors have not published anything for the next tick."""
 
@@ -87,6 +90,11 @@ class ExactLoop(SimulationLoop):
     def step_number(self) -> int:
         """The present step of the world."""
         return self._stepper.done
+
+    @property
+    def is_at_tick(self) -> bool:
+        """Whether nothing was simulated since the last tick, or since the begin."""
+        return self._stepper.done == self._last_tick_step
 
     @property
     def time_s(self) -> float:
@@ -146,7 +154,7 @@ class ExactLoop(SimulationLoop):
     def reset(self) -> None:
         """Resets the world; a paused world stays paused."""
         super().reset()
-        self._base_step = self._number = self._credit = 0
+        self._base_step = self._number = self._credit = self._last_tick_step = 0
         self._is_fresh = True
 
     def next_due_s(self, now_s: float) -> float:
@@ -176,6 +184,8 @@ class ExactLoop(SimulationLoop):
         while not self.is_paused and not self._waits:
             if self._is_tick_due:
                 self._make_tick()
+                if self.rests_after_tick():
+                    break
                 continue
             count = self._stepper.count(self.next_tick_step)
             if count > self._credit:
@@ -193,6 +203,7 @@ class ExactLoop(SimulationLoop):
             self._stepper.publish()
         self._number += 1
         self._ticks += 1
+        self._last_tick_step = self._stepper.done
         self._tick()
         self._node.poll()
         self._told_time()

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import logging
 import os
+import queue
 import sys
 import time
 from typing import TYPE_CHECKING, Any, Final
@@ -16,11 +17,12 @@ from typing import TYPE_CHECKING, Any, Final
 import msgspec
 
 from executor import child_messages
-from executor.application.process import SPIN_S, Application, serve
+from executor.application.process import GOODBYE_S, SPIN_S, Application, serve
 from executor.child_messages import decode_to_exact
 from executor.exact.fingerprints import Fingerprints
 from executor.exact.gate import Gate
 from executor.exact.graph import ExactGraph
+from executor.exact.keeping import Keeping
 from executor.exact.replaying import NotThereError, Replaying
 from executor.exact.slow_ticks import SlowTicks
 from executor.recorder.link import ADDRESS_VARIABLE
@@ -36,6 +38,7 @@ if TYPE_CHECKING:
     from executor.application.report import Report
     from executor.application.ros import ApplicationGraph
     from executor.child_messages import StartApplication, ToExact
+    from executor.exact.snapshots import Woken
     from executor.exact.world import ExactWorld
     from executor.replay_messages import Replay
     from executor.supervision.channel import Channel
@@ -57,6 +60,8 @@ class ExactApplication(Application):
         gate: Any = Gate(channel)
         self._gate: Gate = gate
         self._send = gate.send
+        self._socket = channel
+        self._keeping = Keeping(gate.send)
         super().__init__(gate, pulse)
         self._for_world = WorldCommands(gate.send, pulse)
         self._exact: ExactWorld | None = None
@@ -67,6 +72,7 @@ class ExactApplication(Application):
         self._failure: NotThereError | None = None
         self._is_in_tick = False
         self._is_handed_over = False
+        self._is_copy = False
         pulse.locate = SlowTicks(pulse.locate, self._is_waited_for, gate.send)
         _warm_up()
 
@@ -90,8 +96,10 @@ class ExactApplication(Application):
             recorder=os.environ.get(ADDRESS_VARIABLE, ""),
         )
         exact.loop.moved = self._moved
+        exact.loop.rests_after_tick = self._is_snapshot_due
         self._exact_graph.join(exact.world, exact.ros)
         self._fingerprints = Fingerprints(exact.world)
+        self._keeping.begin()
         tree = super()._build(start)
         self._fingerprints.follow(tree)
         if start.replay is not None:
@@ -108,6 +116,8 @@ class ExactApplication(Application):
 
     def _work(self) -> None:
         loop = self._loop
+        if self._is_snapshot_due():
+            self._snapshot()
         loop.run_due(time.monotonic())
         if self._prints and time.monotonic() >= self._prints_due_s:
             self._tell_fingerprints()
@@ -131,6 +141,14 @@ class ExactApplication(Application):
             case child_messages.Pause():
                 self._tell_fingerprints()
                 super()._obey(message)
+            case child_messages.KeepSnapshots(is_on=is_on):
+                self._keeping.is_on = is_on
+            case child_messages.TakeSnapshot() if self._is_in_tick:
+                self._send(child_messages.NoSnapshots("it is held within a tick", is_wanted=True))
+            case child_messages.TakeSnapshot():
+                self._snapshot(is_wanted=True)
+            case child_messages.Awake():
+                pass  # only for a copy that waits for it
             case _:
                 super()._obey(message)
 
@@ -162,7 +180,9 @@ class ExactApplication(Application):
 
     def close(self) -> None:
         """Sends the last messages."""
-        if self._exact is not None:
+        if self._is_copy:
+            self._exact_world.flush()  # a copy must not destroy what it has in the graph
+        elif self._exact is not None:
             self._exact.close()
         super().close()
 
@@ -224,6 +244,8 @@ class ExactApplication(Application):
         assert debugger is not None  # noqa: S101 - commands come after `ready`
         tick, hook = debugger.place
         data = msgspec.msgpack.encode(message)
+        self._keeping.inputs += 1
+        self._keeping.resets += isinstance(command, child_messages.Reset)
         self._send(child_messages.Entered(Input(loop.ticks, loop.step_number, hook, data)))
         if (done := noted(command)) is not None:
             self.note_input(child_messages.name_of(command), done, tick, hook)
@@ -234,6 +256,46 @@ class ExactApplication(Application):
             self._send(child_messages.Fingerprints(bytes(self._prints)))
             self._prints.clear()
 
+    # --- snapshots ----------------------------------------------------------------------------------
+
+    def _is_snapshot_due(self) -> bool:
+        return self._keeping.is_due(self._loop, draws=bool(self._exact_world.renderer_name))
+
+    def _snapshot(self, *, is_wanted: bool = False) -> None:
+        """Makes a snapshot; in a copy of it, this continues when the manager has woken it."""
+        self._tell_fingerprints()
+        renderer = self._exact_world.renderer_name
+        woken = self._keeping.take(self._loop, renderer, is_wanted=is_wanted)
+        if woken is not None:
+            self._continue_as_copy(woken)
+
+    def _continue_as_copy(self, woken: Woken) -> None:
+        """Makes the run again from this snapshot up to a moment, and pauses there."""
+        exact, runner = self._exact_world, self._runner
+        assert runner is not None  # noqa: S101 - it ran
+        self.pid, self._is_copy = os.getpid(), True
+        self._commands = queue.SimpleQueue()
+        self._exact_graph.renew()
+        self._socket.reopen(woken.channel_fd)
+        self._pulse.restart(woken.notes_fd)
+        runner.tree.current = self._pulse.current
+        exact.loop.pause()
+        exact.forget_clients()
+        self._gate.close_for_replay()
+        self._channel.send(child_messages.Starting())
+        self._start_listener()
+        with self._pulse.busy("loading"):
+            while not isinstance(awake := self._commands.get(), child_messages.Awake):
+                pass
+            exact.loop.set_speed(awake.speed)
+            is_there = self._replay(awake.replay)
+        if self._recorder is not None:
+            self._recorder.pump()  # ticks that were recorded the first time
+        if not is_there:
+            self._channel.flush(GOODBYE_S)
+            os._exit(0)
+        self._channel.send(child_messages.ApplicationReady())
+
     # --- an earlier run, again ----------------------------------------------------------------------
 
     def _replay(self, replay: Replay) -> bool:
@@ -242,7 +304,13 @@ class ExactApplication(Application):
         assert runner is not None  # noqa: S101 - it is loaded
         assert self._fingerprints is not None  # noqa: S101 - as above
         self._replaying = Replaying(
-            replay, loop, obey=self._obey, send=self._send, fingerprint=self._fingerprints.take
+            replay,
+            loop,
+            obey=self._obey,
+            send=self._send,
+            fingerprint=self._fingerprints.take,
+            given=self._keeping.inputs,
+            resets=self._keeping.resets,
         )
         speed = loop.speed
         loop.set_speed(0)
@@ -261,6 +329,7 @@ class ExactApplication(Application):
             self._channel.send(child_messages.Fault("load", error, hint))
             return False
         loop.set_speed(speed)
+        self._keeping.inputs, self._keeping.resets = reached.inputs, reached.resets
         runner.pause()
         exact.world.take_collisions()  # they were sent the first time
         exact.ros.node.take_notes()

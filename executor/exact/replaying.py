@@ -66,6 +66,8 @@ class Replaying:
         send: sends a message to the session.
         fingerprint: returns the fingerprint of the tick that was made last.
         clock: returns the real time in s.
+        given: the number of inputs that were given already, in the run from which this one was copied.
+        resets: the number of resets among them.
     """
 
     def __init__(  # noqa: PLR0913 - a run, and what makes it
@@ -77,6 +79,8 @@ class Replaying:
         send: Callable[[GoingBack | Differs], None],
         fingerprint: Callable[[], bytes],
         clock: Callable[[], float] = time.monotonic,
+        given: int = 0,
+        resets: int = 0,
     ) -> None:
         self._replay = replay
         self._loop = loop
@@ -84,8 +88,8 @@ class Replaying:
         self._send = send
         self._fingerprint = fingerprint
         self._clock = clock
-        self._given = 0
-        self._resets = 0
+        self._given = given
+        self._resets = resets
         self._told_s = clock()
         self._has_differed = False
         self._ticks = len(replay.fingerprints) // FINGERPRINT_BYTES

@@ -74,16 +74,30 @@ class ExactWorld:
         if ros.navigation is not None:
             self._stepper.parts.append(ros.navigation)
         self.loop = self._make_loop(launch, send, tick, is_ticking)
-        topics = Topics(ros.node.node, commands.answer, commands=ros.node)
+        self._topics = topics = Topics(ros.node.node, commands.answer, commands=ros.node)
         self.recorder = WorldRecorder(world, ros.node, BatchTap, recorder)
         self.recorder.join(partial(GraphTap, ros.context))
         self.loop.watchers += [self.recorder.look, topics.poll]
         self.loop.watchers.append(Mismatches(ros.application, send).poll)
         commands.loop, commands.topics, commands.recorder = self.loop, topics, self.recorder
 
-    def close(self) -> None:
+    @property
+    def renderer_name(self) -> str:
+        """The name of the renderer that is in use; "" before the first picture."""
+        return self._sensors.renderer_name
+
+    def forget_clients(self) -> None:
+        """Ends all streams and echoes."""
+        self.loop.streams.clear()
+        self._topics.clear()
+
+    def flush(self) -> None:
         """Sends the last of the recording."""
         self.recorder.flush(GOODBYE_S)
+
+    def close(self) -> None:
+        """Sends the last of the recording, and ends it."""
+        self.flush()
         self.recorder.close()
 
     def _make_loop(

@@ -32,6 +32,7 @@ from executor.recorder.link import ADDRESS_VARIABLE
 from executor.ros.environment import discovery_port, lockstep_environment, ros_environment
 from executor.session.events import (
     AttachWanted,
+    DropSnapshot,
     EndSession,
     Event,
     Inspect,
@@ -45,6 +46,7 @@ from executor.session.events import (
     Tell,
     TimePassed,
     Unpack,
+    WakeSnapshot,
 )
 from executor.session.protocol import Session
 from executor.session.stage import About
@@ -153,8 +155,9 @@ def session_programs(domain_id: int, groot2: int = 0) -> dict[Kind, Program]:
         ),
         "exact": Program(
             (sys.executable, "-m", "executor.exact.process"),
-            {**environment, **shown, **lockstep_environment(), "PYTHONHASHSEED": "0"},
+            {**environment, **shown, **lockstep_environment(), **SINGLE_THREADED},
             limits,
+            makes_snapshots=True,
         ),
         "recorder": Program((sys.executable, "-m", "executor.recorder.process"), link),
         "adapter": Program((sys.executable, "-m", "executor.debug_adapter.process")),
@@ -307,7 +310,16 @@ class Manager:
             match effect:
                 case Send() if self._server is not None:
                     self._server.send(effect)
-                case Spawn() | Tell() | Interrupt() | Inspect() | Retire() | Kill():
+                case (
+                    Spawn()
+                    | Tell()
+                    | Interrupt()
+                    | Inspect()
+                    | Retire()
+                    | Kill()
+                    | WakeSnapshot()
+                    | DropSnapshot()
+                ):
                     self._supervisor.apply(effect)
                 case Unpack():
                     task = asyncio.get_running_loop().create_task(self._unpack(effect))

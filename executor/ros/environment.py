@@ -39,8 +39,10 @@ def ros_environment(domain_id: int) -> dict[str, str]:
 def lockstep_environment() -> dict[str, str]:
     """Returns the variables of a process whose graph is isolated from all others."""
     profile = str(LOCKSTEP_PROFILE)
+    # Otherwise the middleware adds transports of its own, among them shared memory.
+    own = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SYSTEM_DEFAULT"}
     names = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
-    return ros_environment(0) | dict.fromkeys(names, profile)
+    return ros_environment(0) | own | dict.fromkeys(names, profile)
 
 
 def use_lockstep_environment() -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from executor import child_messages
 from executor.session.child import Child
-from executor.session.events import Interrupt, Kill, Retire, Spawn, Tell
+from executor.session.events import Interrupt, Kill, Retire, Spawn, Tell, WakeSnapshot
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -90,6 +90,16 @@ class Children:
             self._effect(Spawn(kind, self._count, is_exact=is_exact))
         return self.living[kind]
 
+    def wake(self, snapshot: tuple[int, int]) -> Child:
+        """Makes a copy of a snapshot the application, in place of a spare."""
+        self.drop("application")
+        child = self.living["application"] = Child(
+            "application", self.next_number(), self._clock(), is_exact=True
+        )
+        child.is_started = True
+        self._effect(WakeSnapshot(*snapshot, child.number))
+        return child
+
     def holder(self, kind: Kind) -> Child | None:
         """Returns the living child that does the work of a kind: an exact run has the world in it."""
         return self.host if kind == "world" and self.host is not None else self.living.get(kind)
@@ -106,6 +116,15 @@ class Children:
     def tell_application(self, message: ToApplication) -> None:
         """Sends a message to the application, if there is one."""
         self._tell("application", message)
+
+    def tell_exact(self, child: Child, message: ToExact) -> None:
+        """Sends a message to an exact run."""
+        self._effect(Tell(child.kind, child.number, message))
+
+    def tell_host(self, message: ToExact) -> None:
+        """Sends a message to the exact run that has the world in it, if there is one."""
+        if self.host is not None:
+            self.tell_exact(self.host, message)
 
     def tell_recorder(self, message: ToRecorder) -> None:
         """Sends a message to the recorder, if there is one."""

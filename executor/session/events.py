@@ -34,6 +34,7 @@ __all__ = [
     "ClientJoined",
     "ClientLeft",
     "CommandCame",
+    "DropSnapshot",
     "Effect",
     "EndSession",
     "Event",
@@ -44,6 +45,8 @@ __all__ = [
     "RecordingWanted",
     "Retire",
     "Send",
+    "SnapshotEnded",
+    "SnapshotWeighed",
     "Spawn",
     "StreamClosed",
     "StreamOpened",
@@ -52,6 +55,7 @@ __all__ = [
     "TimePassed",
     "Unpack",
     "Unpacked",
+    "WakeSnapshot",
 ]
 
 Kind = Literal["world", "application", "exact", "node", "recorder", "evaluation", "adapter"]
@@ -162,6 +166,24 @@ class ChildTraced:
 
 
 @dataclass(frozen=True)
+class SnapshotEnded:
+    """A snapshot ended; `child` is the number of the process that made it, and `snapshot` its own."""
+
+    child: int
+    snapshot: int
+
+
+@dataclass(frozen=True)
+class SnapshotWeighed:
+    """The memory that a snapshot has for itself, and the room for more; None without a limit."""
+
+    child: int
+    snapshot: int
+    size_bytes: int
+    room_bytes: int | None = None
+
+
+@dataclass(frozen=True)
 class Unpacked:
     """An archive was unpacked into `folder`, or refused with `error`.
 
@@ -208,6 +230,8 @@ Event = (
     | ChildLooked
     | ChildTraced
     | ChildExited
+    | SnapshotEnded
+    | SnapshotWeighed
     | Unpacked
     | RecordingWanted
     | AttachWanted
@@ -289,6 +313,27 @@ class Kill:
 
 
 @dataclass(frozen=True)
+class WakeSnapshot:
+    """Forks a copy of a snapshot, which is the application with a number from then on.
+
+    A failure is reported with `ChildExited`.
+    """
+
+    child: int
+    snapshot: int
+    number: int
+    kind: Kind = "application"
+
+
+@dataclass(frozen=True)
+class DropSnapshot:
+    """Ends a snapshot."""
+
+    child: int
+    snapshot: int
+
+
+@dataclass(frozen=True)
 class Unpack:
     """Unpacks an archive (base64) into a new folder, and reports the result with `Unpacked`.
 
@@ -307,4 +352,16 @@ class EndSession:
     reason: str
 
 
-Effect = Send | Spawn | Tell | Interrupt | Inspect | Retire | Kill | Unpack | EndSession
+Effect = (
+    Send
+    | Spawn
+    | Tell
+    | Interrupt
+    | Inspect
+    | Retire
+    | Kill
+    | WakeSnapshot
+    | DropSnapshot
+    | Unpack
+    | EndSession
+)

@@ -34,6 +34,8 @@ from executor.session.events import (
     EndSession,
     Event,
     RecordingWanted,
+    SnapshotEnded,
+    SnapshotWeighed,
     StreamClosed,
     StreamOpened,
     StreamPaced,
@@ -42,6 +44,7 @@ from executor.session.events import (
 )
 from executor.session.exact import hosting
 from executor.session.exact.past import PastRuns
+from executor.session.exact.snapshots import Snapshots
 from executor.session.hangs import waiting, watch
 from executor.session.ladder import HAS_APPLICATION, TABLE, State, is_legal, where
 from executor.session.launch_nodes import LaunchNodes
@@ -91,6 +94,7 @@ class Session:
         self.children = Children(self.output.effect, lambda: self.now_s, self.questions.token, self._lost)
         self.run = LastRun()
         self.past = PastRuns()
+        self.snapshots = Snapshots(self)
         self.hold = holding.Hold()
         self.attaching: attaching.Attaching | None = None
         self.python = PythonDebugger(self)
@@ -152,6 +156,7 @@ class Session:
         if not state.reaches(State.UNIVERSE_READY):
             self.renderer, self.has_tf = "", False
             self.past.forget()
+            self.snapshots.forget()
         self.output.emit(messages.StateChanged(state.value, reason))
 
     def snapshot(self) -> messages.Snapshot:
@@ -209,6 +214,10 @@ class Session:
                 self.begin_own("attach", steps.attach(self, target))
             case RecordingWanted():
                 self.recording.start(event.folder, is_whole=event.is_whole)
+            case SnapshotEnded():
+                self.snapshots.ended(event)
+            case SnapshotWeighed():
+                self.snapshots.weighed(event)
             case _:
                 pass
 
@@ -284,6 +293,8 @@ class Session:
                 self._attach_again()
         elif isinstance(message, child_messages.Entered | child_messages.Fingerprints):
             self.past.said(message)
+        elif isinstance(message, child_messages.SnapshotTaken | child_messages.NoSnapshots):
+            self.snapshots.said(child, message)
         elif isinstance(message, child_messages.WorldState):
             hosting.give_back(self, child, message.data)
         elif isinstance(message, Fault) and message.kind == "timeout":

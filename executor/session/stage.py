@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from executor.session.evaluation.evaluating import Evaluating
     from executor.session.events import Unpacked
     from executor.session.exact.past import PastRuns
+    from executor.session.exact.snapshots import Snapshots
     from executor.session.ladder import State
     from executor.session.launch_nodes import LaunchNodes
     from executor.session.mirror import Mirror
@@ -88,6 +89,7 @@ class Stage(Protocol):
     evaluating: Evaluating
     run: LastRun
     past: PastRuns
+    snapshots: Snapshots
     hold: Hold
     attaching: Attaching | None
     python: PythonDebugger

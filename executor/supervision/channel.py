@@ -131,6 +131,18 @@ class Channel(Generic[Sent, Received]):
         # A program that an action forks must not write to the channel.
         os.register_at_fork(after_in_child=self._abandon)
 
+    def reopen(self, fd: int) -> None:
+        """Continues on another socket, in a copy of the process; what waited belongs to the first one."""
+        os.set_inheritable(fd, False)  # noqa: FBT003 - positional only
+        self._socket = socket.socket(fileno=fd)
+        self._socket.settimeout(0)
+        self._received, self._outbox, self._writing = bytearray(), _Outbox(), b""
+        self._writer, self._closed = None, False
+
+    def wait(self) -> None:
+        """Waits until something has arrived, or the other end has ended."""
+        self._poll(select.POLLIN, None)
+
     def fileno(self) -> int:
         """Returns the descriptor to wait on.
 

@@ -6,7 +6,11 @@ import ctypes
 import os
 import resource
 import signal
-from typing import Final
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 __all__ = [
     "INTERRUPT_SIGNAL",
@@ -14,7 +18,9 @@ __all__ = [
     "TRACE_SIGNAL",
     "adopt_orphans",
     "confine_reader",
+    "die_with",
     "die_with_parent",
+    "forks_survive",
 ]
 
 INTERRUPT_SIGNAL: Final = signal.SIGUSR1
@@ -22,6 +28,7 @@ TRACE_SIGNAL: Final = signal.SIGUSR2
 PARENT_VARIABLE: Final = "BT_STUDIO_PARENT_PID"
 _PR_SET_PDEATHSIG: Final = 1
 _PR_SET_CHILD_SUBREAPER: Final = 36
+_copying: Final[list[bool]] = []
 _NEW_USER, _NEW_NET = 0x10000000, 0x40000000
 
 
@@ -41,7 +48,27 @@ def die_with_parent() -> None:
     if expected and os.getppid() != int(expected):
         os._exit(1)
     # Forked children do not inherit the setting, so each sets it again.
-    os.register_at_fork(after_in_child=lambda: _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL))
+    os.register_at_fork(after_in_child=_die_too)
+
+
+def _die_too() -> None:
+    if not _copying:
+        die_with(signal.SIGKILL)
+
+
+@contextmanager
+def forks_survive() -> Iterator[None]:
+    """Makes the processes that are forked meanwhile survive their parents."""
+    _copying.append(True)
+    try:
+        yield
+    finally:
+        _copying.pop()
+
+
+def die_with(number: signal.Signals) -> None:
+    """Makes the kernel send this process a signal when its present parent ends."""
+    _prctl(_PR_SET_PDEATHSIG, number)
 
 
 def adopt_orphans() -> None:

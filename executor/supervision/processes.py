@@ -25,6 +25,8 @@ from executor.evaluation_messages import FromEvaluation, ToEvaluation
 from executor.recorder_messages import FromRecorder, ToRecorder
 from executor.supervision.channel import AsyncChannel, ChannelClosed, ChannelError, socket_pair
 from executor.supervision.confine import INTERRUPT_SIGNAL, PARENT_VARIABLE
+from executor.supervision.copies import MARK
+from executor.supervision.handover import HANDOVER_VARIABLE, Arrival, handover_pair, receive
 from executor.supervision.output import LineReader
 from executor.supervision.pulse import NOTES_VARIABLE
 from executor.supervision.signs import Notes, Signs, look_at
@@ -33,13 +35,14 @@ if TYPE_CHECKING:
     import socket
     from collections.abc import Iterable, Mapping
 
+    from executor.supervision.adopted import AdoptedProcess
+
 __all__ = ["ChildProcess", "Limits", "Program"]
 
 Said = FromWorld | FromExact | FromRecorder | FromEvaluation | FromAdapter
 Told = ToWorld | ToExact | ToRecorder | ToEvaluation | ToAdapter
 Decode = Callable[[bytes], Said]
 
-MARK: Final = "BT_STUDIO_CHILD"
 DRAIN_TIMEOUT_S: Final = 0.5
 KILL_ROUNDS: Final = 200
 CPU_GRACE_S: Final = 5
@@ -58,11 +61,15 @@ class Limits:
 
 @dataclass(frozen=True)
 class Program:
-    """The command line of a kind of child; `--channel-fd N` is added if the child has a channel."""
+    """The command line of a kind of child; `--channel-fd N` is added if the child has a channel.
+
+    With `makes_snapshots`, the child gets a socket over which it hands over copies of itself.
+    """
 
     arguments: tuple[str, ...]
     environment: Mapping[str, str] = field(default_factory=dict)
     limits: Limits = field(default_factory=Limits)
+    makes_snapshots: bool = False
 
 
 class ChildProcess:
@@ -79,7 +86,7 @@ class ChildProcess:
     def __init__(
         self,
         program: Program,
-        popen: subprocess.Popen[bytes],
+        popen: subprocess.Popen[bytes] | AdoptedProcess,
         mark: str,
         on_message: Callable[[Said], None],
         decode: Decode | None,
@@ -94,6 +101,9 @@ class ChildProcess:
         self._channel: AsyncChannel[Told, Said] | None = None
         self._notes: Notes | None = None
         self._signs: Signs | None = None
+        self._link: socket.socket | None = None
+        self.on_arrival: Callable[[Arrival], None] = Arrival.close
+        """Called with each copy of the child that is handed over."""
         self.exited = asyncio.get_running_loop().create_future()
         clock = asyncio.get_running_loop().time
         self._out = LineReader("info", on_message, clock)
@@ -110,38 +120,62 @@ class ChildProcess:
             OSError: the program cannot be started.
         """
         mark = os.urandom(8).hex()
-        ours, notes = None, None
-        if decode is not None:
-            ours, theirs = socket_pair()
-            notes = Notes()
-            with theirs:
-                try:
-                    popen = cls._start(program, mark, theirs.fileno(), notes.fd)
-                except OSError:
-                    ours.close()
-                    notes.close()
-                    raise
-        else:
-            popen = cls._start(program, mark)
+        ours, notes, link = None, None, None
+        with contextlib.ExitStack() as given, contextlib.ExitStack() as failed:
+            fds: list[int] = []
+            if decode is not None:
+                ours, theirs = socket_pair()
+                given.enter_context(theirs)
+                failed.callback(ours.close)
+                notes = Notes()
+                failed.callback(notes.close)
+                fds = [theirs.fileno(), notes.fd]
+            if program.makes_snapshots:
+                link, their_link = handover_pair()
+                given.enter_context(their_link)
+                failed.callback(link.close)
+                fds.append(their_link.fileno())
+            popen = cls._start(program, mark, *fds)
+            failed.pop_all()
         child = cls(program, popen, mark, on_message, decode)
-        child._notes = notes
+        child._notes, child._link = notes, link
         child._limit()
         await child._listen(ours)
         return child
 
+    @classmethod
+    async def adopt(
+        cls,
+        program: Program,
+        process: AdoptedProcess,
+        on_message: Callable[[Said], None],
+        decode: Decode,
+    ) -> ChildProcess:
+        """Takes over a copy of a child that was handed over."""
+        child = cls(program, process, process.mark, on_message, decode)
+        child._notes, child._link = Notes(process.notes_fd), process.link
+        await child._listen(process.channel)
+        return child
+
     @staticmethod
     def _start(
-        program: Program, mark: str, channel_fd: int | None = None, notes_fd: int | None = None
+        program: Program,
+        mark: str,
+        channel_fd: int | None = None,
+        notes_fd: int | None = None,
+        link_fd: int | None = None,
     ) -> subprocess.Popen[bytes]:
         own = {PARENT_VARIABLE: str(os.getpid()), MARK: mark, "PYTHONUNBUFFERED": "1"}
         if notes_fd is not None:
             own[NOTES_VARIABLE] = str(notes_fd)
+        if link_fd is not None:
+            own[HANDOVER_VARIABLE] = str(link_fd)
         return subprocess.Popen(
             [*program.arguments, *([] if channel_fd is None else ["--channel-fd", str(channel_fd)])],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
-            pass_fds=[fd for fd in (channel_fd, notes_fd) if fd is not None],
+            pass_fds=[fd for fd in (channel_fd, notes_fd, link_fd) if fd is not None],
             start_new_session=True,
             env={**os.environ, **program.environment, **own},
         )
@@ -187,8 +221,9 @@ class ChildProcess:
 
     def interrupt(self) -> None:
         """Interrupts the child's current tick."""
-        with contextlib.suppress(ProcessLookupError):
-            self._popen.send_signal(INTERRUPT_SIGNAL)
+        if not self.exited.done():
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(self.pid, INTERRUPT_SIGNAL)
 
     def ask_to_end(self) -> None:
         """Interrupts a child without a channel, as Ctrl+C would; other children were asked by a message."""
@@ -218,6 +253,7 @@ class ChildProcess:
             self._channel.close()
         if self._notes is not None:
             self._notes.close()
+        self._close_link()
 
     def check_limits(self, descendants: Iterable[psutil.Process]) -> None:
         """Kills the child if its processes, which are searched in `descendants`, exceed its limits."""
@@ -279,6 +315,24 @@ class ChildProcess:
         if ours is not None and self._decode is not None:
             self._channel = await AsyncChannel.open(ours, self._decode)
             self._readers.append(loop.create_task(self._read_channel(self._channel)))
+        if self._link is not None:
+            loop.add_reader(self._link.fileno(), self._take_arrivals, self._link)
+
+    def _take_arrivals(self, link: socket.socket) -> None:
+        try:
+            while True:
+                if (arrival := receive(link)) is not None:
+                    self.on_arrival(arrival)
+        except BlockingIOError:
+            pass
+        except (EOFError, OSError):
+            self._close_link()
+
+    def _close_link(self) -> None:
+        if self._link is not None:
+            asyncio.get_running_loop().remove_reader(self._link.fileno())
+            self._link.close()
+            self._link = None
 
     async def _read_channel(self, channel: AsyncChannel[Told, Said]) -> None:
         try:

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Final
 from executor.child_messages import Beat, Place
 from executor.supervision.channel import ChannelClosed
 from executor.supervision.confine import TRACE_SIGNAL
+from executor.supervision.parking import PARKING
 from executor.supervision.threads import own
 
 if TYPE_CHECKING:
@@ -63,7 +64,13 @@ class Pulse:
         self._task = "starting"
         self.clocks = 0
         self.locate: Callable[[FrameType | None], Place] = place_in_our_code
-        self.current = _take_notes()
+        self.current = _take_notes(int(os.environ.pop(NOTES_VARIABLE, "-1")))
+        own(threading.Thread(target=self._beat, name="pulse", daemon=True)).start()
+
+    def restart(self, notes_fd: int) -> None:
+        """Continues in a copy of the process, with a file of its own for the notes."""
+        faulthandler.unregister(TRACE_SIGNAL)
+        self.current = _take_notes(notes_fd)
         own(threading.Thread(target=self._beat, name="pulse", daemon=True)).start()
 
     def moved(self) -> None:
@@ -88,13 +95,15 @@ class Pulse:
 
     def _beat(self) -> None:
         turns, since_s = -1, 0.0
+        spot = PARKING.spot()
         with suppress(ChannelClosed):
             while True:
-                now_s = time.monotonic()
-                if self._turns != turns:
-                    turns, since_s = self._turns, now_s
-                place = self._place() if now_s - since_s >= AWAY_S else None
-                self._send(Beat(turns, self._task, self.clocks, place))
+                with spot:
+                    now_s = time.monotonic()
+                    if self._turns != turns:
+                        turns, since_s = self._turns, now_s
+                    place = self._place() if now_s - since_s >= AWAY_S else None
+                    self._send(Beat(turns, self._task, self.clocks, place))
                 time.sleep(BEAT_S)
 
     def _place(self) -> Place:
@@ -104,15 +113,13 @@ class Pulse:
             return Place(f"unknown: {error}")
 
 
-def _take_notes() -> list[int] | memoryview[int]:
-    """Registers the stack dump for the manager's signal.
+def _take_notes(fd: int) -> list[int] | memoryview[int]:
+    """Registers the stack dump for the manager's signal; -1 is for no file.
 
     Returns the memory into which the node's number is written.
     """
-    given = os.environ.pop(NOTES_VARIABLE, "")
-    if not given:
+    if fd < 0:
         return [0]
-    fd = int(given)
     os.set_inheritable(fd, False)  # noqa: FBT003 - positional only
     os.lseek(fd, NOTES_BYTES, os.SEEK_SET)
     faulthandler.register(TRACE_SIGNAL, file=fd, all_threads=True)

@@ -7,6 +7,7 @@ import contextlib
 import logging
 import os
 import sys
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 import psutil
@@ -21,6 +22,7 @@ from executor.session.events import (
     ChildLooked,
     ChildSaid,
     ChildTraced,
+    DropSnapshot,
     Effect,
     Event,
     Inspect,
@@ -30,11 +32,13 @@ from executor.session.events import (
     Retire,
     Spawn,
     Tell,
+    WakeSnapshot,
 )
 from executor.supervision.confine import adopt_orphans
 from executor.supervision.descendants import Descendants
 from executor.supervision.processes import ChildProcess, Decode, Program, Said
 from executor.supervision.shared_memory import remove_abandoned_segments
+from executor.supervision.snapshots import SnapshotProcesses
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine, Iterator, Mapping
@@ -83,13 +87,19 @@ class Supervisor:
         self._tasks: set[asyncio.Task[None]] = set()
         self._checker: asyncio.Task[None] | None = None
         self._descendants = Descendants()
+        self._snapshots = SnapshotProcesses(report)
         self._others = 0
         adopt_orphans()
 
-    def apply(self, effect: Spawn | Tell | Interrupt | Inspect | Retire | Kill) -> None:
+    def apply(
+        self, effect: Spawn | Tell | Interrupt | Inspect | Retire | Kill | WakeSnapshot | DropSnapshot
+    ) -> None:
         """Carries out an effect; results are reported as events."""
+        if isinstance(effect, DropSnapshot):
+            self._snapshots.drop((effect.child, effect.snapshot))
+            return
         key = (effect.kind, effect.number)
-        if isinstance(effect, Spawn):
+        if isinstance(effect, Spawn | WakeSnapshot):
             self._waiting[key] = []
             self._do(self._live(effect))
         elif key in self._waiting:
@@ -120,6 +130,7 @@ class Supervisor:
         """Kills all children, and waits until none of their processes is left."""
         if self._checker is not None:
             self._checker.cancel()
+        await self._snapshots.close()
         while self._tasks:
             for child in self._children.values():
                 child.kill()
@@ -127,8 +138,8 @@ class Supervisor:
 
     @property
     def pids(self) -> list[int]:
-        """The process ids of the children."""
-        return [child.pid for child in self._children.values()]
+        """The process ids of the children, and of their snapshots."""
+        return [child.pid for child in self._children.values()] + self._snapshots.pids
 
     def _apply_to(self, child: ChildProcess, effect: Effect) -> None:
         match effect:
@@ -150,7 +161,7 @@ class Supervisor:
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
-    async def _live(self, spawn: Spawn) -> None:
+    async def _live(self, spawn: Spawn | WakeSnapshot) -> None:
         """Runs a child from its start to its exit, and reports its events."""
         key = (spawn.kind, spawn.number)
 
@@ -161,14 +172,13 @@ class Supervisor:
                 self._report(ChildSaid(spawn.kind, spawn.number, message))
 
         try:
-            child = await ChildProcess.spawn(
-                self._program(spawn), on_message, _DECODE.get(_program_of(spawn))
-            )
+            child = await self._begin(spawn, on_message)
         except OSError as error:
             self._waiting.pop(key)
             self._report(ChildExited(spawn.kind, spawn.number, f"could not be started: {error}"))
             return
         self._children[key] = child
+        child.on_arrival = partial(self._snapshots.arrived, spawn.number)
         if self._checker is None:
             self._checker = asyncio.get_running_loop().create_task(self._check_limits())
         for effect in self._waiting.pop(key):
@@ -178,6 +188,12 @@ class Supervisor:
         await asyncio.to_thread(remove_abandoned_segments)
         _log.info("%s %d %s", spawn.kind, child.pid, child.reason)
         self._report(ChildExited(spawn.kind, spawn.number, child.reason, child.last_lines))
+
+    async def _begin(self, spawn: Spawn | WakeSnapshot, on_message: Callable[[Said], None]) -> ChildProcess:
+        if isinstance(spawn, Spawn):
+            return await ChildProcess.spawn(self._program(spawn), on_message, _DECODE.get(_program_of(spawn)))
+        process = await self._snapshots.wake((spawn.child, spawn.snapshot))
+        return await ChildProcess.adopt(self._programs["exact"], process, on_message, decode_from_exact)
 
     def _program(self, spawn: Spawn) -> Program:
         if spawn.node is None:
@@ -204,7 +220,9 @@ class Supervisor:
             for (kind, number), child in list(self._children.items()):
                 if (signs := child.look()) is not None:
                     self._report(ChildLooked(kind, number, *signs))
+            await self._snapshots.weigh()
             there = self._descendants.look()
+            self._snapshots.reap(there)
             for (kind, _), child in list(self._children.items()):
                 if kind != "world":
                     child.check_limits(there)

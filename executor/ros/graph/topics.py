@@ -147,6 +147,12 @@ class Topics:
                 reader.next_echo_s = now_s + 1.0 / reader.echo_hz
                 self._send_echo(name, reader, newest)
 
+    def clear(self) -> None:
+        """Ends all echoes."""
+        self._patient.clear()
+        for reader in self._readers.values():
+            reader.echo_hz = 0.0
+
     # --- list -------------------------------------------------------------------------------------
 
     def _list(self, now_s: float) -> None:

@@ -1,7 +1,8 @@
 """The command `go_back`: world and program of an exact run are taken back to a moment, and held there.
 
-The run is made again from its begin, as fast as the machine can; what came from outside enters at the same
-places. What was before the moment belongs to both runs; what follows is a branch, with its own recording.
+The run is made again from the newest snapshot before the moment, or from its begin, as fast as the machine
+can; what came from outside enters at the same places. What was before the moment belongs to both runs; what
+follows is a branch, with its own recording.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from msgspec import structs
 from executor import child_messages, messages
 from executor.child_messages import ApplicationReady, Fault, GoingBack, WentBack
 from executor.session.exact.hosting import host
+from executor.session.exact.snapshots import keep_present
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.running import hold_world, terminate_application
 from executor.session.waits import Answered, Step, StepFailed, Wait, is_spare_lost, taken
@@ -26,8 +28,14 @@ if TYPE_CHECKING:
 __all__ = ["go_back"]
 
 SILENT_S: Final = 60.0
+<<<<<<< HEAD
 NO_RUN: Final = "There is no run to go back in."
 NO_RUN_HINT: Final = "Press Run first."
+=======
+SILENT_COPY_S: Final = 10.0
+NO_RUN: Final = "There is no exact run to go back in."
+NO_RUN_HINT: Final = "Set the time of the run to exact, and press Run."
+>>>>>>> c394be26 (Go back in exact runs from snapshots made by fork, kept in a ring)
 UNKNOWN: Final = "This run cannot be made again: it is too long ago, or was in another world."
 UNKNOWN_HINT: Final = "Go back in a later run."
 
@@ -36,10 +44,11 @@ def go_back(stage: Stage, data: messages.GoBack) -> Step:
     """Takes the present run, or an earlier one in this world, back to a moment."""
     past = _found(stage, data.run)
     if stage.state in HAS_APPLICATION:
+        yield from keep_present(stage)
         yield from terminate_application(stage, data)
     stage.output.emit(messages.GoingBack(0.0))
     try:
-        reached = yield from _make_again(stage, past, past.replay(data.t))
+        reached = yield from _from_snapshot(stage, past, past.replay(data.t))
     finally:
         stage.output.emit(messages.GoingBack(1.0))
     _tell(stage, reached)
@@ -56,6 +65,30 @@ def _found(stage: Stage, run: str) -> PastRun:
     return past
 
 
+def _from_snapshot(stage: Stage, past: PastRun, replay: Replay) -> Answered[WentBack]:
+    """Makes a run again from its newest snapshot before the moment; from its begin where that fails."""
+    snapshot = stage.snapshots.newest(past, replay.until_s)
+    if snapshot is None:
+        return (yield from _make_again(stage, past, replay))
+    _prepare(stage, past)
+    application = stage.children.wake(snapshot)
+    stage.hold.profile_given = None
+    stage.children.tell_exact(application, child_messages.Awake(replay, stage.mirror.speed))
+    try:
+        reached = yield from _arrived(stage, application, SILENT_COPY_S)
+    except StepFailed as failure:
+        if stage.children.get("application") is application:
+            stage.children.drop("application")
+        if failure.code in ("cancelled", "load_failed"):
+            stage.children.replenish()
+            raise
+        text = f"A snapshot cannot be used: {failure} The run is made again from its begin."
+        stage.output.emit(messages.Log("manager", "info", text))
+        return (yield from _make_again(stage, past, replay))
+    _take_over(stage, past, application, reached)
+    return reached
+
+
 def _make_again(stage: Stage, past: PastRun, replay: Replay, tries: int = 2) -> Answered[WentBack]:
     """Makes a run again in a process of its own, and gives it the world; replaces a dead spare, once."""
     application = _start(stage, past, replay)
@@ -69,20 +102,22 @@ def _make_again(stage: Stage, past: PastRun, replay: Replay, tries: int = 2) -> 
         stage.children.replenish()
         raise
     _take_over(stage, past, application, reached)
-    if (differs := application.said(child_messages.Differs)) is not None:
-        _tell_differs(stage, differs)
     return reached
 
 
-def _start(stage: Stage, past: PastRun, replay: Replay) -> Child:
+def _prepare(stage: Stage, past: PastRun) -> None:
     hold_world(stage)
     stage.children.wants_exact = True
     stage.mirror.begin_run(past.start.tick_hz)
+    stage.hold.since_s, stage.hold.given = None, stage.hold.breakpoints
+    stage.hold.groot2_given = 0  # it looks from the moment on, when the run resumes
+
+
+def _start(stage: Stage, past: PastRun, replay: Replay) -> Child:
+    _prepare(stage, past)
     application = stage.children.ensure("application")
     application.is_started = True
-    stage.hold.since_s, stage.hold.given = None, stage.hold.breakpoints
     stage.hold.profile_given = stage.hold.profile
-    stage.hold.groot2_given = 0  # it looks from the moment on, when the run resumes
     assert past.start.world is not None  # noqa: S101 - an exact run has one
     stage.children.tell_application(
         structs.replace(
@@ -97,11 +132,11 @@ def _start(stage: Stage, past: PastRun, replay: Replay) -> Child:
     return application
 
 
-def _arrived(stage: Stage, application: Child) -> Answered[WentBack]:
+def _arrived(stage: Stage, application: Child, silent_s: float = SILENT_S) -> Answered[WentBack]:
     """Waits for a run on its way; each sign of its progress gives it more time."""
     until = taken(application, Fault, ApplicationReady, GoingBack)
     late = "The run could not be made again in time: it no longer makes progress."
-    while not isinstance(reply := (yield Wait(until, SILENT_S, late)), ApplicationReady):
+    while not isinstance(reply := (yield Wait(until, silent_s, late)), ApplicationReady):
         if isinstance(reply, Fault):
             raise StepFailed("load_failed", reply.message, reply.hint)
         application.forget(GoingBack)
@@ -123,6 +158,8 @@ def _take_over(stage: Stage, past: PastRun, application: Child, reached: WentBac
     if stage.hold.breakpoints is not None:
         stage.children.tell_application(child_messages.SetBreakpoints(wanted=stage.hold.breakpoints))
     stage.enter(State.PAUSED)
+    if (differs := application.said(child_messages.Differs)) is not None:
+        _tell_differs(stage, differs)
 
 
 def _tell(stage: Stage, reached: WentBack) -> None:

@@ -62,6 +62,7 @@ def host(stage: Stage, application: Child) -> None:
     for topic in stage.clients.echoes():
         stage.children.tell_world(child_messages.EchoTopic(topic, 0.0))
     stage.children.host = application
+    stage.snapshots.begin(application)
     streaming.open_all(stage)
     streaming.resume_echoes(stage)
 

@@ -34,6 +34,11 @@ class Sensors:
         self._kept: dict[Hashable, object] = {}
         self.version = 0
 
+    @property
+    def renderer_name(self) -> str:
+        """The name of the renderer that is in use; "" before the first picture."""
+        return self._renderer.name if self._renderer is not None else ""
+
     def changed(self) -> None:
         """Discards all measurements."""
         self.version += 1

@@ -114,6 +114,11 @@ class Streams:
         if not any(one.client == client for one in self._subscriptions.values()):
             self._adaptations.pop(client, None)
 
+    def clear(self) -> None:
+        """Ends all streams."""
+        self._subscriptions.clear()
+        self._adaptations.clear()
+
     def pace(self, client: str | None, lost: float) -> None:
         """Adapts a client's pictures to the share of them for which the client was too slow.
 

@@ -34,7 +34,7 @@ HASHING = """
         from sensor_msgs.msg import LaserScan
         self.digest = blake2b(digest_size=8)
         self.number = 0
-        node = kwargs["node"]
+        node = self.own_node = kwargs["node"]
         for kind, topic in ((LaserScan, "/scan"), (Odometry, "/odom"), (Twist, "/cmd_vel")):
             node.create_subscription(kind, topic, self.digest.update, 10, raw=True)
         node.create_timer(0.37, lambda: self.digest.update(b"timer"))

@@ -20,6 +20,7 @@ from executor.exact import process
 from executor.headless.recorded_segments import recorded_segments
 from executor.manager.manager import Manager, ManagerSettings, session_programs
 from executor.recorder.cdr import decode
+from executor.supervision.copies import SNAPSHOT_NAME
 from tests.executor.session_client import ROOT, TOKEN, SessionClient, app_zip, manager_process, run_data
 
 if TYPE_CHECKING:
@@ -159,7 +160,8 @@ async def test_a_run_that_is_looked_at_and_handled_equals_one_in_lock_step(tmp_p
 
 def child_of(manager: Any) -> psutil.Process:
     children = psutil.Process(manager.pid).children()
-    return next(p for p in children if any(process.__name__ in part for part in p.cmdline()))
+    runs = [p for p in children if any(process.__name__ in part for part in p.cmdline())]
+    return next(p for p in runs if p.name() != SNAPSHOT_NAME)
 
 
 async def ready(client: SessionClient, data: dict[str, Any]) -> int:

@@ -151,6 +151,8 @@ class Play:
             case Tell(message=child_messages.DumpWorld(request=request)):
                 state = self._said(effect, "world_state", data=b"as it is")
                 return [state, self._said(effect, "answer", request=request)]
+            case Tell(message=child_messages.TakeSnapshot()):
+                return [self._said(effect, "no_snapshots", reason="of a test", is_wanted=True)]
             case Tell(message=child_messages.ForWorld(command=command)):
                 request = getattr(command, "request", None)
                 return [self._said(effect, "answer", request=request)] if request else []

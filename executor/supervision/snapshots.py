@@ -1,0 +1,166 @@
+"""The snapshots of a session: processes that wait, which owe no signs of life and count to no limit.
+
+The manager holds an end of a socket of each; a snapshot ends when that is closed.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import signal
+import socket
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+import psutil
+
+from executor.session.events import SnapshotEnded, SnapshotWeighed
+from executor.supervision.adopted import AdoptedProcess
+from executor.supervision.copies import SNAPSHOT_NAME
+from executor.supervision.handover import receive, sees_senders
+from executor.supervision.room import memory_room, private_bytes
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from executor.session.events import Event
+    from executor.supervision.handover import Arrival
+
+__all__ = ["SnapshotProcesses"]
+
+MOST: Final = 64
+WAKE_S: Final = 5.0
+WEIGH_S: Final = 5.0
+Key = tuple[int, int]
+
+
+@dataclass
+class _Snapshot:
+    pid: int
+    pidfd: int
+    end: socket.socket
+    weighed_s: float = -1.0
+
+
+class SnapshotProcesses:
+    """The processes; each has as its key the number of the child that made it, and its own number.
+
+    Args:
+        report: is called with each `SnapshotEnded` and `SnapshotWeighed`, on the event loop.
+    """
+
+    def __init__(self, report: Callable[[Event], None]) -> None:
+        self._report = report
+        self._there: dict[Key, _Snapshot] = {}
+        self._dropped: set[Key] = set()
+
+    @property
+    def pids(self) -> list[int]:
+        """The process ids."""
+        return [snapshot.pid for snapshot in self._there.values()]
+
+    def arrived(self, child: int, arrival: Arrival) -> None:
+        """Takes a snapshot that a child has made."""
+        key = (child, arrival.number)
+        if key in self._there or key in self._dropped or len(arrival.fds) != 1 or len(self._there) >= MOST:
+            self._dropped.discard(key)
+            arrival.close()  # without this end it ends
+            return
+        (fd,), arrival.fds = arrival.fds, []
+        try:
+            end = socket.socket(fileno=fd)
+        except OSError:
+            os.close(fd)
+            return
+        try:
+            sees_senders(end)
+            pidfd = os.pidfd_open(arrival.pid)
+        except OSError:
+            end.close()
+            return
+        self._there[key] = _Snapshot(arrival.pid, pidfd, end)
+        asyncio.get_running_loop().add_reader(pidfd, self._ended, key)
+
+    def drop(self, key: Key) -> None:
+        """Ends a snapshot, also one that has not arrived yet."""
+        snapshot = self._there.get(key)
+        if snapshot is None:
+            self._dropped.add(key)
+            return
+        with contextlib.suppress(OSError):
+            signal.pidfd_send_signal(snapshot.pidfd, signal.SIGKILL)
+
+    async def wake(self, key: Key) -> AdoptedProcess:
+        """Makes a snapshot fork a copy, and returns that.
+
+        Raises:
+            OSError: the snapshot has ended, or does not answer.
+        """
+        snapshot = self._there.get(key)
+        if snapshot is None:
+            raise OSError("the snapshot has ended")
+        loop = asyncio.get_running_loop()
+        readable = asyncio.Event()
+        loop.add_reader(snapshot.end.fileno(), readable.set)
+        try:
+            snapshot.end.send(str(os.getpid()).encode())
+            await asyncio.wait_for(readable.wait(), WAKE_S)
+        except TimeoutError:
+            raise OSError("the snapshot does not answer") from None
+        finally:
+            loop.remove_reader(snapshot.end.fileno())
+        try:
+            arrival = receive(snapshot.end)
+        except EOFError:
+            arrival = None
+        if arrival is None:
+            raise OSError("the snapshot has ended")
+        try:
+            return AdoptedProcess(arrival)
+        except ValueError as error:
+            raise OSError(f"the snapshot answers wrongly: {error}") from error
+
+    async def weigh(self) -> None:
+        """Reads the memory of the snapshot whose turn it is, if it is one's."""
+        now_s = asyncio.get_running_loop().time()
+        key = min(self._there, key=lambda key: self._there[key].weighed_s, default=None)
+        if key is None:
+            return
+        snapshot = self._there[key]
+        if snapshot.weighed_s >= 0 and now_s - snapshot.weighed_s < WEIGH_S:
+            return
+        snapshot.weighed_s = now_s
+        size = await asyncio.to_thread(private_bytes, snapshot.pid)
+        if key in self._there:
+            self._report(SnapshotWeighed(*key, size, memory_room()))
+
+    def reap(self, descendants: Iterable[psutil.Process]) -> None:
+        """Takes the status of snapshots that ended before they arrived."""
+        own, known = os.getpid(), self.pids
+        for process in descendants:
+            with contextlib.suppress(psutil.Error, OSError), process.oneshot():
+                if (
+                    process.status() == psutil.STATUS_ZOMBIE
+                    and process.name() == SNAPSHOT_NAME
+                    and process.ppid() == own
+                    and process.pid not in known
+                ):
+                    os.waitpid(process.pid, os.WNOHANG)
+
+    async def close(self) -> None:
+        """Ends all, and waits until none is left."""
+        while self._there:
+            for key in list(self._there):
+                self.drop(key)
+            await asyncio.sleep(0.005)
+
+    def _ended(self, key: Key) -> None:
+        snapshot = self._there.pop(key)
+        loop = asyncio.get_running_loop()
+        loop.remove_reader(snapshot.pidfd)
+        with contextlib.suppress(OSError):
+            os.waitpid(snapshot.pid, os.WNOHANG)
+        os.close(snapshot.pidfd)
+        snapshot.end.close()
+        self._report(SnapshotEnded(*key))

@@ -92,6 +92,7 @@ class Keeping:
                 time.sleep(WANTED_RETRY_S)
                 made = self._snapshots.take(self._number)
             if isinstance(made, Woken):
+                self._foreign = Foreign()  # a copy has other threads
                 self._last_s = self._clock()
                 self._begun_s = self._last_s - cost_s
                 self._last_ticks = loop.ticks

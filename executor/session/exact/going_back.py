@@ -28,14 +28,9 @@ if TYPE_CHECKING:
 __all__ = ["go_back"]
 
 SILENT_S: Final = 60.0
-<<<<<<< HEAD
+SILENT_COPY_S: Final = 10.0
 NO_RUN: Final = "There is no run to go back in."
 NO_RUN_HINT: Final = "Press Run first."
-=======
-SILENT_COPY_S: Final = 10.0
-NO_RUN: Final = "There is no exact run to go back in."
-NO_RUN_HINT: Final = "Set the time of the run to exact, and press Run."
->>>>>>> c394be26 (Go back in exact runs from snapshots made by fork, kept in a ring)
 UNKNOWN: Final = "This run cannot be made again: it is too long ago, or was in another world."
 UNKNOWN_HINT: Final = "Go back in a later run."
 

@@ -43,6 +43,7 @@ class Foreign:
 
     def _foreign_thread(self) -> str | None:
         own = {thread.native_id for thread in threading.enumerate() if is_own(thread)}
+        own.add(os.getpid())  # after a fork Python still has the main thread's old id
         named = {thread.native_id: thread for thread in threading.enumerate()}
         for task in _tasks() - self._threads - own:
             if (thread := named.get(task)) is not None:
@@ -105,7 +106,7 @@ def _connections() -> set[int]:
 
 def _switches() -> dict[int, tuple[str, int]]:
     """Returns state and number of waits of each thread that is not Python's own."""
-    python = {thread.native_id for thread in threading.enumerate()}
+    python = {thread.native_id for thread in threading.enumerate()} | {os.getpid()}
     found = {}
     for task in _tasks() - python:
         try:

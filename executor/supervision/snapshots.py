@@ -31,6 +31,7 @@ __all__ = ["SnapshotProcesses"]
 
 MOST: Final = 64
 WAKE_S: Final = 5.0
+ARRIVAL_S: Final = 2.0
 WEIGH_S: Final = 5.0
 Key = tuple[int, int]
 
@@ -54,6 +55,7 @@ class SnapshotProcesses:
         self._report = report
         self._there: dict[Key, _Snapshot] = {}
         self._dropped: set[Key] = set()
+        self._gone: set[Key] = set()
 
     @property
     def pids(self) -> list[int]:
@@ -97,10 +99,12 @@ class SnapshotProcesses:
         Raises:
             OSError: the snapshot has ended, or does not answer.
         """
-        snapshot = self._there.get(key)
-        if snapshot is None:
-            raise OSError("the snapshot has ended")
         loop = asyncio.get_running_loop()
+        until_s = loop.time() + ARRIVAL_S
+        while (snapshot := self._there.get(key)) is None:
+            if key in self._gone or loop.time() > until_s:
+                raise OSError("the snapshot has ended")
+            await asyncio.sleep(0.01)  # it was announced, and is on its way
         readable = asyncio.Event()
         loop.add_reader(snapshot.end.fileno(), readable.set)
         try:
@@ -157,6 +161,7 @@ class SnapshotProcesses:
 
     def _ended(self, key: Key) -> None:
         snapshot = self._there.pop(key)
+        self._gone.add(key)
         loop = asyncio.get_running_loop()
         loop.remove_reader(snapshot.pidfd)
         with contextlib.suppress(OSError):

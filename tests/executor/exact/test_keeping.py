@@ -30,9 +30,9 @@ class Case:
         monkeypatch.setenv(HANDOVER_VARIABLE, str(theirs.detach()))
         self.sent: list[Any] = []
         self.now_s = 0.0
-        self.keeping = Keeping(self.sent.append, lambda: self.now_s)
         self.made = Made()
-        monkeypatch.setattr(self.keeping, "_snapshots", self.made)
+        monkeypatch.setattr(keeping, "Snapshots", lambda link: self.made)
+        self.keeping = Keeping(self.sent.append, lambda: self.now_s)
         self.reason = ""
         self.foreign = SimpleNamespace(refusal=lambda renderer: self.reason)
         monkeypatch.setattr(keeping, "Foreign", lambda: self.foreign)

@@ -19,6 +19,11 @@ class Made:
     """Takes the place of forks: says what the next one returns."""
 
     result: Any = True
+    link: Any = None
+
+    def over(self, link: Any) -> Made:
+        self.link = link
+        return self
 
     def take(self, number: int) -> Any:
         return self.result
@@ -31,7 +36,7 @@ class Case:
         self.sent: list[Any] = []
         self.now_s = 0.0
         self.made = Made()
-        monkeypatch.setattr(keeping, "Snapshots", lambda link: self.made)
+        monkeypatch.setattr(keeping, "Snapshots", self.made.over)
         self.keeping = Keeping(self.sent.append, lambda: self.now_s)
         self.reason = ""
         self.foreign = SimpleNamespace(refusal=lambda renderer: self.reason)
@@ -52,6 +57,7 @@ def case(monkeypatch: pytest.MonkeyPatch) -> Iterator[Case]:
     it = Case(monkeypatch)
     yield it
     it.ours.close()
+    it.made.link.close()
 
 
 def test_the_first_is_due_at_once_and_others_after_some_work(case: Case) -> None:

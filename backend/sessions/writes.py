@@ -19,8 +19,9 @@ from django.db import IntegrityError, OperationalError, connection, transaction
 from django.utils import timezone
 
 from backend.config.environment import environment
-from backend.core.locks import lock_number, transaction_lock
+from backend.core.locks import transaction_lock
 from backend.core.problems import NotFoundError, StudioError
+from backend.core.process_locks import held_by_process
 from backend.projects.storage import queries as projects
 from backend.projects.storage.access import Need
 from backend.sessions import drain, queries
@@ -413,10 +414,8 @@ def _launch(session: Session) -> None:
         target=session.target,
     )
     try:
-        if not _begins(session):
-            return
-        warm = None if session.target else claim(session.id, launcher())
-        started = warm or launcher().start(spec)
+        with held_by_process(_launch_lock(session.id)):
+            _start_and_store(session, spec)
     except HostFullError as error:
         # The host's refusal counts more than our number. The session keeps its place in the queue.
         log.info("session %s waits: %s", session.id, error.detail)
@@ -427,26 +426,23 @@ def _launch(session: Session) -> None:
     except Exception:
         log.exception("session %s", session.id)
         _finish(session, SessionState.FAILED, "The launcher failed; the server's log has the details.")
-    else:
-        where = {"address": started.address, "launcher_state": started.state}
-        ready = {"state": SessionState.READY, "used_at": timezone.now(), **where}
-        if not _moved(session, SessionState.STARTING, **ready):
-            launcher().stop(started.state, timeout_s=limits.session_stop_timeout_s)
     finally:
         with _launches_lock:
             _launches.pop(session.id, None)
         connection.close()
 
 
-def _begins(session: Session) -> bool:
-    """Locks the launch until this thread's connection closes.
-
-    Returns False if the session has ended before.
-    """
-    if connection.vendor == "postgresql":
-        with connection.cursor() as cursor:
-            cursor.execute("SELECT pg_advisory_lock(%s)", [lock_number(_launch_lock(session.id))])
-    return Session.objects.filter(id=session.id, state=SessionState.STARTING).exists()
+def _start_and_store(session: Session, spec: Spec) -> None:
+    """Starts the executor of a session that has not ended before; the caller holds the lock of the launch."""
+    if not Session.objects.filter(id=session.id, state=SessionState.STARTING).exists():
+        return
+    warm = None if session.target else claim(session.id, launcher())
+    connection.close()  # many robots that start at once need no connection while they wait
+    started = warm or launcher().start(spec)
+    where = {"address": started.address, "launcher_state": started.state}
+    ready = {"state": SessionState.READY, "used_at": timezone.now(), **where}
+    if not _moved(session, SessionState.STARTING, **ready):
+        launcher().stop(started.state, timeout_s=spec.stop_timeout_s)
 
 
 def _look_again(session: Session) -> None:

@@ -25,6 +25,9 @@ PART = (
     "tests/backend/runs/test_parallel.py",
     "tests/backend/evaluations/test_writes.py",
     "tests/backend/evaluations/test_queries.py",
+    "tests/backend/core/test_process_locks.py",
+    "tests/backend/sessions/launchers/kubernetes/test_connections.py",
+    "tests/backend/sessions/warm",
 )
 # All of storage, permissions, concurrency and accounts. The kill storm starts its own servers, on SQLite.
 WHOLE = (
@@ -35,6 +38,9 @@ WHOLE = (
     "tests/backend/runs/test_parallel.py",
     "tests/backend/evaluations/test_writes.py",
     "tests/backend/evaluations/test_queries.py",
+    "tests/backend/core/test_process_locks.py",
+    "tests/backend/sessions/launchers/kubernetes/test_connections.py",
+    "tests/backend/sessions/warm",
     "--ignore=tests/backend/projects/test_durability.py",
 )
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from django.db.backends.base.base import BaseDatabaseWrapper
 
-__all__ = ["held_by_process"]
+__all__ = ["Holder", "held_by_process"]
 
 log = logging.getLogger(__name__)
 
@@ -33,7 +33,7 @@ _TAKE: Final = "SELECT pg_try_advisory_lock(%s)"
 _RELEASE: Final = "SELECT pg_advisory_unlock(%s)"
 
 
-class _Holder:
+class Holder:
     """The connection that holds the locks, if there are any; threads use it in turn, and never for long."""
 
     def __init__(self) -> None:
@@ -81,7 +81,7 @@ class _Holder:
             broken.close()
 
 
-_holder: Final = _Holder()
+holder: Final = Holder()
 
 
 @contextmanager
@@ -96,9 +96,9 @@ def held_by_process(name: str) -> Iterator[None]:
     if connection.vendor != "postgresql":
         yield
         return
-    while not _holder.take(name):
+    while not holder.take(name):
         time.sleep(_PAUSE_S)
     try:
         yield
     finally:
-        _holder.release(name)
+        holder.release(name)

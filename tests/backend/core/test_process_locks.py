@@ -16,8 +16,8 @@ pytestmark = pytest.mark.django_db(transaction=True)
 
 @pytest.fixture(autouse=True)
 def holder(monkeypatch):
-    made = process_locks._Holder()
-    monkeypatch.setattr(process_locks, "_holder", made)
+    made = process_locks.Holder()
+    monkeypatch.setattr(process_locks, "holder", made)
     yield made
     made._drop()
 

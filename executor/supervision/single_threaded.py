@@ -10,5 +10,6 @@ SINGLE_THREADED: Final = {
     "OMP_NUM_THREADS": "1",
     "MKL_NUM_THREADS": "1",
     "LP_NUM_THREADS": "0",
+    "MESA_SHADER_CACHE_DISABLE": "true",
 }
 """Variables that keep libraries from starting threads, which a fork would lose, and sets in one order."""

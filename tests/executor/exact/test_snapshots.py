@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import os
+import random
 import signal
+import tempfile
 from contextlib import asynccontextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import psutil
@@ -14,6 +17,7 @@ import pytest
 from executor import child_messages
 from executor.child_messages import ForWorld
 from executor.exact import snapshots
+from executor.manager.archive import unpack
 from executor.manager.manager import session_programs
 from executor.replay_messages import FINGERPRINT_BYTES, Replay
 from executor.session.events import (
@@ -28,18 +32,20 @@ from executor.supervision.handover import handover_pair
 from executor.supervision.parking import Parking
 from executor.supervision.supervisor import Supervisor
 from tests.executor.exact.exact_runs import app_folder, hashing_app, start_message
+from tests.executor.exact.random_projects import random_project
 from tests.executor.exact.test_process import exact, ready
 from tests.executor.session_client import SessionClient, manager_process
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable
-    from pathlib import Path
 
     from executor.replay_messages import Input
 
 pytestmark = pytest.mark.simulation
 
 FIRST = 1
+# The seed of a random project with a camera.
+WITH_CAMERA = 1
 
 
 class Runs:
@@ -170,6 +176,24 @@ async def test_copies_of_snapshots_end_where_the_run_ended() -> None:
                 assert there.inputs == 2
                 assert it.of(10 + at, child_messages.Differs) == []
                 assert await it.end(10 + at) == state
+
+
+async def test_copies_of_a_run_with_a_camera_hear_the_same_pictures() -> None:
+    """Its action writes a hash of the bytes of all pictures to the blackboard."""
+    project = random_project(random.Random(WITH_CAMERA))  # noqa: S311 - a test
+    assert project.has_camera
+    with tempfile.TemporaryDirectory() as folder:
+        unpack(project.app, Path(folder))
+        async with runs() as it:
+            await it.begin(Path(folder), universe=project.universe, robot=project.robot)
+            await it.until(lambda: any(s.draws for s in it.of(FIRST, child_messages.SnapshotTaken)))
+            await it.pause(FIRST)
+            drawn = it.of(FIRST, child_messages.SnapshotTaken)[-1]
+            state = await it.end(FIRST)
+            it.wake(drawn.number, 2, None)
+            await it.back(2)
+            assert it.of(2, child_messages.Differs) == []
+            assert await it.end(2) == state
 
 
 async def test_a_snapshot_survives_who_made_it_and_its_copies_make_snapshots_too() -> None:

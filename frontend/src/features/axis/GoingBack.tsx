@@ -4,7 +4,7 @@ import type { ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
 import { perform, useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
-import { beginsAgain, canGoBack, cancelGoBack, canRunOn } from '@/store/moment/goBack';
+import { beginsAgain, canGoBack, cancelGoBack, canRunOn, mayGoBack } from '@/store/moment/goBack';
 import { useMoment } from '@/store/moment/store';
 import { useSource } from '@/store/moment/source';
 import { useRunStore } from '@/store/run/store';
@@ -16,8 +16,10 @@ export function GoBackButton() {
   // What `canGoBack` asks for.
   useMoment((state) => state.t === null);
   useSource();
-  return useSessionStore(canGoBack) ? (
+  const isOffered = useSessionStore(canGoBack);
+  return useSessionStore(mayGoBack) ? (
     <AxisButton
+      isOffered={isOffered}
       command="time.goBack"
       words="goBack"
       testId="axis-go-back"
@@ -32,8 +34,10 @@ export function RunOnButton() {
   useMoment((state) => state.t === null);
   useSource();
   useRunStore((state) => state.stage);
-  return useSessionStore(canRunOn) ? (
+  const isOffered = useSessionStore(canRunOn);
+  return useSessionStore(mayGoBack) || isOffered ? (
     <AxisButton
+      isOffered={isOffered}
       command="time.runOn"
       words="runOn"
       testId="axis-run-on"
@@ -43,13 +47,15 @@ export function RunOnButton() {
 }
 
 interface AxisButtonProps {
+  /** A button that is not offered keeps its place: the axis stays as wide while somebody drags on it. */
+  readonly isOffered: boolean;
   readonly command: string;
   readonly words: 'goBack' | 'runOn';
   readonly testId: string;
   readonly icon: ReactNode;
 }
 
-function AxisButton({ command: id, words, testId, icon }: AxisButtonProps) {
+function AxisButton({ isOffered, command: id, words, testId, icon }: AxisButtonProps) {
   const { t } = useTranslation('axis');
   const command = useCommandTable(({ commands }) => commands[id]);
   const help = useSessionStore(beginsAgain) ? t('goBack.helpLive') : t(`${words}.help`);
@@ -60,6 +66,7 @@ function AxisButton({ command: id, words, testId, icon }: AxisButtonProps) {
         size="compact-xs"
         variant="default"
         className={classes['goBack']}
+        style={isOffered ? undefined : { visibility: 'hidden' }}
         aria-label={t(`${words}.label`)}
         leftSection={icon}
         data-testid={testId}

@@ -119,14 +119,19 @@ function Axis({ extent }: { readonly extent: Extent }) {
       <AxisMenu />
       <Note />
       <Clock end={extent.to} />
-      {isBack && hasLink ? (
+      {hasLink ? (
         <Tooltip label={t('link.copy')}>
-          <ActionIcon aria-label={t('link.copy')} data-testid="axis-link" onClick={copyShownLink}>
+          <ActionIcon
+            aria-label={t('link.copy')}
+            style={isBack ? undefined : { visibility: 'hidden' }}
+            data-testid="axis-link"
+            onClick={copyShownLink}
+          >
             <IconLink size={16} />
           </ActionIcon>
         </Tooltip>
       ) : null}
-      {isBack ? <GoBackButton /> : null}
+      <GoBackButton />
       <RunOnButton />
       <CommandButton command="tests.moment" size={26} testId="axis-test" />
       <Tooltip label={`${t('toLive')} (Esc)`} disabled={!isBack}>

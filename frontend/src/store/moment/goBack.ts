@@ -7,12 +7,18 @@ import { extent, lookNow } from './looking';
 import { useSource } from './source';
 import { useMoment } from './store';
 
-/** Whether world and program can go back to the shown moment: in an exact run, as the driver. */
+/** Whether there is a run in which world and program can go back to a past moment, by this user. */
+export function mayGoBack(): boolean {
+  const { introspection, connection, repeatableRuns } = useSessionStore.getState();
+  const isDriver = connection === 'open' && introspection?.role === 'driver';
+  return isDriver && useSource.getState().kept === null && repeatableRuns.length > 0;
+}
+
+/** Whether world and program can go back to the shown moment. */
 export function canGoBack(): boolean {
-  const { introspection, connection, repeatableRuns, goingBack } = useSessionStore.getState();
-  if (connection !== 'open' || introspection?.role !== 'driver' || goingBack !== null) return false;
+  const { repeatableRuns, goingBack } = useSessionStore.getState();
   const run = extent()?.run;
-  if (useSource.getState().kept !== null || useMoment.getState().t === null || run === undefined)
+  if (!mayGoBack() || goingBack !== null || useMoment.getState().t === null || run === undefined)
     return false;
   return repeatableRuns.includes(run);
 }

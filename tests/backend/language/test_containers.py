@@ -33,7 +33,7 @@ def contained(host, keeper, limits, monkeypatch):
     limits(launcher="docker", keeper_folder=keeper.folder)
     monkeypatch.setattr(writes, "launcher", lambda: keeper.launcher)
     monkeypatch.setattr(tools, "launcher", lambda: keeper.launcher)
-    monkeypatch.setattr(tools, "paths", {})
+    monkeypatch.setattr(tools, "addresses", {})
     return host
 
 

@@ -159,9 +159,14 @@ async def test_a_run_that_is_looked_at_and_handled_equals_one_in_lock_step(tmp_p
 
 
 def child_of(manager: Any) -> psutil.Process:
-    children = psutil.Process(manager.pid).children()
-    runs = [p for p in children if any(process.__name__ in part for part in p.cmdline())]
-    return next(p for p in runs if p.name() != SNAPSHOT_NAME)
+    """Returns the process of the run: the first one of its program that is no snapshot, and has not ended."""
+    runs = []
+    for child in psutil.Process(manager.pid).children():
+        with contextlib.suppress(psutil.Error), child.oneshot():
+            is_run = any(process.__name__ in part for part in child.cmdline())
+            if is_run and child.name() != SNAPSHOT_NAME:
+                runs.append(child)
+    return min(runs, key=psutil.Process.create_time)
 
 
 async def ready(client: SessionClient, data: dict[str, Any]) -> int:

@@ -123,6 +123,7 @@ function Axis({ extent }: { readonly extent: Extent }) {
         <Tooltip label={t('link.copy')}>
           <ActionIcon
             aria-label={t('link.copy')}
+            className={classes['link']}
             style={isBack ? undefined : { visibility: 'hidden' }}
             data-testid="axis-link"
             onClick={copyShownLink}

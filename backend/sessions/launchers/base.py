@@ -110,6 +110,8 @@ class Launcher:
         """Starts a user's tools, and returns the address at which they listen."""
         raise LaunchError("Without containers there are none for users' files.")
 
+    # `__init_subclass__` refuses a launcher with `keeps_warm` that does not define this.
+
     def warm(self, spec: Spec) -> Started:
         """Starts an executor that waits for its session."""
         raise NotImplementedError

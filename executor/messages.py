@@ -88,6 +88,14 @@ from executor.stream_messages import (
     Texture,
     View,
 )
+from executor.topic_events import (
+    MismatchCode,
+    TopicInfo,
+    TopicMessage,
+    TopicMismatch,
+    Topics,
+    TypeDescription,
+)
 
 # Messages that other modules define; those defined here are public too.
 __all__ = [
@@ -125,6 +133,7 @@ __all__ = [
     "LaunchUniverse",
     "Light",
     "Mesh",
+    "MismatchCode",
     "MoveBody",
     "NameBranch",
     "NodeTime",
@@ -163,6 +172,11 @@ __all__ = [
     "Subscribe",
     "Teleop",
     "Texture",
+    "TopicInfo",
+    "TopicMessage",
+    "TopicMismatch",
+    "Topics",
+    "TypeDescription",
     "UniverseDocument",
     "Unsubscribe",
     "View",
@@ -182,7 +196,6 @@ Role = Literal["driver", "viewer"]
 LaunchState = Literal["running", "ended", "failed"]
 FaultKind = Literal["exception", "process", "timeout", "load"]
 PortEffect = Literal["next_tick", "next_start"]
-MismatchCode = Literal["type", "reliability", "durability", "qos"]
 FinishReason = Literal["root_finished", "action_raised", "terminated", "process_died"]
 
 
@@ -361,71 +374,6 @@ class Sim(Struct):
 
     It is below 1 if the machine is too slow for real time.
     """
-
-
-class TopicInfo(Struct):
-    """One ROS topic: its rate over the last two seconds, and the nodes at both of its ends.
-
-    `hz` and `bytes_per_s` are null without a measurement: images and point clouds are measured only while a
-    client echoes them, and the first `list_topics` after a while starts the measurement. `types` holds all
-    types of the topic; several only if a robot accepts several types on its command topic.
-    """
-
-    name: str
-    type: str
-    hz: float | None
-    bytes_per_s: float | None
-    publishers: list[str]
-    subscribers: list[str]
-    types: list[str]
-
-
-class Topics(Struct):
-    """The topics of the session's ROS graph."""
-
-    topics: list[TopicInfo]
-
-
-class TopicMessage(Struct):
-    """One message of a topic that a client echoes.
-
-    Numbers that JSON lacks (infinite, not a number) are null. Long arrays and texts are shortened: `cut`
-    names them by their path (`ranges`, `pose.covariance`) with their true length. `bytes` is the size of the
-    message on the wire.
-    """
-
-    topic: str
-    type: str
-    message: dict[str, Any]
-    bytes: int = 0
-    cut: dict[str, int] = {}
-
-
-class TypeDescription(Struct):
-    """A message type: its fields (`{"linear": "geometry_msgs/Vector3"}`) and a message with defaults."""
-
-    type: str
-    fields: dict[str, str]
-    example: dict[str, Any]
-
-
-class TopicMismatch(Struct):
-    """Two ends of a topic do not match, so no message arrives; reported once while both exist.
-
-    `publisher` and `subscriber` are names of ROS nodes. `reason` is the difference: message type or quality
-    of service. `code` names it exactly, and `values` holds what `message` tells except the names. `hint`
-    says how to fix it. With `resolved`, the mismatch that was reported does not exist any more.
-    """
-
-    topic: str
-    publisher: str
-    subscriber: str
-    reason: Literal["type", "qos"]
-    message: str
-    hint: str
-    code: MismatchCode
-    values: dict[str, str] = {}
-    resolved: bool = False
 
 
 class LaunchNode(Struct):

@@ -183,6 +183,7 @@ def _type_name(kind: Any) -> str:
         "executor.apply_messages.",
         "executor.profile_messages.",
         "executor.recording_events.",
+        "executor.topic_events.",
         "typing.",
         "msgspec.",
     ):

@@ -24,6 +24,7 @@ from executor import (
     profile_messages,
     recording_events,
     stream_messages,
+    topic_events,
 )
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ _MODULES: Final = (
     command_messages,
     evaluation_events,
     recording_events,
+    topic_events,
     messages,
     stream_messages,
 )

@@ -27,6 +27,8 @@ export type EvaluationEnd = "complete" | "refused" | "failed" | "replaced";
 
 export type StopReason = "disk_full" | "disk_failed" | "recorder_died" | "recorder_hung";
 
+export type MismatchCode = "type" | "reliability" | "durability" | "qos";
+
 export type State = "idle" | "connected" | "universe_ready" | "visualization_ready" | "application_running" | "paused" | "held";
 
 export type Rung = "connect" | "launch_universe" | "prepare_visualization" | "run_application";
@@ -44,8 +46,6 @@ export type LaunchState = "running" | "ended" | "failed";
 export type FaultKind = "exception" | "process" | "timeout" | "load";
 
 export type PortEffect = "next_tick" | "next_start";
-
-export type MismatchCode = "type" | "reliability" | "durability" | "qos";
 
 export type FinishReason = "root_finished" | "action_raised" | "terminated" | "process_died";
 
@@ -720,6 +720,69 @@ export interface Differs {
   cause: string;
 }
 
+/**
+ * One ROS topic: its rate over the last two seconds, and the nodes at both of its ends.
+ *
+ * `hz` and `bytes_per_s` are null without a measurement: images and point clouds are measured only while a
+ * client echoes them, and the first `list_topics` after a while starts the measurement. `types` holds all
+ * types of the topic; several only if a robot accepts several types on its command topic.
+ */
+export interface TopicInfo {
+  name: string;
+  type: string;
+  hz: number | null;
+  bytes_per_s: number | null;
+  publishers: string[];
+  subscribers: string[];
+  types: string[];
+}
+
+/** The topics of the session's ROS graph. */
+export interface Topics {
+  topics: TopicInfo[];
+}
+
+/**
+ * One message of a topic that a client echoes.
+ *
+ * Numbers that JSON lacks (infinite, not a number) are null. Long arrays and texts are shortened: `cut`
+ * names them by their path (`ranges`, `pose.covariance`) with their true length. `bytes` is the size of the
+ * message on the wire.
+ */
+export interface TopicMessage {
+  topic: string;
+  type: string;
+  message: Record<string, unknown>;
+  bytes: number;
+  cut: Record<string, number>;
+}
+
+/** A message type: its fields (`{"linear": "geometry_msgs/Vector3"}`) and a message with defaults. */
+export interface TypeDescription {
+  type: string;
+  fields: Record<string, string>;
+  example: Record<string, unknown>;
+}
+
+/**
+ * Two ends of a topic do not match, so no message arrives; reported once while both exist.
+ *
+ * `publisher` and `subscriber` are names of ROS nodes. `reason` is the difference: message type or quality
+ * of service. `code` names it exactly, and `values` holds what `message` tells except the names. `hint`
+ * says how to fix it. With `resolved`, the mismatch that was reported does not exist any more.
+ */
+export interface TopicMismatch {
+  topic: string;
+  publisher: string;
+  subscriber: string;
+  reason: "qos" | "type";
+  message: string;
+  hint: string;
+  code: MismatchCode;
+  values: Record<string, string>;
+  resolved: boolean;
+}
+
 /** The command was done. */
 export type Ack = Record<string, never>;
 
@@ -878,69 +941,6 @@ export interface Sim {
   distance_m: number;
   pose: [number, number, number];
   camera_share: number;
-}
-
-/**
- * One ROS topic: its rate over the last two seconds, and the nodes at both of its ends.
- *
- * `hz` and `bytes_per_s` are null without a measurement: images and point clouds are measured only while a
- * client echoes them, and the first `list_topics` after a while starts the measurement. `types` holds all
- * types of the topic; several only if a robot accepts several types on its command topic.
- */
-export interface TopicInfo {
-  name: string;
-  type: string;
-  hz: number | null;
-  bytes_per_s: number | null;
-  publishers: string[];
-  subscribers: string[];
-  types: string[];
-}
-
-/** The topics of the session's ROS graph. */
-export interface Topics {
-  topics: TopicInfo[];
-}
-
-/**
- * One message of a topic that a client echoes.
- *
- * Numbers that JSON lacks (infinite, not a number) are null. Long arrays and texts are shortened: `cut`
- * names them by their path (`ranges`, `pose.covariance`) with their true length. `bytes` is the size of the
- * message on the wire.
- */
-export interface TopicMessage {
-  topic: string;
-  type: string;
-  message: Record<string, unknown>;
-  bytes: number;
-  cut: Record<string, number>;
-}
-
-/** A message type: its fields (`{"linear": "geometry_msgs/Vector3"}`) and a message with defaults. */
-export interface TypeDescription {
-  type: string;
-  fields: Record<string, string>;
-  example: Record<string, unknown>;
-}
-
-/**
- * Two ends of a topic do not match, so no message arrives; reported once while both exist.
- *
- * `publisher` and `subscriber` are names of ROS nodes. `reason` is the difference: message type or quality
- * of service. `code` names it exactly, and `values` holds what `message` tells except the names. `hint`
- * says how to fix it. With `resolved`, the mismatch that was reported does not exist any more.
- */
-export interface TopicMismatch {
-  topic: string;
-  publisher: string;
-  subscriber: string;
-  reason: "qos" | "type";
-  message: string;
-  hint: string;
-  code: MismatchCode;
-  values: Record<string, string>;
-  resolved: boolean;
 }
 
 /**

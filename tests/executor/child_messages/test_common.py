@@ -1,4 +1,4 @@
-"""Messages of the children's channel."""
+"""Messages of the children's channels, as both ends decode them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ import msgspec
 import pytest
 
 from executor import messages
-from executor.child_messages import Fault, FromApplication, Pause, ToWorld, event_of, name_of
+from executor.child_messages import Fault, FromApplication, ToWorld
+from executor.child_messages.common import Pause, event_of, name_of
 
 
 def test_a_message_is_decoded_by_its_type() -> None:

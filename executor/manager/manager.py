@@ -23,13 +23,12 @@ from typing import TYPE_CHECKING, Any, Final
 import msgspec
 
 from executor import __version__
-from executor.application.groot import PORT_VARIABLE
 from executor.manager.admission import Admission, is_loopback
-from executor.manager.environment import WrongVariableError, mebibytes, number
+from executor.manager.environment import WrongVariableError, number
 from executor.manager.gate import fetch_listener
+from executor.manager.programs import attached_programs, session_programs
 from executor.manager.tls import CertificateError, server_context
-from executor.recorder.link import ADDRESS_VARIABLE
-from executor.ros.environment import discovery_port, lockstep_environment, ros_environment
+from executor.ros.environment import discovery_port, ros_environment
 from executor.session.events import (
     AttachWanted,
     DropSnapshot,
@@ -51,9 +50,7 @@ from executor.session.events import (
 from executor.session.protocol import Session
 from executor.session.stage import About
 from executor.supervision.confine import die_with_parent
-from executor.supervision.processes import Limits, Program
 from executor.supervision.shared_memory import remove_abandoned_segments
-from executor.supervision.single_threaded import SINGLE_THREADED
 from executor.supervision.supervisor import Supervisor
 
 if TYPE_CHECKING:
@@ -63,18 +60,15 @@ if TYPE_CHECKING:
     from executor.manager.folders import Folders
     from executor.manager.server import SessionServer
     from executor.ram.server import RamServer
+    from executor.supervision.processes import Program
 
-__all__ = ["Manager", "ManagerSettings", "free_domain_id", "main", "session_programs"]
+__all__ = ["Manager", "ManagerSettings", "free_domain_id", "main"]
 
 _log = logging.getLogger(__name__)
 
 GOODBYE_S: Final = 1.0
 LAST_DOMAIN_ID: Final = 100
 LARGEST_DOMAIN_ID: Final = 232
-# pydantic would search all installed packages.
-NO_PLUGINS: Final = {"PYDANTIC_DISABLE_PLUGINS": "__all__"}
-# Sharing a small picture between threads costs more than it gains, and sessions share one machine.
-FEW_THREADS: Final = {"OPENCV_FOR_THREADS_NUM": "1", "LP_NUM_THREADS": "2"}
 
 
 @dataclass(frozen=True)
@@ -134,51 +128,6 @@ def outside_domain_id() -> int:
     """Returns the ROS domain of the user's own programs, from the environment."""
     text = os.environ.get("ROS_DOMAIN_ID", "")
     return int(text) if text.isdecimal() and int(text) <= LARGEST_DOMAIN_ID else 0
-
-
-def session_programs(domain_id: int, groot2: int = 0) -> dict[Kind, Program]:
-    """Returns the programs of world, application and recorder, with their limits."""
-    shown = {PORT_VARIABLE: str(groot2)} if groot2 else {}
-    threads = {name: os.environ.get(name, count) for name, count in FEW_THREADS.items()}
-    link = {ADDRESS_VARIABLE: f"bt-studio-recorder-{secrets.token_hex(16)}"}
-    environment = {**ros_environment(domain_id), **threads, **NO_PLUGINS, **link}
-    limits = Limits(
-        memory_bytes=mebibytes("BT_STUDIO_APPLICATION_MEMORY_MB", 4096),
-        file_bytes=mebibytes("BT_STUDIO_APPLICATION_FILE_MB", 1024),
-        processes=int(number("BT_STUDIO_APPLICATION_PROCESSES", 64)),
-        cpu_s=int(number("BT_STUDIO_APPLICATION_CPU_S", 0)) or None,
-    )
-    return {
-        "world": Program((sys.executable, "-m", "executor.world.process"), environment),
-        "application": Program(
-            (sys.executable, "-m", "executor.application.process"), environment | shown, limits
-        ),
-        "exact": Program(
-            (sys.executable, "-m", "executor.exact.process"),
-            {**environment, **shown, **lockstep_environment(), **SINGLE_THREADED},
-            limits,
-            makes_snapshots=True,
-        ),
-        "recorder": Program((sys.executable, "-m", "executor.recorder.process"), link),
-        "adapter": Program((sys.executable, "-m", "executor.debug_adapter.process")),
-        "evaluation": Program(
-            (sys.executable, "-m", "executor.evaluation.served.process"),
-            dict(SINGLE_THREADED),
-            Limits(file_bytes=limits.file_bytes),
-        ),
-    }
-
-
-def attached_programs(address: str) -> dict[Kind, Program]:
-    """Returns the programs of a session that follows the program at an address; there is no world."""
-    link = {ADDRESS_VARIABLE: f"bt-studio-recorder-{secrets.token_hex(16)}"}
-    limits = Limits(memory_bytes=mebibytes("BT_STUDIO_APPLICATION_MEMORY_MB", 4096))
-    follow = (sys.executable, "-m", "executor.attached.process", "--address", address)
-    return {
-        "world": Program((sys.executable, "-m", "executor.attached.world"), {}),
-        "application": Program(follow, NO_PLUGINS | link, limits),
-        "recorder": Program((sys.executable, "-m", "executor.recorder.process"), link),
-    }
 
 
 class Manager:

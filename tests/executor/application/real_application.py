@@ -11,7 +11,8 @@ from pathlib import Path
 
 import psutil
 
-from executor.manager.manager import Manager, ManagerSettings, free_domain_id, session_programs
+from executor.manager.manager import Manager, ManagerSettings, free_domain_id
+from executor.manager.programs import session_programs
 from executor.ros.environment import ros_environment
 from executor.supervision.processes import Program
 from tests.executor.session_client import TOKEN, SessionClient

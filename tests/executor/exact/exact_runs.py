@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from executor import child_messages
 from executor.child_messages import ForWorld, StartApplication, StartWorld, decode_from_exact
 from executor.manager.archive import unpack
-from executor.manager.manager import session_programs
+from executor.manager.programs import session_programs
 from executor.recorder.link import ADDRESS_VARIABLE
 from executor.recorder_messages import BeginRun, StartRecorder, decode_from_recorder
 from executor.supervision.channel import Channel, ChannelClosed, socket_pair

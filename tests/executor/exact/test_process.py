@@ -18,7 +18,8 @@ from mcap.reader import make_reader
 
 from executor.exact import process
 from executor.headless.recorded_segments import recorded_segments
-from executor.manager.manager import Manager, ManagerSettings, session_programs
+from executor.manager.manager import Manager, ManagerSettings
+from executor.manager.programs import session_programs
 from executor.recorder.cdr import decode
 from executor.supervision.copies import SNAPSHOT_NAME
 from tests.executor.session_client import ROOT, TOKEN, SessionClient, app_zip, manager_process, run_data

@@ -18,7 +18,7 @@ from executor import child_messages
 from executor.child_messages import ForWorld
 from executor.exact import snapshots
 from executor.manager.archive import unpack
-from executor.manager.manager import session_programs
+from executor.manager.programs import session_programs
 from executor.replay_messages import FINGERPRINT_BYTES, Replay
 from executor.session.events import (
     ChildExited,

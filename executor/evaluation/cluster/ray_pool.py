@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 BATCH_S: Final = 30.0
 """The processor time of a batch; a shorter one would be mostly the start of its supervisor."""
 STORE_BYTES: Final = 200 << 20
+# Ray waits 30 s for a node; on a busy machine it starts later.
+NODE_START_S: Final = "120"
 AUTO: Final = "auto"
 NOTED: Final = Path("/tmp/ray/ray_current_cluster")  # noqa: S108 - where Ray keeps it
 REACH_S: Final = 5.0
@@ -53,6 +55,7 @@ def import_ray(*, is_own: bool) -> Any:
     os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
     os.environ.setdefault("RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO", "0")
     os.environ.setdefault("RAY_worker_niceness", "0")
+    os.environ.setdefault("RAY_raylet_start_wait_time_s", NODE_START_S)
     if is_own and "ray" not in sys.modules:
         os.environ["RAY_AUTH_MODE"] = "token"
         os.environ["RAY_AUTH_TOKEN"] = secrets.token_hex(32)

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.budget import count
 from tests.shared.make_differences import OLDER, changed, edited, grown, lucky
 from translator.difference import Shape, compare
 from translator.difference.shape import fields
@@ -15,6 +16,7 @@ from translator.merge.trees import merge_documents, renamed
 
 seeds = st.integers(0, 10**9)
 EDITS = 6
+PAIRS = count("merge_pairs")
 
 
 def three(seed):
@@ -38,7 +40,7 @@ def assert_sound(document):
 
 
 @given(seeds)
-@settings(max_examples=300)
+@settings(max_examples=PAIRS)
 def test_no_edit_of_either_side_is_lost_without_a_conflict(seed):
     base, ours, theirs = three(seed)
     merged = merge_documents(base, ours, theirs)
@@ -75,6 +77,7 @@ def assert_orders_kept(before, side, result, named):
 
 
 @given(seeds)
+@settings(max_examples=PAIRS)
 def test_a_side_that_changed_nothing_takes_the_other(seed):
     base, ours, _ = three(seed)
     for sides in ((base, base, ours), (base, ours, base), (base, ours, ours)):
@@ -84,7 +87,7 @@ def test_a_side_that_changed_nothing_takes_the_other(seed):
 
 
 @given(seeds)
-@settings(max_examples=300)
+@settings(max_examples=PAIRS)
 def test_both_orders_are_equal_but_for_insertions_at_one_place(seed):
     base, ours, theirs = three(seed)
     one, other = merge_documents(base, ours, theirs), merge_documents(base, theirs, ours)

@@ -10,14 +10,17 @@ import time
 import pytest
 
 from backend.cli.evaluating.evaluate import ONLY_FAILED
+from tests.budget import count
 from tests.cli.typed import EVALUATING, ROOT, STUDIO
 from tests.cli.typed import evaluating as studio
 from tests.executor.evaluation.projects import DRIVE, write
 
-TEXT = """duration_s: 3
-runs: 6
-vary: {robot.pose: {area: start, yaw: [-0.4, 0.4]}, models.crate.pose.y: [1, 3]}
-judge: {success: [{reach: {area: ahead}}], measure: [path_length_m, smallest_clearance_m]}
+ALONE = count("evaluation_alone")
+RUNS = max(6, ALONE)
+TEXT = f"""duration_s: 3
+runs: {RUNS}
+vary: {{robot.pose: {{area: start, yaw: [-0.4, 0.4]}}, models.crate.pose.y: [1, 3]}}
+judge: {{success: [{{reach: {{area: ahead}}}}], measure: [path_length_m, smallest_clearance_m]}}
 """
 SETS = DRIVE.replace(
     "        twist = Twist()",
@@ -32,7 +35,7 @@ def test_workers_change_nothing_and_a_seed_alone_gives_the_same(tmp_path):
     folder = write(tmp_path / "p", TEXT, action=SETS)
     one = studio("evaluate", folder, "--workers", 1, "--report", tmp_path / "one", "--gate", "success>=0.95")
     assert one.returncode == 1
-    assert "cannot pass with 6 runs: it needs at least 59 of 59" in one.stderr
+    assert f"cannot pass with {RUNS} runs: it needs at least 59 of 59" in one.stderr
     assert "Traceback" not in one.stderr
     assert "a run takes about" in one.stdout
     assert "gate success>=0.95: FAILS" in one.stdout
@@ -50,15 +53,16 @@ def test_workers_change_nothing_and_a_seed_alone_gives_the_same(tmp_path):
     assert (two.returncode, two.stderr) == (0, "")
     lines = (tmp_path / "one" / "runs.jsonl").read_bytes()
     assert (tmp_path / "two" / "runs.jsonl").read_bytes() == lines
-    assert len(lines.splitlines()) == 6
+    assert len(lines.splitlines()) == RUNS
     assert (tmp_path / "two" / "report.html").stat().st_size > 10_000
-    assert 'tests="6"' in (tmp_path / "j.xml").read_text()
-    alone = studio("run", folder, "--evaluation", "main", "--seed", 4, "--json")
-    assert alone.stdout.splitlines()[-1] == lines.decode().splitlines()[4]
+    assert f'tests="{RUNS}"' in (tmp_path / "j.xml").read_text()
+    for seed in range(RUNS - ALONE, RUNS):
+        alone = studio("run", folder, "--evaluation", "main", "--seed", seed, "--json")
+        assert alone.stdout.splitlines()[-1] == lines.decode().splitlines()[seed]
 
     # Some runs fail; only these run again, and the other results stay.
     failed = [json.loads(line)["seed"] for line in lines.splitlines() if b'"outcome":"failure"' in line]
-    assert 0 < len(failed) < 6
+    assert 0 < len(failed) < RUNS
     again = studio("evaluate", folder, "--only-failed", "--report", tmp_path / "two")
     assert again.returncode == 0
     kept = (tmp_path / "two" / ONLY_FAILED / "runs.jsonl").read_text().splitlines()
@@ -67,8 +71,8 @@ def test_workers_change_nothing_and_a_seed_alone_gives_the_same(tmp_path):
 
 
 def test_an_interrupted_evaluation_continues(tmp_path):
-    runs = 20  # so many that the signal comes before the last one
-    folder, report = write(tmp_path / "p", TEXT.replace("runs: 6", f"runs: {runs}")), tmp_path / "r"
+    runs = max(20, RUNS + 1)  # so many that the signal comes before the last one
+    folder, report = write(tmp_path / "p", TEXT.replace(f"runs: {RUNS}", f"runs: {runs}")), tmp_path / "r"
     command = [*STUDIO, "evaluate", str(folder), "--workers", "1", "--report", str(report)]
     with subprocess.Popen(
         command, cwd=ROOT, env=EVALUATING, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True

@@ -12,8 +12,9 @@ from executor.evaluation.outcome import Outcome
 from executor.evaluation.pool.accounting import descendants
 from executor.evaluation.pool.supervisor import Supervisor
 from executor.evaluation.pool.worker import Done
+from tests.budget import count
 
-SEEDS = 14
+SEEDS = count("evaluation_pool_runs")
 
 
 def cell(seed: int) -> Outcome:  # noqa: C901, PLR0912 - one case a harm

@@ -8,8 +8,10 @@ import pytest
 
 from executor.evaluation.outcome import Outcome, read_outcome
 from executor.evaluation.pool.supervisor import threads_of_this_process
+from tests.budget import count
 
 ROOT = Path(__file__).parents[4]
+RUNS = count("evaluation_pool_runs")
 pytestmark = pytest.mark.timeout(300)
 
 
@@ -32,7 +34,7 @@ def pool(tmp_path, workers, how="calm"):
 def test_what_runs_do_to_themselves_is_their_outcome_and_workers_change_nothing(tmp_path):
     one = pool(tmp_path, 1)
     found = {outcome.seed: outcome for outcome in map(read_outcome, one)}
-    assert sorted(found) == list(range(14))
+    assert sorted(found) == list(range(RUNS))
     told = {seed: (outcome.outcome, outcome.why[:80]) for seed, outcome in found.items()}
     assert told[2][1].startswith("the process of the run ended with SIGSEGV")
     assert told[3] == ("timeout", "the run took more than its limit of processor time in actions/Hang.py")
@@ -45,6 +47,7 @@ def test_what_runs_do_to_themselves_is_their_outcome_and_workers_change_nothing(
     assert told[10] == ("success", "")
     assert told[11] == ("crashed", "the process of the run ended with SIGSEGV in actions/Crash.py:2")
     assert found[12] == Outcome(12, "success", "x" * 100_000)
+    assert {found[seed].outcome for seed in range(13, RUNS)} == {"success"}
     assert pool(tmp_path, 2) == one
     assert pool(tmp_path, 2, "kill") == one
 

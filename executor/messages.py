@@ -96,6 +96,15 @@ from executor.topic_events import (
     Topics,
     TypeDescription,
 )
+from executor.trying_events import (
+    Crash,
+    StopTrying,
+    TryingEnded,
+    TryingProgress,
+    TryingStarted,
+    TryOutcome,
+    TryValues,
+)
 
 # Messages that other modules define; those defined here are public too.
 __all__ = [
@@ -111,6 +120,7 @@ __all__ = [
     "CameraPose",
     "ClientMessage",
     "Control",
+    "Crash",
     "Dap",
     "DescribeType",
     "Differs",
@@ -168,6 +178,7 @@ __all__ = [
     "Shape",
     "StepTo",
     "StopReason",
+    "StopTrying",
     "StreamName",
     "Subscribe",
     "Teleop",
@@ -176,6 +187,11 @@ __all__ = [
     "TopicMessage",
     "TopicMismatch",
     "Topics",
+    "TryOutcome",
+    "TryValues",
+    "TryingEnded",
+    "TryingProgress",
+    "TryingStarted",
     "TypeDescription",
     "UniverseDocument",
     "Unsubscribe",
@@ -483,6 +499,10 @@ EVENTS: Final[dict[str, type[Struct]]] = {
     "evaluation_started": EvaluationStarted,
     "evaluation_outcome": EvaluationOutcome,
     "evaluation_ended": EvaluationEnded,
+    "trying_started": TryingStarted,
+    "trying_progress": TryingProgress,
+    "try_outcome": TryOutcome,
+    "trying_ended": TryingEnded,
 }
 
 

@@ -52,7 +52,7 @@ MOST_NAMED: Final = 20
 LATE_DEBUGGER: Final = "The Python debugger was late: breakpoints in Python hold the run only from now on."
 
 
-class _Stop(Exception):  # noqa: N818 - the way out, not an error
+class Ended(Exception):  # noqa: N818 - the way out, not an error
     """Raised to end the main loop when the run is over."""
 
 
@@ -108,7 +108,7 @@ class Application:
         try:
             while True:
                 self._turn()
-        except _Stop:
+        except Ended:
             pass
         self._breaker.disarm()
         self._say_goodbye()
@@ -173,7 +173,7 @@ class Application:
     def _turn(self) -> None:
         self._pulse.moved()
         if self._breaker.is_interrupted:
-            raise _Stop
+            raise Ended
         while not self._commands.empty():
             self._obey(self._commands.get())
         self._reporter.flush()
@@ -227,7 +227,7 @@ class Application:
                 if debugger.is_holding:
                     raise DebuggingEnded
                 runner.stop()
-                raise _Stop
+                raise Ended
             case child_messages.Pause() if debugger.is_holding:
                 self._channel.send(child_messages.Paused())  # a held tree is stopped already
             case child_messages.BeginRecording():
@@ -501,10 +501,10 @@ class Application:
 
         try:
             work()
-        except _Stop:
+        except Ended:
             raise
         except DebuggingEnded:
-            raise _Stop from None
+            raise Ended from None
         except Interrupted as interrupted:
             self._reporter.hangs(f"{interrupted.place} did not return and was interrupted", interrupted.place)
             self._end_broken("The tick did not return.")
@@ -514,7 +514,7 @@ class Application:
 
     def _end_broken(self, message: str) -> None:
         self._reporter.finished(None, "action_raised", message)
-        raise _Stop
+        raise Ended
 
     def _on_finished(self, status: Status) -> None:
         assert self._runner is not None  # noqa: S101 - it is what calls us
@@ -523,7 +523,7 @@ class Application:
             self._reporter.finished(status, "action_raised", f"The run ended: {error.message}.")
         else:
             self._reporter.ended(status)
-        raise _Stop
+        raise Ended
 
     def _say_goodbye(self) -> None:
         """Halts the tree, so that actions release their resources."""

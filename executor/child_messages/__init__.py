@@ -84,6 +84,11 @@ from executor.child_messages.exact import (
     NoSnapshots,
     SnapshotTaken,
     TakeSnapshot,
+    TryingEnded,
+    TryingProgress,
+    TryingStarted,
+    TryMany,
+    TryOutcome,
     WentBack,
 )
 from executor.child_messages.world import (
@@ -201,6 +206,11 @@ __all__ = [
     "Topics",
     "TracePython",
     "Tree",
+    "TryMany",
+    "TryOutcome",
+    "TryingEnded",
+    "TryingProgress",
+    "TryingStarted",
     "TypeDescription",
     "Unsubscribe",
     "WentBack",
@@ -279,7 +289,7 @@ FromApplication = (
     | Fault
     | Finished
 )
-ToExact = ToApplication | ForWorld | KeepSnapshots | TakeSnapshot | Awake
+ToExact = ToApplication | ForWorld | KeepSnapshots | TakeSnapshot | Awake | TryMany
 FromExact = (
     FromApplication
     | Failed
@@ -297,6 +307,10 @@ FromExact = (
     | WentBack
     | SnapshotTaken
     | NoSnapshots
+    | TryingStarted
+    | TryingProgress
+    | TryOutcome
+    | TryingEnded
 )
 decode_to_world: Final = msgspec.msgpack.Decoder(ToWorld).decode
 decode_from_world: Final = msgspec.msgpack.Decoder(FromWorld).decode

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from executor import trying_events
+from executor.child_messages.application import SetPort  # noqa: TC001 - msgspec reads the annotations
 from executor.child_messages.common import Message
 from executor.child_messages.world import WorldCommand  # noqa: TC001 - msgspec reads the annotations
 from executor.replay_messages import Input, Replay  # noqa: TC001 - msgspec reads the annotations
@@ -15,6 +17,17 @@ class KeepSnapshots(Message, tag="keep_snapshots"):
 
 class TakeSnapshot(Message, tag="take_snapshot"):
     """Makes a snapshot now; the answer is a `SnapshotTaken` or a `NoSnapshots`."""
+
+
+class TryMany(Message, tag="try_many"):
+    """Continues the run from here once as it is, and once with each change, each in a copy of the process.
+
+    The run itself stays where it is. `changes` are orders for ports.
+    """
+
+    job: str
+    changes: list[SetPort]
+    duration_s: float
 
 
 class Awake(Message, tag="awake"):
@@ -105,3 +118,19 @@ class NoSnapshots(Message, tag="no_snapshots"):
 
     reason: str
     is_wanted: bool = False
+
+
+class TryingStarted(trying_events.TryingStarted, tag_field="type", tag="trying_started"):
+    """The event `trying_started` for clients."""
+
+
+class TryingProgress(trying_events.TryingProgress, tag_field="type", tag="trying_progress"):
+    """The event `trying_progress` for clients."""
+
+
+class TryOutcome(trying_events.TryOutcome, tag_field="type", tag="try_outcome"):
+    """The event `try_outcome` for clients."""
+
+
+class TryingEnded(trying_events.TryingEnded, tag_field="type", tag="trying_ended"):
+    """The event `trying_ended` for clients."""

@@ -38,6 +38,11 @@ class Gate:
         """Sends all that follows."""
         self._is_closed = False
 
+    def lead_to(self, other: Any) -> None:
+        """Sends all that follows elsewhere: in a copy of the process that has no session."""
+        self._channel = other
+        self._is_closed = False
+
     def send_state(self) -> None:
         """Sends what has changed since the run began, and holds still."""
         for message in self._ports.values():

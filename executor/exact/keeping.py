@@ -77,6 +77,11 @@ class Keeping:
         spacing_s = DRAWING_SPACING_S if draws else SPACING_S
         return self._last_ticks < 0 or self._clock() - self._last_s >= spacing_s
 
+    def refusal(self, renderer: str) -> str:
+        """Returns why the process cannot be copied now, as the end of a sentence; "" if it can."""
+        assert self._foreign is not None  # noqa: S101 - `begin` comes first
+        return self._foreign.refusal(renderer)
+
     def take(self, loop: Loop, renderer: str, *, is_wanted: bool = False) -> Woken | None:
         """Makes a snapshot, or says why not; returns something only in a copy that was woken."""
         assert self._foreign is not None  # noqa: S101 - `begin` comes first

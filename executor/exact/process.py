@@ -7,6 +7,7 @@ end. The main thread does all of it, in the order of a lock-step run; the thread
 
 from __future__ import annotations
 
+import contextlib
 import logging
 import os
 import queue
@@ -16,17 +17,20 @@ from typing import TYPE_CHECKING, Any, Final
 
 import msgspec
 
-from executor import child_messages
-from executor.application.process import GOODBYE_S, SPIN_S, Application, serve
+from executor import child_messages, messages
+from executor.application.process import GOODBYE_S, SPIN_S, Application, Ended, serve
 from executor.child_messages import decode_to_exact
 from executor.exact.fingerprints import Fingerprints
 from executor.exact.gate import Gate
 from executor.exact.graph import ExactGraph
 from executor.exact.keeping import Keeping
+from executor.exact.outlines import outlines_of
 from executor.exact.replaying import NotThereError, Replaying
 from executor.exact.slow_ticks import SlowTicks
+from executor.exact.trial import Trial, Witness
+from executor.exact.trying import Trying, most_at_once
 from executor.recorder.link import ADDRESS_VARIABLE
-from executor.replay_messages import Input
+from executor.replay_messages import FINGERPRINT_BYTES, Input
 from executor.ros.environment import lockstep_environment
 from executor.run_inputs import input_of, noted
 from executor.world.commands import WorldCommands
@@ -35,6 +39,8 @@ from tree_gardener.errors import describe
 from tree_gardener.runner import RunnerState
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from executor.application.report import Report
     from executor.application.ros import ApplicationGraph
     from executor.child_messages import StartApplication, ToExact
@@ -73,6 +79,9 @@ class ExactApplication(Application):
         self._is_in_tick = False
         self._is_handed_over = False
         self._is_copy = False
+        self._is_trial = False
+        self._known_after = b""
+        """The fingerprints of what followed, the first time, the moment up to which it was made again."""
         pulse.locate = SlowTicks(pulse.locate, self._is_waited_for, gate.send)
         _warm_up()
 
@@ -147,6 +156,8 @@ class ExactApplication(Application):
                 self._send(child_messages.NoSnapshots("it is held within a tick", is_wanted=True))
             case child_messages.TakeSnapshot():
                 self._snapshot(is_wanted=True)
+            case child_messages.TryMany():
+                self._try_many(message)
             case child_messages.Awake():
                 pass  # only for a copy that waits for it
             case _:
@@ -154,6 +165,8 @@ class ExactApplication(Application):
 
     def serve_held(self) -> None:
         """Obeys the session while the tree is held; views still get their frames."""
+        if self._is_trial:
+            raise DebuggingEnded  # nobody is there to continue it
         if self._replaying is not None:
             self._serve_held_again(self._replaying)
             return
@@ -296,6 +309,60 @@ class ExactApplication(Application):
             os._exit(0)
         self._channel.send(child_messages.ApplicationReady())
 
+    # --- many values, each in a copy of its own ------------------------------------------------------
+
+    def _try_many(self, message: child_messages.TryMany) -> None:
+        """Continues the run once for each change, in copies; it stays where it is itself."""
+        exact = self._exact_world
+        if reason := self._keeping.refusal(exact.renderer_name):
+            text = f"Values cannot be tried in this run: {reason}."
+            self._send(child_messages.TryingEnded(message.job, "refused", text))
+            return
+        outlines = outlines_of(exact.world.scene, exact.world.read_poses()())
+        started = child_messages.TryingStarted(message.job, self._loop.time_s, most_at_once(), outlines)
+        self._send(started)
+
+        def continue_with(
+            index: int, change: child_messages.SetPort | None, tell: Callable[[float], None]
+        ) -> child_messages.TryOutcome:
+            self._is_trial = True
+            return self._continued(message, index, change, tell)
+
+        Trying(
+            message.job,
+            message.changes,
+            send=self._send,
+            moved=self._pulse.moved,
+            continue_with=continue_with,
+        ).run()
+
+    def _continued(
+        self,
+        message: child_messages.TryMany,
+        index: int,
+        change: child_messages.SetPort | None,
+        tell: Callable[[float], None],
+    ) -> child_messages.TryOutcome:
+        """Continues the run in a copy that has no session, and returns what happened."""
+        exact, loop, runner = self._exact_world, self._loop, self._runner
+        assert runner is not None  # noqa: S101 - it ran
+        self._exact_graph.renew()
+        self._commands = queue.SimpleQueue()
+        witness = Witness()
+        self._gate.lead_to(witness)
+        self._prints.clear()
+        super()._obey(child_messages.SetBreakpoints(wanted=messages.SetBreakpoints([], on=False)))
+        if change is not None:
+            super()._obey(change)
+        trial = Trial(exact.world, loop, lambda: runner.tree, witness, tell)
+        loop.set_speed(0)
+        runner.resume()
+        if not witness.refusal:
+            with contextlib.suppress(Ended):
+                self._guarded(lambda: trial.run(message.duration_s))
+        self._tell_fingerprints()
+        return trial.outcome(message.job, index, self._known_after)
+
     # --- an earlier run, again ----------------------------------------------------------------------
 
     def _replay(self, replay: Replay) -> bool:
@@ -329,6 +396,7 @@ class ExactApplication(Application):
             self._channel.send(child_messages.Fault("load", error, hint))
             return False
         loop.set_speed(speed)
+        self._known_after = replay.fingerprints[reached.ticks * FINGERPRINT_BYTES :]
         self._keeping.inputs, self._keeping.resets = reached.inputs, reached.resets
         runner.pause()
         exact.world.take_collisions()  # they were sent the first time

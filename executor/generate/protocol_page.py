@@ -178,6 +178,7 @@ def _type_name(kind: Any) -> str:
         "executor.command_messages.",
         "executor.stream_messages.",
         "executor.evaluation_events.",
+        "executor.trying_events.",
         "executor.attach_messages.",
         "executor.debug_messages.",
         "executor.apply_messages.",

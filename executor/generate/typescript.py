@@ -25,6 +25,7 @@ from executor import (
     recording_events,
     stream_messages,
     topic_events,
+    trying_events,
 )
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ _MODULES: Final = (
     profile_messages,
     command_messages,
     evaluation_events,
+    trying_events,
     recording_events,
     topic_events,
     messages,

@@ -76,7 +76,7 @@ class Children:
 
         A spare application is replaced where it is not of the kind of run that is wanted.
         """
-        is_exact = kind == "application" and self.wants_exact
+        is_exact = (kind == "application" and self.wants_exact) or kind == "trying"
         spare = self.living.get(kind)
         if (
             kind == "application"
@@ -90,14 +90,12 @@ class Children:
             self._effect(Spawn(kind, self._count, is_exact=is_exact))
         return self.living[kind]
 
-    def wake(self, snapshot: tuple[int, int]) -> Child:
-        """Makes a copy of a snapshot the application, in place of a spare."""
-        self.drop("application")
-        child = self.living["application"] = Child(
-            "application", self.next_number(), self._clock(), is_exact=True
-        )
+    def wake(self, snapshot: tuple[int, int], kind: Kind = "application") -> Child:
+        """Makes a copy of a snapshot the child of a kind, in place of a spare."""
+        self.drop(kind)
+        child = self.living[kind] = Child(kind, self.next_number(), self._clock(), is_exact=True)
         child.is_started = True
-        self._effect(WakeSnapshot(*snapshot, child.number))
+        self._effect(WakeSnapshot(*snapshot, child.number, kind))
         return child
 
     def holder(self, kind: Kind) -> Child | None:

@@ -58,10 +58,11 @@ __all__ = [
     "WakeSnapshot",
 ]
 
-Kind = Literal["world", "application", "exact", "node", "recorder", "evaluation", "adapter"]
+Kind = Literal["world", "application", "exact", "node", "recorder", "evaluation", "adapter", "trying"]
 """Kind of a child process; `node` is an extra node of the launch files.
 
-`exact` is only the program of an application that has its world in it.
+`exact` is only the program of an application that has its world in it; `trying` is such a process beside the
+ladder.
 """
 
 

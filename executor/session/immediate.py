@@ -275,6 +275,14 @@ def _evaluate(stage: Stage, event: CommandCame, data: messages.Evaluate) -> None
     stage.evaluating.begin(event, data)
 
 
+def _try_values(stage: Stage, event: CommandCame, data: messages.TryValues) -> None:
+    stage.trying.begin(event, data)
+
+
+def _stop_trying(stage: Stage, _: CommandCame, data: messages.StopTrying) -> None:
+    stage.trying.stop(data.job)
+
+
 def _take_over(stage: Stage, event: CommandCame, _: Struct) -> None:
     for client in stage.clients.take_over(event.client):
         stage.introspect(client)
@@ -328,6 +336,8 @@ IMMEDIATE: Final[dict[str, Callable[[Stage, CommandCame], None]]] = {
     "name_branch": _typed(messages.NameBranch, branching.name_branch),
     "drop_branch": _typed(messages.DropBranch, branching.drop_branch),
     "evaluate": _typed(messages.Evaluate, _evaluate),
+    "try_values": _typed(messages.TryValues, _try_values),
+    "stop_trying": _typed(messages.StopTrying, _stop_trying),
     "take_over": _typed(messages.Empty, _take_over),
     "ping": _typed(messages.Empty, _ping),
 }
@@ -362,6 +372,7 @@ ANSWER_LATER: Final = frozenset(
         "name_branch",
         "drop_branch",
         "evaluate",
+        "try_values",
     }
 )
 """Commands that are not acknowledged immediately: the handler or a child answers later."""

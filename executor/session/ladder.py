@@ -178,6 +178,12 @@ TABLE: Final[dict[str, Row]] = {
     "evaluate": _act(
         ANY, "Runs seeds of an evaluation beside the ladder; answers with `evaluation_` events."
     ),
+    "try_values": _act(
+        ANY,
+        "Continues a run from a moment under several values of a port, beside the ladder; answers with "
+        "`trying_` events.",
+    ),
+    "stop_trying": _act(ANY, "Ends these continuations."),
     "take_over": _act(ANY, "Becomes the driver; the last driver becomes a viewer.", for_viewers=True),
     "ping": _act(
         ANY, "Is answered at once; no answer for 3 s means that the manager hangs.", for_viewers=True

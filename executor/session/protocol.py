@@ -45,6 +45,7 @@ from executor.session.events import (
 from executor.session.exact import hosting
 from executor.session.exact.past import PastRuns
 from executor.session.exact.snapshots import Snapshots
+from executor.session.exact.trying import Trying
 from executor.session.hangs import waiting, watch
 from executor.session.ladder import HAS_APPLICATION, TABLE, State, is_legal, where
 from executor.session.launch_nodes import LaunchNodes
@@ -101,6 +102,7 @@ class Session:
         self.recording = Recording(self)
         self.output.record = self.recording.tell
         self.evaluating = Evaluating(self)
+        self.trying = Trying(self)
         self.sim_time_s = 0.0
         self._job: _Job | None = None
         self._archives = 0
@@ -256,6 +258,8 @@ class Session:
             self.recording.exited(event)
         elif event.kind == "evaluation":
             self.evaluating.exited(event)
+        elif event.kind == "trying":
+            self.trying.exited(event)
         elif event.kind == "adapter":
             self.python.exited(event)
         else:
@@ -270,6 +274,9 @@ class Session:
             return
         if event.kind == "evaluation":
             self.evaluating.said(event)
+            return
+        if event.kind == "trying":
+            self.trying.said(event)
             return
         if event.kind == "adapter":
             self.python.said(event)

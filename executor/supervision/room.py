@@ -1,15 +1,17 @@
-"""Memory: what a process has for itself alone, and what is left in the container."""
+"""Memory and processors: what a process has for itself alone, and what the container has."""
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Final
 
-__all__ = ["memory_room", "private_bytes"]
+__all__ = ["memory_room", "private_bytes", "processors"]
 
 SHARE: Final = 0.6
 """The share of a container's memory that a session may use."""
 _CGROUP: Final = Path("/sys/fs/cgroup")
+_QUOTA: Final = _CGROUP / "cpu.max"
 _PRIVATE: Final = ("Private_Clean:", "Private_Dirty:", "Swap:")
 
 
@@ -34,3 +36,13 @@ def memory_room(cgroup: Path = _CGROUP) -> int | None:
     except (OSError, ValueError):  # no limit is the word “max”
         return None
     return round(limit * SHARE) - (used - int(stat.get("inactive_file", 0)))
+
+
+def processors(quota: Path = _QUOTA) -> int:
+    """Returns how many runs at a time the machine, or its container, has processors for."""
+    count = len(os.sched_getaffinity(0))
+    try:
+        most, period = quota.read_text(encoding="ascii").split()
+    except (OSError, ValueError):
+        return count
+    return count if most == "max" else max(1, min(count, int(most) // int(period)))

@@ -28,6 +28,7 @@ from executor.evaluation_messages import (
 )
 from executor.supervision.channel import encode
 from executor.supervision.confine import die_with_parent
+from executor.supervision.room import processors
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -37,14 +38,13 @@ if TYPE_CHECKING:
     from executor.evaluation.plan import Plan
     from executor.evaluation.pool.worker import Done
 
-__all__ = ["main", "processors", "run_job", "shortened"]
+__all__ = ["main", "run_job", "shortened"]
 
 NICE: Final = 5
 """Interactive sessions of the same machine go first."""
 MOST_PROBLEMS: Final = 50
 MOST_LINE_BYTES: Final = 64 << 10
 _PREFIX: Final = struct.Struct("<I")
-_QUOTA: Final = Path("/sys/fs/cgroup/cpu.max")
 
 
 class _RefusedError(Exception):
@@ -72,16 +72,6 @@ def run_job(job: StartEvaluation, say: Callable[[FromEvaluation], None]) -> None
         )
     )
     say(_recorded(job, plan, say) if job.record_to else _evaluated(job, plan, say))
-
-
-def processors(quota: Path = _QUOTA) -> int:
-    """Returns how many runs at a time the machine, or its container, has processors for."""
-    count = len(os.sched_getaffinity(0))
-    try:
-        most, period = quota.read_text(encoding="ascii").split()
-    except (OSError, ValueError):
-        return count
-    return count if most == "max" else max(1, min(count, int(most) // int(period)))
 
 
 def _evaluated(job: StartEvaluation, plan: Plan, say: Callable[[FromEvaluation], None]) -> EvaluationDone:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from executor.session.exact.past import PastRun
     from executor.session.stage import Stage
 
-__all__ = ["go_back"]
+__all__ = ["found_run", "go_back"]
 
 SILENT_S: Final = 60.0
 SILENT_COPY_S: Final = 10.0
@@ -37,7 +37,7 @@ UNKNOWN_HINT: Final = "Go back in a later run."
 
 def go_back(stage: Stage, data: messages.GoBack) -> Step:
     """Takes the present run, or an earlier one in this world, back to a moment."""
-    past = _found(stage, data.run)
+    past = found_run(stage, data.run)
     if stage.state in HAS_APPLICATION:
         yield from keep_present(stage)
         yield from terminate_application(stage, data)
@@ -49,7 +49,12 @@ def go_back(stage: Stage, data: messages.GoBack) -> Step:
     _tell(stage, reached)
 
 
-def _found(stage: Stage, run: str) -> PastRun:
+def found_run(stage: Stage, run: str) -> PastRun:
+    """Returns a run of the session that can be made again, the present or last one for "".
+
+    Raises:
+        StepFailed: there is none.
+    """
     past = stage.past.find(run)
     if past is None:
         if run and stage.past.find("") is not None:

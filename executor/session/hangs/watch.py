@@ -45,6 +45,9 @@ def looked(stage: Stage, event: ChildLooked, now_s: float) -> None:
     if event.kind == "recorder":
         stage.recording.looked(event, now_s)
         return
+    if event.kind == "trying":
+        stage.trying.looked(now_s)
+        return
     if child is None or event.kind in ("evaluation", "adapter"):  # the first bounds its runs itself
         return
     vitals = child.vitals

@@ -25,6 +25,10 @@ export type RunTime = "exact" | "live";
 
 export type EvaluationEnd = "complete" | "refused" | "failed" | "replaced";
 
+export type TryEnd = "running" | "finished" | "fault" | "refused" | "held" | "died" | "late";
+
+export type TryingEnd = "complete" | "refused" | "failed" | "cancelled";
+
 export type StopReason = "disk_full" | "disk_failed" | "recorder_died" | "recorder_hung";
 
 export type MismatchCode = "type" | "reliability" | "durability" | "qos";
@@ -642,6 +646,105 @@ export interface EvaluationEnded {
 }
 
 /**
+ * Continues a run from a moment under several values of a port, beside the ladder.
+ *
+ * Nothing of it happens in the world of the session. The run is made again up to the moment `t` in s as by
+ * `go_back`, then continued for `duration_s` once as it is (index 0), and once with each of `values`. Each
+ * value is what `set_port` would take; null removes the text. One job runs at a time; another one ends it.
+ *
+ * Refused with `no_run`, `unknown_run`, `not_repeatable`, or with `live_run` for a live run.
+ */
+export interface TryValues {
+  job: string;
+  node_id: string;
+  path: string;
+  port: string;
+  values: (string | null)[];
+  duration_s?: number;
+  run?: string;
+  t?: number | null;
+}
+
+/** Ends a job of `try_values`, if it still runs; what is known of it stays with the client. */
+export interface StopTrying {
+  job: string;
+}
+
+/**
+ * The run is back at the moment, and its continuations begin.
+ *
+ * Attributes:
+ *     t: the moment in s.
+ *     at_once: how many run at the same time.
+ *     outlines: the corners [x, y] in m of what stands in the world at the moment.
+ */
+export interface TryingStarted {
+  job: string;
+  t: number;
+  at_once: number;
+  outlines: [number, number][][];
+}
+
+/** The share of a job that is done, 0 to 1; `stage` is `going_back`, or `continuing`. */
+export interface TryingProgress {
+  job: string;
+  stage: "continuing" | "going_back";
+  fraction: number;
+}
+
+/** The begin of a collision of a robot: its time in s, its place in m, and what it hit. */
+export interface Crash {
+  t: number;
+  x: number;
+  y: number;
+  body: string;
+  robot: string;
+}
+
+/**
+ * The outcome of one continuation.
+ *
+ * Attributes:
+ *     index: 0 for the run as it is; n for the n-th value.
+ *     end: how it ended; `running` if it still ran when its time was over, `refused` if the port does not
+ *         take the value, `held` if the debugger would hold it, `late` if a tick did not return.
+ *     message: why, for all ends but `running`.
+ *     t: the simulated time of the end in s.
+ *     ticks: the number of ticks.
+ *     root: the last result of the tree.
+ *     nodes: the paths of the leaves that were RUNNING at the end.
+ *     distance_m: how far the first robot drove.
+ *     collisions: the number of collisions of all robots.
+ *     crash: the first of them.
+ *     paths: by robot, where it was: [time in s, x, y in m].
+ *     fingerprint: equal for continuations that did the same in each tick.
+ *     as_before: whether each tick was as in the recorded run, as far as that went; None if it ended there.
+ */
+export interface TryOutcome {
+  job: string;
+  index: number;
+  end: TryEnd;
+  message: string;
+  t: number;
+  ticks: number;
+  root: string;
+  nodes: string[];
+  distance_m: number;
+  collisions: number;
+  crash: Crash | null;
+  paths: Record<string, [number, number, number][]>;
+  fingerprint: string;
+  as_before: boolean | null;
+}
+
+/** A job has ended; `message` says why it was refused or failed. */
+export interface TryingEnded {
+  job: string;
+  end: TryingEnd;
+  message: string;
+}
+
+/**
  * A part of the recording of a run: 20 s of simulated time, and an MCAP file by itself.
  *
  * It is sent again each second while it grows: `bytes` of it can be read then. `complete` tells that it has
@@ -1208,6 +1311,8 @@ export interface Commands {
   read_recording: ReadRecording;
   flag: Flag;
   evaluate: Evaluate;
+  try_values: TryValues;
+  stop_trying: StopTrying;
   take_over: Empty;
   ping: Empty;
 }
@@ -1253,6 +1358,10 @@ export interface Events {
   evaluation_started: EvaluationStarted;
   evaluation_outcome: EvaluationOutcome;
   evaluation_ended: EvaluationEnded;
+  trying_started: TryingStarted;
+  trying_progress: TryingProgress;
+  try_outcome: TryOutcome;
+  trying_ended: TryingEnded;
 }
 
 /** What the stream socket sends, told by `type`. */

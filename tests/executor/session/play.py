@@ -60,6 +60,8 @@ DATA: dict[str, dict[str, Any]] = {
     "read_recording": {"run": "abc", "segment": 0, "version": 0, "offset": 0, "length": 100},
     "flag": {"text": "here"},
     "evaluate": {"job": "a1", "app_zip_base64": "eA==", "evaluation": "room"},
+    "try_values": {"job": "a1", "node_id": "n1", "path": "Act::1", "port": "gain", "values": ["2"]},
+    "stop_trying": {"job": "a1"},
     "name_branch": {"run": "abc", "name": "wider"},
     "drop_branch": {"run": "abc"},
     "restart_node": {"id": "launch/extra.launch.yaml:talker"},
@@ -85,7 +87,7 @@ ANSWERS = {
 
 def child_message(child: Kind, type_: str, /, **fields: Any) -> Any:
     """Returns a child's message, as its channel would decode it."""
-    return convert({"type": type_, **fields}, FromExact if child == "application" else FromWorld)
+    return convert({"type": type_, **fields}, FromExact if child in ("application", "trying") else FromWorld)
 
 
 class Play:

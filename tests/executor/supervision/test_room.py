@@ -6,7 +6,7 @@ import mmap
 import os
 from typing import TYPE_CHECKING
 
-from executor.supervision.room import memory_room, private_bytes
+from executor.supervision.room import memory_room, private_bytes, processors
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -30,3 +30,15 @@ def test_the_room_is_a_share_of_the_limit_less_what_is_used(tmp_path: Path) -> N
     assert memory_room(tmp_path) == 0
     (tmp_path / "memory.current").write_text("800\n")
     assert memory_room(tmp_path) == -100
+
+
+def test_a_container_has_the_processors_of_its_quota(tmp_path: Path) -> None:
+    quota = tmp_path / "cpu.max"
+    there = len(os.sched_getaffinity(0))
+    assert processors(quota) == there
+    quota.write_text("max 100000\n")
+    assert processors(quota) == there
+    quota.write_text("100000 100000\n")
+    assert processors(quota) == 1
+    quota.write_text("5000 100000\n")
+    assert processors(quota) == 1

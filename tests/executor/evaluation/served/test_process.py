@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from executor.evaluation.outcome import Outcome
-from executor.evaluation.served.process import MOST_LINE_BYTES, processors, run_job, shortened
+from executor.evaluation.served.process import MOST_LINE_BYTES, run_job, shortened
 from executor.evaluation_messages import (
     EvaluationDone,
     Refused,
@@ -120,18 +120,6 @@ def test_what_cannot_be_run_is_refused_with_its_place(job, text):
     [refused] = found
     assert isinstance(refused, Refused)
     assert text in refused.message
-
-
-def test_a_container_has_the_processors_of_its_quota(tmp_path):
-    quota = tmp_path / "cpu.max"
-    there = len(os.sched_getaffinity(0))
-    assert processors(quota) == there
-    quota.write_text("max 100000\n")
-    assert processors(quota) == there
-    quota.write_text("100000 100000\n")
-    assert processors(quota) == 1
-    quota.write_text("5000 100000\n")
-    assert processors(quota) == 1
 
 
 def test_a_line_that_is_too_long_loses_what_code_of_the_user_made_long():

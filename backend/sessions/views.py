@@ -9,7 +9,7 @@ from rest_framework.response import Response
 from rest_framework.views import APIView
 
 from backend.accounts.api.requests import user_of
-from backend.sessions import queries, writes
+from backend.sessions import attaching, queries, writes
 from backend.sessions.serializers import AttachSerializer, SessionSerializer, presented
 
 if TYPE_CHECKING:
@@ -41,8 +41,21 @@ class AttachedSessions(APIView):
         """Starts a session that follows a program by Groot2's protocol, or returns the one that does."""
         wanted = AttachSerializer(data=request.data)
         wanted.is_valid(raise_exception=True)
-        session = writes.attach(wanted.validated_data["address"], acting_user=user_of(request))
+        session = attaching.attach(wanted.validated_data["address"], acting_user=user_of(request))
         return Response(presented(session))
+
+
+class PreparedAttachedSession(APIView):
+    """The session that will follow a program outside."""
+
+    expensive = ("POST",)
+
+    @extend_schema(operation_id="prepare_attach", request=None, responses={204: None}, tags=["sessions"])
+    def post(self, request: Request) -> Response:
+        """Starts its processes while the user still writes the address; they end soon if nobody attaches."""
+        user_of(request)
+        attaching.prepare()
+        return Response(status=204)
 
 
 class OneSession(APIView):

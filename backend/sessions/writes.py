@@ -26,14 +26,13 @@ from backend.projects.storage import queries as projects
 from backend.projects.storage.access import Need
 from backend.sessions import drain, queries
 from backend.sessions.choices import SessionKind, SessionState
-from backend.sessions.errors import AttachingLocalError, HostFullError, LaunchError
+from backend.sessions.errors import HostFullError, LaunchError
 from backend.sessions.launchers.base import OWN_NETWORK_DOMAIN, Launcher, Spec
 from backend.sessions.launchers.docker import DockerLauncher
 from backend.sessions.launchers.process import ProcessLauncher
 from backend.sessions.models import LIVE_STATES, RUNNING_STATES, Session
 from backend.sessions.ros_domains import domains_on_this_host
 from backend.sessions.signals import session_ends
-from backend.sessions.targets import read_target
 from backend.sessions.warm.claims import claim, key_of
 
 if TYPE_CHECKING:
@@ -99,7 +98,7 @@ def start_session(project_id: UUID, *, acting_user: User) -> Session:
     if running is not None and refresh(running).state in LIVE_STATES:
         return running
     drain.require_open()
-    return _start(project, SessionKind.INTERACTIVE, acting_user)
+    return begin(project, SessionKind.INTERACTIVE, acting_user)
 
 
 def start_evaluation_session(project_id: UUID, *, acting_user: User) -> Session:
@@ -114,34 +113,7 @@ def start_evaluation_session(project_id: UUID, *, acting_user: User) -> Session:
     if running is not None and refresh(running).state in LIVE_STATES:
         return running
     drain.require_open()
-    return _start(project, SessionKind.EVALUATION, acting_user)
-
-
-def attach(address: str, *, acting_user: User) -> Session:
-    """Starts a session that follows a program, or returns the one in which the user already follows it.
-
-    Raises:
-        AddressError: the address is not of a program.
-        AttachingLocalError: this server is for a team.
-        HostFullError: no place is free.
-        DrainingError: the server is about to be upgraded.
-    """
-    if not may_attach():
-        raise AttachingLocalError(
-            "A server for teams connects to no programs: its users could reach its network that way.",
-            hint="Run BT Studio on your own computer, or follow the tree with `bt-studio attach`.",
-        )
-    target = read_target(address)
-    running = queries.attached_session(target, user=acting_user)
-    if running is not None and refresh(running).state in LIVE_STATES:
-        return running
-    drain.require_open()
-    return _start(None, SessionKind.ATTACHED, acting_user, target)
-
-
-def may_attach() -> bool:
-    """Returns whether this server follows programs: only one for a single user on their own computer."""
-    return not environment().is_team and launcher().name == ProcessLauncher.name
+    return begin(project, SessionKind.EVALUATION, acting_user)
 
 
 def has_room_for_evaluations() -> bool:
@@ -150,7 +122,12 @@ def has_room_for_evaluations() -> bool:
     return not limit or limit > KEPT_PLACES
 
 
-def _start(project: Project | None, kind: SessionKind, acting_user: User, target: str = "") -> Session:
+def begin(project: Project | None, kind: SessionKind, acting_user: User, target: str = "") -> Session:
+    """Starts a session, which waits if there is no place for it.
+
+    Raises:
+        HostFullError: an evaluation has no place, or no ROS domain is free.
+    """
     is_evaluation = kind == SessionKind.EVALUATION
     for attempt in range(DOMAIN_ATTEMPTS):
         try:

@@ -23,9 +23,11 @@ from executor.recorder.link import ADDRESS_VARIABLE
 from executor.supervision.channel import Channel, ChannelClosed, ChannelError
 from executor.supervision.confine import die_with_parent
 from executor.supervision.pulse import Pulse
+from translator.catalog import builtins
 from translator.diagnostic import TranslatorError
 from tree_gardener.groot import GrootError
 from tree_gardener.groot.client import Groot2Client, SilenceError, read_address
+from tree_gardener.groot.libraries import libraries
 
 if TYPE_CHECKING:
     from executor.attached.document import AttachedDocument
@@ -59,17 +61,12 @@ class Follower:
     Args:
         channel: leads to the session.
         pulse: tells the session that this process lives.
-        address: HOST:PORT of the other program.
         recorder: the address of the session's recorder; "" for none.
     """
 
-    def __init__(
-        self, channel: Channel[FromApplication, ToApplication], pulse: Pulse, address: str, recorder: str
-    ) -> None:
+    def __init__(self, channel: Channel[FromApplication, ToApplication], pulse: Pulse, recorder: str) -> None:
         self._channel = channel
         self._pulse = pulse
-        self._address = address
-        self._client = Groot2Client(*read_address(address))
         self._recorder_address = recorder
         self._began_s = time.monotonic()
         self._state: AttachState = "connecting"
@@ -87,6 +84,8 @@ class Follower:
             start = self._wait_for_start()
             if start is None:
                 return
+            self._address = start.attach
+            self._client = Groot2Client(*read_address(start.attach))
             with self._pulse.busy("loading"):
                 self._channel.send(child_messages.Starting())
                 tree = self._first_tree()
@@ -102,6 +101,7 @@ class Follower:
     # --- the begin ---
 
     def _wait_for_start(self) -> child_messages.StartApplication | None:
+        libraries(), builtins()  # loaded now, they are not waited for later
         self._pulse.rests()
         while True:
             self._pulse.moved()
@@ -321,7 +321,8 @@ class Follower:
             except GrootError:
                 pass  # it is gone, and with it what we have set
             self._recorder.close()
-        self._client.close()
+        if hasattr(self, "_client"):
+            self._client.close()
         self._channel.flush(GOODBYE_S)
 
 
@@ -335,14 +336,13 @@ def main(arguments: list[str] | None = None) -> None:
     """Follows a program for the manager at the other end of a channel."""
     parser = argparse.ArgumentParser(prog="python -m executor.attached.process", description=__doc__)
     parser.add_argument("--channel-fd", type=int, required=True)
-    parser.add_argument("--address", required=True)
     options = parser.parse_args(arguments)
     die_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the manager handles Ctrl-C
     channel: Channel[FromApplication, ToApplication] = Channel(options.channel_fd, decode_to_application)
     recorder = os.environ.pop(ADDRESS_VARIABLE, "")
     try:
-        Follower(channel, Pulse(channel.send), options.address, recorder).run()
+        Follower(channel, Pulse(channel.send), recorder).run()
     except ChannelClosed:
         pass
     except ChannelError as error:

@@ -37,6 +37,8 @@ class StartApplication(Message, tag="start"):
     """The state with which that world begins; empty for its initial state."""
     replay: Replay | None = None
     """What the exact run does before it is ready: an earlier one again, up to a moment."""
+    attach: str = ""
+    """The address HOST:PORT of the program that is followed in place of an application; "" for none."""
     time_s: float | None = None
     """The simulated time until it resumes, where the time of the world has gone back."""
     blackboard_json: str = ""

@@ -26,6 +26,7 @@ from executor import __version__
 from executor.manager.admission import Admission, is_loopback
 from executor.manager.environment import WrongVariableError, number
 from executor.manager.gate import fetch_listener
+from executor.manager.order import LATER, Order, await_order
 from executor.manager.programs import attached_programs, session_programs
 from executor.manager.tls import CertificateError, server_context
 from executor.ros.environment import discovery_port, ros_environment
@@ -89,7 +90,8 @@ class ManagerSettings:
         recordings: a folder for them that stays; None is a folder of the session.
         keeps_whole: whether they are kept whole, without budgets.
         groot2: the port at which Groot2 can look at the tree that runs; 0 for none.
-        attach: the address HOST:PORT of the program to follow, in place of an application; "" for none.
+        attach: the address HOST:PORT of the program to follow, in place of an application; "" for none, and
+            `LATER` for the one that the server writes to our standard input, with the folder for recordings.
         origins: pages that may connect; without a token, local pages may connect too.
     """
 
@@ -147,7 +149,7 @@ class Manager:
             hold_limit_s=60.0 * number("BT_STUDIO_HOLD_MINUTES", 15),
         )
         self.session = Session(about, now_s=loop.time())
-        made = attached_programs(settings.attach) if settings.attach else None
+        made = attached_programs() if settings.attach else None
         self._programs = settings.programs or made or session_programs(self.domain_id, settings.groot2)
         self._supervisor = Supervisor(self._programs, self.take, self._on_frame, reaps_all=True)
         self._server: SessionServer | RamServer | None = None
@@ -169,12 +171,21 @@ class Manager:
         await asyncio.sleep(0)  # both processes start now; the rest is loaded meanwhile
         self._folders = self._make_folders()
         port = await self._listen()
-        if "recorder" in self._programs and self._settings.records:
-            self._record(self._recordings(self._folders))
-        if self._settings.attach:
-            self.take(AttachWanted(self._settings.attach, str(self._folders.diagrams())))
+        if self._settings.attach != LATER:
+            self._begin(self._settings.attach, self._settings.recordings)
         self._set_timer()
         return port
+
+    def follow(self, order: Order) -> None:
+        """Follows the program that could not be named at the start."""
+        self._begin(order.target, Path(order.recordings) if order.recordings else None)
+
+    def _begin(self, target: str, recordings: Path | None) -> None:
+        assert self._folders is not None  # noqa: S101 - made by `start`, which comes first
+        if "recorder" in self._programs and self._settings.records:
+            self._record(self._recordings(self._folders, recordings))
+        if target:
+            self.take(AttachWanted(target, str(self._folders.diagrams())))
 
     async def _listen(self) -> int:
         settings = self._settings
@@ -192,8 +203,8 @@ class Manager:
             await server.start_at(settings.listener)
         return port
 
-    def _recordings(self, folders: Folders) -> Path:
-        folder = self._settings.recordings
+    @staticmethod
+    def _recordings(folders: Folders, folder: Path | None) -> Path:
         if folder is None:
             return folders.recordings()
         folder.mkdir(parents=True, exist_ok=True, mode=0o700)
@@ -311,6 +322,8 @@ async def serve(settings: ManagerSettings, ready_fd: int | None = None, *, shows
         loop.add_signal_handler(each, manager.end, f"got {each.name}")
     try:
         port = await manager.start()
+        if settings.attach == LATER:
+            await_order(manager.follow, manager.end)
         if ready_fd is not None:
             ready = {"port": port, "domain_id": manager.domain_id, "pid": os.getpid()}
             own = {"token": settings.token} if shows_token else {}

@@ -56,11 +56,11 @@ def session_programs(domain_id: int, groot2: int = 0) -> dict[Kind, Program]:
     }
 
 
-def attached_programs(address: str) -> dict[Kind, Program]:
-    """Returns the programs of a session that follows the program at an address; there is no world."""
+def attached_programs() -> dict[Kind, Program]:
+    """Returns the programs of a session that follows another program; there is no world."""
     link = {ADDRESS_VARIABLE: f"bt-studio-recorder-{secrets.token_hex(16)}"}
     limits = Limits(memory_bytes=mebibytes("BT_STUDIO_APPLICATION_MEMORY_MB", 4096))
-    follow = (sys.executable, "-m", "executor.attached.process", "--address", address)
+    follow = (sys.executable, "-m", "executor.attached.process")
     return {
         "world": Program((sys.executable, "-m", "executor.attached.world"), {}),
         "application": Program(follow, NO_PLUGINS | link, limits),

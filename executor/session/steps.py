@@ -249,6 +249,7 @@ def _start_application(stage: Stage, state: bytes = b"") -> Child:
         profile=stage.hold.profile,
         groot2=stage.hold.groot2,
         is_debugged=stage.python.is_wanted,
+        attach=stage.attaching.address if stage.attaching is not None else "",
         world=structs.replace(launched, speed=stage.mirror.speed) if launched is not None else None,
         world_state=state,
     )

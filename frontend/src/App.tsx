@@ -5,10 +5,11 @@ import { ErrorBoundary } from '@/frame/ErrorBoundary';
 import { Waiting } from '@/frame/Waiting';
 import { StartPage } from '@/features/projects/StartPage';
 import { useRoute } from '@/store/route';
-import { lazyPart } from '@/ui/parts';
+import { lazyPart, preparedPart } from '@/ui/parts';
 
-const loadAttached = async () => (await import('@/frame/attached/AttachedStudio')).AttachedStudio;
-const AttachedStudio = lazyPart(loadAttached);
+const [AttachedStudio, loadAttached] = preparedPart(
+  async () => (await import('@/frame/attached/AttachedStudio')).AttachedStudio,
+);
 const Studio = lazyPart(async () => (await import('@/frame/Studio')).Studio);
 
 export function App() {

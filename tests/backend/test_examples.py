@@ -16,6 +16,7 @@ from backend.language import behaviours, ruff
 from backend.language import views as language
 from backend.runs import logs, views_mine
 from backend.runs import writes as run_writes
+from backend.sessions import attaching
 from backend.sessions import writes as session_writes
 from backend.sessions.choices import SessionState
 from tests.backend.accounts.conftest import PUBLIC, Person, person, stranger, team  # noqa: F401
@@ -33,7 +34,7 @@ def manager():
 @pytest.fixture
 def told(person, stranger, manager, monkeypatch):  # noqa: F811
     monkeypatch.setattr(session_writes, "workers", type("Idle", (), {"submit": lambda *_: None}))
-    monkeypatch.setattr(session_writes, "may_attach", lambda: True)
+    monkeypatch.setattr(attaching, "may_attach", lambda: True)
     monkeypatch.setattr(run_writes, "live_session", lambda *_, **__: manager)
     monkeypatch.setattr(run_writes, "manager_token", lambda _: TOKEN)
     monkeypatch.setattr(views, "round_soon", lambda: None)

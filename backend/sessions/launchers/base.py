@@ -17,6 +17,8 @@ JSON object that the caller stores and passes to the other methods, also after a
     warm(spec)       as `start`, for an executor that waits; the id of `spec` is its own.
     warm_running()   the states of all that run, by their ids, also of those that were claimed.
     warm_state_of(id)  the state of one of which only the id is known.
+    prepare(spec)    starts an executor for the next session with a target, which is likely to come; one waits
+                     at most, and for minutes only. A launcher may leave it.
     tidy()           removes tools that have ended; called every minute by one web server.
     recordings       the folder in which recordings are left, one folder a session; None if they end with it.
     shares_network   whether executors share one network, so that each needs a ROS domain of its own.
@@ -43,6 +45,8 @@ State = Mapping[str, Any]
 UNKNOWN_EXIT: Final = -1
 OWN_NETWORK_DOMAIN: Final = 1
 """The ROS domain of every executor that has a network of its own."""
+WARM: Final = "warm"
+"""The key in a launcher's state of the id of an executor that was started before its session."""
 _METHODS: Final = ("start", "poll", "stop")
 _SURVIVORS_OWE: Final = ("running", "state_of")
 _WARM_OWE: Final = ("warm", "warm_running", "warm_state_of")
@@ -123,6 +127,9 @@ class Launcher:
     def warm_state_of(self, made_id: str) -> dict[str, Any]:
         """Returns the state of a warm executor by its id."""
         return {}
+
+    def prepare(self, spec: Spec) -> None:
+        """Starts an executor for the next session with a target; the id of `spec` is its own."""
 
     def tidy(self) -> None:
         """Removes tools that have ended by themselves."""

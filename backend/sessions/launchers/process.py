@@ -14,7 +14,8 @@ import signal
 import subprocess
 import sys
 import time
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass, replace
 from threading import Lock
 from typing import IO, TYPE_CHECKING, Final
 
@@ -22,7 +23,7 @@ import psutil
 
 from backend.config.environment import REPOSITORY
 from backend.sessions.errors import LaunchError
-from backend.sessions.launchers.base import UNKNOWN_EXIT, Launcher, Spec, Started, State
+from backend.sessions.launchers.base import UNKNOWN_EXIT, WARM, Launcher, Spec, Started, State
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -31,6 +32,10 @@ TOKEN_VARIABLE: Final = "BT_STUDIO_MANAGER_TOKEN"  # noqa: S105 - the name, not 
 STDERR_LINES: Final = 20
 RUNS: Final = "runs"
 """The folder in that of a session which has its recordings; the manager's own files are beside it."""
+LATER: Final = "-"
+"""Stands for a target that the manager reads from its standard input (`executor.manager.order`)."""
+SPARE_S: Final = 240.0
+"""The age up to which a spare manager is given away; without clients it ends by itself after 300 s."""
 OURS: Final = "BT_STUDIO_"
 FOR_EXECUTORS: Final = frozenset(
     {
@@ -43,6 +48,19 @@ FOR_EXECUTORS: Final = frozenset(
     }
 )
 """Our variables that executors read; all others stay here."""
+
+
+@dataclass(frozen=True)
+class _Spare:
+    """A manager that was started before its session."""
+
+    made_id: str
+    since_s: float
+    started: Future[Started]
+
+    @property
+    def is_fresh(self) -> bool:
+        return time.monotonic() - self.since_s < SPARE_S
 
 
 class ProcessLauncher(Launcher):
@@ -68,9 +86,58 @@ class ProcessLauncher(Launcher):
         self._command = command
         self._thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix="launcher")
         self._children: dict[int, subprocess.Popen[bytes]] = {}
+        self._spare: _Spare | None = None
         self._lock = Lock()
 
     def start(self, spec: Spec) -> Started:
+        """Starts a manager, or takes the spare one, and waits until it listens."""
+        if not spec.target:
+            return self._bring_up(spec)
+        started = self._take_spare(spec) or self._bring_up(spec)
+        try:
+            self._order(started.state["pid"], spec)
+        except OSError as error:
+            self.stop(started.state, timeout_s=spec.stop_timeout_s)
+            raise LaunchError(f"The executor ended as it started: {error}.") from error
+        return started
+
+    def prepare(self, spec: Spec) -> None:
+        """Starts a manager for the next session with a target, unless one waits already."""
+        spare = _Spare(spec.session_id, time.monotonic(), Future())
+        with self._lock:
+            if self._spare is not None and self._spare.is_fresh:
+                return
+            self._spare = spare
+        try:
+            spare.started.set_result(self._bring_up(replace(spec, target=LATER)))
+        except LaunchError as error:
+            spare.started.set_exception(error)
+            raise
+
+    def _take_spare(self, spec: Spec) -> Started | None:
+        """Returns the spare manager, which belongs to the caller from now on; None if none runs."""
+        with self._lock:
+            spare, self._spare = self._spare, None
+        if spare is None or not spare.is_fresh:
+            return None
+        try:
+            started = spare.started.result(spec.start_timeout_s)
+        except (LaunchError, TimeoutError):
+            return None
+        if self.poll(started.state) is not None:
+            return None
+        return Started(started.address, started.state | {WARM: spare.made_id})
+
+    def _order(self, pid: int, spec: Spec) -> None:
+        """Tells a manager which program it follows, and where its recordings are left."""
+        folder = "" if self.recordings is None else str(self.recordings / spec.session_id / RUNS)
+        with self._lock:
+            child = self._children[pid]
+        assert child.stdin is not None  # noqa: S101 - `_spawn` makes the pipe
+        child.stdin.write(json.dumps({"target": spec.target, "recordings": folder}).encode() + b"\n")
+        child.stdin.flush()
+
+    def _bring_up(self, spec: Spec) -> Started:
         """Starts a manager, and waits for the line that it writes to its ready pipe."""
         ready_read, ready_write = os.pipe()
         log = self._log_folder / f"{spec.session_id}.log"
@@ -133,16 +200,16 @@ class ProcessLauncher(Launcher):
         log.parent.mkdir(parents=True, exist_ok=True)
         arguments = ("--host", "127.0.0.1", "--port", "0")
         options: tuple[str, ...] = ("--token-env", TOKEN_VARIABLE, "--ready-fd", str(ready_fd))
-        if self.recordings is not None:
-            options += ("--recordings", str(self.recordings / spec.session_id / RUNS))
         if spec.target:
-            options += ("--attach", spec.target)
+            options += ("--attach", LATER)
+        elif self.recordings is not None:
+            options += ("--recordings", str(self.recordings / spec.session_id / RUNS))
         with log.open("wb") as output:
             child = subprocess.Popen(
                 (*self._command, *arguments, *options),
                 cwd=REPOSITORY,
                 env=_environment(spec),
-                # Nothing is written to the pipe: when it closes, the child knows that the server has ended.
+                # Only the order to follow a program is written to the pipe.
                 stdin=subprocess.PIPE,
                 stdout=output,
                 stderr=subprocess.STDOUT,

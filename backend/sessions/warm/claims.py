@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
-from backend.sessions.launchers.base import Started
+from backend.sessions.launchers.base import WARM, Started
 from backend.sessions.models import WarmExecutor
 
 if TYPE_CHECKING:
@@ -13,10 +13,7 @@ if TYPE_CHECKING:
     from backend.sessions.launchers.base import Launcher
     from backend.sessions.models import Session
 
-__all__ = ["WARM", "claim", "key_of"]
-
-WARM: Final = "warm"
-"""The key in a launcher's state under which the id of a warm executor is kept."""
+__all__ = ["claim", "key_of"]
 
 
 def claim(session_id: UUID, launcher: Launcher) -> Started | None:

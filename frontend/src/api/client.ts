@@ -159,6 +159,8 @@ export const api = {
   /** Starts a session that follows the program at an address, or returns the one that does. */
   attach: (address: string): Promise<SessionInfo> =>
     dataOf(rest.POST('/api/v1/sessions/attached', { body: { address } })),
+  /** Starts the processes of an attached session in advance. */
+  prepareAttach: () => done(rest.POST('/api/v1/sessions/attached/prepare')),
   getSession: (session_id: string): Promise<SessionInfo> =>
     dataOf(rest.GET('/api/v1/sessions/{session_id}', { params: { path: { session_id } } })),
   endSession: (session_id: string) =>

@@ -1,4 +1,4 @@
-import { lazy, type ComponentType, type LazyExoticComponent } from 'react';
+import { createElement, lazy, useState, type ComponentType, type LazyExoticComponent } from 'react';
 
 /** Thrown when a part of the page or its style sheet could not be loaded in several attempts. */
 export class PartMissing extends Error {
@@ -74,4 +74,24 @@ export function lazyPart<Props>(
   load: () => Promise<ComponentType<Props>>,
 ): LazyExoticComponent<ComponentType<Props>> {
   return lazy(async () => ({ default: await loadPart(load) }));
+}
+
+/**
+ * Returns a component that is loaded when it is first shown, and a function that loads it before. One that is
+ * there is shown at once: after a placeholder, React waits 300 ms until it shows what has arrived.
+ */
+export function preparedPart<Props extends object>(
+  load: () => Promise<ComponentType<Props>>,
+): [ComponentType<Props>, () => Promise<void>] {
+  let there: ComponentType<Props> | null = null;
+  const prepare = async () => {
+    there = await loadPart(load);
+    return there;
+  };
+  const Awaited = lazy(async () => ({ default: await prepare() }));
+  function Part(props: Props) {
+    const [Shown] = useState(() => there ?? (Awaited as ComponentType<Props>));
+    return createElement(Shown, props);
+  }
+  return [Part, async () => void (await prepare())];
 }

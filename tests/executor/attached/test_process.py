@@ -49,7 +49,7 @@ class Session:
         self.channel: Any = Channel(ours.detach(), decode_from_application)
         self.said: list[Any] = []
         channel: Any = Channel(theirs.detach(), decode_to_application)
-        follower = Follower(channel, Pulse(), f"127.0.0.1:{port}", "")  # type: ignore[arg-type]
+        follower = Follower(channel, Pulse(), "")  # type: ignore[arg-type]
 
         def run() -> None:
             follower.run()
@@ -57,7 +57,7 @@ class Session:
 
         self.thread = threading.Thread(target=run)
         self.thread.start()
-        self.tell(child_messages.StartApplication(str(folder), 20.0))
+        self.tell(child_messages.StartApplication(str(folder), 20.0, attach=f"127.0.0.1:{port}"))
 
     def tell(self, message: Any) -> None:
         self.channel.send(message)

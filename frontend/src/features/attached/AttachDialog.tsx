@@ -29,8 +29,10 @@ export function AttachDialog({ isOpen, onOpen, onClose }: Props) {
     },
   });
   useEffect(() => {
-    // Without it, the page is loaded when it is shown, and says then what is wrong.
-    if (isOpen) onOpen?.().catch(() => undefined);
+    // Without them, page and processes start when they are needed, and say then what is wrong.
+    if (!isOpen) return;
+    onOpen?.().catch(() => undefined);
+    api.prepareAttach().catch(() => undefined);
   }, [isOpen, onOpen]);
   const submit = (event: SyntheticEvent) => {
     event.preventDefault();

@@ -49,7 +49,7 @@ def prepare() -> None:
         AttachingLocalError: this server is for a team.
     """
     _require_attaching()
-    if drain.current() is None and writes.places_left(LIVE_STATES) > 0:
+    if writes.places_left(LIVE_STATES) > 0:
         writes.workers().submit(_prepare)
 
 

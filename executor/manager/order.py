@@ -24,7 +24,7 @@ LONGEST: Final = 4096
 
 
 class Order(msgspec.Struct):
-    """What the server writes.
+    """The line that the server writes.
 
     Attributes:
         target: HOST:PORT of the program.

@@ -258,6 +258,7 @@ def _people(story, teacher, student, one, guest):
 def _run(story, teacher, one):
     session = story.ask(teacher, "POST", f"{one}/session")
     story.ask(teacher, "GET", f"sessions/{session['id']}")
+    story.ask(teacher, "POST", "sessions/attached/prepare", status=204)
     story.ask(teacher, "POST", "sessions/attached", {"address": "robot.local"})
     run = story.ask(teacher, "POST", f"{one}/runs", {"run": "a1", "name": "Into the crate"}, status=201)
     story.ask(teacher, "GET", f"{one}/runs")

@@ -124,6 +124,7 @@ POLICY = {
     ("delete", "/api/v1/runs/{run_id}"): NOT_OWNED,
     ("post", "/api/v1/runs/logs"): (401, 403, 503, 503, 503, 503),  # as above
     ("post", "/api/v1/sessions/attached"): (401, 403, 403, 403, 403, 403),  # on localhost only
+    ("post", "/api/v1/sessions/attached/prepare"): (401, 403, 403, 403, 403, 403),  # as it
     ("get", "/api/v1/sessions/{session_id}"): NOT_OWNED,
     ("delete", "/api/v1/sessions/{session_id}"): NOT_OWNED,
     ("get", "/api/v1/me"): OPEN,

@@ -10,6 +10,8 @@ deaf          listens, reads what comes, and answers nothing at all
 old           listens, and knows no /watch
 held          answers that a debugger holds its tree
 mute          says something else than its port
+
+One with `--attach -` writes its standard input to its output.
 """
 
 from __future__ import annotations
@@ -20,6 +22,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 from typing import Any
@@ -85,11 +88,18 @@ async def read_only(reader: asyncio.StreamReader, _: asyncio.StreamWriter) -> No
         pass
 
 
+def repeat() -> None:
+    sys.stdout.write(sys.stdin.readline())
+    sys.stdout.flush()
+
+
 def main() -> None:
     kind, arguments = sys.argv[1], sys.argv[2:]
     ready_fd = int(arguments[arguments.index("--ready-fd") + 1])
     sys.stdout.write("the fake manager starts\n")
     sys.stdout.flush()
+    if "-" in arguments:
+        threading.Thread(target=repeat, daemon=True).start()
     if kind == "failing":
         sys.exit(3)
     if kind == "never":

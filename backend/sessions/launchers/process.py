@@ -81,7 +81,7 @@ class ProcessLauncher(Launcher):
         command: tuple[str, ...] = (sys.executable, "-m", "executor.manager"),
         recordings: Path | None = None,
     ) -> None:
-        self._log_folder = log_folder
+        self.log_folder = log_folder
         self.recordings = recordings
         self._command = command
         self._thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix="launcher")
@@ -129,7 +129,7 @@ class ProcessLauncher(Launcher):
         return Started(started.address, started.state | {WARM: spare.made_id})
 
     def _order(self, pid: int, spec: Spec) -> None:
-        """Tells a manager which program it follows, and where its recordings are left."""
+        """Writes to a manager which program it follows, and where its recordings are left."""
         folder = "" if self.recordings is None else str(self.recordings / spec.session_id / RUNS)
         with self._lock:
             child = self._children[pid]
@@ -140,7 +140,7 @@ class ProcessLauncher(Launcher):
     def _bring_up(self, spec: Spec) -> Started:
         """Starts a manager, and waits for the line that it writes to its ready pipe."""
         ready_read, ready_write = os.pipe()
-        log = self._log_folder / f"{spec.session_id}.log"
+        log = self.log_folder / f"{spec.session_id}.log"
         try:
             with open(ready_read, "rb", buffering=0) as ready:  # noqa: PTH123 - a file descriptor
                 try:

@@ -1,5 +1,7 @@
+import { act, render, screen } from '@testing-library/react';
+import { createElement, Suspense } from 'react';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { loadPart, PartMissing, stylesArrive } from './parts';
+import { loadPart, PartMissing, preparedPart, stylesArrive } from './parts';
 
 let server: MutationObserver | null = null;
 
@@ -63,6 +65,27 @@ describe('a part of the page', () => {
     styleThatComes(3);
     expect(await outcome(loadPart(() => Promise.resolve('part')))).toMatchObject({ value: 'part' });
     expect(links().map((link) => link.sheet?.cssRules.length)).toEqual([1]);
+  });
+});
+
+describe('a prepared part', () => {
+  const Text = ({ text }: { readonly text: string }) => text;
+  const shown = (part: typeof Text) =>
+    render(createElement(Suspense, { fallback: 'waiting' }, createElement(part, { text: 'part' })));
+
+  it('is shown at once', async () => {
+    const [Part, prepare] = preparedPart(() => Promise.resolve(Text));
+    await outcome(prepare());
+    shown(Part as typeof Text);
+    expect(screen.getByText('part')).toBeInTheDocument();
+  });
+
+  it('is awaited if it is shown before it has come', async () => {
+    const [Part] = preparedPart(() => Promise.resolve(Text));
+    shown(Part as typeof Text);
+    expect(screen.getByText('waiting')).toBeInTheDocument();
+    await act(() => vi.advanceTimersByTimeAsync(1000));
+    expect(screen.getByText('part')).toBeInTheDocument();
   });
 });
 

@@ -6,6 +6,7 @@ import { AttachDialog } from './AttachDialog';
 
 const onClose = vi.fn();
 const ATTACH = 'POST /sessions/attached';
+const PREPARE = 'POST /sessions/attached/prepare';
 
 beforeEach(() => {
   localStorage.clear();
@@ -27,6 +28,14 @@ it('attaches to an address, opens the session, and remembers the address', async
   expect(onClose).toHaveBeenCalled();
   expect(localStorage.getItem('bts.attach.address')).toBe('robot');
   navigate('/');
+});
+
+it('starts the processes of the session while the address is written', async () => {
+  const { requests } = fakeServer({ [PREPARE]: new Response(null, { status: 204 }) });
+  const { rerender } = show(<AttachDialog isOpen={false} onClose={onClose} />);
+  expect(requests).toEqual([]);
+  rerender(<AttachDialog isOpen onClose={onClose} />);
+  await expect.poll(() => requests.map(({ path }) => path)).toEqual(['/sessions/attached/prepare']);
 });
 
 it('loads the page of the session while the address is written, once, and continues without it', async () => {

@@ -6,6 +6,7 @@ import json
 import os
 import signal
 import threading
+import time
 import urllib.request
 from contextlib import suppress
 
@@ -13,7 +14,8 @@ import psutil
 import pytest
 
 from backend.sessions.errors import LaunchError
-from backend.sessions.launchers.base import UNKNOWN_EXIT
+from backend.sessions.launchers import process
+from backend.sessions.launchers.base import UNKNOWN_EXIT, WARM
 from backend.sessions.launchers.process import RUNS, ProcessLauncher
 from tests.backend.sessions.conftest import children, spec
 
@@ -38,6 +40,62 @@ def test_each_session_has_a_folder_for_its_recordings(launcher_of, tmp_path):
     launcher.recordings = tmp_path
     arguments = psutil.Process(launcher.start(spec()).state["pid"]).cmdline()
     assert arguments[arguments.index("--recordings") + 1] == str(tmp_path / spec().session_id / RUNS)
+
+
+def ordered(launcher, made_id):
+    """Waits for the order that the fake manager has read."""
+    log = launcher.log_folder / f"{made_id}.log"
+    for_s = time.monotonic() + 60
+    while "target" not in log.read_text():
+        assert time.monotonic() < for_s, log.read_text()
+        time.sleep(0.01)
+    return json.loads(log.read_text().splitlines()[-1])
+
+
+def test_a_manager_gets_the_address_of_the_program_that_it_follows(launcher_of, tmp_path):
+    launcher = launcher_of("echo")
+    started = launcher.start(spec(target="robot:1667"))
+    assert WARM not in started.state
+    assert ordered(launcher, "s1") == {"target": "robot:1667", "recordings": ""}
+    launcher.recordings = tmp_path
+    launcher.start(spec(session_id="s2", target="robot:1668"))
+    told = {"target": "robot:1668", "recordings": str(tmp_path / "s2" / RUNS)}
+    assert ordered(launcher, "s2") == told
+
+
+def test_a_prepared_manager_is_taken_once_and_by_a_session_with_a_target(launcher_of):
+    launcher = launcher_of("echo")
+    launcher.prepare(spec(session_id="ahead", token="other"))
+    launcher.prepare(spec(session_id="again"))  # one waits already
+    assert len(children()) == 1
+    assert WARM not in launcher.start(spec()).state
+    taken = launcher.start(spec(session_id="s2", target="robot:1667"))
+    assert taken.state[WARM] == "ahead"
+    assert ordered(launcher, "ahead")["target"] == "robot:1667"
+    assert psutil.Process(taken.state["pid"]).environ()["BT_STUDIO_MANAGER_TOKEN"] == "other"
+    assert WARM not in launcher.start(spec(session_id="s3", target="robot:1668")).state
+    assert len(children()) == 3
+
+
+def test_a_prepared_manager_that_has_ended_or_is_old_is_left(launcher_of, monkeypatch):
+    launcher = launcher_of("echo")
+    launcher.prepare(spec(session_id="ahead"))
+    [spare] = children()
+    spare.kill()
+    os.waitid(os.P_PID, spare.pid, os.WEXITED | os.WNOWAIT)
+    assert WARM not in launcher.start(spec(target="robot:1667")).state
+    monkeypatch.setattr(process, "SPARE_S", 0.0)
+    launcher.prepare(spec(session_id="old"))
+    assert WARM not in launcher.start(spec(session_id="s2", target="robot:1667")).state
+
+
+def test_where_none_can_be_prepared_a_session_starts_its_own(launcher_of):
+    launcher = launcher_of("failing")
+    with pytest.raises(LaunchError):
+        launcher.prepare(spec(session_id="ahead"))
+    with pytest.raises(LaunchError, match="exit status 3"):
+        launcher.start(spec(session_id="s2", target="robot:1667"))
+    assert (launcher.log_folder / "s2.log").exists()
 
 
 def test_the_state_is_json_and_holds_no_secret(launcher_of):

@@ -1,5 +1,6 @@
 import { act, screen, waitFor } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
+import { perform } from '@/commands/registry';
 import type { State } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
 import { useRunStore } from '@/store/run/store';
@@ -64,6 +65,16 @@ describe('RunControls', () => {
     expect(executor.sentAs('step')).toEqual([{}]);
     expect(executor.sentAs('pause')).toEqual([]);
     expect(executor.sentAs('resume')).toEqual([{}]);
+  });
+
+  it('neither resumes nor steps a run on its way back to a moment', async () => {
+    await open('paused');
+    executor.emit('going_back', { fraction: 0.4 });
+    for (const name of ['Step one tick', 'Resume']) expect(button(name)).toBeDisabled();
+    for (const id of ['run.step', 'run.step10', 'run.resume']) perform(id);
+    expect([executor.sentAs('step'), executor.sentAs('resume')]).toEqual([[], []]);
+    executor.emit('going_back', { fraction: 1 });
+    for (const name of ['Step one tick', 'Resume']) expect(button(name)).toBeEnabled();
   });
 
   it('follows the state of the executor', async () => {

@@ -24,6 +24,7 @@ export function RunControls() {
   const isRunning = executor === 'application_running';
   const isPaused = executor === 'paused';
   const isHeld = executor === 'held';
+  const isGoingBack = useSessionStore((state) => state.goingBack !== null);
   const hasApplication = isRunning || isPaused || isHeld;
   const worldRuns = useSessionStore(doesWorldRunAlone);
   const runBlocker = useRunBlocker();
@@ -67,11 +68,15 @@ export function RunControls() {
         isDisabled={!(hasApplication || executor === 'visualization_ready') || isBlocked || stage !== null}
       />
       {isPaused ? (
-        <CommandButton command="run.resume" testId="resume" isDisabled={isBlocked} />
+        <CommandButton command="run.resume" testId="resume" isDisabled={isBlocked || isGoingBack} />
       ) : (
         <CommandButton command="run.pause" testId="pause" isDisabled={!isRunning || isBlocked} />
       )}
-      <CommandButton command="run.step" testId="step" isDisabled={!hasApplication || isHeld || isBlocked} />
+      <CommandButton
+        command="run.step"
+        testId="step"
+        isDisabled={!hasApplication || isHeld || isGoingBack || isBlocked}
+      />
       <RunMenu isDisabled={isBlocked} />
       <CommandButton
         command="run.stop"

@@ -17,12 +17,12 @@ import {
 import { registerCommands, type UserCommand } from '@/commands/registry';
 import {
   canRestart,
+  canResume,
   canRunWorld,
+  canStep,
   canStop,
-  hasApplication,
   hasSession,
   isViewer,
-  isHeld,
   isPaused,
   isRunning,
   pause,
@@ -71,7 +71,7 @@ const rows: UserCommand[] = [
     icon: IconPlayerPlayFilled,
     shortcut: 'F7',
     inTextFields: true,
-    enabled: isPaused,
+    enabled: canResume,
     run: () => void resume(),
   },
   {
@@ -81,7 +81,7 @@ const rows: UserCommand[] = [
     icon: IconPlayerSkipForwardFilled,
     shortcut: 'F10',
     inTextFields: true,
-    enabled: () => hasApplication() && !isHeld(),
+    enabled: canStep,
     run: () => void step(),
   },
   {
@@ -101,7 +101,7 @@ const rows: UserCommand[] = [
     icon: IconPlayerTrackNextFilled,
     shortcut: '$mod+F10',
     inTextFields: true,
-    enabled: () => hasApplication() && !isHeld(),
+    enabled: canStep,
     run: () => void stepMany(10),
   },
   {

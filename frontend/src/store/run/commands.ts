@@ -24,6 +24,9 @@ export const isRunning = () => useSessionStore.getState().executor === 'applicat
 export const isPaused = () => useSessionStore.getState().executor === 'paused';
 export const isHeld = () => useSessionStore.getState().executor === 'held';
 export const hasApplication = () => isRunning() || isPaused() || isHeld();
+const isGoingBack = () => useSessionStore.getState().goingBack !== null;
+export const canResume = () => isPaused() && !isGoingBack();
+export const canStep = () => (isRunning() || isPaused()) && !isGoingBack();
 /** Returns whether the program can be restarted in the running world. */
 export const canRestart = () =>
   hasApplication() || useSessionStore.getState().executor === 'visualization_ready';

@@ -1,19 +1,28 @@
-"""Prepares every process that runs users' code, in a session or in lock-step."""
+"""Processes that run users' code: what prepares each, and what serves one of a session."""
 
 from __future__ import annotations
 
+import faulthandler
 import os
+import signal
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from executor.application import compat
 from executor.application.forks import limit_forks
+from executor.ros.environment import ros_environment
+from executor.supervision.channel import Channel, ChannelClosed
+from executor.supervision.confine import die_with_parent
+from executor.supervision.pulse import Pulse
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    import argparse
+    from collections.abc import Callable, Mapping
 
-__all__ = ["enter", "prepare"]
+    from executor.application.process import Application
+
+__all__ = ["enter", "prepare", "serve"]
 
 
 def prepare() -> None:
@@ -39,3 +48,42 @@ def enter(folder: Path) -> Callable[[], None]:
             sys.path.remove(path)
 
     return leave
+
+
+def serve(
+    make: Callable[[Channel[Any, Any], Pulse], Application],
+    decode: Callable[[bytes], Any],
+    parser: argparse.ArgumentParser,
+    arguments: list[str] | None = None,
+    *,
+    environment: Mapping[str, str] | None = None,
+) -> None:
+    """Runs an application for the manager at the other end of a channel; does not return.
+
+    Args:
+        make: makes the application on its channel.
+        decode: decodes what the manager sends.
+        parser: the parser of the command.
+        arguments: the arguments of the command; None takes those of the process.
+        environment: the environment of ROS, as far as it is not set.
+    """
+    parser.add_argument("--channel-fd", type=int, required=True)
+    options = parser.parse_args(arguments)
+    die_with_parent()
+    faulthandler.enable()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the manager handles Ctrl-C
+    for name, value in (environment or ros_environment(int(os.environ.get("ROS_DOMAIN_ID", "0")))).items():
+        os.environ.setdefault(name, value)
+    channel: Channel[Any, Any] = Channel(options.channel_fd, decode)
+    pulse = Pulse(channel.send)
+
+    prepare()
+    application = make(channel, pulse)
+    try:
+        application.run()
+        if os.getpid() == application.pid:
+            application.close()
+    except ChannelClosed:
+        pass
+    # Threads that actions started must not keep the process alive.
+    os._exit(0)

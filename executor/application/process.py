@@ -9,10 +9,8 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import faulthandler
 import os
 import queue
-import signal
 import sys
 import threading
 import time
@@ -20,19 +18,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from executor import child_messages
+from executor.application.host import serve
+from executor.application.python_debugger import PythonDebugger, trace
 from executor.child_messages import FromApplication, StartApplication, ToApplication, decode_to_application
 from executor.recorder.link import ADDRESS_VARIABLE
-from executor.ros.environment import ros_environment
 from executor.run_inputs import done_by
 from executor.supervision.channel import Channel, ChannelClosed, ChannelError
-from executor.supervision.confine import die_with_parent
 from executor.supervision.parking import PARKING
-from executor.supervision.pulse import Pulse
 from executor.supervision.threads import own
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
     from executor.application.changes.program import Program
     from executor.application.debugging import ApplicationDebugger
     from executor.application.debugging import Wanted as DebuggerCommand
@@ -41,15 +36,14 @@ if TYPE_CHECKING:
     from executor.application.report import Report
     from executor.application.ros import ApplicationGraph
     from executor.application.zeros import Zeros
+    from executor.supervision.pulse import Pulse
     from tree_gardener import Status, TickError, Tree
     from tree_gardener.runner import Runner
 
 SPIN_S: Final = 0.05
 DISCOVERY_S: Final = 0.8
 GOODBYE_S: Final = 0.5
-DEBUGGER_S: Final = 6.0
 MOST_NAMED: Final = 20
-LATE_DEBUGGER: Final = "The Python debugger was late: breakpoints in Python hold the run only from now on."
 
 
 class Ended(Exception):  # noqa: N818 - the way out, not an error
@@ -75,7 +69,7 @@ class Application:
         self._breaker = Breaker(self._locator)
         pulse.locate = self._locator.beat_place
         self._program: Program | None = None
-        self._has_python_debugger = False
+        self._python_debugger = PythonDebugger(pulse, channel.send)
         self._runner: Runner | None = None
         self._recorder: ApplicationRecorder | None = None
         self._debugger: ApplicationDebugger | None = None
@@ -212,9 +206,8 @@ class Application:
         if self._recorder is not None:
             self._recorder.did(command, data, tick, hook)
 
-    def _obey(self, message: ToApplication) -> None:  # noqa: C901, PLR0912, PLR0915 - one case a message
+    def _obey(self, message: ToApplication) -> None:  # noqa: C901, PLR0912 - one case a message
         from executor.application.changes.live_ports import set_port  # noqa: PLC0415 - as all of the engine
-        from executor.application.python_debugger import trace  # noqa: PLC0415 - as above
         from tree_gardener.debugging import DebuggingEnded  # noqa: PLC0415 - as above
 
         runner = self._runner
@@ -260,7 +253,7 @@ class Application:
             case child_messages.SetBlackboard():
                 self._channel.send(child_messages.BlackboardSet(self._set_blackboard(message)))
             case child_messages.ConnectDebugger():
-                self._connect_debugger(message)
+                self._python_debugger.connect(message)
             case child_messages.TracePython(is_on=is_on):
                 trace(is_on=is_on)
             case (
@@ -290,25 +283,15 @@ class Application:
         self._channel.send(child_messages.Answer(request=message.request, error=error))
 
     def _set_blackboard(self, message: child_messages.SetBlackboard) -> str:
-        assert self._runner is not None  # noqa: S101 - as above
-        from tree_gardener.errors import PortError  # noqa: PLC0415 - as all of the engine, with the tree
+        """Writes an entry; returns why that is not possible, or ""."""
+        from executor.application.changes.written_entry import write  # noqa: PLC0415 - as all of the engine
 
-        tree, scope = self._runner.tree, message.scope
-        try:
-            board = tree.blackboard.scope(scope) if scope else tree.blackboard
-            key, value = message.key, message.value
-            # JSON has only one kind of number: writing 1 over 0.5 must keep a double.
-            is_double = isinstance(board.get(key), float) and type(value) is int
-            board[key] = float(value) if is_double else value
-        except KeyError:
-            return f"There is no subtree {scope!r}."
-        except PortError as error:
-            return f"The {error}."
-        except Exception as error:
-            return f"{type(error).__name__}: {error}"
-        self._reporter.written(tree, scope, message.key)
+        assert self._runner is not None  # noqa: S101 - as above
+        if why := write(self._runner.tree, message.scope, message.key, message.value):
+            return why
+        self._reporter.written(self._runner.tree, message.scope, message.key)
         if self._debugger is not None:
-            written = {"scope": scope, "key": message.key, "value": message.value}
+            written = {"scope": message.scope, "key": message.key, "value": message.value}
             self.note_input("set_blackboard", written, *self._debugger.place)
         return ""
 
@@ -320,7 +303,7 @@ class Application:
         assert self._program is not None  # noqa: S101 - as above
         with self._pulse.busy("loading"):
             applying = Applying(self._program, self._runner, self._graph.node, self._channel.send)
-            applying.has_python_debugger = self._has_python_debugger
+            applying.has_python_debugger = self._python_debugger.is_connected
             error = applying.run(Path(message.app_dir), self._follow, dry=message.dry)
         self._channel.send(child_messages.Answer(request=message.request, error=error))
 
@@ -381,43 +364,9 @@ class Application:
 
         self._program = Program(Path(start.app_dir), self._graph)
         if start.is_debugged:
-            self._await_debugger()
+            self._python_debugger.wait(self._commands)
         seed_randomness(start.seed)
         return self._program.load()
-
-    def _await_debugger(self) -> None:
-        """Waits until the Python debugger of the session is connected and has its breakpoints."""
-        left: list[ToApplication] = []
-        until_s = time.monotonic() + DEBUGGER_S
-        while (left_s := until_s - time.monotonic()) > 0:
-            try:
-                message = self._commands.get(timeout=min(left_s, SPIN_S))
-            except queue.Empty:
-                self._pulse.moved()
-                continue
-            if not isinstance(message, child_messages.ConnectDebugger):
-                left.append(message)
-                continue
-            self._connect_debugger(message)
-            break
-        else:
-            self._channel.send(child_messages.Log("warning", LATE_DEBUGGER))
-        for message in left:
-            self._commands.put(message)
-
-    def _connect_debugger(self, message: child_messages.ConnectDebugger) -> None:
-        from executor.application.python_debugger import connect  # noqa: PLC0415 - as all of debugpy
-
-        try:
-            with self._pulse.busy("connecting"):  # its import takes a second or more
-                is_ready = connect(message, Path.cwd())
-            self._has_python_debugger = True
-        except Exception as error:
-            text = f"The Python debugger cannot be connected: {error}"
-            self._channel.send(child_messages.Log("warning", text))
-        else:
-            if not is_ready:
-                self._channel.send(child_messages.Log("warning", LATE_DEBUGGER))
 
     def _make_runner(self, tree: Tree, start: StartApplication) -> None:
         from executor.application.debugging import ApplicationDebugger  # noqa: PLC0415
@@ -539,51 +488,10 @@ class Application:
             stream.flush()
 
 
-def serve(
-    make: Callable[[Channel[Any, Any], Pulse], Application],
-    decode: Callable[[bytes], Any] = decode_to_application,
-    arguments: list[str] | None = None,
-    *,
-    environment: Mapping[str, str] | None = None,
-    prog: str = "python -m executor.application.process",
-) -> None:
-    """Runs an application for the manager at the other end of a channel; does not return.
-
-    Args:
-        make: makes the application on its channel.
-        decode: decodes what the manager sends.
-        arguments: the arguments of the command; None takes those of the process.
-        environment: the environment of ROS, as far as it is not set.
-        prog: the command, as its help names it.
-    """
-    parser = argparse.ArgumentParser(prog=prog, description=__doc__)
-    parser.add_argument("--channel-fd", type=int, required=True)
-    options = parser.parse_args(arguments)
-    die_with_parent()
-    faulthandler.enable()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the manager handles Ctrl-C
-    for name, value in (environment or ros_environment(int(os.environ.get("ROS_DOMAIN_ID", "0")))).items():
-        os.environ.setdefault(name, value)
-    channel: Channel[Any, Any] = Channel(options.channel_fd, decode)
-    pulse = Pulse(channel.send)
-
-    from executor.application.host import prepare  # noqa: PLC0415 - ROS reads the environment when loaded
-
-    prepare()
-    application = make(channel, pulse)
-    try:
-        application.run()
-        if os.getpid() == application.pid:
-            application.close()
-    except ChannelClosed:
-        pass
-    # Threads that actions started must not keep the process alive.
-    os._exit(0)
-
-
 def main(arguments: list[str] | None = None) -> None:
     """Runs the application of a session of two processes."""
-    serve(Application, decode_to_application, arguments)
+    parser = argparse.ArgumentParser(prog="python -m executor.application.process", description=__doc__)
+    serve(Application, decode_to_application, parser, arguments)
 
 
 if __name__ == "__main__":

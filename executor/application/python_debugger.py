@@ -8,23 +8,74 @@ from __future__ import annotations
 
 import importlib
 import os
+import queue
 import sys
 import threading
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from executor.child_messages import ConnectDebugger, Log
 from executor.supervision.threads import own
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from collections.abc import Callable
 
-    from executor.child_messages import ConnectDebugger
+    from executor.child_messages import ToApplication
+    from executor.supervision.pulse import Pulse
 
-__all__ = ["HOST", "connect", "trace"]
+__all__ = ["HOST", "PythonDebugger", "connect", "trace"]
 
 HOST: Final = "127.0.0.1"
 PATIENCE_S: Final = 6.0
 CLOSING_S: Final = 2.0
+TURN_S: Final = 0.05
+LATE: Final = "The Python debugger was late: breakpoints in Python hold the run only from now on."
+
+
+class PythonDebugger:
+    """The connection of an application with the Python debugger of its session, if it has one.
+
+    Args:
+        pulse: the signs of life of the process.
+        send: sends the manager a message.
+    """
+
+    def __init__(self, pulse: Pulse, send: Callable[[Log], None]) -> None:
+        self.is_connected = False
+        self._pulse = pulse
+        self._send = send
+
+    def wait(self, commands: queue.SimpleQueue[ToApplication]) -> None:
+        """Waits for the order to connect, and obeys it; other commands stay in the queue."""
+        left: list[ToApplication] = []
+        until_s = time.monotonic() + PATIENCE_S
+        while (left_s := until_s - time.monotonic()) > 0:
+            try:
+                message = commands.get(timeout=min(left_s, TURN_S))
+            except queue.Empty:
+                self._pulse.moved()
+                continue
+            if isinstance(message, ConnectDebugger):
+                self.connect(message)
+                break
+            left.append(message)
+        else:
+            self._send(Log("warning", LATE))
+        for message in left:
+            commands.put(message)
+
+    def connect(self, wanted: ConnectDebugger) -> None:
+        """Connects with the adapter of the session, and reports if that is late or not possible."""
+        try:
+            with self._pulse.busy("connecting"):  # its import takes a second or more
+                is_ready = connect(wanted, Path.cwd())
+            self.is_connected = True
+        except Exception as error:
+            self._send(Log("warning", f"The Python debugger cannot be connected: {error}"))
+        else:
+            if not is_ready:
+                self._send(Log("warning", LATE))
 
 
 def connect(wanted: ConnectDebugger, folder: Path, patience_s: float = PATIENCE_S) -> bool:

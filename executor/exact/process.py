@@ -7,6 +7,7 @@ end. The main thread does all of it, in the order of a lock-step run; the thread
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import logging
 import os
@@ -18,7 +19,8 @@ from typing import TYPE_CHECKING, Any, Final
 import msgspec
 
 from executor import child_messages, messages
-from executor.application.process import GOODBYE_S, SPIN_S, Application, Ended, serve
+from executor.application.host import serve
+from executor.application.process import GOODBYE_S, SPIN_S, Application, Ended
 from executor.child_messages import decode_to_exact
 from executor.exact.fingerprints import Fingerprints
 from executor.exact.gate import Gate
@@ -219,7 +221,7 @@ class ExactApplication(Application):
 
     def _is_waited_for(self) -> bool:
         is_held = self._debugger is not None and self._debugger.is_holding
-        return self._is_in_tick and not (is_held or self._has_python_debugger)
+        return self._is_in_tick and not (is_held or self._python_debugger.is_connected)
 
     def _tick(self) -> None:
         """Runs the callbacks of the actions, then the tick that is due."""
@@ -442,9 +444,9 @@ def main(arguments: list[str] | None = None) -> None:
     serve(
         ExactApplication,
         decode_to_exact,
+        argparse.ArgumentParser(prog="python -m executor.exact.process", description=__doc__),
         arguments,
         environment=lockstep_environment(),
-        prog="python -m executor.exact.process",
     )
 
 

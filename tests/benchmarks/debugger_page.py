@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from tests.e2e.server import Server
 
 ROUNDS = 15
+TYPING_S = 3
 CHECK, PYTHON_FILE = "n4", "actions/CheckObstacle.py"
 # Notes when a press or a message of the session comes, and when an element is painted for the first time.
 WATCH = """() => {
@@ -78,7 +79,8 @@ def main() -> None:
         lines(studio)
         studio.end_session()
         studio.page.close()
-        attaching(browser, server)
+        for typing_s in (0, TYPING_S):
+            attaching(browser, server, typing_s)
 
 
 def opened(browser: Browser, server: Server) -> Studio:
@@ -155,8 +157,8 @@ def lines(studio: Studio) -> None:
     studio.expect_state("application_running")
 
 
-def attaching(browser: Browser, server: Server) -> None:
-    """*Attach*, from its button until the first block has a status."""
+def attaching(browser: Browser, server: Server, typing_s: int) -> None:
+    """*Attach*, from its button until the first block has a status; the dialog is open for `typing_s`."""
     port = free_port()
     found: list[float] = []
     with cpp_program(port):
@@ -164,13 +166,14 @@ def attaching(browser: Browser, server: Server) -> None:
             studio = opened(browser, server)
             studio.at("attach").click()
             studio.at("attach-address").fill(f"127.0.0.1:{port}")
+            studio.page.wait_for_timeout(1000 * typing_s)  # a user writes the address
             studio.at("attach-accept").click()
             at_ms = shown(studio, '[data-testid^="node-"][data-status="RUNNING"]')
             found.append(since(studio, "pressed", at_ms))
             studio.at("attached-detach").click()
             studio.page.wait_for_timeout(1500)  # the session ends, and the next spare process is warm
             studio.page.close()
-    say("attach until the first picture", found, 500)
+    say(f"attach, {typing_s} s after its dialog, until the first picture", found, 500)
 
 
 if __name__ == "__main__":

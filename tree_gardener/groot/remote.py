@@ -154,15 +154,13 @@ def read_transitions(data: bytes) -> tuple[list[Transition], int]:
     """Returns the transitions of a reply, and the number of entries that could not be read."""
     whole = len(data) - len(data) % _TRANSITION.size
     dropped = 1 if whole < len(data) else 0
-    found: list[Transition] = []
-    known = _OF_WIRE.get
-    for low, high, uid, number in _TRANSITION.iter_unpack(data[:whole]):
-        status = known(number)
-        if status is None:
-            dropped += 1
-        else:
-            found.append(Transition(low | high << 32, uid, status))
-    return found, dropped
+    known, make = _OF_WIRE, Transition._make
+    found = [
+        make((low | high << 32, uid, known[number]))
+        for low, high, uid, number in _TRANSITION.iter_unpack(data[:whole])
+        if number in known
+    ]
+    return found, dropped + whole // _TRANSITION.size - len(found)
 
 
 def read_boards(document: Any) -> dict[str, dict[str, Any]]:

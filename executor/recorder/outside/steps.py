@@ -7,9 +7,12 @@ would return something else.
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
-__all__ = ["IDLE", "STATUS_WORDS", "Step", "Steps"]
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = ["IDLE", "STATUS_WORDS", "Change", "Step", "Steps"]
 
 STATUS_WORDS: Final = ("IDLE", "RUNNING", "SUCCESS", "FAILURE", "SKIPPED")
 """The statuses by their numbers, which are the same in BehaviorTree.CPP's logs and in our recordings."""
@@ -17,6 +20,8 @@ IDLE: Final = 0
 RUNNING: Final = 1
 GAP_NS: Final = 1_000_000
 LONGEST_NS: Final = 50_000_000
+Change = tuple[int, int, int]
+"""Time in ns, uid, status."""
 
 
 class Step(NamedTuple):
@@ -40,18 +45,35 @@ class Steps:
 
     def take(self, t_ns: int, uid: int, status: int) -> Step | None:
         """Takes a change; returns the step that ended before it."""
-        is_apart = t_ns - self._last_ns > GAP_NS or t_ns - self._begin_ns > LONGEST_NS
-        is_result = status not in {IDLE, RUNNING}
-        is_again = status != IDLE and uid in self._results
-        is_as_before = is_result and self._before.get(uid) == status
-        ended = self.end() if is_apart or is_again or is_as_before else None
-        if not self._before:
-            self._begin_ns = t_ns
-        self._last_ns = t_ns
-        self._before.setdefault(uid, self._status.get(uid, IDLE))
-        self._status[uid] = status
-        if is_result:
-            self._results[uid] = status
+        ended = self.take_all(((t_ns, uid, status),))
+        return ended[0] if ended else None
+
+    def take_all(self, changes: Iterable[Change]) -> list[Step]:
+        """Takes changes; returns the steps that ended before one of them."""
+        ended: list[Step] = []
+        now, before, results = self._status, self._before, self._results
+        last_ns = self._last_ns
+        for t_ns, uid, status in changes:
+            if (
+                t_ns - last_ns > GAP_NS
+                or t_ns - self._begin_ns > LONGEST_NS
+                # A result after a result, or one as before the step, is of another tick.
+                or (status != IDLE and uid in results)
+                or (status > RUNNING and before.get(uid) == status)
+            ):
+                self._last_ns = last_ns
+                if (step := self.end()) is not None:
+                    ended.append(step)
+                before, results = self._before, self._results
+            if not before:
+                self._begin_ns = t_ns
+            last_ns = t_ns
+            if uid not in before:
+                before[uid] = now.get(uid, IDLE)
+            now[uid] = status
+            if status > RUNNING:
+                results[uid] = status
+        self._last_ns = last_ns
         return ended
 
     def end(self) -> Step | None:

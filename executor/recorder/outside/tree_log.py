@@ -9,9 +9,9 @@ from executor.recorder.outside.errors import OutsideError
 from executor.recorder.outside.steps import STATUS_WORDS, Steps
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
-    from executor.recorder.outside.steps import Step
+    from executor.recorder.outside.steps import Change, Step
     from executor.recorder.outside.tree_xml import LoggedTree
 
 __all__ = ["MOST_BACK_NS", "EntryRow", "TimeLine", "TreeLog", "TreeWriter"]
@@ -115,6 +115,11 @@ class TreeLog:
             text = f"node {number} is not in the tree" if uid is None else f"there is no status {status}"
             raise OutsideError("damaged", self._name, place, text, "The file is damaged there.")
         if (ended := self._steps.take(t_ns, uid, status)) is not None:
+            self._step(ended)
+
+    def changes(self, changes: Iterable[Change]) -> None:
+        """Takes changes of nodes of this tree, by our uids and in the order of their times."""
+        for ended in self._steps.take_all(changes):
             self._step(ended)
 
     def entries(self, t_ns: int, rows: Sequence[EntryRow]) -> None:

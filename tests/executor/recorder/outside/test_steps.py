@@ -24,6 +24,16 @@ def test_changes_that_follow_closely_are_one_step():
     ]
 
 
+def test_changes_at_once_make_the_steps_of_changes_one_by_one():
+    changes = [(i * 400_000, i % 5, (2, 0, 1, 3)[i % 4]) for i in range(500)]
+    one_by_one, at_once = Steps(), Steps()
+    expected = [step for change in changes if (step := one_by_one.take(*change)) is not None]
+    found = at_once.take_all(changes[:123]) + at_once.take_all(changes[123:])
+    assert found == expected
+    assert len(found) > 50
+    assert at_once.end() == one_by_one.end()
+
+
 def test_a_result_that_did_not_stay_flashes():
     (step,) = steps_of([(0, 1, 1), (1, 2, 3), (2, 2, 0), (3, 1, 3), (4, 1, 0)])
     assert (step.changed, step.flashed) == ([], [(2, 3), (1, 3)])

@@ -12,6 +12,7 @@ from executor.evaluation.summary import Summary, pair
 from executor.evaluation.tuning.space import TuningError, apply
 from executor.evaluation.tuning.space import today as values_today
 from executor.evaluation.tuning.study import Study
+from executor.evaluation.variation import port_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from executor.evaluation.tuning.space import Port, Value
     from executor.evaluation.tuning.study import Trial
 
+FORMAT: Final = "bt-studio/tuning"
 FRESH: Final = 1_000_000
 """The first seed of the comparison at the end; trials have seeds below it."""
 SUCCESS: Final = "success"
@@ -166,20 +168,30 @@ def study_key(plan: Plan, ports: Sequence[Port], objective: Objective, *, runs: 
 
 
 def tuning_data(tuned: Tuned, plan: Plan) -> dict[str, Any]:
-    """Returns all that the page of a study shows."""
+    """Returns all that the page of a study and the panel *Evaluate* show."""
     return {
+        "format": FORMAT,
+        "version": 1,
         "project": plan.project.settings.name,
         "evaluation": f"{plan.name}, tuned",
         "objective": tuned.objective.name,
         "maximise": tuned.objective.maximise,
-        "ports": [{"address": port.address, "low": port.low, "high": port.high} for port in tuned.ports],
+        "ports": [
+            {
+                "address": port.address,
+                "tree": port.tree,
+                "node": port.node,
+                "port": port.port,
+                "low": port.low,
+                "high": port.high,
+            }
+            for port in tuned.ports
+        ],
         "trials": [
             {"number": each.number, "values": each.values, "rating": each.rating} for each in tuned.trials
         ],
         "today": {"values": values_today(plan.project, tuned.ports), **_shown(tuned.today)},
-        "best": [
-            {"values": {} if each.trial is None else each.trial.values, **_shown(each)} for each in tuned.best
-        ],
+        "best": [_best(each) for each in tuned.best],
         "improvement": tuned.is_improvement,
         "verdict": verdict(tuned),
     }
@@ -196,6 +208,12 @@ def verdict(tuned: Tuned) -> str:
     if tuned.is_improvement:
         return f"the best values change {tuned.objective.name} by {text} on {runs} fresh seeds"
     return f"no improvement shown: {tuned.objective.name} changes by {text} on {runs} fresh seeds"
+
+
+def _best(candidate: Candidate) -> dict[str, Any]:
+    values = {} if candidate.trial is None else candidate.trial.values
+    texts = {address: port_text(value) for address, value in values.items()}
+    return {"values": values, "texts": texts, **_shown(candidate)}
 
 
 def _shown(candidate: Candidate) -> dict[str, Any]:

@@ -2,6 +2,7 @@ import { Button, Group, Loader, NativeSelect, Text } from '@mantine/core';
 import { useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { evaluationNames, evaluationPath } from '@/model/evaluation/files';
+import type { Study } from '@/model/evaluation/study';
 import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
 import { useKeptFocus } from '@/ui/hooks/useKeptFocus';
@@ -14,6 +15,8 @@ import { NewEvaluation } from './NewEvaluation';
 import { refusalText } from '@/i18n/evaluationReasons';
 import { Results } from './Results';
 import { StartForm } from './StartForm';
+import { OpenStudy } from './study/OpenStudy';
+import { StudyResults } from './study/StudyResults';
 import { earlierOf, isLive, useEvaluations } from './useEvaluations';
 
 /** The evaluations of the project: chosen or made, run, looked at, compared and played again. */
@@ -28,7 +31,8 @@ export function EvaluatePanel() {
   const all = useEvaluations(isVisible);
   const [wanted, setWanted] = useState<string | null>(null);
   const [id, setId] = useState<string | null>(null);
-  const [mode, setMode] = useState<'results' | 'form' | 'new'>('results');
+  const [mode, setMode] = useState<'results' | 'form' | 'new' | 'study'>('results');
+  const [study, setStudy] = useState<Study | null>(null);
   const [isStarting, setStarting] = useState(false);
   const name = wanted !== null && names.includes(wanted) ? wanted : (names[0] ?? null);
   const list = all.found.data;
@@ -88,6 +92,12 @@ export function EvaluatePanel() {
                     {t('new.open')}
                   </Button>
                 ) : null}
+                <OpenStudy
+                  onOpen={(opened) => {
+                    setStudy(opened);
+                    setMode('study');
+                  }}
+                />
               </Group>
             </>
           ) : null}
@@ -111,7 +121,9 @@ export function EvaluatePanel() {
         <div className={classes['main']}>
           {all.found.isPending && isVisible ? <Loader size={16} aria-label={t('loading')} /> : null}
           {all.found.isError ? <p role="alert">{refusalText(t, all.found.error)}</p> : null}
-          {mode === 'new' || (name === null && list) ? (
+          {mode === 'study' && study ? (
+            <StudyResults study={study} onClose={() => setMode('results')} />
+          ) : mode === 'new' || (name === null && list) ? (
             <NewEvaluation
               names={names}
               mayMake={mayStart}

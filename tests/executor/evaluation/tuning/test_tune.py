@@ -1,5 +1,8 @@
 """Tuning: ratings, the comparison on fresh seeds, and what is said of it."""
 
+import json
+from pathlib import Path
+
 import pytest
 
 from executor.evaluation.outcome import Outcome
@@ -9,6 +12,7 @@ from executor.evaluation.tuning.study import Trial
 from executor.evaluation.tuning.tune import Candidate, Objective, Tuned, study_key, tune, tuning_data, verdict
 from tests.executor.evaluation.projects import project
 
+SHARED = Path(__file__).parents[3] / "shared"
 TEXT = "duration_s: 1\nruns: 2\nseed: {}\njudge: {{success: [{{never: collision}}]}}\n"
 PORT = Port("MainTree.go.speed", "MainTree", "a", "speed", 0.1, 0.6)
 
@@ -62,8 +66,15 @@ def test_the_page_has_the_trials_and_both_sides():
     data = tuning_data(tuned(10, 35), plan)
     assert data["today"]["rate"] == 0.25
     assert data["best"][0]["values"] == {PORT.address: 0.4}
+    assert data["best"][0]["texts"] == {PORT.address: "0.4"}
     assert data["best"][0]["low"] < 0.875 < data["best"][0]["high"]
     assert data["trials"] == [{"number": 2, "values": {PORT.address: 0.4}, "rating": 0.875}]
+
+
+def test_the_panel_reads_what_is_written():
+    """Its tests read the same file."""
+    plan = make_plan(project(TEXT.format(0)), "main")
+    assert tuning_data(tuned(10, 35), plan) == json.loads((SHARED / "study.json").read_text())
 
 
 def test_a_study_is_of_one_project_port_and_objective():

@@ -33,22 +33,33 @@ def merge_order(
         is_conflict = ours_kept == theirs_kept
         spine = theirs_now if ours_kept and not theirs_kept else ours_now
     result: list[str] = []
-    gaps = [_gaps(side, both) for side in (ours, theirs)]
-    for anchor in ("", *spine):
+    gaps = [_gaps(side, spine, base) for side in (ours, theirs)]
+    for place, anchor in enumerate(("", *spine)):
         if anchor:
             result.append(anchor)
         for gap in gaps:
-            result.extend(gap.get(anchor, ()))
+            result.extend(gap.get(place, ()))
     return result + sorted(set(members) - set(result)), is_conflict
 
 
-def _gaps(side: Sequence[str], both: Collection[str]) -> dict[str, list[str]]:
-    """Returns the nodes that only one side has, by the node of both before them."""
-    gaps: dict[str, list[str]] = {}
-    anchor = ""
-    for each in side:
-        if each in both:
-            anchor = each
-        else:
-            gaps.setdefault(anchor, []).append(each)
+def _gaps(side: Sequence[str], spine: Sequence[str], base: Sequence[str]) -> dict[int, list[str]]:
+    """Returns the nodes that only one side has, by how many nodes of both stand before them.
+
+    Each follows the node that it follows on its side. One that was exchanged with nodes of both stays so,
+    also where the other side has moved these.
+    """
+    gaps: dict[int, list[str]] = {}
+    places = {each: place for place, each in enumerate(spine, start=1)}
+    old = {each: place for place, each in enumerate(base)}
+    least = place = 0
+    for index, each in enumerate(side):
+        if each in places:
+            least = place = places[each]
+            continue
+        place = max(place, least)
+        if each in old:
+            over = [places[x] for x in side[:index] if x in places and old.get(x, -1) > old[each]]
+            under = [places[x] for x in side[index:] if x in places and old.get(x, len(old)) < old[each]]
+            place = min([max([place, *over]), *(below - 1 for below in under)])
+        gaps.setdefault(place, []).append(each)
     return gaps

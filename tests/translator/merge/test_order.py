@@ -19,6 +19,8 @@ from translator.merge.order import merge_order
         (("abc", "abcx", "cab"), "abcx", ("cxab", False)),
         (("abc", "abc", "ac"), "ac", ("ac", False)),
         (("ab", "nab", "abn"), "abn", ("nab", True)),
+        (("xabc", "acb", "abcx"), "abcx", ("acbx", False)),  # x was put behind the others
+        (("abx", "ba", "axb"), "abx", ("xba", False)),  # x was put before b
         (("", "", ""), "q", ("q", False)),
     ],
 )

@@ -42,7 +42,6 @@ export interface Study {
   readonly best: readonly Candidate[];
 }
 
-export const STUDY_FILE = 'tuning.json';
 export const MOST_STUDY_BYTES = 16 << 20;
 const FORMAT = 'bt-studio/tuning';
 const VERSION = 1;

@@ -135,7 +135,7 @@ def evaluate(  # noqa: PLR0913, PLR0917 - one an option
 
         write_file(junit, junit_xml(plan.name, summary, verdicts))
     if is_interrupted:
-        raise CliError(_how_to_continue(project, plan, report))
+        raise CliError(_how_to_continue(report))
     if not (all(verdict.passes for verdict in verdicts) if verdicts else summary.is_complete):
         raise CliError()
 
@@ -398,8 +398,9 @@ def _finish(  # noqa: PLR0913, PLR0917 - all that the results are of
     return verdicts
 
 
-def _how_to_continue(project: str, plan: Plan, report: Path | None) -> str:
+def _how_to_continue(report: Path | None) -> str:
     if report is None:
         return "interrupted; with --report DIR, what is done is kept, and --resume continues"
-    words = ["bt-studio", "evaluate", project, plan.name, "--report", str(report), "--resume"]
-    return f"interrupted; what is done is kept. To continue: {shlex.join(words)}"
+    words = ["bt-studio", *sys.argv[1:]]
+    command = shlex.join(words if "--resume" in words else [*words, "--resume"])
+    return f"interrupted; what is done is kept. To continue: {command}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 import signal
 import subprocess
 import time
@@ -84,7 +85,8 @@ def test_an_interrupted_evaluation_continues(tmp_path):
         process.send_signal(signal.SIGINT)
         said, wrong = process.communicate(timeout=60)
     assert process.returncode == 1
-    assert "--resume" in wrong
+    words = shlex.join(["bt-studio", *command[len(STUDIO) :], "--resume"])
+    assert f"To continue: {words}" in wrong
     assert "incomplete" in said
     done = (report / "runs.jsonl").read_bytes()
     assert 2 <= len(done.splitlines()) < runs
@@ -102,6 +104,30 @@ def test_an_interrupted_evaluation_continues(tmp_path):
     assert other.returncode == 2
     assert "another version of the project" in other.stderr
     assert (report / "runs.jsonl").read_bytes() == whole
+
+
+def test_results_of_another_platform_are_named_and_refused_if_asked_for(tmp_path):
+    folder, report = (
+        write(tmp_path / "p", "duration_s: 1\nruns: 2\njudge: {success: [{never: collision}]}\n"),
+        tmp_path / "r",
+    )
+    first = studio("evaluate", folder, "--report", report)
+    assert first.returncode == 0, first.stderr
+    header = json.loads((report / "evaluation.json").read_text())
+    header["fingerprints"] = [{**header["fingerprints"][0], "id": "other", "numpy": "1.0"}]
+    (report / "evaluation.json").write_text(json.dumps(header))
+    strict = studio("evaluate", folder, "--report", report, "--resume", "--strict")
+    assert strict.returncode == 2
+    assert "the results are of another platform (--strict)" in strict.stderr
+    assert "numpy: 1.0 then" in strict.stderr
+    resumed = studio("evaluate", folder, "--report", report, "--resume")
+    assert resumed.returncode == 0
+    assert "warning: the results were made on another platform: numpy: 1.0 then" in resumed.stderr.replace(
+        "\n", " "
+    )
+    prints = json.loads((report / "evaluation.json").read_text())["fingerprints"]
+    assert [each["id"] == "other" for each in prints] == [True, False]
+    assert all(each["id"] in (report / "report.html").read_text() for each in prints)
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ import { HeldBanner } from '@/features/debug/HeldBanner';
 import { PythonBanner } from '@/features/python/PythonBanner';
 import { ExportDialog } from '@/features/export/ExportDialog';
 import { ApplyDialog } from '@/features/run/ApplyDialog';
+import { TryDialog } from '@/features/tries/TryDialog';
 import { RunsDialog } from '@/features/runs/RunsDialog';
 import { ArrivalsDialog } from '@/features/library/ArrivalsDialog';
 import { ImportReport } from '@/features/importReport/ImportReport';
@@ -217,6 +218,7 @@ function Workbench({ projectId, joined }: WorkbenchProps) {
       <ExportDialog />
       <RunsDialog />
       <ApplyDialog />
+      <TryDialog />
       <UniverseDialog />
       <NewUniverse />
       <NewRobot />

@@ -12,7 +12,7 @@ import { useSessionStore } from '@/store/session/store';
 
 /** The commands for marks, range, changes and zoom, in groups. */
 export const AXIS_MENU = [
-  ['time.goBack', 'time.runOn', 'time.branch'],
+  ['time.goBack', 'time.runOn', 'time.tryMany', 'time.branch'],
   ['time.flag', 'time.marks', 'time.markBack', 'time.markForth'],
   ['time.markA', 'time.markB', 'time.loop', 'time.clearRange'],
   ['time.whatChanged'],

@@ -9,6 +9,7 @@ import {
   IconArrowBackUp,
   IconArrowForwardUp,
   IconGitBranch,
+  IconArrowsSplit2,
 } from '@tabler/icons-react';
 import { registerCommands, type UserCommand } from '@/commands/registry';
 import { t } from '@/i18n';
@@ -16,6 +17,7 @@ import { linkTo, shownAddress } from '@/store/moment/address';
 import { canChangeBranch, changeBranch } from '@/store/dialogs/branches';
 import { canGoBack, canRunOn, goBack, runOn } from '@/store/moment/goBack';
 import { extent, goTicks, goToChange, lookNow, setPlaying } from '@/store/moment/looking';
+import { askTries, canTry } from '@/store/moment/tryMany';
 import { usePastTree } from '@/store/moment/pastTree';
 import { isLookingBack, useMoment } from '@/store/moment/store';
 import { useSource } from '@/store/moment/source';
@@ -70,6 +72,15 @@ const rows: readonly UserCommand[] = [
     shortcut: 'Alt+Shift+KeyB',
     enabled: canRunOn,
     run: () => void runOn(),
+  },
+  {
+    id: 'time.tryMany',
+    group: 'run',
+    labelKey: 'axis:command.tryMany',
+    icon: IconArrowsSplit2,
+    shortcut: 'Alt+KeyY',
+    enabled: canTry,
+    run: () => askTries(selectedUid()),
   },
   {
     id: 'time.branch',

@@ -7,6 +7,7 @@ import { feedDap } from './dap';
 import { feedLive, forgetPending, showDueStatuses } from './liveFeed';
 import { appendLogs, initialSession, reduceAll } from './reduce';
 import { feedTopics } from './topics';
+import { feedTries, loseJob } from './tries';
 import type { SessionData } from './types';
 import { feedValues, forgetValues } from './values/live';
 import { useShownValues } from './values/shown';
@@ -40,6 +41,7 @@ export function flush(): void {
     feedLastTick(message);
     feedTopics(message);
     feedDap(message);
+    feedTries(message);
   }
   showDueStatuses();
   feedValues(useSessionStore.getState);
@@ -73,6 +75,7 @@ export function resetSession(change: Partial<SessionData> = {}): void {
   // The console stays readable after the session has ended.
   useSessionStore.setState({ ...initialSession, tickHz, speed, projectId, logs, nextLogId, ...change }, true);
   forgetPending();
+  loseJob('');
   forgetValues();
   useLiveStore.getState().clear();
 }

@@ -1,0 +1,116 @@
+import { create } from 'zustand';
+import { setPort } from '@/model/edits';
+import type { PortSpec } from '@/model/ports';
+import { specOf } from '@/model/vocabulary';
+import { t as text } from '@/i18n';
+import { useProjectStore } from '@/store/project';
+import { reported } from '@/store/run/commands';
+import { send } from '@/store/session/connection';
+import { beginJob, changeJob, useTries, type TriedPlace } from '@/store/session/tries';
+import { beginsAgain, canGoBack } from './goBack';
+import { extent, lookNow } from './looking';
+import { useMoment } from './store';
+
+/** A block whose ports can be tried. */
+export interface TriedBlock {
+  readonly uid: number;
+  readonly treeId: string;
+  readonly nodeId: string;
+  readonly path: string;
+  readonly ports: readonly PortSpec[];
+  readonly values: Readonly<Record<string, string>>;
+}
+
+interface Asking {
+  readonly run: string;
+  readonly t: number;
+  readonly blocks: readonly TriedBlock[];
+  /** The number of the block that is chosen first. */
+  readonly uid: number | null;
+}
+
+/** The open dialog; null while it is closed. */
+export const useTryMany = create<{ readonly asking: Asking | null }>(() => ({ asking: null }));
+
+/** Whether values can be tried from the shown moment: of an exact run, by the driver. */
+export const canTry = (): boolean => canGoBack() && !beginsAgain();
+
+/** Opens the dialog for the shown moment; `uid` is the selected block. */
+export function askTries(uid: number | null): void {
+  const { t, tree } = useMoment.getState();
+  const run = extent()?.run;
+  if (t === null || run === undefined || !canTry()) return;
+  const { diagrams, vocabulary } = useProjectStore.getState();
+  const blocks = tree.flatMap((each): TriedBlock[] => {
+    const node = diagrams[each.tree_id]?.nodes[each.node_id];
+    if (node?.type !== each.type) return [];
+    const ports = (specOf(vocabulary, node)?.ports ?? []).filter(({ direction }) => direction !== 'output');
+    const { uid: number, tree_id: treeId, node_id: nodeId, path } = each;
+    return ports.length > 0 ? [{ uid: number, treeId, nodeId, path, ports, values: node.ports ?? {} }] : [];
+  });
+  const chosen = blocks.find((block) => block.uid === uid) ?? blocks[0];
+  useTryMany.setState({ asking: { run, t, blocks, uid: chosen?.uid ?? null } });
+}
+
+export const closeTries = () => useTryMany.setState({ asking: null });
+
+const newName = () =>
+  Array.from(crypto.getRandomValues(new Uint8Array(8)), (byte) => byte.toString(16).padStart(2, '0')).join(
+    '',
+  );
+
+/** Begins to try values; what comes of it is in `useTries`. */
+export async function beginTries(
+  place: TriedPlace,
+  values: readonly string[],
+  durationS: number,
+): Promise<void> {
+  const job = newName();
+  const { run, t, nodeId, path, port } = place;
+  beginJob(job, place, values);
+  try {
+    await send('try_values', {
+      job,
+      run,
+      t,
+      path,
+      port,
+      node_id: nodeId,
+      values: [...values],
+      duration_s: durationS,
+    });
+  } catch (error) {
+    const message = error instanceof Error ? error.message : String(error);
+    const hint = error instanceof Error && 'hint' in error ? String(error.hint) : '';
+    changeJob(job, () => ({ ended: { job, end: 'refused', message: `${message} ${hint}`.trim() } }));
+  }
+}
+
+/** Ends the job that runs. */
+export function stopTries(): void {
+  const { job } = useTries.getState();
+  if (job && job.ended === null) void reported(send('stop_trying', { job: job.id }));
+}
+
+/** Takes the run of the session back to the moment, gives the port the value, and lets it run on. */
+export async function openAsBranch({ run, t, nodeId, path, port }: TriedPlace, value: string | null) {
+  closeTries();
+  lookNow();
+  const doing = async () => {
+    await send('go_back', { run, t });
+    if (value !== null) await send('set_port', { node_id: nodeId, path, port, value });
+    await send('resume', {});
+  };
+  await reported(doing());
+}
+
+/** Whether the block is still there to take a value. */
+export const canUse = ({ treeId, nodeId }: TriedPlace): boolean =>
+  useProjectStore.getState().diagrams[treeId]?.nodes[nodeId] !== undefined;
+
+/** Writes a value into the tree, as an edit that can be undone. */
+export function writeValue({ treeId, nodeId, port }: TriedPlace, value: string): void {
+  const { apply } = useProjectStore.getState();
+  lookNow();
+  apply(treeId, text('axis:tries.edit', { port }), [setPort(nodeId, port, value)]);
+}

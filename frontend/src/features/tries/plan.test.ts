@@ -1,6 +1,5 @@
 import { expect, it } from 'vitest';
 import { outcomeOf } from '../../../harness/tries';
-import { colorOf } from './colors';
 import { pointsOf, viewOf } from './plan';
 
 it('shows all paths with room around them, and y upwards', () => {
@@ -12,8 +11,4 @@ it('shows all paths with room around them, and y upwards', () => {
       [3, -4],
     ]),
   ).toBe('1,-2 3,4');
-});
-
-it('gives each row a colour of its own', () => {
-  expect(new Set(Array.from({ length: 51 }, (_, index) => colorOf(index))).size).toBe(51);
 });

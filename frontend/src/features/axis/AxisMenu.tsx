@@ -5,7 +5,7 @@ import { useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
 import { canChangeBranch } from '@/store/dialogs/branches';
 import { canFlag } from '@/store/moment/flags';
-import { canGoBack, canRunOn } from '@/store/moment/goBack';
+import { canGoBack, canRunOn } from '@/store/moment/rerun/goBack';
 import { useRange } from '@/store/moment/range';
 import { useMoment } from '@/store/moment/store';
 import { useSessionStore } from '@/store/session/store';

@@ -4,7 +4,7 @@ import type { ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
 import { perform, useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
-import { beginsAgain, canGoBack, cancelGoBack, canRunOn, mayGoBack } from '@/store/moment/goBack';
+import { beginsAgain, canGoBack, cancelGoBack, canRunOn, mayGoBack } from '@/store/moment/rerun/goBack';
 import { useMoment } from '@/store/moment/store';
 import { useSource } from '@/store/moment/source';
 import { useRunStore } from '@/store/run/store';

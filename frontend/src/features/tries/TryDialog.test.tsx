@@ -3,7 +3,7 @@ import { afterEach, beforeEach, expect, it, vi, type MockInstance } from 'vitest
 import { show, user } from '../../../harness/testing';
 import { outcomeOf, place } from '../../../harness/tries';
 import * as connection from '@/store/session/connection';
-import { useTryMany, type TriedBlock } from '@/store/moment/tryMany';
+import { useTryMany, type TriedBlock } from '@/store/moment/rerun/tryMany';
 import { beginJob, changeJob, useTries } from '@/store/session/tries';
 import { TryDialog } from './TryDialog';
 

@@ -1,7 +1,7 @@
 import { Button, Group, Modal, NativeSelect, Progress, Stack, Text } from '@mantine/core';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { closeTries, stopTries, useTryMany, type TriedBlock } from '@/store/moment/tryMany';
+import { closeTries, stopTries, useTryMany, type TriedBlock } from '@/store/moment/rerun/tryMany';
 import { useTries } from '@/store/session/tries';
 import { TryResults } from './TryResults';
 import { ValuesForm } from './ValuesForm';

@@ -2,7 +2,7 @@ import { Button, Group, Table, Text } from '@mantine/core';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { TryOutcome } from '@/generated/messages';
-import { canUse, openAsBranch, writeValue } from '@/store/moment/tryMany';
+import { canUse, openAsBranch, writeValue } from '@/store/moment/rerun/tryMany';
 import { useTries, type TriesJob } from '@/store/session/tries';
 import { colorOf } from './colors';
 import { TryPlan } from './TryPlan';
@@ -62,7 +62,7 @@ function Row({ job, index, value }: RowProps) {
   const did = outcome !== undefined && outcome.ticks > 0;
   return (
     <Table.Tr data-testid={`tries-row-${index}`}>
-      <Table.Td>
+      <Table.Td className={classes['name']}>
         <span className={classes['swatch']} style={{ background: colorOf(index) }} aria-hidden="true" />{' '}
         {index}
       </Table.Td>

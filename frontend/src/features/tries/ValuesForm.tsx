@@ -12,7 +12,7 @@ import {
   valuesOfList,
   valuesOfRange,
 } from '@/model/tries';
-import { beginTries } from '@/store/moment/tryMany';
+import { beginTries } from '@/store/moment/rerun/tryMany';
 import type { TriedPlace } from '@/store/session/tries';
 
 interface ValuesFormProps {

@@ -3,9 +3,9 @@ import { isPaused, reported } from '@/store/run/commands';
 import { runOnProject } from '@/store/run/run';
 import { useRunStore } from '@/store/run/store';
 import { send } from '@/store/session/connection';
-import { extent, lookNow } from './looking';
-import { useSource } from './source';
-import { useMoment } from './store';
+import { extent, lookNow } from '../looking';
+import { useSource } from '../source';
+import { useMoment } from '../store';
 
 /** Whether there is a run in which world and program can go back to a past moment, by this user. */
 export function mayGoBack(): boolean {

@@ -8,8 +8,8 @@ import { reported } from '@/store/run/commands';
 import { send } from '@/store/session/connection';
 import { beginJob, changeJob, useTries, type TriedPlace } from '@/store/session/tries';
 import { beginsAgain, canGoBack } from './goBack';
-import { extent, lookNow } from './looking';
-import { useMoment } from './store';
+import { extent, lookNow } from '../looking';
+import { useMoment } from '../store';
 
 /** A block whose ports can be tried. */
 export interface TriedBlock {

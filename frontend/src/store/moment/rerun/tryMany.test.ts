@@ -5,10 +5,10 @@ import { CommandError } from '@/store/session/control';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import { useTries } from '@/store/session/tries';
-import { segmentOf } from '../../../harness/runs';
-import { place } from '../../../harness/tries';
-import { ofSession, useSource } from './source';
-import { atPresent, useMoment } from './store';
+import { segmentOf } from '../../../../harness/runs';
+import { place } from '../../../../harness/tries';
+import { ofSession, useSource } from '../source';
+import { atPresent, useMoment } from '../store';
 import { askTries, beginTries, canTry, openAsBranch, stopTries, useTryMany } from './tryMany';
 
 let send: MockInstance<typeof connection.send>;

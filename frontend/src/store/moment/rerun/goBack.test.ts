@@ -5,11 +5,11 @@ import { CommandError } from '@/store/session/control';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
 import { useRunStore } from '@/store/run/store';
-import { fakeServer, openProject } from '../../../harness/testing';
-import { segmentOf } from '../../../harness/runs';
+import { fakeServer, openProject } from '../../../../harness/testing';
+import { segmentOf } from '../../../../harness/runs';
 import { canGoBack, cancelGoBack, canRunOn, goBack, runOn } from './goBack';
-import { ofSession, useSource } from './source';
-import { atPresent, useMoment } from './store';
+import { ofSession, useSource } from '../source';
+import { atPresent, useMoment } from '../store';
 
 let send: MockInstance<typeof connection.send>;
 const plan = { dry: true, kept: 1, renewed: [], added: [], removed: [], halted: [], late_ports: [] };

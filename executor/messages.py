@@ -96,6 +96,16 @@ from executor.topic_events import (
     Topics,
     TypeDescription,
 )
+from executor.tree_events import (
+    Blackboard,
+    BlackboardEntry,
+    NodeStatus,
+    PortEffect,
+    PortSet,
+    Tick,
+    Tree,
+    TreeNode,
+)
 from executor.trying_events import (
     Crash,
     StopTrying,
@@ -114,6 +124,8 @@ __all__ = [
     "AttachState",
     "Attached",
     "AttachedTree",
+    "Blackboard",
+    "BlackboardEntry",
     "Branch",
     "Breakpoint",
     "Camera",
@@ -146,9 +158,12 @@ __all__ = [
     "MismatchCode",
     "MoveBody",
     "NameBranch",
+    "NodeStatus",
     "NodeTime",
     "OnError",
     "OnFinish",
+    "PortEffect",
+    "PortSet",
     "Poses",
     "Profile",
     "PublishTopic",
@@ -183,10 +198,13 @@ __all__ = [
     "Subscribe",
     "Teleop",
     "Texture",
+    "Tick",
     "TopicInfo",
     "TopicMessage",
     "TopicMismatch",
     "Topics",
+    "Tree",
+    "TreeNode",
     "TryOutcome",
     "TryValues",
     "TryingEnded",
@@ -205,13 +223,11 @@ State = Literal[
     "idle", "connected", "universe_ready", "visualization_ready", "application_running", "paused", "held"
 ]
 Rung = Literal["connect", "launch_universe", "prepare_visualization", "run_application"]
-NodeStatus = Literal["IDLE", "RUNNING", "SUCCESS", "FAILURE", "SKIPPED"]
 LogSource = Literal["action", "world", "manager", "launch"]
 LogLevel = Literal["debug", "info", "warning", "error"]
 Role = Literal["driver", "viewer"]
 LaunchState = Literal["running", "ended", "failed"]
 FaultKind = Literal["exception", "process", "timeout", "load"]
-PortEffect = Literal["next_tick", "next_start"]
 FinishReason = Literal["root_finished", "action_raised", "terminated", "process_died"]
 
 
@@ -266,73 +282,6 @@ class Progress(Struct):
     rung: Rung
     fraction: float
     message: str
-
-
-class TreeNode(Struct):
-    """One node of the running tree. `node_id` is its id in the diagram, `tree_id` the id of that diagram."""
-
-    uid: int
-    parent: int
-    type: str
-    kind: str
-    name: str
-    path: str
-    node_id: str
-    tree_id: str
-
-
-class Tree(Struct):
-    """The running tree, in pre-order; subtrees are expanded in place."""
-
-    nodes: list[TreeNode]
-
-
-class Tick(Struct):
-    """The changes of one tick, or of a halt after it; a halt has the number `n` of that tick.
-
-    `past` holds the nodes that are idle again, with their last status in the tick; it replaces the `past` of
-    the previous message.
-    """
-
-    n: int
-    changed: list[tuple[int, NodeStatus]]
-    flashed: list[tuple[int, NodeStatus]]
-    duration_ms: float
-    past: list[tuple[int, NodeStatus]] = []
-
-
-class BlackboardEntry(Struct):
-    """One changed entry; a large value is sent as a preview (text), and `preview` is then true."""
-
-    scope: str
-    key: str
-    type: str
-    value: Any
-    preview: bool = False
-    removed: bool = False
-
-
-class Blackboard(Struct):
-    """Entries that changed since the previous message of this kind."""
-
-    entries: list[BlackboardEntry]
-
-
-class PortSet(Struct):
-    """A port of a node of the running tree was given another text.
-
-    `saved` is the text with which the tree was built; null stands for none. `effect` says when the node uses
-    the new text: from the next tick on, or, because its action read the port only before the first tick, when
-    the program starts again.
-    """
-
-    node_id: str
-    tree_id: str
-    path: str
-    port: str
-    value: str | None
-    saved: str | None
-    effect: PortEffect
 
 
 class Log(Struct):

@@ -185,6 +185,7 @@ def _type_name(kind: Any) -> str:
         "executor.profile_messages.",
         "executor.recording_events.",
         "executor.topic_events.",
+        "executor.tree_events.",
         "typing.",
         "msgspec.",
     ):

@@ -25,6 +25,7 @@ from executor import (
     recording_events,
     stream_messages,
     topic_events,
+    tree_events,
     trying_events,
 )
 
@@ -43,6 +44,7 @@ _MODULES: Final = (
     trying_events,
     recording_events,
     topic_events,
+    tree_events,
     messages,
     stream_messages,
 )

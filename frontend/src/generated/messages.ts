@@ -33,11 +33,13 @@ export type StopReason = "disk_full" | "disk_failed" | "recorder_died" | "record
 
 export type MismatchCode = "type" | "reliability" | "durability" | "qos";
 
+export type NodeStatus = "IDLE" | "RUNNING" | "SUCCESS" | "FAILURE" | "SKIPPED";
+
+export type PortEffect = "next_tick" | "next_start";
+
 export type State = "idle" | "connected" | "universe_ready" | "visualization_ready" | "application_running" | "paused" | "held";
 
 export type Rung = "connect" | "launch_universe" | "prepare_visualization" | "run_application";
-
-export type NodeStatus = "IDLE" | "RUNNING" | "SUCCESS" | "FAILURE" | "SKIPPED";
 
 export type LogSource = "action" | "world" | "manager" | "launch";
 
@@ -48,8 +50,6 @@ export type Role = "driver" | "viewer";
 export type LaunchState = "running" | "ended" | "failed";
 
 export type FaultKind = "exception" | "process" | "timeout" | "load";
-
-export type PortEffect = "next_tick" | "next_start";
 
 export type FinishReason = "root_finished" | "action_raised" | "terminated" | "process_died";
 
@@ -886,56 +886,6 @@ export interface TopicMismatch {
   resolved: boolean;
 }
 
-/** The command was done. */
-export type Ack = Record<string, never>;
-
-/** The command was refused or failed; it changed nothing. */
-export interface Error {
-  code: string;
-  message: string;
-  hint: string;
-}
-
-/**
- * First message on a connection, sent again when the client's role or the properties of the world change.
- *
- * `renderer` and `tf` describe the running world: "" and false before it is ready.
- *
- * `client_id` names this client when it opens the stream socket.
- *
- * A ROS program on the session's host joins the session's graph with the variables of `ros_environment`;
- * they are empty if the session is isolated.
- */
-export interface Introspection {
-  protocol: string;
-  client_id: string;
-  role: Role;
-  state: State;
-  version: string;
-  ros_distro: string;
-  ros_domain_id: number;
-  renderer: string;
-  tf: boolean;
-  ros_environment: Record<string, string>;
-}
-
-/**
- * The session entered another state of the ladder.
- *
- * `reason` is for users, and empty if a command caused it.
- */
-export interface StateChanged {
-  state: State;
-  reason: string;
-}
-
-/** Progress of a long step: the fraction of this rung, 0 to 1, and a sentence. */
-export interface Progress {
-  rung: Rung;
-  fraction: number;
-  message: string;
-}
-
 /** One node of the running tree. `node_id` is its id in the diagram, `tree_id` the id of that diagram. */
 export interface TreeNode {
   uid: number;
@@ -997,6 +947,56 @@ export interface PortSet {
   value: string | null;
   saved: string | null;
   effect: PortEffect;
+}
+
+/** The command was done. */
+export type Ack = Record<string, never>;
+
+/** The command was refused or failed; it changed nothing. */
+export interface Error {
+  code: string;
+  message: string;
+  hint: string;
+}
+
+/**
+ * First message on a connection, sent again when the client's role or the properties of the world change.
+ *
+ * `renderer` and `tf` describe the running world: "" and false before it is ready.
+ *
+ * `client_id` names this client when it opens the stream socket.
+ *
+ * A ROS program on the session's host joins the session's graph with the variables of `ros_environment`;
+ * they are empty if the session is isolated.
+ */
+export interface Introspection {
+  protocol: string;
+  client_id: string;
+  role: Role;
+  state: State;
+  version: string;
+  ros_distro: string;
+  ros_domain_id: number;
+  renderer: string;
+  tf: boolean;
+  ros_environment: Record<string, string>;
+}
+
+/**
+ * The session entered another state of the ladder.
+ *
+ * `reason` is for users, and empty if a command caused it.
+ */
+export interface StateChanged {
+  state: State;
+  reason: string;
+}
+
+/** Progress of a long step: the fraction of this rung, 0 to 1, and a sentence. */
+export interface Progress {
+  rung: Rung;
+  fraction: number;
+  message: string;
 }
 
 /** One line of output. */

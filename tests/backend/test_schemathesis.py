@@ -19,7 +19,7 @@ from backend.core import guard
 from backend.projects.storage import queries
 from backend.projects.storage.access import Need
 from backend.projects.storage.writes import create_project
-from backend.sessions import writes
+from backend.sessions import attaching, writes
 from backend.sessions.models import Session
 from tests.backend.accounts.conftest import PUBLIC, Person, team  # noqa: F401 - the fixture of that name
 from tests.budget import count
@@ -49,6 +49,7 @@ def one_transaction(monkeypatch):
         return Session(project=found, user=acting_user, created_at=timezone.now())
 
     monkeypatch.setattr(writes, "start_session", start)
+    monkeypatch.setattr(attaching, "prepare", lambda: None)
     for moment in (signals.request_started, signals.request_finished):
         moment.disconnect(close_old_connections)
     yield

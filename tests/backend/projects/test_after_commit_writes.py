@@ -230,6 +230,7 @@ def test_every_route_that_writes_is_here_or_named():
         "cancel_replay",
         "delete_evaluation",  # one transaction, and nothing is read for the answer
         # These store nothing.
+        "prepare_attach",
         "check_project",
         "test_project",
         "test_with_python",

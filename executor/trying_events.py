@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from msgspec import Meta, Struct
 
 MOST_VALUES = 50
-LONGEST_S = 120.0
+LONGEST_S = 120
 PATH_POINTS = 200
 MOST_OUTLINES = 500
 

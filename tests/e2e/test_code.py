@@ -116,8 +116,10 @@ def test_fixes_formatting_definition_and_renaming(shared_studio: Studio) -> None
     begin(studio)
     page = studio.page
 
-    # A finding offers to remove an unused import; undo restores it.
+    # A finding offers to remove an unused import; undo restores it. The module's text, which comes later, moves
+    # the button.
     page.mouse.move(*spot(studio, "import os", "os"))
+    expect(page.locator(".cm-lsp-hover-tooltip")).to_be_visible()
     page.get_by_role("button", name="Remove unused import: `os`").click()
     expect(line(studio, "import os")).to_have_count(0)
     page.keyboard.press("Control+z")

@@ -100,6 +100,8 @@ def undo_reaches_the_program(studio: Studio) -> None:
 
 
 def a_value_is_kept_or_goes_back(studio: Studio) -> None:
+    # A press ends the wait of the canvas for the focus after the redo.
+    field(studio).click()
     live(studio).get_by_role("button", name="Keep this value").press("Enter")
     expect(marks(studio)).to_have_count(0)
     expect(field(studio)).to_be_focused()

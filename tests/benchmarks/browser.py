@@ -44,9 +44,6 @@ MOVES = frozenset({"pointermove", "wheel"})
 PRESSES = frozenset({"keydown", "click"})
 DROPS = frozenset({"pointerup"})
 TEMPLATE = "laser_bump_and_go"
-# Here WebGL is emulated. Chromium with `--use-angle` would draw the whole page by it, which takes hundreds of
-# milliseconds a picture; where there is no GPU, a user's browser puts the page together by the processor.
-RASTER = ["--disable-gpu-rasterization", "--disable-gpu-compositing"]
 
 
 def main() -> None:
@@ -64,7 +61,7 @@ def served_browser() -> Iterator[tuple[Browser, Client]]:
         tempfile.TemporaryDirectory() as folder,
         serving(Path(folder)) as server,
         sync_playwright() as started,
-        started.chromium.launch(executable_path=CHROMIUM, args=[*QUIET, *RASTER, *SOFTWARE_WEBGL]) as browser,
+        started.chromium.launch(executable_path=CHROMIUM, args=[*QUIET, *SOFTWARE_WEBGL]) as browser,
     ):
         yield browser, Client(server)
 

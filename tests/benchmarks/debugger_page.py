@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 from playwright.sync_api import expect, sync_playwright
 
-from tests.benchmarks.browser import RASTER
 from tests.e2e.conftest import CHROMIUM, QUIET, SOFTWARE_WEBGL
 from tests.e2e.server import serving
 from tests.e2e.studio import WAIT_MSEC, Studio
@@ -72,7 +71,7 @@ def main() -> None:
         tempfile.TemporaryDirectory() as folder,
         serving(Path(folder)) as server,
         sync_playwright() as started,
-        started.chromium.launch(executable_path=CHROMIUM, args=[*QUIET, *RASTER, *SOFTWARE_WEBGL]) as browser,
+        started.chromium.launch(executable_path=CHROMIUM, args=[*QUIET, *SOFTWARE_WEBGL]) as browser,
     ):
         studio = opened(browser, server)
         blocks(studio)

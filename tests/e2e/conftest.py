@@ -26,7 +26,14 @@ QUIET = [
     "--disable-component-update",
     "--disable-sync",
 ]
-SOFTWARE_WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+# WebGL is emulated. Chromium with `--use-angle` alone would draw the whole page by the emulation, which takes most
+# of a walk's time; where there is no GPU, a user's browser puts the page together by the processor.
+SOFTWARE_WEBGL = [
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-gpu-rasterization",
+    "--disable-gpu-compositing",
+]
 NO_WEBGL = ["--disable-gpu", "--disable-3d-apis"]
 
 # The page's speed is not under test: a busy machine must not fail these tests.

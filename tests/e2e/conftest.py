@@ -26,8 +26,8 @@ QUIET = [
     "--disable-component-update",
     "--disable-sync",
 ]
-# WebGL is emulated. Chromium with `--use-angle` alone would draw the whole page by the emulation, which takes most
-# of a walk's time; where there is no GPU, a user's browser puts the page together by the processor.
+# WebGL is emulated. Chromium with `--use-angle` alone would draw the whole page by the emulation, which takes
+# most of a walk's time; where there is no GPU, a user's browser puts the page together by the processor.
 SOFTWARE_WEBGL = [
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",

@@ -116,8 +116,8 @@ def test_fixes_formatting_definition_and_renaming(shared_studio: Studio) -> None
     begin(studio)
     page = studio.page
 
-    # A finding offers to remove an unused import; undo restores it. The module's text, which comes later, moves
-    # the button.
+    # A finding offers to remove an unused import; undo restores it. The module's text, which comes later,
+    # moves the button.
     page.mouse.move(*spot(studio, "import os", "os"))
     expect(page.locator(".cm-lsp-hover-tooltip")).to_be_visible()
     page.get_by_role("button", name="Remove unused import: `os`").click()

@@ -5,12 +5,12 @@ import { ErrorBoundary } from '@/frame/ErrorBoundary';
 import { Waiting } from '@/frame/Waiting';
 import { StartPage } from '@/features/projects/StartPage';
 import { useRoute } from '@/store/route';
-import { lazyPart, preparedPart } from '@/ui/parts';
+import { preparedPart } from '@/ui/parts';
 
 const [AttachedStudio, loadAttached] = preparedPart(
   async () => (await import('@/frame/attached/AttachedStudio')).AttachedStudio,
 );
-const Studio = lazyPart(async () => (await import('@/frame/Studio')).Studio);
+const [Studio, loadStudio] = preparedPart(async () => (await import('@/frame/Studio')).Studio);
 
 export function App() {
   const route = useRoute((state) => state.route);
@@ -19,7 +19,7 @@ export function App() {
       <Notifications position="bottom-left" limit={4} />
       <ErrorBoundary>
         {route.page === 'start' ? (
-          <StartPage loadAttached={loadAttached} />
+          <StartPage loadStudio={loadStudio} loadAttached={loadAttached} />
         ) : route.page === 'attached' ? (
           <Suspense fallback={<Waiting reason="openingProject" />}>
             <AttachedStudio key={route.sessionId} sessionId={route.sessionId} />

@@ -1,5 +1,5 @@
 import { act, fireEvent, screen, within } from '@testing-library/react';
-import { beforeEach, describe, expect, it } from 'vitest';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { perform } from '@/commands/registry';
 import { openPalette, usePalette } from '@/commands/palette';
 import { projectDetail } from '@/store/testing';
@@ -40,6 +40,14 @@ describe('StartPage', () => {
     expect(screen.getByRole('heading', { level: 1 })).toHaveTextContent('New project');
     expect(await screen.findByText('No projects yet')).toBeInTheDocument();
     expect(await screen.findByRole('button', { name: /Account of ada$/ })).toBeInTheDocument();
+  });
+
+  it('loads the page of a project in advance; without it, that page reports what is wrong', async () => {
+    const loadStudio = vi.fn(() => Promise.reject(new Error('offline')));
+    show(<StartPage loadStudio={loadStudio} />);
+    expect(loadStudio).toHaveBeenCalledOnce();
+    expect(await screen.findByText('No projects yet')).toBeInTheDocument();
+    expect(screen.queryByRole('alert')).toBeNull();
   });
 
   it('makes a project of a template, by its card or by its command', async () => {

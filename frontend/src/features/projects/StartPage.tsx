@@ -24,12 +24,14 @@ import { useStartCommands } from './useStartCommands';
 const CommandPalette = lazyPart(async () => (await import('@/workspace/CommandPalette')).CommandPalette);
 
 interface Props {
+  /** Loads the page of a project in advance. */
+  readonly loadStudio?: () => Promise<unknown>;
   /** Loads the page of an attached session in advance. */
   readonly loadAttached?: () => Promise<unknown>;
 }
 
 /** The page that lists the projects and creates new ones. */
-export function StartPage({ loadAttached }: Props) {
+export function StartPage({ loadStudio, loadAttached }: Props) {
   const { t } = useTranslation('projects');
   const actions = useProjectCommands();
   const { importFile, isImporting, offer, repair, decline } = useImport();
@@ -57,6 +59,10 @@ export function StartPage({ loadAttached }: Props) {
     document.title = 'BT Studio';
     return closePalette;
   }, []);
+  useEffect(() => {
+    // A failure is reported when a project is opened, which loads again.
+    loadStudio?.().catch(() => undefined);
+  }, [loadStudio]);
 
   return (
     <div className={classes['page']}>

@@ -1,6 +1,6 @@
 # `make run` sets up what is missing and serves the IDE; `make test` sets up what is missing and runs every test.
 .DEFAULT_GOAL := help
-.PHONY: audit lock-images mutants sbom help run test test-full test-docker lint format bench lock clean setup setup-test test-frontend test-python generate
+.PHONY: audit lock-images mutants sbom help run test test-full test-docker lint format bench lock clean setup setup-test lint-python lint-frontend test-frontend test-python generate
 
 PYTHON := $(shell for p in python3.11 python3 python; do "$$p" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
 # Where no Python 3.11 is found, any Python 3 can still say so in one sentence.
@@ -44,11 +44,16 @@ test-python:
 	@$(BIN)/python -m tests.tools.lanes --durations 25 --durations-min 3 $(PYTEST_ARGS)
 
 lint: ## style, types, the direction of imports and the list of words, in Python and TypeScript
+	@$(MAKE) --no-print-directory --jobs 2 --output-sync=target lint-python lint-frontend
+
+lint-python:
 	@$(BIN)/ruff check . && $(BIN)/ruff format --check .
 	@$(BIN)/mypy
 	@$(BIN)/lint-imports
 	@$(BIN)/python -m tests.tools.words && $(BIN)/python -m tests.tools.mirror
 	@$(BIN)/python -m tests.tools.sleeps && $(BIN)/python -m tests.tools.seams
+
+lint-frontend:
 	@cd frontend && npm run --silent lint
 
 format: ## rewrites the sources in the project's style

@@ -57,6 +57,8 @@ class Words(NamedTuple):
     clean: list[str]
     skipped: list[str]
     words: list[tuple[re.Pattern[str], str]]
+    # Matches where any of the words does: most pieces of prose hold none.
+    any_word: re.Pattern[str]
     openings: dict[str, str]
 
 
@@ -67,14 +69,15 @@ def read_list(path: Path = LIST) -> Words:
         (re.compile(r"\b(?:" + words.replace(" ", r"\s+") + r")\b", re.IGNORECASE), preferred)
         for words, preferred in table["words"].items()
     ]
-    return Words(table["clean"], table["skipped"], words, table["openings"])
+    any_word = re.compile("|".join(pattern.pattern for pattern, _ in words), re.IGNORECASE)
+    return Words(table["clean"], table["skipped"], words, any_word, table["openings"])
 
 
 def find(texts: Iterator[Text], words: Words) -> Iterator[Finding]:
     """Yields each word of the list that is used outside of quotations."""
     for piece in texts:
         prose = BLOCK_QUOTE.sub(_blank, QUOTED.sub(_blank, piece.text))
-        for pattern, preferred in words.words:
+        for pattern, preferred in words.words if words.any_word.search(prose) else ():
             for match in pattern.finditer(prose):
                 line = piece.line + prose.count("\n", 0, match.start())
                 yield Finding(line, " ".join(match[0].split()), preferred)

@@ -10,6 +10,7 @@ from typing import Literal
 from pydantic import Field, SecretStr, ValidationError, field_validator
 from pydantic_settings import SettingsConfigDict, SettingsError
 
+from backend.config.object_store import ObjectStoreSettings
 from backend.config.team import MissingSettingError, TeamSettings
 from backend.core.limits import LIMITS
 
@@ -22,7 +23,7 @@ class InvalidEnvironmentError(ValueError):
     """A setting has an invalid value; the text names the variable."""
 
 
-class Environment(TeamSettings):
+class Environment(ObjectStoreSettings, TeamSettings):
     """The settings of the web server; the variable of each field is `BT_STUDIO_<FIELD>`."""
 
     model_config = SettingsConfigDict(env_prefix=PREFIX, extra="ignore", frozen=True)

@@ -26,11 +26,28 @@ if TYPE_CHECKING:
 
 
 class Blob(models.Model):
-    """Content, named by its SHA-256."""
+    """Content, named by its SHA-256: its bytes, or the name of the object that has them (`stored_at`).
+
+    `unreferenced_at` and `marked_at` are the progress of the collection of objects (`storage.collection`).
+    """
 
     sha256 = models.CharField(max_length=64, primary_key=True)
     size = models.PositiveBigIntegerField()
-    data = models.BinaryField()
+    data = models.BinaryField(null=True)
+    stored_at = models.CharField(max_length=200, null=True)  # noqa: DJ001 - null, as `data` is of others
+    unreferenced_at = models.DateTimeField(null=True)
+    marked_at = models.DateTimeField(null=True)
+
+    class Meta:
+        constraints = [
+            models.CheckConstraint(
+                condition=Q(data=None, stored_at__isnull=False) | Q(data__isnull=False, stored_at=None),
+                name="blob_is_in_one_place",
+            )
+        ]
+        indexes = [
+            models.Index(fields=["stored_at"], condition=Q(stored_at__isnull=False), name="blob_stored")
+        ]
 
 
 class Project(models.Model):

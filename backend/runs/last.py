@@ -20,6 +20,7 @@ from uuid import UUID
 from django.db import Error, connection
 
 from backend.config.environment import environment
+from backend.core.objects.errors import StoreError
 from backend.core.problems import StudioError
 from backend.core.scratch import scratch
 from backend.projects.storage import queries as projects
@@ -95,7 +96,7 @@ def _is_over(name: str) -> bool:
 def _take(folder: Path) -> None:
     try:
         _keep(folder)
-    except Error as error:  # the database is not there: in the next round
+    except (Error, StoreError) as error:  # the database or the object store is not there: in the next round
         log.warning("the last run in %s is kept later: %s", folder, error)
         return
     except (DamagedError, StudioError) as error:

@@ -1,7 +1,8 @@
 """Stored runs. No other app uses the tables; only `writes` writes them.
 
-A recording is stored in parts of 1 MiB in the database. So it is complete or not there at all, every web
-server has it, it is in each backup, and it goes with its project, its user or its row.
+A recording is stored in parts of 1 MiB in the database, or as one object of the object store (`stored_at`).
+So it is complete or not there at all, every web server has it, it is in each backup, and it goes with its
+project, its user or its row.
 """
 
 from __future__ import annotations
@@ -39,6 +40,7 @@ class Run(models.Model):
     length_s = models.FloatField()
     size = models.PositiveBigIntegerField()
     sha256 = models.CharField(max_length=64)
+    stored_at = models.CharField(max_length=200, null=True)  # noqa: DJ001 - null: it is in parts
     is_pinned = models.BooleanField(default=False)
     is_shared = models.BooleanField(default=False)
     is_last = models.BooleanField(default=False)

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 from django.db.models import Q, Sum
 
 from backend.config.environment import environment
+from backend.core.objects.errors import ObjectMissingError
+from backend.core.objects.store import the_store
 from backend.core.problems import NotFoundError
 from backend.projects.choices import Role
 from backend.projects.storage import queries as projects
@@ -74,7 +76,29 @@ def room(user: User) -> int:
 
 
 def parts(found: Run, begin: int, end: int) -> Iterator[bytes]:
-    """Yields the bytes of a recording from `begin` to before `end`."""
+    """Yields the bytes of a recording from `begin` to before `end`, wherever they are.
+
+    A recording that is moved meanwhile is read on at its new place.
+
+    Raises:
+        StoreError: the recording is in the object store, and it cannot be read.
+    """
+    key, moves = found.stored_at, 0
+    while begin < end:
+        try:
+            for data in the_store().read(key, begin, end) if key else _rows(found, begin, end):
+                yield data
+                begin += len(data)
+            return
+        except (ObjectMissingError, RunPart.DoesNotExist):
+            row = Run.objects.filter(pk=found.pk).values_list("stored_at", flat=True).first()
+            moves += 1
+            if row == key or moves > 2:
+                raise
+            key = row
+
+
+def _rows(found: Run, begin: int, end: int) -> Iterator[bytes]:
     for number in range(begin // PART_BYTES, -(-end // PART_BYTES)):
         data = bytes(RunPart.objects.values_list("data", flat=True).get(run=found, number=number))
         at = number * PART_BYTES

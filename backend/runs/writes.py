@@ -11,6 +11,7 @@ from django.db.models import Sum
 from django.utils import timezone
 
 from backend.core.locks import transaction_lock
+from backend.core.objects.store import written_store
 from backend.core.scratch import scratch
 from backend.projects.storage import queries as projects
 from backend.projects.storage.access import Need, RoleTooLowError
@@ -19,6 +20,7 @@ from backend.runs.errors import NoAnswerError, NotRecordedError, RunQuotaError
 from backend.runs.facts import facts_of
 from backend.runs.length import DamagedError
 from backend.runs.models import PART_BYTES, Run, RunPart
+from backend.runs.objects import placed
 from backend.runs.pull import DEADLINE_S, pull
 from backend.sessions.choices import SessionKind, SessionState
 from backend.sessions.queries import live_session
@@ -42,6 +44,7 @@ __all__ = [
     "keep",
     "source",
     "store_last",
+    "store_parts",
     "stored",
 ]
 
@@ -126,26 +129,40 @@ def stored(file: IO[bytes], facts: Facts, project: Project, keeper: User, values
     Raises:
         RunQuotaError: the keeper's runs take all the space that they may.
     """
-    return _store(file, project, keeper, _found(file, facts) | values)
+    found = _found(file, facts)
+    if written_store(found["size"]) is not None:  # nothing is uploaded that is refused then
+        _require_room(found["size"], keeper)
+    with placed(file, found["size"], found["sha256"]) as key:
+        return _store(file, project, keeper, found | {"stored_at": key} | values)
 
 
-@transaction.atomic
 def store_last(file: IO[bytes], facts: Facts, project: Project, keeper: User) -> Run | None:
     """Stores a recording as the last run of a user in a project, in place of the one before.
 
     Returns None, and leaves the one before, where the user has kept this run, or there is no room.
+
+    Raises:
+        StoreError: the object store cannot be used now.
     """
-    _lock(keeper)
-    found = _found(file, facts)
-    same = Run.objects.filter(project=project, keeper=keeper, is_last=False, recorded_as=found["recorded_as"])
-    if same.filter(length_s__gte=facts.length_s - SAME_S).exists():
+    found: dict[str, Any] = {"name": "", "is_last": True} | _found(file, facts)
+    if written_store(found["size"]) is not None and not _is_wanted(found, project, keeper):
         return None
+    with placed(file, found["size"], found["sha256"]) as key, transaction.atomic():
+        _lock(keeper)
+        if not _is_wanted(found, project, keeper):
+            return None
+        Run.objects.filter(project=project, keeper=keeper, is_last=True).delete()
+        return _store(file, project, keeper, found | {"stored_at": key})
+
+
+def _is_wanted(found: dict[str, Any], project: Project, keeper: User) -> bool:
+    """Returns whether the user has not kept this run, and has room for it in place of the one before."""
+    same = Run.objects.filter(project=project, keeper=keeper, is_last=False, recorded_as=found["recorded_as"])
+    if same.filter(length_s__gte=found["length_s"] - SAME_S).exists():
+        return False
     before = Run.objects.filter(project=project, keeper=keeper, is_last=True)
     freed = before.aggregate(size=Sum("size"))["size"] or 0
-    if found["size"] > queries.room(keeper) + freed:
-        return None
-    before.delete()
-    return _store(file, project, keeper, {"name": "", "is_last": True} | found)
+    return bool(found["size"] <= queries.room(keeper) + freed)
 
 
 def change(project_id: UUID, run_id: UUID, asked: dict[str, Any], *, acting_user: User) -> Run:
@@ -195,20 +212,30 @@ def _of_another(run: Run, hint: str) -> RoleTooLowError:
 @transaction.atomic
 def _store(file: IO[bytes], project: Project, keeper: User, values: dict[str, Any]) -> Run:
     _lock(keeper)
-    if values["size"] > queries.room(keeper):
-        raise RunQuotaError(
-            "Other runs that you kept meanwhile took the space.", hint="Delete runs that you no longer need."
-        )
+    _require_room(values["size"], keeper)
     run = Run.objects.create(project=project, keeper=keeper, created_at=timezone.now(), **values)
+    if run.stored_at is None:
+        store_parts(run, file)
+    older = Run.objects.filter(project=project, keeper=keeper, is_pinned=False, is_last=False)
+    for row in older.order_by("-created_at", "id").defer("thumbnail")[MOST_UNPINNED:]:
+        row.delete()
+    return run
+
+
+def store_parts(run: Run, file: IO[bytes]) -> None:
+    """Stores a recording in the database."""
     file.seek(0)
     number = 0
     while data := file.read(PART_BYTES):
         RunPart.objects.create(run=run, number=number, data=data)
         number += 1
-    older = Run.objects.filter(project=project, keeper=keeper, is_pinned=False, is_last=False)
-    for row in older.order_by("-created_at", "id").defer("thumbnail")[MOST_UNPINNED:]:
-        row.delete()
-    return run
+
+
+def _require_room(size: int, keeper: User) -> None:
+    if size > queries.room(keeper):
+        raise RunQuotaError(
+            "Other runs that you kept meanwhile took the space.", hint="Delete runs that you no longer need."
+        )
 
 
 def _lock(keeper: User) -> None:

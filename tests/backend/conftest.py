@@ -18,6 +18,8 @@ from backend.config.environment import environment
 from backend.core import guard
 from backend.core.scratch import scratch
 from backend.ingress.handler import ThreadedHandler
+from backend.projects.storage.cache import kept_stored
+from tests.backend.bucket import bucket
 
 HOST = "127.0.0.1:8000"
 
@@ -132,3 +134,18 @@ def settings_of(monkeypatch):
     yield change
     environment.cache_clear()
     scratch.cache_clear()
+
+
+@pytest.fixture(scope="session")
+def _bucket():
+    with bucket() as made:
+        yield made
+
+
+@pytest.fixture
+def objects(_bucket, settings_of):
+    """A real object store, which is set, with an empty bucket."""
+    _bucket.fresh()
+    settings_of(**_bucket.settings)
+    kept_stored.clear()
+    return _bucket

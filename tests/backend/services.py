@@ -109,7 +109,7 @@ def redis():
         ]
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
         try:
-            _await(lambda: _answers([_program("redis-cli"), "-s", socket, "ping"]), process)
+            await_service(lambda: _answers([_program("redis-cli"), "-s", socket, "ping"]), process)
             yield f"unix://{socket}?db=0"
         finally:
             process.terminate()
@@ -120,7 +120,7 @@ def _answers(command):
     return subprocess.run(command, check=False, capture_output=True).returncode == 0
 
 
-def _await(is_ready, process):
+def await_service(is_ready, process):
     deadline = time.monotonic() + TIMEOUT_S
     while not is_ready():
         assert process.poll() is None, "the service ended by itself"

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from cachetools import LRUCache
 
 from backend.projects.models import Blob
+from backend.projects.storage.blobs import bytes_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -25,6 +26,8 @@ LARGEST: Final = 256 * 1024
 """Bytes; larger contents are fetched each time."""
 ROOM: Final = 48 * 1024 * 1024
 """Bytes of all contents that this process caches."""
+STORED_ROOM: Final = 64 * 1024 * 1024
+"""Bytes of all contents of the object store that this process caches: fetching them takes longest."""
 FILES: Final = 40_000
 """Number of files in all lists that this process caches; it is larger than that of one project."""
 
@@ -39,6 +42,7 @@ class _List(NamedTuple):
 
 _lock: Final = Lock()
 kept_contents: Final[LRUCache[str, bytes]] = LRUCache(ROOM, getsizeof=len)
+kept_stored: Final[LRUCache[str, bytes]] = LRUCache(STORED_ROOM, getsizeof=len)
 kept_lists: Final[LRUCache[UUID, _List]] = LRUCache(FILES, getsizeof=lambda one: len(one.files))
 
 
@@ -49,15 +53,30 @@ def put(sha256: str, data: bytes) -> None:
             kept_contents[sha256] = data
 
 
+def put_stored(sha256: str, data: bytes) -> None:
+    """Adds a content of the object store to the cache."""
+    if len(data) <= STORED_ROOM:
+        with _lock:
+            kept_stored[sha256] = data
+
+
 def contents(wanted: Iterable[str]) -> dict[str, bytes]:
     """Returns the contents with these hashes, in at most one query."""
     hashes = set(wanted)
     with _lock:
-        found = {sha256: kept_contents[sha256] for sha256 in hashes if sha256 in kept_contents}
+        found = {
+            sha256: kept[sha256]
+            for kept in (kept_stored, kept_contents)
+            for sha256 in hashes
+            if sha256 in kept
+        }
     if missing := hashes - found.keys():
-        for sha256, data in Blob.objects.filter(sha256__in=missing).values_list("sha256", "data"):
-            found[sha256] = bytes(data)
+        columns = ("sha256", "data", "stored_at")
+        for sha256, data, stored_at in Blob.objects.filter(sha256__in=missing).values_list(*columns):
+            found[sha256] = bytes_of(sha256, data, stored_at)
             put(sha256, found[sha256])
+            if data is None:
+                put_stored(sha256, found[sha256])
     return found
 
 

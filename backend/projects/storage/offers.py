@@ -54,7 +54,9 @@ class Offer:
 def offering(user: User) -> QuerySet[Project]:
     """Returns the user's own and shared projects that may offer a tree, the newest first."""
     trees = CurrentFile.objects.filter(project=OuterRef("pk"), path__startswith="trees/")
-    marked = trees.filter(_Holds(F("blob__data"), Value(OFFERED.encode(), output_field=BinaryField())))
+    holds = _Holds(F("blob__data"), Value(OFFERED.encode(), output_field=BinaryField()))
+    # The database cannot search a tree that is in the object store.
+    marked = trees.filter(Q(holds) | Q(blob__stored_at__isnull=False))
     return queries.projects(user=user).filter(Exists(marked))
 
 

@@ -14,7 +14,7 @@ from backend import __version__
 from backend.core.problems import NotFoundError
 from backend.projects.choices import Role
 from backend.projects.models import ChangeSet, CurrentFile, Draft, FileRevision, Project
-from backend.projects.storage import access, cache, names, rows
+from backend.projects.storage import access, blobs, cache, names, rows
 from backend.projects.storage.access import Need
 from backend.projects.storage.conditions import all_paths, conditions
 
@@ -243,9 +243,15 @@ def files_at(project: Project, number: int, paths: Sequence[str] | None = None) 
             blob__isnull=False,
         )
         .order_by("path")
-        .values_list("path", "change__number", "blob_id", "change__created_at", "blob__data")
+        .values_list(
+            *("path", "change__number", "blob_id", "change__created_at"), "blob__data", "blob__stored_at"
+        )
     )
-    return {row[0]: StoredFile(*row[:4], data=bytes(row[4])) for row in found if wanted[row[0]] == row[1]}
+    return {
+        path: StoredFile(path, number, sha256, at, blobs.bytes_of(sha256, data, stored_at))
+        for path, number, sha256, at, data, stored_at in found
+        if wanted[path] == number
+    }
 
 
 def differing(

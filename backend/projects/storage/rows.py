@@ -31,13 +31,15 @@ class Writing(NamedTuple):
 
     change: ChangeSet
     blobs: Sequence[tuple[str, int, bytes]]
-    """Hash, size and bytes of each content."""
+    """Hash, size and bytes of each content that is stored in the database."""
     revisions: Sequence[tuple[str, str | None, str]]
     """Path, blob and earlier path of each changed file."""
     files: Sequence[tuple[str, str, str]]
     """Path, key of the path, and blob of each current file."""
     drafts: Sequence[str]
     """Paths of files whose drafts by the author are now saved, and are therefore deleted."""
+    stored: Sequence[tuple[str, int, str]] = ()
+    """Hash, size and object of each content that was uploaded for this change."""
 
 
 def project(project_id: UUID, *, lock: bool = False) -> Project | None:
@@ -91,7 +93,7 @@ def summed_others(project: Project) -> int:
 
 def write(writing: Writing) -> None:
     """Stores a change set with its files, and sets the key of the change."""
-    if at_once.is_here() and at_once.has_room(writing):
+    if at_once.is_here() and at_once.has_room(writing) and not writing.stored:
         at_once.write(writing)
     else:
         store(writing)
@@ -103,8 +105,12 @@ def store(writing: Writing) -> None:
     forget_drafts(change.project, change.author_id, writing.drafts)
     change.save(force_insert=True)
     # Blobs are written in one order, so that two saves of the same blobs cannot deadlock.
-    blobs = [Blob(sha256=sha256, size=size, data=data) for sha256, size, data in sorted(writing.blobs)]
+    blobs = [Blob(sha256=sha256, size=size, data=data) for sha256, size, data in writing.blobs]
+    blobs += [Blob(sha256=sha256, size=size, stored_at=key) for sha256, size, key in writing.stored]
+    blobs.sort(key=lambda blob: blob.sha256)
     Blob.objects.bulk_create(blobs, ROWS, ignore_conflicts=True)
+    for sha256, _, key in sorted(writing.stored):
+        _replace_marked(sha256, key)
     revisions = [
         FileRevision(change=change, path=path, blob_id=blob, renamed_from=before)
         for path, blob, before in writing.revisions
@@ -118,6 +124,12 @@ def store(writing: Writing) -> None:
         update_fields=["path", "revision", "updated_at", "blob"],
     )
     change.project.save(update_fields=["revision", "size", "updated_at"])
+
+
+def _replace_marked(sha256: str, key: str) -> None:
+    """Gives a blob that the collection has marked the object that was uploaded for this change."""
+    marked = Blob.objects.filter(sha256=sha256, marked_at__isnull=False)
+    marked.update(stored_at=key, data=None, marked_at=None, unreferenced_at=None)
 
 
 def _current(change: ChangeSet, path: str, key: str, blob: str) -> CurrentFile:

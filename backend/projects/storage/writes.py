@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from datetime import datetime, timedelta
+from functools import partial
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from django.db import IntegrityError, transaction
@@ -20,12 +22,13 @@ from backend.projects.errors import (
 )
 from backend.projects.models import Blob, ChangeSet, CurrentFile, Draft, IdempotencyKey, Project
 from backend.projects.signals import project_deleted, revision_made
-from backend.projects.storage import cache, names, queries, rows
+from backend.projects.storage import blobs, cache, names, queries, rows
 from backend.projects.storage.access import Need
 from backend.projects.storage.at_once import BLOBS
 from backend.projects.storage.bounds import require_bounded
 from backend.projects.storage.changes import Conflict, Content, Existing, FileChange, Plan, plan
 from backend.projects.storage.manifest import MANIFEST, Manifest, read, write
+from backend.projects.storage.usage import room_for_archive
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -34,7 +37,6 @@ if TYPE_CHECKING:
     from backend.accounts.models import User
 
 
-@transaction.atomic
 def create_project(
     files: Mapping[str, bytes], *, acting_user: User, name: str = "", message: str = "Create the project"
 ) -> Project:
@@ -51,8 +53,27 @@ def create_project(
         InvalidInputError: a path or `project.json` is invalid.
         QuotaExceededError: the project is too large.
     """
-    checked = {names.writable_path(path): data for path, data in files.items()}
-    manifest = read(checked.get(MANIFEST, b"{}"))
+    checked = {names.writable_path(path): Content.of(data) for path, data in files.items()}
+    may_write = partial(_may_create, checked, acting_user)
+    with blobs.placed(checked.values(), may_write) as stored:
+        return _create(checked, stored, acting_user=acting_user, name=name, message=message)
+
+
+def _may_create(files: Mapping[str, Content], user: User) -> None:
+    """Refuses what `_create` will refuse, before anything is uploaded."""
+    for path, content in files.items():
+        if content.size > environment().max_file_bytes:
+            raise too_large(path)
+    if sum(content.size for content in files.values()) > room_for_archive(user):
+        raise QuotaExceededError("The projects of one user together take more bytes than are allowed.")
+
+
+@transaction.atomic
+def _create(
+    files: Mapping[str, Content], stored: Mapping[str, str], *, acting_user: User, name: str, message: str
+) -> Project:
+    checked = dict(files)
+    manifest = read(checked[MANIFEST].data if MANIFEST in checked else b"{}")
     transaction_lock(f"projects of {acting_user.pk}")
     taken = set(Project.objects.filter(owner=acting_user, deleted_at=None).values_list("name_key", flat=True))
     allowed = acting_user.max_projects
@@ -63,22 +84,20 @@ def create_project(
         )
     final = names.project_name(name) if name else names.free_name(manifest.name, taken)
     if manifest.document.get("name") != final:
-        checked[MANIFEST] = write(
-            {"format": "bt-studio/project", "version": 1} | dict(manifest.document) | {"name": final}
-        )
+        document = {"format": "bt-studio/project", "version": 1} | dict(manifest.document) | {"name": final}
+        checked[MANIFEST] = Content.of(write(document))
     now = timezone.now()
     transaction_lock(BLOBS, shared=True)
     project = Project(
         owner=acting_user, name=final, name_key=names.key(final), created_at=now, updated_at=now
     )
     _save_name(project, force_insert=True)
-    wanted = [FileChange(path, 0, Content.of(data)) for path, data in sorted(checked.items())]
-    _apply(project, wanted, acting_user=acting_user, message=message, now=now)
+    wanted = [FileChange(path, 0, checked[path]) for path in sorted(checked)]
+    _apply(project, wanted, acting_user=acting_user, message=message, now=now, stored=stored)
     note("project.create", actor=acting_user, subject=final, subject_id=project.id, message=message)
     return project
 
 
-@transaction.atomic
 def save_files(
     project_id: UUID,
     wanted: Sequence[FileChange],
@@ -95,6 +114,29 @@ def save_files(
         InvalidInputError: the resulting project would be invalid.
         QuotaExceededError: the resulting project would be too large.
     """
+    may_write = partial(_may_save, project_id, wanted, acting_user)
+    with blobs.placed((change.content for change in wanted), may_write) as stored:
+        return _save(project_id, wanted, stored, acting_user=acting_user, message=message, if_match=if_match)
+
+
+def _may_save(project_id: UUID, wanted: Sequence[FileChange], user: User) -> None:
+    """Refuses what `_save` will refuse, before anything is uploaded."""
+    queries.project(project_id, user=user, need=Need.WRITE)
+    for change in wanted:
+        if change.content is not None and change.content.size > environment().max_file_bytes:
+            raise too_large(change.path)
+
+
+@transaction.atomic
+def _save(  # noqa: PLR0913 - those of `save_files`, and the objects
+    project_id: UUID,
+    wanted: Sequence[FileChange],
+    stored: Mapping[str, str],
+    *,
+    acting_user: User,
+    message: str,
+    if_match: str,
+) -> Project:
     project = _locked(project_id, acting_user)
     require_match(project, if_match)
     checked = [_checked(change) for change in wanted]
@@ -104,7 +146,7 @@ def save_files(
                 f"The project has no revision {change.base_revision}; the newest is {project.revision}.",
                 field="files.base_revision",
             )
-    _apply(project, checked, acting_user=acting_user, message=message, now=timezone.now())
+    _apply(project, checked, acting_user=acting_user, message=message, now=timezone.now(), stored=stored)
     return project
 
 
@@ -254,7 +296,8 @@ def collect_garbage(*, now: datetime | None = None) -> int:
     forget_old(now)
     Draft.objects.filter(updated_at__lt=now - timedelta(days=limits.draft_days)).delete()
     IdempotencyKey.objects.filter(created_at__lt=now - timedelta(days=1)).delete()
-    return Blob.objects.filter(filerevision=None, currentfile=None).delete()[0]
+    # Those in the object store go by `collection`.
+    return Blob.objects.filter(filerevision=None, currentfile=None, stored_at=None).delete()[0]
 
 
 def require_match(project: Project, if_match: str) -> None:
@@ -278,10 +321,19 @@ def _checked(change: FileChange) -> FileChange:
     )
 
 
-def _apply(
-    project: Project, wanted: Sequence[FileChange], *, acting_user: User, message: str, now: datetime
+def _apply(  # noqa: PLR0913 - a change set has them all
+    project: Project,
+    wanted: Sequence[FileChange],
+    *,
+    acting_user: User,
+    message: str,
+    now: datetime,
+    stored: Mapping[str, str] = MappingProxyType({}),
 ) -> None:
-    """Applies changes to a project. The caller holds the locks of the project and of the blobs."""
+    """Applies changes to a project. The caller holds the locks of the project and of the blobs.
+
+    `stored` are the objects that were uploaded for these changes, by the hashes of their contents.
+    """
     current = queries.existing_files(project)
     result = plan(current, wanted)
     if result.conflicts:
@@ -300,14 +352,15 @@ def _apply(
     )
     contents = {w.sha256: w.content for w in result.written if w.content is not None}
     for content in contents.values():
-        cache.put(content.sha256, content.data)
+        (cache.put_stored if content.sha256 in stored else cache.put)(content.sha256, content.data)
     if result.removed:
         CurrentFile.objects.filter(project=project, path__in=result.removed).delete()
     removed = [(path, None, "") for path in result.removed]
     rows.write(
         rows.Writing(
             change=change,
-            blobs=[(sha256, c.size, c.data) for sha256, c in contents.items()],
+            blobs=[(sha256, c.size, c.data) for sha256, c in contents.items() if sha256 not in stored],
+            stored=[(sha256, c.size, stored[sha256]) for sha256, c in contents.items() if sha256 in stored],
             revisions=removed + [(w.path, w.sha256, w.renamed_from) for w in result.written],
             files=[(w.path, names.key(w.path), w.sha256) for w in result.written],
             drafts=paths,

@@ -12,6 +12,7 @@ import typer
 
 from backend.cli.shared.errors import BAD_ARGUMENTS, CliError
 from backend.cli.shared.stored import stored_projects
+from backend.cli.storage import storage
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -22,11 +23,12 @@ PASSWORD_VARIABLE = "BT_STUDIO_ADMIN_PASSWORD"  # noqa: S105 - a name
 
 admin = typer.Typer(
     name="admin",
-    help="Accounts of a server with BT_STUDIO_MODE=team.",
+    help="Accounts of a server with BT_STUDIO_MODE=team, and the object store of any.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
 )
+admin.add_typer(storage)
 
 
 @contextmanager

@@ -265,6 +265,7 @@ def warm_up() -> None:
 
     import backend.config.urls  # noqa: F401, PLC0415
     import translator  # noqa: F401, PLC0415
+    from backend.config.objects import collect_daily  # noqa: PLC0415
     from backend.projects.storage.writes import collect_garbage  # noqa: PLC0415
     from backend.sessions.lease import GARBAGE, holder, is_alone  # noqa: PLC0415
 
@@ -276,6 +277,7 @@ def warm_up() -> None:
             with holder.chore(GARBAGE, GARBAGE_EVERY_S) as is_ours:
                 if is_ours:
                     collect_garbage()
+                    collect_daily()
         except Exception:
             log.exception("nothing was tidied up")
         connection.close()

@@ -60,9 +60,13 @@ def page_policy() -> str:
 def headers_of_all() -> dict[str, str]:
     """Returns the security headers of every answer."""
     settings = environment()
-    if not settings.is_https or not settings.hsts_days:
-        return HEADERS
-    return HEADERS | {"Strict-Transport-Security": f"max-age={settings.hsts_days * 24 * 3600}"}
+    headers = HEADERS
+    if origin := settings.object_store_public:
+        policy = CONTENT_SECURITY_POLICY.replace("connect-src 'self'", f"connect-src 'self' {origin}")
+        headers = headers | {"Content-Security-Policy": policy}
+    if settings.is_https and settings.hsts_days:
+        headers = headers | {"Strict-Transport-Security": f"max-age={settings.hsts_days * 24 * 3600}"}
+    return headers
 
 
 class Middleware:

@@ -14,7 +14,9 @@ from rest_framework.response import Response
 from backend.accounts.api.requests import parsed, user_of
 from backend.accounts.api.viewsets import ResourceViewSet
 from backend.core.file_answers import FileAnswer, saved_as
+from backend.core.objects.downloads import is_direct, redirected
 from backend.core.problems import NotFoundError
+from backend.core.rest.openapi import DIRECT
 from backend.core.scratch import scratch
 from backend.ingress.bodies import body_of
 from backend.runs import logs, queries, writes
@@ -132,7 +134,7 @@ class Runs(ResourceViewSet):
 
     @extend_schema(
         operation_id="download_run",
-        responses={(200, "application/octet-stream"): OpenApiTypes.BINARY},
+        responses={(200, "application/octet-stream"): OpenApiTypes.BINARY, 302: DIRECT},
         tags=["runs"],
     )
     @action(detail=True)
@@ -150,6 +152,8 @@ class Runs(ResourceViewSet):
         }
         if request.headers.get("If-None-Match") == tag:
             return Response(status=304, headers={"ETag": tag})
+        if run.stored_at and is_direct(request, f"{run.name}.mcap"):
+            return redirected(run.stored_at, f"{run.name}.mcap")
         is_same = request.headers.get("If-Range", tag) == tag
         wanted = asked_range(request.headers.get("Range", ""), run.size) if is_same else None
         return _whole(run, user, headers) if wanted is None else _part(run, *wanted, headers)

@@ -3,7 +3,7 @@
 A backup is a zip: `manifest.json`, and one `tables/<model>.jsonl` for each table, with one row in each line.
 The database is read in one transaction, so the backup is the state of one moment, also while people work.
 Data that have a meaning only while a server runs are omitted: sign-ins, executors, a drain, leases, stored
-answers for repeated requests.
+answers for repeated requests. What is in the object store follows (`backup_objects`).
 """
 
 from __future__ import annotations
@@ -23,9 +23,11 @@ from django.db import connection, transaction
 from django.db.migrations.recorder import MigrationRecorder
 
 from backend import __version__
+from backend.cli.shared.backup_error import BackupError
+from backend.cli.shared.backup_objects import Returning, copy_objects, number_of_objects
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     from django.db.models import Model
 
@@ -48,12 +50,20 @@ ROWS_AT_ONCE: Final = 50
 MAX_LINE_BYTES: Final = 512 * 1024 * 1024
 
 
-class BackupError(Exception):
-    """The backup cannot be read, or not into this database; the text tells the reason and what to do."""
+def write_backup(
+    target: IO[bytes], *, has_objects: bool = True, told: Callable[[str], None] = lambda _: None
+) -> dict[str, int]:
+    """Writes a backup; returns the number of rows of each table.
 
+    Args:
+        target: the file.
+        has_objects: whether it also gets what is in the object store.
+        told: is called with the progress.
 
-def write_backup(target: IO[bytes]) -> dict[str, int]:
-    """Writes a backup; returns the number of rows of each table."""
+    Raises:
+        BackupError: an object is missing or damaged.
+        StoreError: the object store cannot be used.
+    """
     tables: dict[str, dict[str, Any]] = {}
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive, _snapshot():
         for model in _models():
@@ -65,6 +75,7 @@ def write_backup(target: IO[bytes]) -> dict[str, int]:
                     digest.update(line)
                     rows += 1
             tables[name] = {"rows": rows, "sha256": digest.hexdigest()}
+        copied = copy_objects(archive, told) if has_objects else None
         manifest = {
             "format": FORMAT,
             "version": VERSION,
@@ -72,6 +83,10 @@ def write_backup(target: IO[bytes]) -> dict[str, int]:
             "made_at": datetime.now(UTC).isoformat(timespec="seconds"),
             "migrations": _migrations(),
             "tables": tables,
+            "objects": {
+                "copied": copied is not None,
+                "number": copied.number if copied is not None else number_of_objects(),
+            },
         }
         archive.writestr(MANIFEST, json.dumps(manifest, indent=1))
     return {name: table["rows"] for name, table in tables.items()}
@@ -149,7 +164,7 @@ def _manifest(archive: zipfile.ZipFile) -> dict[str, Any]:
             f"{__version__}: restore it with that version, and upgrade then."
         )
     expected = {model._meta.label_lower for model in _models()}
-    if set(manifest["tables"]) != expected:
+    if set(manifest["tables"]) != expected or not isinstance(manifest.get("objects"), dict):
         raise BackupError("The backup does not have the tables of this version.")
     return manifest
 
@@ -176,24 +191,27 @@ def _load(archive: zipfile.ZipFile, manifest: dict[str, Any]) -> dict[str, int]:
         for model in reversed(models):  # the local user, whom the first start creates
             model._base_manager.all().delete()
         with connection.constraint_checks_disabled():
-            counts = {model._meta.label_lower: _fill(archive, model) for model in models}
+            returning = Returning(archive, manifest["objects"])
+            counts = {model._meta.label_lower: _fill(archive, model, returning) for model in models}
         connection.check_constraints()
         with connection.cursor() as cursor:
             for statement in connection.ops.sequence_reset_sql(no_style(), models):
                 cursor.execute(statement)
+        returning.finish()
     wrong = [name for name, rows in counts.items() if rows != manifest["tables"][name]["rows"]]
     if wrong:
         raise BackupError(f"The backup is damaged: rows of {', '.join(wrong)} are missing.")
     return counts
 
 
-def _fill(archive: zipfile.ZipFile, model: type[Model]) -> int:
+def _fill(archive: zipfile.ZipFile, model: type[Model], returning: Returning) -> int:
     rows = 0
     with archive.open(_member(model._meta.label_lower)) as member:
         for line in _read_lines(member):
             for found in serializers.deserialize("jsonl", line):
                 if found.object._meta.model is not model:
                     raise BackupError("The backup is damaged: a row is in the wrong table.")
+                returning.settle(found.object)
                 found.save()
                 rows += 1
     return rows

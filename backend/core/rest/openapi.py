@@ -66,3 +66,7 @@ IF_NONE_MATCH = _header(
 IDEMPOTENCY_KEY = _header(
     "Idempotency-Key", "Makes the request safe to repeat: one effect, the first answer."
 )
+DIRECT = OpenApiResponse(
+    description="To browsers alone, where BT_STUDIO_OBJECT_STORE_PUBLIC is set: an address of the object "
+    "store for this one file, valid for 60 s."
+)

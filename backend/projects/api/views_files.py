@@ -16,8 +16,9 @@ from rest_framework.response import Response
 from backend.accounts.api.requests import user_of
 from backend.accounts.api.viewsets import ResourceViewSet
 from backend.core.file_answers import saved_as
+from backend.core.objects.downloads import is_direct, redirected
 from backend.core.problems import InvalidInputError
-from backend.core.rest.openapi import IDEMPOTENCY_KEY
+from backend.core.rest.openapi import DIRECT, IDEMPOTENCY_KEY
 from backend.ingress.bodies import body_of
 from backend.projects.api import serializers as s
 from backend.projects.api.schema import NOT_SOUND
@@ -113,14 +114,17 @@ class ProjectFiles(ResourceViewSet):
 
     @extend_schema(
         operation_id="download_file",
-        responses={(200, "application/octet-stream"): OpenApiTypes.BINARY},
+        responses={(200, "application/octet-stream"): OpenApiTypes.BINARY, 302: DIRECT},
         tags=["files"],
     )
     @action(detail=True, url_path="files/<path:path>")
     def download_file(self, request: Request, project_id: UUID, path: str) -> HttpResponse:
         """Returns the bytes of a current file."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        return file_response(queries.current_file(project, names.file_path(path)))
+        path = names.file_path(path)
+        if is_direct(request, path) and (key := queries.object_of(project, path)):
+            return redirected(key, path.rpartition("/")[2])
+        return file_response(queries.current_file(project, path))
 
     @extend_schema(
         operation_id="get_xml",

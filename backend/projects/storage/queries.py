@@ -289,3 +289,9 @@ def current_file(project: Project, path: str) -> StoredFile:
     if file is None:
         raise NotFoundError(f"The project has no file “{names.shown(path)}”.")
     return file
+
+
+def object_of(project: Project, path: str) -> str | None:
+    """Returns the object of the store that has a current file; None if there is none."""
+    found = CurrentFile.objects.filter(project=project, path=path)
+    return found.values_list("blob__stored_at", flat=True).first()

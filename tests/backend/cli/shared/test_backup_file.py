@@ -8,7 +8,8 @@ import zipfile
 
 import pytest
 
-from backend.cli.shared.backup_file import LEFT_OUT, MANIFEST, BackupError, read_backup, write_backup
+from backend.cli.shared.backup_error import BackupError
+from backend.cli.shared.backup_file import LEFT_OUT, MANIFEST, read_backup, write_backup
 from backend.projects.models import Blob, Project
 
 pytestmark = pytest.mark.django_db(transaction=True)

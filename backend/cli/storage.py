@@ -30,7 +30,7 @@ _TRIAL = b"bt-studio admin storage check"
 
 
 class Kind(NamedTuple):
-    """What is stored: its name, its folder, and the functions that move it."""
+    """Files or recordings: their name, their folder, and the functions that move them."""
 
     name: str
     folder: str

@@ -31,7 +31,7 @@ _LEAVE_OUT: Final = "or write the backup without what is there: --without-object
 
 
 class Copied(NamedTuple):
-    """What a backup holds of the store."""
+    """The number and bytes of the objects in a backup."""
 
     number: int
     size: int

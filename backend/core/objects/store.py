@@ -37,7 +37,7 @@ class Listed(NamedTuple):
 
 
 class Access(NamedTuple):
-    """What a connection needs."""
+    """The parts of a connection."""
 
     address: str
     key: str

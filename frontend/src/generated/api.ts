@@ -4646,6 +4646,13 @@ export interface operations {
                     "application/octet-stream": Blob;
                 };
             };
+            /** @description To browsers alone, where BT_STUDIO_OBJECT_STORE_PUBLIC is set: an address of the object store for this one file, valid for 60 s. */
+            302: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
             /** @description A problem document. */
             default: {
                 headers: {
@@ -5181,6 +5188,13 @@ export interface operations {
                 content: {
                     "application/octet-stream": Blob;
                 };
+            };
+            /** @description To browsers alone, where BT_STUDIO_OBJECT_STORE_PUBLIC is set: an address of the object store for this one file, valid for 60 s. */
+            302: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description A problem document. */
             default: {

@@ -1,4 +1,4 @@
-"""The tables for the object store, on data of the release before, which goes on reading and writing."""
+"""The tables for the object store, on data of the release before, which continues to read and write."""
 
 from __future__ import annotations
 

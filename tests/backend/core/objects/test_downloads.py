@@ -1,4 +1,4 @@
-"""Who is redirected to the object store, and for what."""
+"""Browsers are redirected to the object store for whole files, and nobody else is."""
 
 from __future__ import annotations
 

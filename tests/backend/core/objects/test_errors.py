@@ -34,7 +34,7 @@ def test_what_failed_where_and_what_to_do(error, says):
     assert "text" not in raised.value.detail
 
 
-def test_an_absent_object_is_told_from_an_absent_bucket():
+def test_an_absent_object_is_no_absent_bucket():
     with pytest.raises(ObjectMissingError), explained("here", "blobs/a"):
         raise refused("NoSuchKey")
     with pytest.raises(StoreError, match="no such bucket"), explained("here"):

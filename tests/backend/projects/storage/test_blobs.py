@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import random
+from contextlib import contextmanager
 
 import pytest
 from django.db import connection
@@ -12,7 +13,7 @@ from django.test.utils import CaptureQueriesContext
 from backend.core.objects.errors import StoreError
 from backend.core.objects.store import the_store
 from backend.projects.errors import QuotaExceededError
-from backend.projects.models import Blob
+from backend.projects.models import Blob, Project
 from backend.projects.storage import blobs, queries, writes
 from backend.projects.storage.cache import kept_stored
 from backend.projects.storage.changes import Content, FileChange
@@ -66,20 +67,19 @@ def test_a_marked_content_is_uploaded_again(api, project, objects, user):
 
 def test_a_content_that_goes_meanwhile_is_stored_with_its_save(api, project, objects, monkeypatch, user):
     """Its row was there when the save began, and is not any more when it writes."""
-    api.save(project["id"], change("a.bin", LARGE))
-    api.save(project["id"], {"path": "a.bin", "base_revision": 2, "delete": True})
-    save = writes._save
+    gone = writes.create_project({"a.bin": LARGE}, acting_user=user, name="Gone")
+    placed = blobs.placed
 
-    def late(*args, **options):
-        Blob.objects.filter(pk=Content.of(LARGE).sha256).update(stored_at=None, data=b"")
-        row = stored(LARGE)
-        type(row).objects.filter(pk=row.pk)._raw_delete(using="default")
-        return save(*args, **options)
+    @contextmanager
+    def collected_meanwhile(*args):
+        with placed(*args) as uploaded:
+            assert not uploaded
+            Project.objects.filter(id=gone.id).delete()
+            Blob.objects.filter(sha256=Content.of(LARGE).sha256).delete()
+            yield uploaded
 
-    with connection.constraint_checks_disabled():
-        monkeypatch.setattr(writes, "_save", late)
-        project_id = project["id"]
-        writes.save_files(project_id, [FileChange("b.bin", 0, Content.of(LARGE))], acting_user=user)
+    monkeypatch.setattr(blobs, "placed", collected_meanwhile)
+    writes.save_files(project["id"], [FileChange("b.bin", 0, Content.of(LARGE))], acting_user=user)
     assert bytes(stored(LARGE).data) == LARGE
 
 

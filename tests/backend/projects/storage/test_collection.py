@@ -1,9 +1,10 @@
-"""What nothing references goes after a day; what somebody references again stays, whenever it happens."""
+"""A content without references goes after a day; one that is referenced again stays, whenever it happens."""
 
 from __future__ import annotations
 
 import base64
 import random
+from contextlib import contextmanager
 from datetime import timedelta
 
 import pytest
@@ -11,7 +12,7 @@ from django.utils import timezone
 
 from backend.core.objects.store import the_store
 from backend.projects.models import Blob, Project
-from backend.projects.storage import collection, writes
+from backend.projects.storage import blobs, collection, writes
 from backend.projects.storage.cache import kept_stored
 from backend.projects.storage.changes import Content, FileChange
 
@@ -57,7 +58,7 @@ def test_it_is_noted_marked_after_a_day_and_deleted_with_its_object(gone, object
     assert objects.keys() == set()
 
 
-def test_one_that_is_used_again_stays_and_its_day_begins_anew(gone, objects, user):
+def test_one_that_is_used_again_stays_and_its_day_begins_again(gone, objects, user):
     collect(0)
     project = use_again(user)
     assert collect(25) == (0, 0, 0)
@@ -86,14 +87,18 @@ def test_one_that_is_used_after_its_mark_stays(gone, objects, user):
 def test_one_that_is_referenced_between_mark_and_deletion_stays(gone, objects, user, monkeypatch):
     """The writer looked before the mark, and so uploads nothing."""
     collect(0)
-    save = writes._save
+    placed = blobs.placed
 
-    def marked_meanwhile(*args, **options):
-        collection.mark(timezone.now() + DAY)
-        return save(*args, **options)
+    @contextmanager
+    def marked_meanwhile(*args):
+        with placed(*args) as uploaded:
+            assert not uploaded
+            collection.mark(timezone.now() + DAY)
+            yield uploaded
 
-    monkeypatch.setattr(writes, "_save", marked_meanwhile)
-    use_again(user)
+    project = writes.create_project({}, acting_user=user, name="Again")
+    monkeypatch.setattr(blobs, "placed", marked_meanwhile)
+    writes.save_files(project.id, [FileChange("b.bin", 0, Content.of(LARGE))], acting_user=user)
     assert row().marked_at is not None
     assert collection.delete(the_store()) == 0
     assert (row().stored_at, objects.keys()) == (gone, {gone})

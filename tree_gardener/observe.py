@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from tree_gardener.blackboard import EMPTY, Blackboard, Entry
+from tree_gardener.blackboard import EMPTY, Blackboard, Entry, Journal
 from tree_gardener.node import Flash, Mark, Node
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
 
@@ -82,9 +82,13 @@ class Recorder:
         results: reports of what nodes returned in this tick, except RUNNING, in order.
         is_disturbed: whether changes were reported within a tick, since a node halted or ticked the tree.
         writes: is called with each write to the blackboard as it happens, and the uid of its writer.
+        watch: is called likewise, also while the tree is not observed; set it by `watch_writes`.
     """
 
-    __slots__ = ("entries", "is_disturbed", "is_ticking", "observers", "results", "touched", "tree", "writes")
+    __slots__ = (
+        *("entries", "is_disturbed", "is_ticking", "observers", "results", "touched", "tree", "watch"),
+        "writes",
+    )
 
     def __init__(self, tree: "Tree") -> None:
         self.tree = tree
@@ -93,7 +97,8 @@ class Recorder:
         self.results: list[Mark] = []
         self.is_ticking = self.is_disturbed = False
         self.entries: dict[int, tuple[Entry, int]] = {}
-        self.writes: Callable[[Entry, int], None] | None = None
+        self.writes: Journal | None = None
+        self.watch: Journal | None = None
 
     def attach(self) -> None:
         """Starts recording. All nodes that are not IDLE, and all entries, count as changed."""
@@ -119,9 +124,16 @@ class Recorder:
         for node in self.tree.nodes:
             node.journal = None
         for board in self.tree.boards:
-            board.journal = None
+            board.journal = self.watch
         self.touched.clear()
         self.entries = {}
+
+    def watch_writes(self, watch: Journal | None) -> None:
+        """Calls a function with each write to the blackboard from now on; None ends it."""
+        self.watch = watch
+        if not self.observers:
+            for board in self.tree.boards:
+                board.journal = watch
 
     def reset(self, children: Iterable[Node]) -> None:
         """Halts the children that are RUNNING and makes all of them IDLE, like `Control.reset_children`."""
@@ -144,6 +156,8 @@ class Recorder:
         self.entries[id(entry)] = (entry, writer)
         if self.writes is not None:
             self.writes(entry, writer)
+        if self.watch is not None:
+            self.watch(entry, writer)
 
     def tick(self, function: Callable[[], T]) -> T:
         """Ticks the tree and notifies the observers, also when the tick raises."""

@@ -455,7 +455,7 @@ class Tree:
         """
         if self._hooks.wiring is not None:
             self._hooks.wiring.remove()
-        self._hooks.wiring = None if agent is None else Wiring(self, agent)
+        self._hooks.wiring = None if agent is None else Wiring(self, agent, self._recorder)
         self._ways.deep = DEEP if agent is None else DEEP_ASKING
         self.rewire()
         if self._hooks.wiring is not None and agent is not None:

@@ -7,13 +7,14 @@ import re
 from collections.abc import Callable, Sequence
 from typing import Any, Final
 
-from tree_gardener.blackboard import EMPTY
+from tree_gardener.blackboard import EMPTY, Journal
 from tree_gardener.debugging.places import Place, nodes_at, place_of
 from tree_gardener.debugging.stepper import Event
+from tree_gardener.debugging.watches import Watch, Watches
 from tree_gardener.debugging.wiring import RESULTS, Wanted
 from tree_gardener.errors import PortError, ScriptError
 from tree_gardener.node import Node
-from tree_gardener.script import Environment, bind_test, names_written, parse
+from tree_gardener.script import names_written, parse
 from tree_gardener.status import Status
 
 _KEY: Final = re.compile(r"\{([^{}]+)\}")
@@ -81,7 +82,7 @@ class _Set:
     """A breakpoint at one node."""
 
     breakpoint: Breakpoint
-    condition: Callable[[], bool] | None
+    condition: Watch | None
 
     @property
     def wanted(self) -> Wanted:
@@ -100,13 +101,19 @@ class Breakpoints:
         are_on: whether they have any effect.
     """
 
-    def __init__(self, nodes: Sequence[Node], say: Callable[[str], None]) -> None:
+    def __init__(
+        self,
+        nodes: Sequence[Node],
+        say: Callable[[str], None],
+        watch_writes: Callable[[Journal | None], None],
+    ) -> None:
         self.all: list[Breakpoint] = []
         self.are_on = True
         self._blocks: dict[tuple[str, ...], list[Node]] = {}
         for node in nodes:
             self._blocks.setdefault(place_of(node)[:2], []).append(node)
         self._say = say
+        self._watch_writes = watch_writes
         self._at: dict[int, list[_Set]] = {}
         self._hits: dict[Breakpoint, int] = {}
 
@@ -117,12 +124,14 @@ class Breakpoints:
             BreakpointError: one cannot be set; all are as they were.
         """
         at: dict[int, list[_Set]] = {}
+        watches = Watches()
         for each in breakpoints:
             check(each)
             for node in nodes_at(self._blocks.get(each.place[:2], ()), each.place):
-                at.setdefault(node.uid, []).append(_Set(each, _condition(each, node)))
+                at.setdefault(node.uid, []).append(_Set(each, _condition(each, node, watches)))
         self.all = list(breakpoints)
         self._at = at
+        self._watch_writes(watches.written if watches else None)
         self._hits = {each: self._hits.get(each, 0) for each in breakpoints}
 
     def hits(self, breakpoint_: Breakpoint) -> int:
@@ -153,7 +162,7 @@ class Breakpoints:
     def _hit(self, found: _Set, node: Node) -> str:
         each = found.breakpoint
         try:
-            if found.condition is not None and not found.condition():
+            if found.condition is not None and not found.condition.is_true():
                 return ""
         except (ScriptError, PortError) as error:
             return f"the condition '{each.condition}' of a breakpoint cannot be tested: {error}"
@@ -188,10 +197,8 @@ def check(each: Breakpoint) -> None:
         raise BreakpointError(f"the condition '{each.condition}' writes {names}; it may only read (use ==)")
 
 
-def _condition(each: Breakpoint, node: Node) -> Callable[[], bool] | None:
-    if not each.condition:
-        return None
-    return bind_test(each.condition, Environment(node.board, node.tree.enums))
+def _condition(each: Breakpoint, node: Node, watches: Watches) -> Watch | None:
+    return watches.at(node, each.condition) if each.condition else None
 
 
 def _is_for(each: Breakpoint, event: Event, status: Status | None) -> bool:

@@ -137,7 +137,7 @@ class Debugger:
         self._shape = Shape.of(self._tree.nodes)
         self._stepper = Stepper(self._shape)
         self._forces = Forces(self._tree.nodes)
-        self.breakpoints = Breakpoints(self._tree.nodes, self._say)
+        self.breakpoints = Breakpoints(self._tree.nodes, self._say, wiring.watch_writes)
 
     def before(self, node: Node) -> None:
         """Is asked before the tick of a node."""

@@ -13,15 +13,20 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from tree_gardener.conditions import Guard
 from tree_gardener.debugging.agent import Agent
+from tree_gardener.debugging.watches import Always, AnyOf, Test, may_be_true
 from tree_gardener.node import Execute, Node
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
 
 if TYPE_CHECKING:
+    from tree_gardener.blackboard import Journal
     from tree_gardener.conditions import Condition
+    from tree_gardener.observe import Recorder
     from tree_gardener.tree import Tree
 
 RESULTS: Final = frozenset((SUCCESS, FAILURE, RUNNING, SKIPPED))
 _NO_RESULTS: Final[frozenset[Status]] = frozenset()
+_ALWAYS: Final = Always()
+"""Where no condition is to be tested."""
 DECIDES: Final = {FAILURE: "_failureIf", SUCCESS: "_successIf", SKIPPED: "_skipIf"}
 """The pre-condition that decides each result, beside ``_while``."""
 
@@ -42,7 +47,7 @@ class Wanted(NamedTuple):
     results: frozenset[Status] = _NO_RESULTS
     within: bool = False
     halted: bool = False
-    tests: tuple[Callable[[], bool], ...] = ()
+    tests: tuple[Test, ...] = ()
 
     @property
     def is_round_tick(self) -> bool:
@@ -50,10 +55,10 @@ class Wanted(NamedTuple):
         return self.before or bool(self.results)
 
     @property
-    def test(self) -> Callable[[], bool] | None:
+    def test(self) -> Test | None:
         """The condition for the questions before and after a tick; None if they are always asked."""
         tests = self.tests
-        return tests[0] if len(tests) == 1 else (lambda: any(test() for test in tests)) if tests else None
+        return tests[0] if len(tests) == 1 else AnyOf(tests) if tests else None
 
     def joined(self, other: "Wanted") -> "Wanted":
         """Returns what either of two wants."""
@@ -85,13 +90,14 @@ class Epoch:
 
 
 class Asking:
-    """The flags that the function round a node's tick reads."""
+    """The flags that the function round a node's tick reads, and a condition for asking."""
 
-    __slots__ = ("before", "results")
+    __slots__ = ("before", "results", "test")
 
     def __init__(self) -> None:
         self.before = False
         self.results = _NO_RESULTS
+        self.test: Test = _ALWAYS
 
 
 class AskingGuard(Guard):
@@ -153,9 +159,10 @@ class Wiring:
         epoch: for how long the same nodes ask.
     """
 
-    def __init__(self, tree: "Tree", agent: Agent) -> None:
+    def __init__(self, tree: "Tree", agent: Agent, recorder: "Recorder") -> None:
         self.tree = tree
         self.agent = agent
+        self._recorder = recorder
         self.asks_all = self.asks_halts = False
         self.alone: Node | None = None
         self._ticked_alone: Node | None = None
@@ -179,9 +186,14 @@ class Wiring:
         self.alone = None if node is self.tree.nodes[0] else node
         self._apply()
 
+    def watch_writes(self, watch: "Journal | None") -> None:
+        """Calls a function with each write to the blackboard from now on; None ends it."""
+        self._recorder.watch_writes(watch)
+
     def remove(self) -> None:
         """Ends all asking; the nodes have their own guards again."""
         self._is_removed = True
+        self.watch_writes(None)
         self._wanted, self.asks_all, self.alone = {}, False, None
         if self._ticked_alone is not None and not self.tree.is_ticking:
             self._switch_root(None)
@@ -254,10 +266,12 @@ class Wiring:
         before, after = self.agent.before, self._after
 
         def execute() -> Status:
-            if asking.before:
+            if asking.before and asking.test.is_doubtful and may_be_true(asking.test):
                 before(node)
             status = inner()
-            return after(node, status) if status in asking.results else status
+            if status in asking.results and asking.test.is_doubtful and may_be_true(asking.test):
+                return after(node, status)
+            return status
 
         return execute
 
@@ -318,6 +332,7 @@ class Wiring:
         for node, asking in zip(nodes, self._asking, strict=True):
             wanted = EVERYTHING if self.asks_all else self._wanted.get(node.uid, NOTHING)
             asking.before, asking.results = wanted.before, wanted.results
+            asking.test = wanted.test or _ALWAYS
             own = node.guard.inner if isinstance(node.guard, AskingGuard) else node.guard
             if not (wanted.within or wanted.halted or (wanted.results and own is not None)):
                 node.guard = own

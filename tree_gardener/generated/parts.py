@@ -38,7 +38,8 @@ COMPOSITES: Final = frozenset((ORDERED, REACTIVE, PARALLEL, WRAPPER, SUBTREE))
 # The values that a part can bring; `Part.has` lists them in the order of their positions.
 NODE, UPDATE, BEHAVIOUR, INITIALISE, TERMINATE = "n", "u", "b", "i", "t"
 UID, COUNT, FINISH, SLICE, END = "d", "k", "z", "o", "e"
-IF_BEFORE, ASK_BEFORE, IF_AFTER, AFTER_SUCCESS, AFTER_FAILURE = "g", "a", "h", "x", "y"
+IF_BEFORE, ASK_BEFORE = "g", "a"
+IF_SUCCESS, AFTER_SUCCESS, IF_FAILURE, AFTER_FAILURE = "h", "x", "j", "y"
 DECIDING: Final = ("0", "1", "2")
 WHILE, ON_SUCCESS, ON_FAILURE, POST = "w", "s", "f", "p"
 _CONDITIONS: Final = frozenset((*DECIDING, WHILE, ON_SUCCESS, ON_FAILURE, POST))
@@ -208,9 +209,15 @@ class Planner:
         """Returns the questions that a node asks a debugger."""
         return NOTHING if self.wiring is None else self.wiring.wanted(node)
 
-    def is_asking(self, node: Node, rule: Rule) -> bool:
-        """Returns whether the code may be left for a debugger round the tick of a node."""
-        return self.wanted(node).is_round_tick or self.variant.can_hold(rule.kind)
+    def is_held_in(self, node: Node, rule: Rule, goes: str) -> bool:
+        """Returns whether the tree may be held within the code, at a node with a result.
+
+        All that waits must be reported before. Where a condition must be true, the code is left first.
+        """
+        if self.variant.can_hold(rule.kind):
+            return True
+        wanted = self.wanted(node)
+        return wanted.test is None and (wanted.before or _STATUS[goes] in wanted.results)
 
     def regions(self, node: Node) -> list[Region]:
         """Returns the regions of a node: one, one for each slice of its children, or none without a rule."""
@@ -282,8 +289,8 @@ class Planner:
         bundles = self.variant.is_observed and rule.kind is not PARALLEL
         for position, node in enumerate(nodes):
             own = self.inlined(node, depth, in_parallel=rule.kind is PARALLEL)
-            is_bundled = bundles and own is not None and not self.is_asking(node, own)
-            is_bundled = is_bundled and own is not None and _is_bundled(node, own, goes)
+            is_bundled = bundles and own is not None and _is_bundled(node, own, goes)
+            is_bundled = is_bundled and own is not None and not self.is_held_in(node, own, goes)
             if not is_bundled:
                 found += self.bundle()
             part = self.child(node, own, position, depth)
@@ -375,20 +382,21 @@ class Planner:
         return "".join(letter for letter, condition in named if condition is not None)
 
     def questions(self, node: Node) -> str:
-        """Adds the functions that ask a debugger round the tick of a node; returns their letters."""
+        """Adds what asks a debugger round a node's tick, or the conditions for it; returns the letters."""
         wiring, wanted = self.wiring, self.wanted(node)
         if wiring is None or not wanted.is_round_tick:
             return ""
         test = wanted.test
         found: list[tuple[str, object]] = []
         if wanted.before:
-            found += [(IF_BEFORE, test), (ASK_BEFORE, wiring.asking_before(node))]
-        if wanted.results & {SUCCESS, FAILURE}:
-            found.append((IF_AFTER, test))
-        for letter, status in ((AFTER_SUCCESS, SUCCESS), (AFTER_FAILURE, FAILURE)):
+            found.append((ASK_BEFORE, wiring.asking_before(node)) if test is None else (IF_BEFORE, test))
+        for tested, letter, status in (
+            (IF_SUCCESS, AFTER_SUCCESS, SUCCESS),
+            (IF_FAILURE, AFTER_FAILURE, FAILURE),
+        ):
             if status in wanted.results:
-                found.append((letter, wiring.asking_after(node, status, UNCHANGED)))
-        found = [each for each in found if each[1] is not None]
+                ask = wiring.asking_after(node, status, UNCHANGED)
+                found.append((letter, ask) if test is None else (tested, test))
         self.values += [value for _, value in found]
         return "".join(letter for letter, _ in found)
 

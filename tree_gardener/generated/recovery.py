@@ -18,8 +18,9 @@ from tree_gardener.generated.parts import (
     CALL,
     COMPOSITES,
     DECIDING,
-    IF_AFTER,
     IF_BEFORE,
+    IF_FAILURE,
+    IF_SUCCESS,
     INITIALISE,
     NODE,
     ON_FAILURE,
@@ -48,6 +49,7 @@ if TYPE_CHECKING:
 UNTICKED: Final = object()
 """Stands for a result where a node was not ticked by the code: it was not IDLE, or a condition decided."""
 _QUESTIONS: Final = frozenset((ASK_BEFORE, AFTER_SUCCESS, AFTER_FAILURE))
+_TESTS: Final = frozenset((IF_BEFORE, IF_SUCCESS, IF_FAILURE))
 _OF_BEHAVIOURS: Final = frozenset((UPDATE, INITIALISE, TERMINATE))
 
 
@@ -116,6 +118,8 @@ class Recovery:
             elif part.kind != CALL:  # the tree was held within its tick
                 returned = self.ended(node, returned)
             return self.climb(node, part, returned)
+        if letter in _TESTS:
+            return self.tested(node, part, letter)
         if letter in _QUESTIONS:
             return self.asked(node, part, letter, returned)
         start_s = 0.0 if part.kind in COMPOSITES else start_s
@@ -162,8 +166,8 @@ class Recovery:
             if self.root.kind == PARALLEL and result is None:
                 self.tick_from(self.position(node, part) + 1, self.base + len(self.root.children))
             return result
-        if letter in (IF_BEFORE, IF_AFTER):
-            return self.untested(node, part, letter)
+        if letter in _TESTS:
+            return self.tested(node, part, letter)
         if letter == NODE or not isinstance(error, (ScriptError, PortError)):
             raise error.with_traceback(trace.tb_next)
         if letter == UPDATE:
@@ -172,8 +176,9 @@ class Recovery:
             node.status = node.status_within(IDLE)
         raise TickError(node, f"in the script '{_condition(node, letter)}': {error}") from None
 
-    def untested(self, node: Any, part: Part, letter: str) -> Status | None:
-        """Asks a debugger where the condition of a breakpoint could not be tested."""
+    def tested(self, node: Any, part: Part, letter: str) -> Status | None:
+        """Asks a debugger where the condition of a breakpoint is true, or could not be tested."""
+        self.unmark()
         if letter == IF_BEFORE:
             return self.climb(node, part, node.parent.ticks[self.position(node, part)]())
         return self.climb(node, part, self.ended(node, node.status))

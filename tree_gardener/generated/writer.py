@@ -23,8 +23,9 @@ from tree_gardener.generated.parts import (
     DECIDING,
     END,
     FINISH,
-    IF_AFTER,
     IF_BEFORE,
+    IF_FAILURE,
+    IF_SUCCESS,
     IMMEDIATE,
     INITIALISE,
     NODE,
@@ -60,7 +61,10 @@ FIXED: Final = (
 FIRST_LINE: Final = 2
 """The line of the first value. Line 1 is that of the function."""
 ATTRIBUTES: Final = frozenset(
-    ("failure", "is_over", "marks", "reported", "running", "skips", "slowest", "status", "success", "ticks"),
+    (
+        *("failure", "is_doubtful", "is_over", "is_true", "marks", "reported", "running", "skips", "slowest"),
+        *("status", "success", "ticks"),
+    ),
 )
 VARIABLES: Final = frozenset(("duration", "error", "kept", "result", "returned", "start"))
 """The variables, except ``ticks0``, ``ticks1`` … for the nodes whose children are called."""
@@ -68,6 +72,9 @@ VARIABLES: Final = frozenset(("duration", "error", "kept", "result", "returned",
 OTHER: Final = {S: F, F: S}
 MARK_OF: Final = {S: 0, F: 1}
 """The index of a result's mark in `Node.marks`."""
+
+_RESULT_OF: Final = {IF_SUCCESS: S, AFTER_SUCCESS: S, IF_FAILURE: F, AFTER_FAILURE: F}
+"""The result after which the value of a letter is called."""
 
 
 class Meaning(NamedTuple):
@@ -352,25 +359,33 @@ class Writer:
 
     def asked_before(self, part: Part) -> Statements:
         """Returns the question to a debugger before a node's tick."""
+        if IF_BEFORE in part.has:
+            return self.tested(part, IF_BEFORE)
         if ASK_BEFORE not in part.has:
             return []
         rest = give(self.rest(part, ASK_BEFORE, self.fixed("UNTICKED")))
-        return self.tested(part, IF_BEFORE, [when(self.called(part, ASK_BEFORE), [rest])])
+        return [*self.unmark(), when(self.called(part, ASK_BEFORE), [rest])]
 
     def asked_after(self, part: Part, status: str) -> Statements:
         """Returns the question to a debugger after a node's result."""
-        letter = AFTER_SUCCESS if status == S else AFTER_FAILURE
+        tested, letter = (IF_SUCCESS, AFTER_SUCCESS) if status == S else (IF_FAILURE, AFTER_FAILURE)
+        if tested in part.has:
+            return self.tested(part, tested)
         if letter not in part.has:
             return []
         asked = let("returned", self.called(part, letter))
         changed = syntax.other(load("returned"), self.fixed("UNCHANGED"))
-        rest = give(self.rest(part, letter, load("returned")))
-        return self.tested(part, IF_AFTER, [asked, when(changed, [rest])])
+        return [*self.unmark(), asked, when(changed, [give(self.rest(part, letter, load("returned")))])]
 
-    def tested(self, part: Part, letter: str, question: Statements) -> Statements:
-        """Returns a question that is asked only if the condition of its breakpoints is true."""
-        question = [*self.unmark(), *question]
-        return [when(self.called(part, letter), question)] if letter in part.has else question
+    def tested(self, part: Part, letter: str) -> Statements:
+        """Returns the way out for a node at which a condition of its breakpoints is true."""
+        test = self.value(part, letter)
+        line = FIRST_LINE + part.place(letter)
+        is_true = call(
+            syntax.at(syntax.attribute(test, "is_true"), line), line=line
+        )  # both have it in errors
+        leaving = when(is_true, [give(self.rest(part, letter, self.fixed("UNTICKED")))])
+        return [when(syntax.attribute(test, "is_doubtful"), [leaving])]
 
     def count(self, part: Part, result: str) -> Statements:
         """Returns the count of a result."""
@@ -433,17 +448,28 @@ class Writer:
 
 def meanings(root: Part) -> Iterator[tuple[int, Meaning]]:
     """Yields each line of a shape with its meaning."""
-    yield from _meanings(root, [])
+    yield from _meanings(root, [], "")
 
 
-def _meanings(part: Part, pending: list[tuple[int, int]]) -> Iterator[tuple[int, Meaning]]:
-    """Yields the lines of a part; `pending` is what waits before it, and afterwards what waits behind it."""
+def _meanings(part: Part, pending: list[tuple[int, int]], goes: str) -> Iterator[tuple[int, Meaning]]:
+    """Yields the lines of a part.
+
+    Args:
+        part: the part.
+        pending: what waits before it, and afterwards what waits behind it.
+        goes: the result after which the node above continues.
+    """
     for offset, letter in enumerate(part.has):
-        yield FIRST_LINE + part.first + offset, Meaning(part, letter, tuple(pending))
-    goes = S if part.kind in (WRAPPER, SUBTREE) else part.results[0]
+        if letter not in _RESULT_OF:
+            yield FIRST_LINE + part.first + offset, Meaning(part, letter, tuple(pending))
+    child_goes = S if part.kind in (WRAPPER, SUBTREE) else part.results[0]
     for child in part.children:
-        yield from _meanings(child, pending)
-        if child.is_bundled:
-            pending.append((child.first, MARK_OF[goes]))
-        else:
-            pending.clear()
+        yield from _meanings(child, pending, child_goes)
+    if part.is_bundled:
+        pending.append((part.first, MARK_OF[goes]))
+    else:
+        pending.clear()
+    for offset, letter in enumerate(part.has):
+        if letter in _RESULT_OF:  # after another result, all that waited has been reported
+            waiting = tuple(pending) if _RESULT_OF[letter] == goes else ()
+            yield FIRST_LINE + part.first + offset, Meaning(part, letter, waiting)

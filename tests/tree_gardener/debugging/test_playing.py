@@ -19,11 +19,13 @@ from tree_gardener.debugging import Breakpoint, Debugger, Stop, When, place_of
 from tree_gardener.debugging.forces import Forces
 from tree_gardener.debugging.wiring import Wiring
 from tree_gardener.generated import generation
+from tree_gardener.generated.recovery import Recovery
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from tests.tree_gardener.fuzz.generate import Case
+    from tree_gardener.generated.parts import Part
     from tree_gardener.node import Node
 
 CASES = Path(__file__).parents[2] / "conformance"
@@ -70,7 +72,14 @@ def _generated_from_the_first_tick(monkeypatch: pytest.MonkeyPatch) -> Counter[b
 
         return asks
 
+    left = Recovery.tested
+
+    def tested(recovery: Recovery, node: Any, part: Part, letter: str) -> Status | None:
+        asked[True] += 1
+        return left(recovery, node, part, letter)
+
     monkeypatch.setattr(Wiring, "asking_before", asking_before)
+    monkeypatch.setattr(Recovery, "tested", tested)
     return asked
 
 

@@ -7,6 +7,10 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.tree_gardener.trees import load, recording, subtree
+from tree_gardener.blackboard import Blackboard
+from tree_gardener.debugging import Debugger
+from tree_gardener.debugging.watches import Watch
+from tree_gardener.debugging.wiring import Wanted
 from tree_gardener.decorators.result import Inverter
 from tree_gardener.generated.parts import (
     BUNDLE,
@@ -22,6 +26,7 @@ from tree_gardener.generated.parts import (
     rule_of,
 )
 from tree_gardener.node import Control, Node
+from tree_gardener.script import Environment
 from tree_gardener.status import Status
 
 if TYPE_CHECKING:
@@ -184,6 +189,44 @@ def test_marks_of_composites_are_bundled_where_the_result_tells_the_course(
     assert sorted(reports(observed(body.replace("<A/>", "<Succeeding/>")))) == sorted(
         (1, uids) for uids in expected
     )
+
+
+def asking(where: int, wanted: Wanted) -> Region:
+    """The region of an observed Sequence at one of whose leaves a debugger is asked."""
+    tree = load("<Sequence><Succeeding/><Succeeding/><Succeeding/></Sequence>")
+    tree.observe(lambda changes: None)
+    tree.debug(Debugger(lambda stop: None))
+    wiring = tree._hooks.wiring
+    assert wiring is not None
+    wiring.choose({where: wanted})
+    variant = BARE._replace(is_observed=True, asks=True)
+    (region,) = Planner(variant, None, lambda node: False, wiring).regions(tree.nodes[0])
+    return region
+
+
+NEVER = (Watch("1 > 2", Environment(Blackboard(), {})),)
+SUCCEEDED, FAILED = frozenset({Status.SUCCESS}), frozenset({Status.FAILURE})
+
+
+@pytest.mark.parametrize(
+    ("wanted", "letters", "expected"),
+    [
+        # Where the tree cannot be held, all results are reported together.
+        (Wanted(results=FAILED), "y", [[2, 3, 4, 1]]),
+        (Wanted(before=True, tests=NEVER), "g", [[2, 3, 4, 1]]),
+        (Wanted(results=SUCCEEDED | FAILED, tests=NEVER), "hj", [[2, 3, 4, 1]]),
+        # What went before is reported before it is asked.
+        (Wanted(before=True), "a", [[2], [4, 1]]),
+        (Wanted(results=SUCCEEDED), "x", [[2], [4, 1]]),
+    ],
+)
+def test_marks_are_bundled_round_a_breakpoint_that_does_not_stop(
+    wanted: Wanted, letters: str, expected: list[list[int]]
+) -> None:
+    region = asking(3, wanted)
+    assert sorted(uids for _, uids in reports(region)) == expected
+    leaf = next(part for part in region.root.children if region.values[part.first] is region.node.children[1])
+    assert leaf.has == f"nub{letters}"
 
 
 def test_letters_stand_for_the_values_at_their_places() -> None:

@@ -13,13 +13,16 @@ from hypothesis import strategies as st
 
 from tests.tree_gardener.trees import Succeeding, load
 from tree_gardener import LoadError, Tree
+from tree_gardener.blackboard import Blackboard
 from tree_gardener.debugging import Debugger
+from tree_gardener.debugging.watches import Watch
 from tree_gardener.debugging.wiring import RESULTS, Wanted, Wiring
 from tree_gardener.generated import code
 from tree_gardener.generated.parts import Planner, Variant
 from tree_gardener.generated.syntax import NODES
 from tree_gardener.generated.writer import ATTRIBUTES, FIRST_LINE, FIXED, VARIABLES, Writer, meanings
 from tree_gardener.node import Control
+from tree_gardener.script import Environment
 from tree_gardener.script import compiled as compiled_scripts
 
 HOSTILE = (
@@ -60,8 +63,10 @@ class Asked(Debugger):
 
     def attach(self, wiring: Wiring) -> None:
         super().attach(wiring)
-        wanted = Wanted(before=True, results=RESULTS, halted=True, tests=(lambda: True,))
-        wiring.choose({node.uid: wanted for node in wiring.tree.nodes})
+        tests = (Watch("1 < 2", Environment(Blackboard(), {})),)
+        asked = Wanted(before=True, results=RESULTS, halted=True)
+        wanted = (asked, asked._replace(tests=tests))
+        wiring.choose({node.uid: wanted[node.uid % 2] for node in wiring.tree.nodes})
 
 
 def tree_of(text: str) -> Tree:

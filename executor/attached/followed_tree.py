@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Final
 from executor.recorder.outside.tree_log import TreeLog
 from executor.recorder.outside.tree_xml import LoggedTree
 from executor.recorder.tree_recorder import STATUS_CODES
+from tree_gardener.groot.remote import LAST_STATUS
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from executor.messages import TreeNode
     from executor.recorder.outside.steps import Change
@@ -20,8 +21,6 @@ if TYPE_CHECKING:
 __all__ = ["FollowedTree"]
 
 NAME: Final = "the other program"
-_CODES: Final = {id(status): code for status, code in STATUS_CODES.items()}
-"""By identity, since the hash of a status is a call."""
 _COLUMNS: Final = ("uid", "parent", "type", "kind", "name", "path", "node_id", "tree_id")
 
 
@@ -52,7 +51,7 @@ class FollowedTree:
     ) -> None:
         fields = {name: [getattr(node, name) for node in nodes] for name in _COLUMNS}
         self._tree = LoggedTree(fields | {"ports_json": ["{}"] * len(nodes)}, numbers, xml)
-        self._statuses: dict[int, int] = {}
+        self._first: dict[int, int] = {}  # the statuses by our uids, until a log has them
         self._entries: dict[tuple[str, str], EntryRow] = {}
         self._log: TreeLog | None = None
         self.generation = generation
@@ -60,15 +59,19 @@ class FollowedTree:
 
     def restate(self, writer: TreeWriter) -> None:
         """Writes all that is known, and from now on each change."""
+        known = dict(self._statuses)
         self._log = log = TreeLog(writer, NAME, self.generation)
         self.generation += 1
         log.tree(self.told_ns, self._tree)
-        for uid, code in self._statuses.items():
-            if code:
-                log.change(self.told_ns, uid, code, 0)
+        log.changes((self.told_ns, uid, code) for uid, code in known.items() if code)
         log.entries(self.told_ns, list(self._entries.values()))
 
-    def take(self, transitions: Sequence[Transition], begun_s: float, until_s: float) -> None:
+    @property
+    def _statuses(self) -> Mapping[int, int]:
+        """The last statuses by our uids."""
+        return self._first if self._log is None else self._log.statuses
+
+    def take(self, transitions: Iterable[Transition], begun_s: float, until_s: float) -> None:
         """Takes the transitions up to now.
 
         Args:
@@ -76,30 +79,39 @@ class FollowedTree:
             begun_s: when the other program began to keep them.
             until_s: the present; none is later.
         """
-        # Up to 1,000 come at once, 20 times a second: so the loop has no call.
-        begun_ns, until_ns, told_ns = _ns(begun_s), _ns(until_s), self.told_ns
-        numbers, statuses, codes = self._tree.numbers, self._statuses, _CODES
-        changes: list[Change] = []
-        for time_us, number, status in transitions:
-            if number not in numbers:
-                continue
-            t_ns = begun_ns + time_us * 1000
-            if t_ns > told_ns:
-                told_ns = t_ns if t_ns < until_ns else until_ns
-            statuses[number] = code = codes[id(status)]
-            changes.append((told_ns, numbers[number], code))
+        until_ns = _ns(until_s)
+        changes = self._changes(transitions, _ns(begun_s), until_ns)
         if self._log is not None:
             self._log.changes(changes)
+        else:
+            self._first.update({uid: code for _, uid, code in changes})
         self.told_ns = until_ns
+
+    def _changes(self, transitions: Iterable[Transition], begun_ns: int, until_ns: int) -> Iterator[Change]:
+        """Yields the changes of nodes that are known."""
+        # Up to 1,000 come at once, 20 times a second: so the loop makes nothing else for each.
+        told_ns, uid_of = self.told_ns, self._tree.numbers.get
+        for low, high, number, code in transitions:
+            uid = uid_of(number)
+            if uid is None or code > LAST_STATUS:
+                continue
+            t_ns = begun_ns + (low | high << 32) * 1000
+            if t_ns > told_ns:
+                told_ns = t_ns if t_ns < until_ns else until_ns
+            yield told_ns, uid, code
 
     def correct(self, statuses: Mapping[int, Status], now_s: float) -> None:
         """Takes statuses that no transition has told, such as those at the begin."""
-        for uid, status in statuses.items():
-            code = STATUS_CODES[status]
-            if uid in self._tree.numbers and self._statuses.get(uid, 0) != code:
-                self._statuses[uid] = code
-                if self._log is not None:
-                    self._log.change(_ns(now_s), uid, code, 0)
+        known, now_ns = self._statuses, _ns(now_s)
+        changes: list[Change] = []
+        for number, status in statuses.items():
+            uid, code = self._tree.numbers.get(number), STATUS_CODES[status]
+            if uid is not None and known.get(uid, 0) != code:
+                changes.append((now_ns, uid, code))
+        if self._log is not None:
+            self._log.changes(changes)
+        else:
+            self._first.update({uid: code for _, uid, code in changes})
         self.told_ns = max(self.told_ns, _ns(now_s))
 
     def written(self, rows: Sequence[EntryRow], now_s: float) -> None:

@@ -6,7 +6,7 @@ The other program is not trusted: what it sends is bounded in time, size and dep
 import itertools
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from types import TracebackType
 from typing import Any, Final
 
@@ -223,7 +223,7 @@ class Groot2Client:
         """
         self._ask(RequestType.RECORDING, b"start" if on else b"stop")
 
-    def transitions(self) -> tuple[list[Transition], int]:
+    def transitions(self) -> tuple[Iterator[Transition], int]:
         """Returns the transitions since the last call, and the number of entries that could not be read.
 
         The other program keeps 1,000 at most.

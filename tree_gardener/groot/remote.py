@@ -4,7 +4,7 @@ import dataclasses
 import re
 import struct
 from collections.abc import Iterator
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
 from tree_gardener.document import Element, parse_document
 from tree_gardener.errors import LoadError
@@ -14,8 +14,12 @@ from tree_gardener.status import IDLE, Status
 _UID: Final = re.compile(r"[0-9]{1,5}")
 _STATUS: Final = struct.Struct("<HB")
 _TRANSITION: Final = struct.Struct("<IHHB")
-"""The time in µs, its lower and its upper bytes; uid and status."""
+Transition = tuple[int, int, int, int]
+"""A change of a node: the lower 32 and upper 16 bits of the time in µs, which counts from the begin of the
+recording or from the epoch; the uid; and the number of the status from then on.
+"""
 _OF_WIRE: Final = {number: status for status, number in WIRE_STATUS.items()}
+LAST_STATUS: Final = max(_OF_WIRE)
 _MOST_NODES: Final = 0xFFFF
 """Uids have two bytes."""
 
@@ -60,20 +64,6 @@ _STATES: Final = {BECAME_IDLE + number: NodeState(IDLE, was) for number, was in 
     number: NodeState(status) for number, status in _OF_WIRE.items()
 }
 """The state of each number; there is one object of each, so that equal ones are found at once."""
-
-
-class Transition(NamedTuple):
-    """A change of a node's status.
-
-    Attributes:
-        time_us: microseconds since the begin of the recording, or since the epoch.
-        uid: the node.
-        status: its status from then on.
-    """
-
-    time_us: int
-    uid: int
-    status: Status
 
 
 @dataclasses.dataclass(frozen=True)
@@ -150,17 +140,15 @@ def read_statuses(data: bytes) -> tuple[dict[int, NodeState], int]:
     return states, dropped
 
 
-def read_transitions(data: bytes) -> tuple[list[Transition], int]:
-    """Returns the transitions of a reply, and the number of entries that could not be read."""
+def read_transitions(data: bytes) -> tuple[Iterator[Transition], int]:
+    """Returns the transitions of a reply, and the number of entries that could not be read.
+
+    Those with a status above `LAST_STATUS` are counted, and among those that are returned.
+    """
     whole = len(data) - len(data) % _TRANSITION.size
-    dropped = 1 if whole < len(data) else 0
-    known, make = _OF_WIRE, Transition._make
-    found = [
-        make((low | high << 32, uid, known[number]))
-        for low, high, uid, number in _TRANSITION.iter_unpack(data[:whole])
-        if number in known
-    ]
-    return found, dropped + whole // _TRANSITION.size - len(found)
+    statuses = data[_TRANSITION.size - 1 : whole : _TRANSITION.size]
+    dropped = len(statuses.translate(None, bytes(_OF_WIRE))) + (1 if whole < len(data) else 0)
+    return _TRANSITION.iter_unpack(data[:whole]), dropped
 
 
 def read_boards(document: Any) -> dict[str, dict[str, Any]]:

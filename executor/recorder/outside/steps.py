@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
 __all__ = ["IDLE", "STATUS_WORDS", "Change", "Step", "Steps"]
 
@@ -42,6 +42,11 @@ class Steps:
         self._results: dict[int, int] = {}
         self._begin_ns = 0
         self._last_ns = 0
+
+    @property
+    def statuses(self) -> Mapping[int, int]:
+        """The last status of each node."""
+        return self._status
 
     def take(self, t_ns: int, uid: int, status: int) -> Step | None:
         """Takes a change; returns the step that ended before it."""

@@ -9,7 +9,7 @@ from executor.recorder.outside.errors import OutsideError
 from executor.recorder.outside.steps import STATUS_WORDS, Steps
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from executor.recorder.outside.steps import Change, Step
     from executor.recorder.outside.tree_xml import LoggedTree
@@ -116,6 +116,11 @@ class TreeLog:
             raise OutsideError("damaged", self._name, place, text, "The file is damaged there.")
         if (ended := self._steps.take(t_ns, uid, status)) is not None:
             self._step(ended)
+
+    @property
+    def statuses(self) -> Mapping[int, int]:
+        """The statuses of the nodes that have changed, by our uids."""
+        return self._steps.statuses
 
     def changes(self, changes: Iterable[Change]) -> None:
         """Takes changes of nodes of this tree, by our uids and in the order of their times."""

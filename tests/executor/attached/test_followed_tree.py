@@ -6,7 +6,6 @@ from typing import Any
 
 from executor.attached.followed_tree import FollowedTree
 from executor.messages import TreeNode
-from tree_gardener.groot.remote import Transition
 from tree_gardener.status import Status
 
 NODES = [
@@ -35,7 +34,7 @@ def test_what_was_known_is_stated_at_the_begin_and_then_each_change() -> None:
     tree.written([("", "a", "int", "1", False), ("", "b", "int", "2", False)], 1.0)
     tree.written([("", "b", "int", "null", True)], 1.0)
     tree.restate(out)
-    tree.take([Transition(500_000, 8, Status.SUCCESS), Transition(600_000, 99, Status.SUCCESS)], 1.0, 2.0)
+    tree.take([(500_000, 0, 8, 2), (600_000, 0, 99, 2), (700_000, 0, 8, 5)], 1.0, 2.0)
     tree.end_step()
     assert out.attached == ["tree_4.xml"]
     assert [name for name, _ in out.records] == ["Tree", "Keyframe", "Tick", "Blackboard", "Tick"]
@@ -49,9 +48,23 @@ def test_what_was_known_is_stated_at_the_begin_and_then_each_change() -> None:
 def test_times_never_run_back_nor_into_the_future() -> None:
     tree, out = FollowedTree(NODES, {7: 1, 8: 2}), Written()
     tree.restate(out)
-    late = Transition(9_000_000, 7, Status.RUNNING)
-    tree.take([late, Transition(0, 8, Status.RUNNING)], 1.0, 2.0)
+    tree.take([(0, 1, 7, 1), (0, 0, 8, 1)], 1.0, 2.0)
     tree.end_step()
     stamps = [fields["stamp"] for name, fields in out.records if name == "Tick"]
     assert stamps
     assert set(stamps) == {2_000_000_000}
+
+
+def test_what_is_known_is_stated_again_for_another_recorder() -> None:
+    tree = FollowedTree(NODES, {7: 1, 8: 2})
+    tree.take([(0, 0, 7, 1), (0, 0, 8, 1)], 0.0, 1.0)
+    for status in (1, 2):
+        out = Written()
+        tree.restate(out)
+        tree.end_step()
+        ticks = [fields for name, fields in out.records if name == "Tick"]
+        assert [(tick["changed_uid"], tick["changed_status"]) for tick in ticks] == [
+            ([1, 2], bytes([1, status]))
+        ]
+        tree.take([(0, 0, 8, 2)], 1.0, 2.0)
+        tree.correct({8: Status.SUCCESS}, 2.0)

@@ -11,7 +11,6 @@ import msgspec
 from executor.attached.recording import AttachedRecorder
 from executor.messages import TreeNode
 from executor.recorder.link import Dump, Heard, Mark, Record, Until
-from tree_gardener.groot.remote import Transition
 from tree_gardener.status import Status
 
 NODES = [
@@ -50,8 +49,7 @@ def test_transitions_become_ticks_that_begin_with_the_tree() -> None:
     assert recorder.is_wanted
     recorder.correct({7: Status.RUNNING}, 1.0)
     recorder.written([("", "a", "int", "1", False)], 1.0)
-    taken = [Transition(10_000, 8, Status.RUNNING), Transition(90_000, 8, Status.SUCCESS)]
-    recorder.take([*taken, Transition(95_000, 99, Status.SUCCESS)], 1.0, 2.0)
+    recorder.take([(10_000, 0, 8, 1), (90_000, 0, 8, 2), (95_000, 0, 99, 2)], 1.0, 2.0)
     found = taker.take(recorder)
     assert isinstance(found[0], Mark)
     records = [each for each in found if isinstance(each, Record)]
@@ -70,7 +68,7 @@ def test_transitions_become_ticks_that_begin_with_the_tree() -> None:
 def test_nothing_is_sent_without_a_recorder() -> None:
     recorder = AttachedRecorder(NODES, {7: 1, 8: 2}, "")
     recorder.begin("run1")
-    recorder.take([Transition(0, 7, Status.RUNNING)], 0.0, 1.0)
+    recorder.take([(0, 0, 7, 1)], 0.0, 1.0)
     recorder.pump()
     recorder.close()
     assert recorder.is_wanted

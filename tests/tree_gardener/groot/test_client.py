@@ -282,10 +282,10 @@ def test_transitions_of_a_program_are_read() -> None:
             transitions, dropped = client.transitions()
             assert dropped == 0
             found.extend(transitions)
-            return {each.uid for each in found} >= set(range(1, 11))
+            return {uid for _, _, uid, _ in found} >= set(range(1, 11))
 
         until(is_all, "all nodes change")
-        times = [each.time_us for each in found]
+        times = [low | high << 32 for low, high, _, _ in found]
         assert times == sorted(times)
         client.record(on=False)
 

@@ -95,10 +95,15 @@ async def _ask(session: Session, silence: Silence) -> None:
     while True:
         try:
             async with manager_socket(session, "watch") as socket:
-                while True:
-                    silence.heard()
-                    await asyncio.sleep(PING_EVERY_S)
-                    await (await socket.ping())
+                try:
+                    while True:
+                        silence.heard()
+                        await asyncio.sleep(PING_EVERY_S)
+                        await (await socket.ping())
+                except asyncio.CancelledError:
+                    if silence.seconds >= longest_s():
+                        socket.transport.abort()  # it would not answer the closing either
+                    raise
         except InvalidStatus:
             silence.heard()  # a manager of an older version has no such socket, but its refusal is an answer
         except (ConnectionClosed, TimeoutError, InvalidHandshake):

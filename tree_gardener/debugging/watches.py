@@ -5,6 +5,7 @@ is written or removed. Of values that can change in place nothing like this is k
 one, or that cannot be evaluated, is evaluated each time.
 """
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Final, Protocol
 
 from tree_gardener.blackboard import EMPTY, Blackboard, Entry
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
 _FIXED: Final = frozenset((int, float, bool, str, type(None), type(EMPTY)))
 """The types of values that cannot change in place."""
+
+Bind = Callable[[str, Environment], Callable[[], bool]]
 
 
 class Test(Protocol):
@@ -36,6 +39,11 @@ class Test(Protocol):
 class Watch:
     """One condition in one scope of the blackboard, for all breakpoints that have it.
 
+    Args:
+        text: the condition.
+        environment: its scope and constants.
+        bind: makes the function that evaluates it.
+
     Attributes:
         is_doubtful: whether it may be true: it was so, or something that it reads has been written since.
         is_settled: whether it stays false until something is written.
@@ -44,9 +52,9 @@ class Watch:
 
     __slots__ = ("_test", "is_doubtful", "is_settled", "keys")
 
-    def __init__(self, text: str, environment: Environment) -> None:
+    def __init__(self, text: str, environment: Environment, bind: Bind = bind_test) -> None:
         board = environment.board
-        self._test = bind_test(text, environment)
+        self._test = bind(text, environment)
         read = {name.name for name in names_read(parse(text))}
         places = [
             place for name in read if environment.enums.get(name) is None for place in _places(board, name)
@@ -113,9 +121,10 @@ def may_be_true(test: Test) -> bool:
 
 
 class Watches:
-    """The conditions of a tree's breakpoints."""
+    """The conditions of a tree's breakpoints; `bind` makes the function that evaluates one."""
 
-    def __init__(self) -> None:
+    def __init__(self, bind: Bind = bind_test) -> None:
+        self._bind = bind
         self._found: dict[tuple[str, int], Watch] = {}
         self._readers: dict[str, list[Watch]] = {}
 
@@ -131,7 +140,7 @@ class Watches:
         key = text, id(node.board)  # the tree keeps it
         watch = self._found.get(key)
         if watch is None:
-            watch = self._found[key] = Watch(text, Environment(node.board, node.tree.enums))
+            watch = self._found[key] = Watch(text, Environment(node.board, node.tree.enums), self._bind)
             for name in watch.keys:
                 self._readers.setdefault(name, []).append(watch)
         return watch

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 MAX_MESSAGE_BYTES: Final = 64 * 1024 * 1024
 QUEUED_MESSAGES: Final = 2
+CLOSING_S: Final = 2
+"""The time in which a manager has to answer the closing of a socket."""
 USER_HEADER: Final = "X-BT-Studio-User"
 """Names the user to the manager (`executor.manager.identity`), in percent-encoding."""
 
@@ -34,7 +36,7 @@ def manager_socket(session: Session, target: str, user: User | None = None) -> c
         max_size=MAX_MESSAGE_BYTES,
         max_queue=QUEUED_MESSAGES,
         ping_interval=None,
-        close_timeout=2,
+        close_timeout=CLOSING_S,
     )
 
 

@@ -18,6 +18,7 @@ from websockets.exceptions import ConnectionClosed
 
 from backend.sessions import maintenance, watch, writes
 from backend.sessions.consumers import EXECUTOR_SILENT, _is_ping, _noting
+from backend.sessions.manager import sockets
 from backend.sessions.models import Session
 from tests.backend.sessions.conftest import spec
 from tests.backend.sessions.test_consumers import opened, relay, session  # noqa: F401 - fixtures
@@ -112,6 +113,22 @@ async def test_a_stopped_manager_behind_the_gate_is_given_up(gate, quick, monkey
                 await asyncio.wait_for(task, 60)
         finally:
             os.kill(process.pid, signal.SIGCONT)
+
+
+async def test_a_manager_that_stops_is_given_up_without_its_answer_to_the_closing(quick, monkeypatch):
+    monkeypatch.setattr(sockets, "CLOSING_S", 3600)
+    async with manager_process() as process:
+        one = row(f"127.0.0.1:{process.ready['port']}", monkeypatch=monkeypatch)
+        silences = []
+        known = watch.Silence
+        monkeypatch.setattr(watch, "Silence", lambda: silences.append(known()) or silences[-1])
+        async with watched(one) as task:
+            await until(lambda: silences and silences[0]._was_heard)
+            os.kill(process.pid, signal.SIGSTOP)
+            try:
+                await until(task.done)
+            finally:
+                os.kill(process.pid, signal.SIGCONT)
 
 
 async def test_a_manager_that_answers_again_in_time_is_kept(monkeypatch):

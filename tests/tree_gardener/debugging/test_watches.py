@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -10,38 +10,51 @@ from tree_gardener.backup import backup, restore
 from tree_gardener.blackboard import EMPTY, Blackboard, Entry
 from tree_gardener.debugging import Breakpoint, When, place_of
 from tree_gardener.debugging.watches import AnyOf, Watch, Watches
-from tree_gardener.script import Environment
+from tree_gardener.script import Environment, bind_test
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 
 class Counting:
-    """A condition that counts how often it is evaluated."""
+    """Binds a condition to a scope, and counts how often it is evaluated.
 
-    def __init__(self, watch: Watch) -> None:
-        self.watch = watch
+    Attributes:
+        after: is done at the end of each evaluation.
+    """
+
+    def __init__(self) -> None:
         self.count = 0
-        own = watch._test
+        self.watch: Watch
+        self.after: Callable[[], object] = int
+
+    def bind(self, text: str, environment: Environment) -> Callable[[], bool]:
+        own = bind_test(text, environment)
 
         def test() -> bool:
             self.count += 1
-            return own()
+            found = own()
+            self.after()
+            return found
 
-        watch._test = test
+        return test
 
     def is_true(self) -> bool:
         return self.watch.is_doubtful and self.watch.is_true()
 
 
 def watched(text: str, board: Blackboard | None = None, **enums: int) -> tuple[Counting, Blackboard, Watches]:
-    """A condition in a scope, with the writes to the scope told."""
+    """A condition in a scope whose writes reach it."""
     tree = tree_of('<Leaf name="a.S"/>')
     board = board if board is not None else tree.blackboard
     node = tree.nodes[0]
     node.board = board
     tree.enums = enums
-    watches = Watches()
-    watch = watches.at(node, text)
+    counting = Counting()
+    watches = Watches(counting.bind)
+    counting.watch = watches.at(node, text)
     board.journal = watches.written
-    return Counting(watch), board, watches
+    return counting, board, watches
 
 
 def test_a_false_condition_is_evaluated_again_after_a_write_of_what_it_reads() -> None:
@@ -123,14 +136,7 @@ def test_a_scope_that_finds_entries_in_its_own_way_is_read_each_time() -> None:
 def test_a_write_while_the_condition_is_read_is_not_lost() -> None:
     counting, board, _ = watched("n == 1")
     board["n"] = 0
-    own = counting.watch._test
-
-    def test() -> bool:
-        found = own()
-        board["n"] = 1
-        return found
-
-    counting.watch._test = test
+    counting.after = lambda: board.__setitem__("n", 1)
     assert not counting.is_true()
     assert counting.is_true()
 

@@ -14,6 +14,7 @@ class Segment(Struct):
 
     It is sent again each second while it grows: `bytes` of it can be read then. `complete` tells that it has
     its end. A new `version` replaces it when old pictures were removed; with 0 `bytes` it is gone.
+    `run_number` counts the runs of the session from 1, and stays with a run when others are thrown away.
     """
 
     run: str
@@ -24,6 +25,7 @@ class Segment(Struct):
     to_t: float
     bytes: int
     complete: bool = False
+    run_number: int = 0
 
 
 class FlagSet(Struct):

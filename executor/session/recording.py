@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 from uuid import uuid4
 
-from msgspec import to_builtins
+from msgspec import structs, to_builtins
 
 from executor import child_messages, messages, recorder_messages
 from executor.session.questions import answer, answer_late
@@ -52,6 +52,7 @@ class Recording:
         self._looked_s: float | None = None
         self._is_stopped = False
         self._branch: dict[str, str] = {}
+        self._numbers: dict[str, int] = {}
         self.run = ""
 
     def start(self, folder: str, *, is_whole: bool = False) -> None:
@@ -77,6 +78,7 @@ class Recording:
         if not self._folder:
             return
         self.run, self._is_stopped = uuid4().hex[:12], False
+        self._numbers[self.run] = len(self._numbers) + 1
         self._branch = {"parent": parent, "from_t": repr(from_t)} if parent else {}
         if parent:
             self._stage.output.emit(messages.Branch(self.run, parent, from_t))
@@ -122,7 +124,8 @@ class Recording:
         self._silent_s = 0.0
         match event.message:
             case recorder_messages.Recorded(segment=segment):
-                stage.output.emit(segment)
+                number = self._numbers.get(segment.run, 0)
+                stage.output.emit(structs.replace(segment, run_number=number))
             case recorder_messages.Stopped(run=run, t=t_s, reason=reason, detail=detail):
                 self._is_stopped = self._is_stopped or run == self.run
                 stage.output.emit(messages.RecordingStopped(run, t_s, reason, detail, goes_on=False))

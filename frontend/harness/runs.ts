@@ -12,6 +12,7 @@ export const segmentOf = (more: Partial<Segment> = {}): Segment => ({
   to_t: 100,
   bytes: 1,
   complete: true,
+  run_number: 1,
   ...more,
 });
 

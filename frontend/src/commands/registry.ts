@@ -23,9 +23,10 @@ export interface UserCommand {
   run: (page?: Document) => void;
   /**
    * The state in which the command has its shortcut before others with the same one: a debugger's keys mean
-   * something else while it holds the tree. The command is enabled in that state alone.
+   * something else while it holds the tree, and Escape while two runs are compared. The command is enabled in
+   * that state alone.
    */
-  when?: 'held';
+  when?: 'held' | 'compared';
   /** Whether the command palette leaves it out. */
   hidden?: boolean;
   /** Whether the shortcut also works while a text field has the focus. */

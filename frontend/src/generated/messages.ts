@@ -749,6 +749,7 @@ export interface TryingEnded {
  *
  * It is sent again each second while it grows: `bytes` of it can be read then. `complete` tells that it has
  * its end. A new `version` replaces it when old pictures were removed; with 0 `bytes` it is gone.
+ * `run_number` counts the runs of the session from 1, and stays with a run when others are thrown away.
  */
 export interface Segment {
   run: string;
@@ -759,6 +760,7 @@ export interface Segment {
   to_t: number;
   bytes: number;
   complete: boolean;
+  run_number: number;
 }
 
 /** A flag of the user was set or changed in a run, at a moment in s; with an empty `text` it is gone. */

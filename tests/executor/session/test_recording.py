@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from msgspec import structs
 
 from executor import child_messages, messages, recorder_messages
 from executor.session.events import (
@@ -204,6 +205,15 @@ def test_all_clients_get_segments_and_a_late_one_too():
     says(play, recorder_messages.Recorded(segment(0, size=0)))
     assert [s.number for s in play.sent("segment")] == [0, 1, 0]
     assert play.session.snapshot().segments == [segment(1)]
+
+
+def test_each_run_has_a_number_of_its_own():
+    play = recorded()
+    assert play.reply(play.command("run_application")) == "ack"
+    runs = [begun.run for begun in told(play, recorder_messages.BeginRun)]
+    for run in reversed(runs):
+        says(play, recorder_messages.Recorded(structs.replace(segment(), run=run)))
+    assert [(each.run, each.run_number) for each in play.sent("segment")] == [(runs[1], 2), (runs[0], 1)]
 
 
 def test_a_read_is_asked_of_the_recorder_and_answered_by_it():

@@ -25,7 +25,10 @@ afterEach(() => {
 it('has all commands of the axis, with their keys, and does them', async () => {
   const all = [...markCommands, ...rangeCommands];
   expect([...AXIS_MENU.flat()].sort()).toEqual(
-    [...all.map(({ id }) => id), 'time.goBack', 'time.runOn', 'time.tryMany', 'time.branch'].sort(),
+    [
+      ...all.map(({ id }) => id),
+      ...['time.goBack', 'time.runOn', 'time.tryMany', 'time.branch', 'time.compare'],
+    ].sort(),
   );
   show(<AxisMenu />);
   await user.click(screen.getByRole('button', { name: 'Marks, range, changes and zoom' }));

@@ -4,6 +4,7 @@ import { useTranslation } from 'react-i18next';
 import { useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
 import { canChangeBranch } from '@/store/dialogs/branches';
+import { canCompare } from '@/store/moment/compare/comparing';
 import { canFlag } from '@/store/moment/flags';
 import { canGoBack, canRunOn } from '@/store/moment/rerun/goBack';
 import { useRange } from '@/store/moment/range';
@@ -12,7 +13,7 @@ import { useSessionStore } from '@/store/session/store';
 
 /** The commands for marks, range, changes and zoom, in groups. */
 export const AXIS_MENU = [
-  ['time.goBack', 'time.runOn', 'time.tryMany', 'time.branch'],
+  ['time.goBack', 'time.runOn', 'time.tryMany', 'time.branch', 'time.compare'],
   ['time.flag', 'time.marks', 'time.markBack', 'time.markForth'],
   ['time.markA', 'time.markB', 'time.loop', 'time.clearRange'],
   ['time.whatChanged'],
@@ -49,6 +50,7 @@ function Items() {
   useSessionStore(canGoBack);
   useSessionStore(canRunOn);
   useSessionStore(canChangeBranch);
+  useSessionStore(canCompare);
   return AXIS_MENU.map((ids, at) => [
     at > 0 ? <Menu.Divider key={`before ${ids[0]}`} /> : null,
     ...ids.map((id) => {

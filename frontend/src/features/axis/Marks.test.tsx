@@ -9,7 +9,16 @@ import { useSessionStore } from '@/store/session/store';
 import { INTRODUCTION, show, user } from '../../../harness/testing';
 import { Marks } from './Marks';
 
-const segment = { branch: 0, number: 0, version: 0, from_t: 0, to_t: 10, bytes: 1, complete: false };
+const segment = {
+  branch: 0,
+  number: 0,
+  version: 0,
+  from_t: 0,
+  to_t: 10,
+  bytes: 1,
+  complete: false,
+  run_number: 1,
+};
 const extent = { run: 'a', from: 0, to: 10 };
 
 beforeEach(() => {

@@ -10,7 +10,8 @@ import {
 } from 'react';
 import { useTranslation } from 'react-i18next';
 import { drawStretch, paletteOf } from '@/features/timeline/draw';
-import { goSeconds, goTicks, lookAt, lookNow, setPlaying, type Extent } from '@/store/moment/looking';
+import { leaveMoment } from '@/store/moment/compare/comparing';
+import { goSeconds, goTicks, lookAt, setPlaying, type Extent } from '@/store/moment/looking';
 import { following, markedRange, panned, useRange, within } from '@/store/moment/range';
 import { isPresentRun, useSource } from '@/store/moment/source';
 import { lookAtMark } from '@/store/moment/lookAtMark';
@@ -148,7 +149,7 @@ function Slider({ extent, from, length, children }: SliderProps) {
       ArrowRight: () => go(1),
       Home: () => lookAt(extent.from),
       End: () => lookAt(extent.to),
-      Escape: lookNow,
+      Escape: leaveMoment,
       ' ': () => setPlaying(!useMoment.getState().isPlaying),
     };
     const doIt = keys[event.key];

@@ -14,12 +14,13 @@ import { CommandButton } from '@/ui/CommandButton';
 import classes from './axis.module.css';
 import { copyShownLink } from './commands';
 import { AxisMenu } from './AxisMenu';
-import { BranchForm } from './BranchForm';
+import { BranchForm } from './branches/BranchForm';
 import { Changes } from './Changes';
+import { Compared } from './branches/Compared';
 import { FlagForm } from './FlagForm';
 import { GoBackButton, GoingBack, RunOnButton } from './GoingBack';
 import { Marks } from './Marks';
-import { RunSelect } from './RunSelect';
+import { RunSelect } from './branches/RunSelect';
 import { Strip } from './Strip';
 
 /** The length in s that the axis has at least. */
@@ -74,6 +75,7 @@ export function TimeAxis() {
     <>
       <GoingBack />
       <Changes end={extent.to} />
+      <Compared />
       <Marks extent={extent} />
       <FlagForm />
       <BranchForm />

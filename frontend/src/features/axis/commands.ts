@@ -10,11 +10,14 @@ import {
   IconArrowForwardUp,
   IconGitBranch,
   IconArrowsSplit2,
+  IconGitCompare,
+  IconX,
 } from '@tabler/icons-react';
 import { registerCommands, type UserCommand } from '@/commands/registry';
 import { t } from '@/i18n';
 import { linkTo, shownAddress } from '@/store/moment/address';
 import { canChangeBranch, changeBranch } from '@/store/dialogs/branches';
+import { canCompare, compareSomething, endComparing, isComparing } from '@/store/moment/compare/comparing';
 import { canGoBack, canRunOn, goBack, runOn } from '@/store/moment/rerun/goBack';
 import { extent, goTicks, goToChange, lookNow, setPlaying } from '@/store/moment/looking';
 import { askTries, canTry } from '@/store/moment/rerun/tryMany';
@@ -89,6 +92,25 @@ const rows: readonly UserCommand[] = [
     icon: IconGitBranch,
     enabled: canChangeBranch,
     run: changeBranch,
+  },
+  {
+    id: 'time.compare',
+    group: 'run',
+    labelKey: 'axis:command.compare',
+    icon: IconGitCompare,
+    shortcut: 'Alt+KeyO',
+    enabled: canCompare,
+    run: compareSomething,
+  },
+  {
+    id: 'time.compareEnd',
+    group: 'run',
+    labelKey: 'axis:command.compareEnd',
+    icon: IconX,
+    shortcut: 'Escape',
+    when: 'compared',
+    enabled: isComparing,
+    run: endComparing,
   },
   {
     id: 'time.play',

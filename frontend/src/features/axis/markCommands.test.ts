@@ -7,7 +7,16 @@ import { useSessionStore } from '@/store/session/store';
 import { INTRODUCTION } from '../../../harness/testing';
 import { markCommands } from './markCommands';
 
-const segment = { branch: 0, number: 0, version: 0, from_t: 0, to_t: 10, bytes: 1, complete: false };
+const segment = {
+  branch: 0,
+  number: 0,
+  version: 0,
+  from_t: 0,
+  to_t: 10,
+  bytes: 1,
+  complete: false,
+  run_number: 1,
+};
 const command = (id: string) => markCommands.find((each) => each.id === `time.${id}`)!;
 
 beforeEach(() =>

@@ -23,7 +23,16 @@ it('finds the mark after and before a moment, and never the one that is shown', 
 });
 
 it('goes from mark to mark, back from the present', () => {
-  const segment = { branch: 0, number: 0, version: 0, from_t: 0, to_t: 10, bytes: 1, complete: false };
+  const segment = {
+    branch: 0,
+    number: 0,
+    version: 0,
+    from_t: 0,
+    to_t: 10,
+    bytes: 1,
+    complete: false,
+    run_number: 1,
+  };
   const flag = (id: string, t: number, run = 'a') => ({ run, id, t, text: id, user: '' });
   useSessionStore.setState({
     segments: [{ ...segment, run: 'a' }],

@@ -1,7 +1,7 @@
 import { Text } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 import type { TryOutcome } from '@/generated/messages';
-import { colorOf } from './colors';
+import { cssOf, hueOf } from '@/store/session/trace/shownPaths';
 import { pointsOf, viewOf } from './plan';
 import classes from './tries.module.css';
 
@@ -42,7 +42,7 @@ export function TryPlan({ outlines, outcomes }: TryPlanProps) {
 }
 
 function Paths({ outcome, size }: { readonly outcome: TryOutcome; readonly size: number }) {
-  const color = colorOf(outcome.index);
+  const color = cssOf(hueOf(outcome.index));
   const { crash, index, paths } = outcome;
   return (
     <g stroke={color} strokeWidth={index === 0 ? 1.6 * size : 0.9 * size} fill="none">

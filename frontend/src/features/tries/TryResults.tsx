@@ -4,7 +4,7 @@ import { useTranslation } from 'react-i18next';
 import type { TryOutcome } from '@/generated/messages';
 import { canUse, openAsBranch, writeValue } from '@/store/moment/rerun/tryMany';
 import { useTries, type TriesJob } from '@/store/session/tries';
-import { colorOf } from './colors';
+import { cssOf, hueOf } from '@/store/session/trace/shownPaths';
 import { TryPlan } from './TryPlan';
 import classes from './tries.module.css';
 
@@ -63,7 +63,7 @@ function Row({ job, index, value }: RowProps) {
   return (
     <Table.Tr data-testid={`tries-row-${index}`}>
       <Table.Td className={classes['name']}>
-        <span className={classes['swatch']} style={{ background: colorOf(index) }} aria-hidden="true" />{' '}
+        <span className={classes['swatch']} style={{ background: cssOf(hueOf(index)) }} aria-hidden="true" />{' '}
         {index}
       </Table.Td>
       <Table.Td>{value ?? t('tries.asItIs')}</Table.Td>

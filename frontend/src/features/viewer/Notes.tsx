@@ -4,6 +4,7 @@ import { useTranslation } from 'react-i18next';
 import { useIsBack } from '@/store/moment/store';
 import { useSessionStore } from '@/store/session/store';
 import { perform } from '@/commands/registry';
+import { PathsLegend } from './paths/PathsLegend';
 import { distances, setMeasuring, useMeasuring } from './measuring';
 import { moveBack, useMoves } from './lastMove';
 import classes from './viewer.module.css';
@@ -14,6 +15,7 @@ export function Notes() {
     <div className={classes['notes']}>
       <Measured />
       <Moved />
+      <PathsLegend />
     </div>
   );
 }

@@ -6,7 +6,16 @@ import { canFlag, draftFlag, editFlag, marksOfSession, noFlags, unrecorded, useF
 import { ofSession, useSource } from './source';
 import { atPresent, useMoment } from './store';
 
-const segment = { branch: 0, number: 0, version: 0, from_t: 0, to_t: 10, bytes: 1, complete: false };
+const segment = {
+  branch: 0,
+  number: 0,
+  version: 0,
+  from_t: 0,
+  to_t: 10,
+  bytes: 1,
+  complete: false,
+  run_number: 1,
+};
 const flag = { run: 'a', id: 'f1', t: 4, text: 'here', user: 'ada' };
 const stop = { run: 'a', t: 9, reason: 'disk_full', detail: 'No space left', goes_on: false } as const;
 

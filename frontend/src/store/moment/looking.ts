@@ -55,6 +55,9 @@ export function setEngineLink(make: () => EngineLink): void {
   recorded = null;
 }
 
+/** Returns a new engine for the recording of another run. */
+export const newLink = (): EngineLink => makeLink();
+
 export function extent(): Extent | null {
   const segments = useSource.getState().source.segments();
   const first = segments[0];

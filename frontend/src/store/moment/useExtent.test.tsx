@@ -15,6 +15,7 @@ const segment = (more: Partial<Segment>): Segment => ({
   to_t: 20,
   bytes: 100,
   complete: true,
+  run_number: 1,
   ...more,
 });
 

@@ -58,7 +58,8 @@ export interface LiveState {
  */
 const WEIGHT: Record<NodeStatus, number> = { RUNNING: 4, FAILURE: 3, SUCCESS: 2, SKIPPED: 1, IDLE: 0 };
 
-const busiest = (statuses: readonly NodeStatus[]): NodeStatus =>
+/** Returns the status of the highest rank. */
+export const busiest = (statuses: readonly NodeStatus[]): NodeStatus =>
   statuses.reduce<NodeStatus>((best, next) => (WEIGHT[next] > WEIGHT[best] ? next : best), 'IDLE');
 
 /** The statuses of the running tree; they are neither saved nor undone. */

@@ -28,6 +28,7 @@ export type Ask =
     }
   | { readonly what: 'story'; readonly t: number; readonly tick: number | null }
   | { readonly what: 'trail' }
+  | { readonly what: 'trails' }
   | { readonly what: 'timeline' }
   /** Answered after all that was sent before. */
   | { readonly what: 'ready' }
@@ -47,6 +48,7 @@ export interface Answers {
   change: TickAt | null;
   story: Story | null;
   trail: Float32Array | null;
+  trails: Readonly<Record<string, Float32Array>> | null;
   timeline: RecordedTimeline | null;
   ready: null;
   /** Where the index of the file begins, if more than the given bytes are needed; 0 if it was read. */
@@ -172,6 +174,8 @@ export class Engine {
           return this.index.storyUntil(ask.t, ask.tick);
         case 'trail':
           return this.index.trail();
+        case 'trails':
+          return this.index.trails();
         case 'timeline':
           return this.index.timeline();
         case 'writes':

@@ -10,7 +10,17 @@ const file = new Uint8Array(readFileSync('../tests/executor/recorder/samples/v1.
 
 function segment(number: number, more: Partial<Segment> = {}): Segment {
   const times = { from_t: number * 20, to_t: number * 20 + 20 };
-  return { run: 'a', branch: 0, number, version: 0, ...times, bytes: file.length, complete: true, ...more };
+  return {
+    run: 'a',
+    branch: 0,
+    number,
+    version: 0,
+    ...times,
+    bytes: file.length,
+    complete: true,
+    run_number: 1,
+    ...more,
+  };
 }
 
 function setUp(first: Segment[], fails = false) {
@@ -59,7 +69,7 @@ it('reads the part that is wanted first, then those before it, then the others',
 });
 
 it('continues a segment that grows', async () => {
-  const half = segment(0, { bytes: 100_000, complete: false, to_t: 0.5 });
+  const half = segment(0, { bytes: 100_000, complete: false, run_number: 1, to_t: 0.5 });
   const { run, asked, overviews, set } = setUp([half]);
   run.want(0.2);
   await vi.waitFor(() => expect(overviews).toHaveLength(1));

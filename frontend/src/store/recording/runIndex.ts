@@ -192,13 +192,28 @@ export class RunIndex {
 
   /** Returns the path of the first robot, as far as it was read. */
   trail(): Float32Array {
-    const all = this.inOrder();
-    const scene = this.scenes.of(this.scenes.idOf(all.flatMap(({ scenes }) => scenes)[0] ?? null));
-    const robot = scene?.objects.find(({ kind }) => kind === 'robot');
-    if (!robot) return new Float32Array();
+    const [first] = this.robots();
+    return first ? this.pathOf(first[1]) : new Float32Array();
+  }
+
+  /** Returns the paths of all robots by their names, as far as they were read. */
+  trails(): Record<string, Float32Array> {
+    return Object.fromEntries([...this.robots()].map(([body, id]) => [body, this.pathOf(id)]));
+  }
+
+  /** Returns the first object of each robot, which is its base. */
+  private robots(): Map<string, number> {
+    const scene = this.scenes.of(this.scenes.idOf(this.inOrder().flatMap(({ scenes }) => scenes)[0] ?? null));
+    const robots = new Map<string, number>();
+    for (const { kind, body, id } of scene?.objects ?? [])
+      if (kind === 'robot' && !robots.has(body)) robots.set(body, id);
+    return robots;
+  }
+
+  private pathOf(id: number): Float32Array {
     return trailOf(
-      all.flatMap(({ poses }) => poses),
-      robot.id,
+      this.inOrder().flatMap(({ poses }) => poses),
+      id,
     );
   }
 

@@ -9,7 +9,17 @@ afterEach(() => vi.unstubAllGlobals());
 it('is one segment that has ended', () => {
   const source = storedSource('p1', run);
   expect(source.segments()).toEqual([
-    { run: '12ab', branch: 0, number: 0, version: 0, from_t: 2, to_t: 5, bytes: 100, complete: true },
+    {
+      run: '12ab',
+      branch: 0,
+      number: 0,
+      version: 0,
+      from_t: 2,
+      to_t: 5,
+      bytes: 100,
+      complete: true,
+      run_number: 1,
+    },
   ]);
   expect(source.subscribe(vi.fn())()).toBeUndefined();
   // The server answers at most 8 MiB at once.

@@ -16,6 +16,7 @@ export function storedSource(projectId: string, run: StoredRun): RecordingSource
     to_t: run.start_s + run.length_s,
     bytes: run.size,
     complete: true,
+    run_number: 1,
   };
   return {
     segments: () => [segment],

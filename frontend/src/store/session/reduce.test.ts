@@ -356,6 +356,7 @@ it('knows each segment in its last state, and forgets those that are gone', () =
     to_t: 1,
     bytes: 10,
     complete: false,
+    run_number: 1,
   };
   const told = (...data: (typeof segment)[]) =>
     reduceAll(
@@ -380,7 +381,16 @@ it('knows the flags of the present run, and where a recording stopped until a la
   const stop = { run: 'a', t: 2, reason: 'disk_full', detail: 'No space left', goes_on: false } as const;
   const stopped = reduce(set, message('recording_stopped', stop));
   expect(stopped.stops).toEqual([stop]);
-  const segment = { branch: 0, number: 0, version: 0, from_t: 0, to_t: 1, bytes: 1, complete: false };
+  const segment = {
+    branch: 0,
+    number: 0,
+    version: 0,
+    from_t: 0,
+    to_t: 1,
+    bytes: 1,
+    complete: false,
+    run_number: 1,
+  };
   expect(reduce(stopped, message('segment', { ...segment, run: 'a' })).stops).toEqual([stop]);
   expect(reduce(stopped, message('segment', { ...segment, run: 'b' })).stops).toEqual([]);
   const joined = reduce(initialSession, message('snapshot', snapshot({ flags: set.flags, stops: [stop] })));

@@ -22,6 +22,7 @@ import { BlockPorts } from './BlockPorts';
 import { BreakpointMark } from './BreakpointMark';
 import { BlockShape } from './BlockShape';
 import { BlockTitle } from './BlockTitle';
+import { ComparedMark } from './ComparedMark';
 import { ForcedMark } from './ForcedMark';
 import { HeatMark } from './HeatMark';
 import { ProblemMark } from './ProblemMark';
@@ -46,6 +47,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
       <BreakpointMark tree={inside?.tree ?? tree} node={inside?.node ?? id} isSelected={selected} t={t} />
       <ForcedMark block={key} t={t} />
       <HeatMark block={key} t={t} />
+      <ComparedMark block={key} t={t} />
     </>
   );
   return (

@@ -3,6 +3,7 @@ import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import type { Scene } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
 import { currentPoses } from '@/store/session/poses';
+import { useShownPaths } from '@/store/session/trace/shownPaths';
 import { trail } from '@/store/session/trace/trail';
 import { pretendWebGl } from '../../../../harness/scene';
 import { useMeasuring } from '../measuring';
@@ -89,6 +90,14 @@ describe('the drawing in a worker', () => {
     drawing.receive({ kind: 'past', poses: [[1, [4, 0, 0, 0, 0, 0, 1]]], trail: past });
     expect(currentPoses.get(1)).toEqual([4, 0, 0, 0, 0, 0, 1]);
     expect([trail.count, trail.time]).toEqual([2, 3]);
+  });
+
+  it('knows the paths that the page shows', () => {
+    const { drawing } = begin();
+    const path = { label: '1', name: 'a', hue: 0, isDashed: true, labelAt: 'end', lines: [] } as const;
+    drawing.receive({ kind: 'paths', paths: [path] });
+    expect(useShownPaths.getState().paths).toEqual([path]);
+    drawing.receive({ kind: 'paths', paths: [] });
   });
 
   it('passes events and answers to the tools, and what they do to the page', async () => {

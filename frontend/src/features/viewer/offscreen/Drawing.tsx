@@ -2,6 +2,7 @@ import { createRoot, extend, type ReconcilerRoot } from '@react-three/fiber';
 import * as THREE from 'three';
 import { frames } from '@/store/session/frames';
 import { currentPoses } from '@/store/session/poses';
+import { useShownPaths } from '@/store/session/trace/shownPaths';
 import { shownTrail } from '@/store/session/trace/shownTrail';
 import { trail } from '@/store/session/trace/trail';
 import { useMeasuring } from '../measuring';
@@ -50,6 +51,8 @@ export class Drawing {
         return trail.restore(message.trail);
       case 'trail':
         return shownTrail.show(message.until, message.points);
+      case 'paths':
+        return useShownPaths.setState({ paths: message.paths });
       case 'event':
         if (message.to === 'element') return this.host.proxy.receive(message.event);
         return dispatch(this.host.keys, message.event);

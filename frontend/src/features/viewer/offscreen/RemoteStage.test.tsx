@@ -2,6 +2,7 @@ import { fireEvent } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import type { Scene } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
+import { hidePaths, showPaths } from '@/store/session/trace/shownPaths';
 import { pretendWebGl } from '../../../../harness/scene';
 import { openSession } from '../../../../harness/testing';
 import { setMeasuring, useMeasuring } from '../measuring';
@@ -76,6 +77,14 @@ describe('a view that a worker draws', () => {
     expect(sentAs('frame')).toHaveLength(2);
     expect(worker.terminate).toHaveBeenCalled();
     expect(canvas.isConnected).toBe(false);
+  });
+
+  it('passes on the paths that are shown, also those from before', () => {
+    const path = { label: '1', name: 'a', hue: 0, isDashed: true, labelAt: 'end', lines: [] } as const;
+    showPaths('compare', [path]);
+    const { sentAs } = begin();
+    hidePaths('compare');
+    expect(sentAs('paths').map(({ paths }) => paths)).toEqual([[path], []]);
   });
 
   it('numbers the requests to move the camera', () => {

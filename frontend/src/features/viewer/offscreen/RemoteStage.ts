@@ -1,6 +1,7 @@
 import { useMoment } from '@/store/moment/store';
 import { shownFrames } from '@/store/session/frames';
 import { currentPoses } from '@/store/session/poses';
+import { useShownPaths } from '@/store/session/trace/shownPaths';
 import { shownTrail } from '@/store/session/trace/shownTrail';
 import { trail } from '@/store/session/trace/trail';
 import { addMeasured } from '../measuring';
@@ -92,6 +93,9 @@ export class RemoteStage {
     const sendTrail = () => this.post({ kind: 'trail', until: shownTrail.until, points: shownTrail.points });
     if (shownTrail.until !== null) sendTrail();
     this.stops.push(shownTrail.subscribe(sendTrail));
+    const sendPaths = () => this.post({ kind: 'paths', paths: useShownPaths.getState().paths });
+    if (useShownPaths.getState().paths.length > 0) sendPaths();
+    this.stops.push(useShownPaths.subscribe(sendPaths));
     this.stops.push(shownFrames.listen('poses', forward), shownFrames.listen('scan', forward));
   }
 

@@ -1,6 +1,7 @@
 import type { Frame } from '@/generated/messages';
 import type { Point } from '../measuring';
 import type { Pose } from '@/store/session/poses';
+import type { ShownPath } from '@/store/session/trace/shownPaths';
 import type { BodyPose } from '../scene/DraggedBody';
 import type { ViewOptions } from '../viewOptions';
 
@@ -38,6 +39,8 @@ export type ToWorker =
   | { readonly kind: 'past'; readonly poses: readonly (readonly [number, Pose])[]; readonly trail: string }
   /** The path that is shown of the past: until a moment, or null for the present. */
   | { readonly kind: 'trail'; readonly until: number | null; readonly points: Float32Array | null }
+  /** The paths beside the trail. */
+  | { readonly kind: 'paths'; readonly paths: readonly ShownPath[] }
   | { readonly kind: 'event'; readonly to: 'element' | 'keys'; readonly event: SentEvent }
   /** The answer to `move`; the error is null if the session moved the body. */
   | { readonly kind: 'moved'; readonly id: number; readonly error: string | null };

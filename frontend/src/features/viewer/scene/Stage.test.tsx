@@ -4,6 +4,7 @@ import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import type { Poses, Scan, Scene, Shape } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
+import { hidePaths, showPaths } from '@/store/session/trace/shownPaths';
 import { trail } from '@/store/session/trace/trail';
 import { objectsOf, showScene } from '../../../../harness/scene';
 import { pageHost } from '../pageHost';
@@ -151,6 +152,16 @@ describe('the stage of a world', () => {
     expect(shown()).toEqual({ rays: true, trail: 1, frames: 3, frustum: 1, grid: 1 });
     change({ rays: false, trail: false, frames: false, frustum: false, grid: false });
     expect(shown()).toEqual({ rays: false, trail: 0, frames: 0, frustum: 0, grid: 0 });
+  });
+
+  it('draws paths beside the trail, as long as they are shown', () => {
+    const { scene } = stage({ trail: false });
+    const lines = [Float32Array.of(0, 0, 1, 1, 1, 0, 2, 0)];
+    const path = { label: '1', name: 'wider', hue: 215, isDashed: false, labelAt: 'end', lines } as const;
+    act(() => showPaths('compare', [path, { ...path, label: '2' }]));
+    expect(objectsOf(scene, LineSegments2)).toHaveLength(2);
+    act(() => hidePaths('compare'));
+    expect(objectsOf(scene, LineSegments2)).toHaveLength(0);
   });
 
   it('draws the last scan at the sensor', () => {

@@ -3,6 +3,7 @@ import { useCallback, useEffect, useMemo, useRef } from 'react';
 import type { Scene } from '@/generated/messages';
 import { shownFrames } from '@/store/session/frames';
 import { forEachPose, type Pose } from '@/store/session/poses';
+import { useShownPaths } from '@/store/session/trace/shownPaths';
 import { shownTrail } from '@/store/session/trace/shownTrail';
 import type { StageHost } from './host';
 import { FirstPicture } from './FirstPicture';
@@ -12,6 +13,7 @@ import { MeasureLine } from './MeasureLine';
 import { Surroundings, useSight, type Orbit } from './Surroundings';
 import { TextureCache } from './TextureCache';
 import { surroundingsOf } from './framing';
+import { PathsView } from '../paths/PathsView';
 import { TrailView } from './TrailView';
 import { useFollow } from './useFollow';
 import type { ViewOptions } from '../viewOptions';
@@ -56,6 +58,8 @@ export function Stage(props: StageProps) {
   const world = useMemo(() => new World(scene, isSimple, textures), [scene, isSimple, textures]);
   const lidar = useMemo(() => new LidarView(), []);
   const trailView = useMemo(() => new TrailView(shownTrail), []);
+  const pathsView = useMemo(() => new PathsView(), []);
+  const paths = useShownPaths((state) => state.paths);
   const framesView = useMemo(() => new FramesView(scene, world), [scene, world]);
   const frustum = useMemo(() => new FrustumView(scene, world), [scene, world]);
   const controls = useRef<Orbit | null>(null);
@@ -63,6 +67,7 @@ export function Stage(props: StageProps) {
   useEffect(() => () => world.dispose(), [world]);
   useEffect(() => () => lidar.dispose(), [lidar]);
   useEffect(() => () => trailView.dispose(), [trailView]);
+  useEffect(() => () => pathsView.dispose(), [pathsView]);
   useEffect(() => () => framesView.dispose(), [framesView]);
   useEffect(() => () => frustum.dispose(), [frustum]);
   useEffect(() => {
@@ -70,6 +75,11 @@ export function Stage(props: StageProps) {
     frustum.show(options.frustum);
     requestFrame();
   }, [framesView, frustum, options.frames, options.frustum, requestFrame]);
+
+  useEffect(() => {
+    pathsView.show(paths, isDark, shownTrail.until);
+    requestFrame();
+  }, [pathsView, paths, isDark, requestFrame]);
 
   useEffect(() => {
     const stopPoses = shownFrames.listen('poses', (frame) => {
@@ -82,13 +92,16 @@ export function Stage(props: StageProps) {
       lidar.show(scan);
       requestFrame();
     });
-    const stopTrail = shownTrail.subscribe(requestFrame);
+    const stopTrail = shownTrail.subscribe(() => {
+      pathsView.move(shownTrail.until);
+      requestFrame();
+    });
     return () => {
       stopTrail();
       stopPoses();
       stopScans();
     };
-  }, [world, lidar, requestFrame]);
+  }, [world, lidar, pathsView, requestFrame]);
 
   useFrame(() => {
     slowness.draw();
@@ -131,6 +144,7 @@ export function Stage(props: StageProps) {
       <primitive object={world.group} />
       {options.rays ? <primitive object={lidar.group} /> : null}
       {options.trail ? <primitive object={trailView.line} /> : null}
+      <primitive object={pathsView.group} />
       {options.frames ? <primitive object={framesView.origin} /> : null}
       <MeasureLine />
       <FirstPicture onDrawn={onDrawn} />

@@ -2,10 +2,11 @@ import { NativeSelect } from '@mantine/core';
 import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { lookNow, openRun } from '@/store/moment/looking';
+import { nameOf } from '@/store/moment/compare/runNames';
 import { useSource } from '@/store/moment/source';
 import { runsOf } from '@/store/recording/liveSource';
 import { useSessionStore } from '@/store/session/store';
-import classes from './axis.module.css';
+import classes from '../axis.module.css';
 
 /** A field that chooses one of the session's runs; the last one is that of the present. */
 export function RunSelect({ run }: { readonly run: string }) {
@@ -16,12 +17,6 @@ export function RunSelect({ run }: { readonly run: string }) {
   const runs = useMemo(() => runsOf(segments), [segments]);
   if (isKept || runs.length < 2) return null;
   const last = runs.at(-1);
-  const label = (value: string, at: number): string => {
-    const branch = branches.find((each) => each.run === value);
-    const name = branch?.name || t(value === last ? 'run.last' : 'run.earlier', { n: at + 1 });
-    const parent = branch ? runs.indexOf(branch.parent) + 1 : 0;
-    return branch && parent > 0 ? t('run.branch', { name, parent, t: branch.from_t.toFixed(1) }) : name;
-  };
   return (
     <NativeSelect
       size="xs"
@@ -30,7 +25,7 @@ export function RunSelect({ run }: { readonly run: string }) {
       data-testid="axis-run"
       data-branch={branches.some((branch) => branch.run === run) || undefined}
       value={run}
-      data={runs.map((value, at) => ({ value, label: label(value, at) })).reverse()}
+      data={runs.map((value) => ({ value, label: nameOf(value, { segments, branches }) })).reverse()}
       onChange={({ currentTarget: { value } }) => (value === last ? lookNow() : openRun(value))}
     />
   );

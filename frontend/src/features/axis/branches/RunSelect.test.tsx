@@ -1,14 +1,14 @@
 import { screen } from '@testing-library/react';
 import { expect, it, onTestFinished, vi } from 'vitest';
-import { show, user } from '../../../harness/testing';
+import { show, user } from '../../../../harness/testing';
 import { extent, lookNow, setEngineLink } from '@/store/moment/looking';
 import { useMoment } from '@/store/moment/store';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
-import { segmentOf } from '../../../harness/runs';
+import { segmentOf } from '../../../../harness/runs';
 import { RunSelect } from './RunSelect';
 
-const segment = (run: string) => segmentOf({ run, to_t: 1 });
+const segment = (run: string) => segmentOf({ run, to_t: 1, run_number: run.charCodeAt(0) - 96 });
 
 it('offers the runs of the session, and the last one as the present', async () => {
   setEngineLink(() => ({ post: vi.fn(), onMessage: () => undefined }));

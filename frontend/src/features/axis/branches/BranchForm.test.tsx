@@ -1,6 +1,6 @@
 import { act, screen } from '@testing-library/react';
 import { afterEach, beforeEach, expect, it, vi, type MockInstance } from 'vitest';
-import { show, user } from '../../../harness/testing';
+import { show, user } from '../../../../harness/testing';
 import { useBranchForm } from '@/store/dialogs/branches';
 import * as connection from '@/store/session/connection';
 import { CommandError } from '@/store/session/control';

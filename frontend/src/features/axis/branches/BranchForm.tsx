@@ -4,7 +4,7 @@ import { useTranslation } from 'react-i18next';
 import type { Branch } from '@/generated/messages';
 import { dropBranch, nameBranch, useBranchForm } from '@/store/dialogs/branches';
 import { useSessionStore } from '@/store/session/store';
-import classes from './axis.module.css';
+import classes from '../axis.module.css';
 
 const LONGEST = 80;
 const close = () => useBranchForm.setState({ run: null });

@@ -1,0 +1,22 @@
+import { expect, it } from 'vitest';
+import '@/i18n/editorTexts';
+import { segmentOf } from '../../../../harness/runs';
+import { nameOf } from './runNames';
+
+const branch = { run: 'c', parent: 'a', from_t: 0.52, name: '', is_gone: false };
+const segments = [
+  segmentOf({ run: 'a', run_number: 1 }),
+  segmentOf({ run: 'c', run_number: 3 }),
+  segmentOf({ run: 'd', run_number: 4 }),
+];
+
+it('keeps the number of a run when another one is thrown away', () => {
+  expect(nameOf('c', { segments, branches: [branch] })).toBe('Run 3, from 0.5 s of run 1');
+});
+
+it('takes the name of a branch, and calls the last run so', () => {
+  const session = { segments, branches: [{ ...branch, name: 'wider' }] };
+  expect(nameOf('c', session)).toBe('wider, from 0.5 s of run 1');
+  expect(nameOf('a', session)).toBe('Run 1');
+  expect(nameOf('d', session)).toBe('Last run');
+});

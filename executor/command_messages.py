@@ -12,7 +12,7 @@ from executor.attach_messages import Control, ServeGroot2
 from executor.debug_messages import Dap, Force, Release, SetBreakpoints, StepTo
 from executor.evaluation_events import Evaluate
 from executor.profile_messages import SetProfile
-from executor.trying_events import StopTrying, TryValues
+from executor.trying_events import StopTrying, TrySeeds, TryValues
 
 StreamName = Literal["poses", "scan", "camera", "view"]
 OnFinish = Literal["stop", "repeat"]
@@ -316,6 +316,7 @@ COMMANDS: Final[dict[str, type[Struct]]] = {
     "flag": Flag,
     "evaluate": Evaluate,
     "try_values": TryValues,
+    "try_seeds": TrySeeds,
     "stop_trying": StopTrying,
     "take_over": Empty,
     "ping": Empty,

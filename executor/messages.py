@@ -113,6 +113,7 @@ from executor.trying_events import (
     TryingProgress,
     TryingStarted,
     TryOutcome,
+    TrySeeds,
     TryValues,
 )
 
@@ -206,6 +207,7 @@ __all__ = [
     "Tree",
     "TreeNode",
     "TryOutcome",
+    "TrySeeds",
     "TryValues",
     "TryingEnded",
     "TryingProgress",

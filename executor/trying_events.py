@@ -10,9 +10,11 @@ MOST_VALUES = 50
 LONGEST_S = 120
 PATH_POINTS = 200
 MOST_OUTLINES = 500
+LARGEST_SEED = 2**32 - 1
 
 TryingName = Annotated[str, Meta(pattern=r"^[0-9a-f]{1,32}$")]
 TriedValue = Annotated[str, Meta(max_length=4096)]
+TriedSeed = Annotated[int, Meta(ge=0, le=LARGEST_SEED)]
 TryEnd = Literal["running", "finished", "fault", "refused", "held", "died", "late"]
 TryingEnd = Literal["complete", "refused", "failed", "cancelled"]
 
@@ -37,8 +39,23 @@ class TryValues(Struct, forbid_unknown_fields=True):
     t: Annotated[float, Meta(ge=0)] | None = None
 
 
+class TrySeeds(Struct, forbid_unknown_fields=True):
+    """Continues a run from a moment under several seeds, beside the ladder.
+
+    As `try_values`, but what differs from the moment on are random numbers: the noise of sensors and wheels,
+    and `random` and `numpy.random` in actions. What the universe drew at its begin stays. The seed with which
+    the run began changes nothing: its continuation is the run as it is.
+    """
+
+    job: TryingName
+    seeds: Annotated[list[TriedSeed], Meta(min_length=1, max_length=MOST_VALUES)]
+    duration_s: Annotated[float, Meta(gt=0, le=LONGEST_S)] = 10.0
+    run: Annotated[str, Meta(max_length=64)] = ""
+    t: Annotated[float, Meta(ge=0)] | None = None
+
+
 class StopTrying(Struct, forbid_unknown_fields=True):
-    """Ends a job of `try_values`, if it still runs; what is known of it stays with the client."""
+    """Ends a job of `try_values` or `try_seeds`, if it still runs; what is known of it stays with the client."""
 
     job: TryingName
 
@@ -80,7 +97,7 @@ class TryOutcome(Struct):
     """The outcome of one continuation.
 
     Attributes:
-        index: 0 for the run as it is; n for the n-th value.
+        index: 0 for the run as it is; n for the n-th value or seed.
         end: how it ended; `running` if it still ran when its time was over, `refused` if the port does not
             take the value, `held` if the debugger would hold it, `late` if a tick did not return.
         message: why, for all ends but `running`.

@@ -19,14 +19,20 @@ class TakeSnapshot(Message, tag="take_snapshot"):
     """Makes a snapshot now; the answer is a `SnapshotTaken` or a `NoSnapshots`."""
 
 
+class NewSeed(Message, tag="new_seed"):
+    """Lets noise and random numbers follow another seed from now on."""
+
+    seed: int
+
+
 class TryMany(Message, tag="try_many"):
     """Continues the run from here once as it is, and once with each change, each in a copy of the process.
 
-    The run itself stays where it is. `changes` are orders for ports.
+    The run itself stays where it is. `changes` are orders for ports, or seeds.
     """
 
     job: str
-    changes: list[SetPort]
+    changes: list[SetPort | NewSeed]
     duration_s: float
 
 

@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from executor.application.ros import ApplicationGraph
     from executor.child_messages import StartApplication, ToExact
     from executor.exact.snapshots import Woken
+    from executor.exact.trying import Change
     from executor.exact.world import ExactWorld
     from executor.replay_messages import Replay
     from executor.supervision.channel import Channel
@@ -325,7 +326,7 @@ class ExactApplication(Application):
         self._send(started)
 
         def continue_with(
-            index: int, change: child_messages.SetPort | None, tell: Callable[[float], None]
+            index: int, change: Change | None, tell: Callable[[float], None]
         ) -> child_messages.TryOutcome:
             self._is_trial = True
             return self._continued(message, index, change, tell)
@@ -342,7 +343,7 @@ class ExactApplication(Application):
         self,
         message: child_messages.TryMany,
         index: int,
-        change: child_messages.SetPort | None,
+        change: Change | None,
         tell: Callable[[float], None],
     ) -> child_messages.TryOutcome:
         """Continues the run in a copy that has no session, and returns what happened."""
@@ -354,7 +355,9 @@ class ExactApplication(Application):
         self._gate.lead_to(witness)
         self._prints.clear()
         super()._obey(child_messages.SetBreakpoints(wanted=messages.SetBreakpoints([], on=False)))
-        if change is not None:
+        if isinstance(change, child_messages.NewSeed):
+            exact.reseed(change.seed)
+        elif change is not None:
             super()._obey(change)
         trial = Trial(exact.world, loop, lambda: runner.tree, witness, tell)
         loop.set_speed(0)

@@ -1,4 +1,4 @@
-"""Continues a run under several values, each in a fork of this process; this process stays at the moment.
+"""Continues a run under several values or seeds, each in a fork of this process; this process stays at the moment.
 
 A fork is the run at the moment, to the last bit: so the run is made again only once, and each continuation
 does what the run itself would have done. Forks end with this process, and this process with the manager.
@@ -26,7 +26,9 @@ from executor.supervision.room import processors
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from executor.child_messages import SetPort
+    from executor.child_messages import NewSeed, SetPort
+
+    Change = SetPort | NewSeed
 
 __all__ = ["Trying", "most_at_once"]
 
@@ -79,14 +81,14 @@ class Trying:
     def __init__(
         self,
         job: str,
-        changes: list[SetPort],
+        changes: list[Change],
         *,
         send: Callable[[TryingProgress | TryOutcome | TryingEnded], None],
         moved: Callable[[], None],
-        continue_with: Callable[[int, SetPort | None, Callable[[float], None]], TryOutcome],
+        continue_with: Callable[[int, Change | None, Callable[[float], None]], TryOutcome],
     ) -> None:
         self._job = job
-        self._changes: list[SetPort | None] = [None, *changes]
+        self._changes: list[Change | None] = [None, *changes]
         self._send = send
         self._moved = moved
         self._continue_with = continue_with

@@ -6,6 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from executor.application.randomness import seed_randomness
 from executor.child_messages import Frame, Log
 from executor.exact.loop import ExactLoop
 from executor.headless.participants import Participants
@@ -69,6 +70,7 @@ class ExactWorld:
             world.load(start.world_state)
         self._sensors = Sensors(world, make_renderer)
         self._tick_hz = start.tick_hz
+        self._seed = start.seed
         self.ros = ros = Participants(world, self._make_node, self._let_time_pass)
         self._stepper = Stepper(world, self._sensors, ros.node)
         if ros.navigation is not None:
@@ -85,6 +87,16 @@ class ExactWorld:
     def renderer_name(self) -> str:
         """The name of the renderer that is in use; "" before the first picture."""
         return self._sensors.renderer_name
+
+    def reseed(self, seed: int) -> None:
+        """Lets noise, and the random numbers of actions, follow another seed from now on.
+
+        The seed of the run itself changes nothing: what it draws continues.
+        """
+        self.world.reseed(seed)
+        if seed != self._seed:
+            self._seed = seed
+            seed_randomness(seed)
 
     def forget_clients(self) -> None:
         """Ends all streams and echoes."""

@@ -275,7 +275,7 @@ def _evaluate(stage: Stage, event: CommandCame, data: messages.Evaluate) -> None
     stage.evaluating.begin(event, data)
 
 
-def _try_values(stage: Stage, event: CommandCame, data: messages.TryValues) -> None:
+def _try(stage: Stage, event: CommandCame, data: messages.TryValues | messages.TrySeeds) -> None:
     stage.trying.begin(event, data)
 
 
@@ -336,7 +336,8 @@ IMMEDIATE: Final[dict[str, Callable[[Stage, CommandCame], None]]] = {
     "name_branch": _typed(messages.NameBranch, branching.name_branch),
     "drop_branch": _typed(messages.DropBranch, branching.drop_branch),
     "evaluate": _typed(messages.Evaluate, _evaluate),
-    "try_values": _typed(messages.TryValues, _try_values),
+    "try_values": _typed(messages.TryValues, _try),
+    "try_seeds": _typed(messages.TrySeeds, _try),
     "stop_trying": _typed(messages.StopTrying, _stop_trying),
     "take_over": _typed(messages.Empty, _take_over),
     "ping": _typed(messages.Empty, _ping),
@@ -373,6 +374,7 @@ ANSWER_LATER: Final = frozenset(
         "drop_branch",
         "evaluate",
         "try_values",
+        "try_seeds",
     }
 )
 """Commands that are not acknowledged immediately: the handler or a child answers later."""

@@ -183,6 +183,10 @@ TABLE: Final[dict[str, Row]] = {
         "Continues a run from a moment under several values of a port, beside the ladder; answers with "
         "`trying_` events.",
     ),
+    "try_seeds": _act(
+        ANY,
+        "Continues a run from a moment under several seeds, beside the ladder; answers with `trying_` events.",
+    ),
     "stop_trying": _act(ANY, "Ends these continuations."),
     "take_over": _act(ANY, "Becomes the driver; the last driver becomes a viewer.", for_viewers=True),
     "ping": _act(

@@ -136,6 +136,9 @@ class World(Protocol):
     def reset(self) -> None:
         """Restores the initial state."""
 
+    def reseed(self, seed: int) -> None:
+        """Lets all noise follow another seed from now on; its own seed changes nothing."""
+
     def save(self) -> Any:
         """Returns the full state of this world, for `restore`."""
 

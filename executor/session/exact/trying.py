@@ -1,4 +1,4 @@
-"""*Try many*: a run of the session continues from a moment under several values, beside the ladder.
+"""*Try many*: a run of the session continues from a moment under several values or seeds, beside the ladder.
 
 A process of its own makes the run again up to the moment, from the newest snapshot before it or from its
 begin, and continues it once with each value in a copy of itself. The world of the session takes no notice.
@@ -43,7 +43,8 @@ LATE: Final = "The run could not be made again in time: it no longer makes progr
 class _Job:
     """A job, and who hears of it."""
 
-    data: messages.TryValues
+    data: messages.TryValues | messages.TrySeeds
+    changes: list[child_messages.SetPort | child_messages.NewSeed]
     client: str
     request: str
     past: PastRun
@@ -61,7 +62,7 @@ class Trying:
         self._stage = stage
         self._job: _Job | None = None
 
-    def begin(self, event: CommandCame, data: messages.TryValues) -> None:
+    def begin(self, event: CommandCame, data: messages.TryValues | messages.TrySeeds) -> None:
         """Begins a job; another one that runs is ended."""
         try:
             past = found_run(self._stage, data.run)
@@ -74,7 +75,9 @@ class Trying:
         self.stop()
         self._stage.output.send(event.client, messages.Ack(), event.request)
         replay = past.replay(data.t)
-        self._job = job = _Job(data, event.client, event.request, past, replay, self._stage.now_s)
+        self._job = job = _Job(
+            data, _changes(data), event.client, event.request, past, replay, self._stage.now_s
+        )
         snapshot = self._stage.snapshots.newest(past, replay.until_s)
         if snapshot is None:
             self._make_again(job)
@@ -103,7 +106,8 @@ class Trying:
                 self._tell(job, messages.TryingProgress(job.data.job, "going_back", fraction))
             case child_messages.ApplicationReady() if not job.is_there:
                 job.is_there, job.heard_s = True, self._stage.now_s
-                self._stage.children.tell_exact(child, _order(job.data))
+                order = child_messages.TryMany(job.data.job, job.changes, job.data.duration_s)
+                self._stage.children.tell_exact(child, order)
             case child_messages.Fault(kind="load"):
                 self._end("failed", f"{message.message} {message.hint}".strip())
             case _ if job.is_there:
@@ -164,13 +168,13 @@ class Trying:
                 job.done.add(index)
                 self._tell(job, _bounded(child_messages.event_of(message, messages.TryOutcome), name))
             case child_messages.TryingEnded(end=end, message=text):
-                is_whole = len(job.done) == len(job.data.values) + 1
+                is_whole = len(job.done) == len(job.changes) + 1
                 self._end(end if is_whole or end != "complete" else "failed", text[:MOST_CHARACTERS])
             case _:
                 pass
 
     def _is_new(self, job: _Job, index: int) -> bool:
-        return 0 <= index <= len(job.data.values) and index not in job.done
+        return 0 <= index <= len(job.changes) and index not in job.done
 
     def _end(self, end: TryingEnd, message: str = "") -> None:
         job, self._job = self._job, None
@@ -188,12 +192,16 @@ class Trying:
         self._stage.output.send(job.client, event, job.request)
 
 
-def _order(data: messages.TryValues) -> child_messages.TryMany:
-    changes = [
+def _changes(
+    data: messages.TryValues | messages.TrySeeds,
+) -> list[child_messages.SetPort | child_messages.NewSeed]:
+    """Returns what each continuation changes at the moment."""
+    if isinstance(data, messages.TrySeeds):
+        return [child_messages.NewSeed(seed) for seed in data.seeds]
+    return [
         child_messages.SetPort(node_id=data.node_id, path=data.path, port=data.port, value=value)
         for value in data.values
     ]
-    return child_messages.TryMany(data.job, changes, data.duration_s)
 
 
 def _bounded(outcome: messages.TryOutcome, job: str) -> messages.TryOutcome:

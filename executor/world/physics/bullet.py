@@ -198,6 +198,17 @@ class BulletWorld:
                     robot.measure(now_s, CONTROL_EVERY / STEP_HZ)
         self._poses = None
 
+    def reseed(self, seed: int) -> None:
+        """Lets all noise follow another seed from now on; what the universe drew stays.
+
+        The seed of the world itself changes nothing: its noise continues.
+        """
+        if seed == self._seed:
+            return
+        self._seed = seed
+        for robot in self._content.robots:
+            robot.reseed(seed)
+
     def reset(self) -> None:
         """Restores the initial state."""
         self._bullet.resetSimulation()

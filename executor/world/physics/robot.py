@@ -58,6 +58,7 @@ class BulletRobot:
         self.config = config
         self.distance_m = 0.0
         self._bullet = bullet
+        self._index = index
         self._clock_s = 0.0
         start = from_xyz_rpy(place.pose)
         apart = {*config.wheels, *config.friction, *config.skid}
@@ -239,6 +240,14 @@ class BulletRobot:
             self._lidars[sensor].noise_factor = factor
         else:
             self._proprioception.scale_noise(sensor, factor)
+
+    def reseed(self, seed: int) -> None:
+        """Lets all noise follow another seed from now on."""
+        drawn = np.random.default_rng([seed, self._index])
+        self._noise.bit_generator.state = drawn.bit_generator.state  # the drive has this generator, too
+        self._proprioception.reseed((seed, self._index))
+        for i, lidar in enumerate(self._lidars.values()):
+            lidar.seed = (seed, self._index, i)
 
     def push(self, impulse_n_s: Vector) -> None:
         """Applies an impulse at the centre of mass during the next step, in the world frame, in N·s."""

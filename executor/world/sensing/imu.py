@@ -31,11 +31,15 @@ class ImuReading:
 
 
 class ImuModel:
-    """Computes the mean acceleration over a control period, as a real sensor measures it."""
+    """Computes the mean acceleration over a control period, as a real sensor measures it.
+
+    Attributes:
+        seed: the seed of the noise.
+    """
 
     def __init__(self, config: Imu, seed: tuple[int, ...]) -> None:
         self._config = config
-        self._seed = seed
+        self.seed = seed
         self.has_drawn = False
         self.noise_factor = 1.0
         self.velocity: Vector | None = None
@@ -64,7 +68,7 @@ class ImuModel:
         config = self._config
         into_own = (-pose[3], -pose[4], -pose[5], pose[6])
         self.has_drawn = config.rate_noise > 0 or config.acceleration_noise > 0
-        noise = generator_at(time_s, self._seed).normal(0.0, 1.0, 6).tolist()
+        noise = generator_at(time_s, self.seed).normal(0.0, 1.0, 6).tolist()
         turning, felt = rotate(into_own, rate), rotate(into_own, self._felt)
         return ImuReading(
             time_s,

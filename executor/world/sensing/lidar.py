@@ -30,13 +30,14 @@ class LidarCaster:
 
     Attributes:
         noise_factor: multiplies the noise; faults of evaluations change it.
+        seed: the seed of the noise.
     """
 
     def __init__(self, rays: RayCaster, config: Lidar, own: int, mask: int, seed: tuple[int, ...]) -> None:
         self._rays = rays
         self._config = config
         self._own, self._mask = own, mask
-        self._seed = seed
+        self.seed = seed
         self.noise_factor = 1.0
         angles = config.angle_min + np.arange(config.rays) * config.angle_increment
         # Rays are slightly longer than the range, so that rounding does not hide hits at the limit.
@@ -55,7 +56,7 @@ class LidarCaster:
         config = self._config
         deviation = config.noise_m * self.noise_factor
         if deviation > 0:
-            noise = generator_at(time_s, self._seed)
+            noise = generator_at(time_s, self.seed)
             distances = distances + noise.normal(0.0, deviation, len(distances))
         distances = np.where(is_hit & (distances <= config.range_max), distances, np.inf)
         return np.where(distances < config.range_min, -np.inf, distances).astype(np.float32)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from executor.world.geometry.transforms import Pose, Vector, compose, inverse
 from executor.world.sensing.battery import BatteryModel
@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from executor.world.sensing.imu import ImuReading
 
 
+FIRST_IMU: Final = 1000
+"""The number of the first IMU in seeds; smaller ones are those of LIDARs."""
+
+
 class Proprioception:
     """The inner sensors of one robot.
 
@@ -27,7 +31,7 @@ class Proprioception:
     def __init__(self, config: RobotConfig, seed: tuple[int, int], pose_of: Callable[..., Pose]) -> None:
         self._config = config
         self._pose_of = pose_of
-        self._imus = {imu.name: ImuModel(imu, (*seed, 1000 + i)) for i, imu in enumerate(config.imus)}
+        self._imus = {imu.name: ImuModel(imu, (*seed, FIRST_IMU + i)) for i, imu in enumerate(config.imus)}
         self._batteries = {battery.name: BatteryModel(battery) for battery in config.batteries}
         self._bumper = Bumper()
         self._rate: Vector = (0.0, 0.0, 0.0)
@@ -71,6 +75,11 @@ class Proprioception:
     def pressed(self, now_s: float) -> frozenset[Zone]:
         """Returns the zones of the bumper that are pressed."""
         return self._bumper.pressed(now_s)
+
+    def reseed(self, seed: tuple[int, int]) -> None:
+        """Lets the noise of the IMUs follow another seed."""
+        for i, imu in enumerate(self._imus.values()):
+            imu.seed = (*seed, FIRST_IMU + i)
 
     def scale_noise(self, imu: str, factor: float) -> None:
         """Multiplies the noise of an IMU."""

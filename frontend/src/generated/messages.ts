@@ -665,7 +665,22 @@ export interface TryValues {
   t?: number | null;
 }
 
-/** Ends a job of `try_values`, if it still runs; what is known of it stays with the client. */
+/**
+ * Continues a run from a moment under several seeds, beside the ladder.
+ *
+ * As `try_values`, but what differs from the moment on are random numbers: the noise of sensors and wheels,
+ * and `random` and `numpy.random` in actions. What the universe drew at its begin stays. The seed with which
+ * the run began changes nothing: its continuation is the run as it is.
+ */
+export interface TrySeeds {
+  job: string;
+  seeds: number[];
+  duration_s?: number;
+  run?: string;
+  t?: number | null;
+}
+
+/** Ends a job of `try_values` or `try_seeds`, if it still runs; what is known of it stays with the client. */
 export interface StopTrying {
   job: string;
 }
@@ -705,7 +720,7 @@ export interface Crash {
  * The outcome of one continuation.
  *
  * Attributes:
- *     index: 0 for the run as it is; n for the n-th value.
+ *     index: 0 for the run as it is; n for the n-th value or seed.
  *     end: how it ended; `running` if it still ran when its time was over, `refused` if the port does not
  *         take the value, `held` if the debugger would hold it, `late` if a tick did not return.
  *     message: why, for all ends but `running`.
@@ -1314,6 +1329,7 @@ export interface Commands {
   flag: Flag;
   evaluate: Evaluate;
   try_values: TryValues;
+  try_seeds: TrySeeds;
   stop_trying: StopTrying;
   take_over: Empty;
   ping: Empty;

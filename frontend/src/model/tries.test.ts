@@ -1,6 +1,15 @@
 import { expect, it } from 'vitest';
 import type { PortSpec } from './ports';
-import { fitOf, listFor, rangeAround, takesRange, valuesOfList, valuesOfRange } from './tries';
+import {
+  fitOf,
+  LARGEST_SEED,
+  listFor,
+  rangeAround,
+  seedsFrom,
+  takesRange,
+  valuesOfList,
+  valuesOfRange,
+} from './tries';
 
 const port = (type: string, value: string | null = null): PortSpec => ({
   name: 'p',
@@ -46,6 +55,20 @@ it('begins around the present value, or with all choices', () => {
   expect(takesRange(port('double'))).toBe(true);
   expect(takesRange(port('bool'))).toBe(false);
   expect(listFor(port('Color[RED;GREEN]'))).toContain('RED\nGREEN');
+});
+
+it('begins with both values of a boolean port', () => {
+  expect(listFor(port('bool'))).toBe('true\nfalse');
+});
+
+it('counts seeds from the first one', () => {
+  expect(seedsFrom('7', '3')).toEqual(['7', '8', '9']);
+  expect(seedsFrom('-1', '3')).toBe('badSeed');
+  expect(seedsFrom('1.5', '3')).toBe('badSeed');
+  expect(seedsFrom('', '3')).toBe('badSeed');
+  expect(seedsFrom(String(LARGEST_SEED), '2')).toBe('badSeed');
+  expect(seedsFrom('1', '0')).toBe('badCount');
+  expect(seedsFrom('1', '51')).toBe('tooMany');
 });
 
 it('says what does not fit', () => {

@@ -14,7 +14,7 @@ export interface Range {
 }
 
 /** Why values cannot be tried. */
-export type TriesProblem = 'none' | 'tooMany' | 'noNumber' | 'badCount' | 'bad';
+export type TriesProblem = 'none' | 'tooMany' | 'noNumber' | 'badCount' | 'badSeed' | 'bad';
 
 const isNumeric = (type: string) => ['number', 'integer'].includes(widgetOf(type));
 
@@ -30,7 +30,23 @@ export function rangeAround(port: PortSpec, value: string | null): Range {
 }
 
 /** Returns the list that is offered first: all choices, or nothing. */
-export const listFor = (port: PortSpec): string => choicesOf(port.type).join('\n');
+export const listFor = (port: PortSpec): string =>
+  (widgetOf(port.type) === 'boolean' ? ['true', 'false'] : choicesOf(port.type)).join('\n');
+
+/** The largest seed, as the session takes them. */
+export const LARGEST_SEED = 2 ** 32 - 1;
+
+/** Returns so many seeds, one after the other. */
+export function seedsFrom(first: string, count: string): readonly string[] | TriesProblem {
+  const [from, most] = [first, count].map((part) => (part.trim() === '' ? Number.NaN : Number(part))) as [
+    number,
+    number,
+  ];
+  if (!Number.isInteger(most) || most < 1) return 'badCount';
+  if (most > MOST_VALUES) return 'tooMany';
+  if (!Number.isInteger(from) || from < 0 || from + most - 1 > LARGEST_SEED) return 'badSeed';
+  return Array.from({ length: most }, (_, at) => String(from + at));
+}
 
 function shown(value: number, type: string): string {
   return String(widgetOf(type) === 'integer' ? Math.round(value) : Number(value.toPrecision(6)));

@@ -11,7 +11,7 @@ import psutil
 import pytest
 
 from executor import child_messages
-from executor.child_messages import SetPort, TryingEnded, TryingStarted, TryMany, TryOutcome
+from executor.child_messages import NewSeed, SetPort, TryingEnded, TryingStarted, TryMany, TryOutcome
 from executor.exact import trying
 from executor.exact.trying import Trying, most_at_once
 from executor.replay_messages import FINGERPRINT_BYTES, Replay
@@ -75,7 +75,7 @@ def forward(run: ExactRun, value: str | None, port: str = "lin_speed") -> SetPor
     return SetPort(node_id=node.node_id, path=node.path, port=port, value=value)
 
 
-def tried(run: ExactRun, changes: list[SetPort], duration_s: float = 2.0) -> dict[int, TryOutcome]:
+def tried(run: ExactRun, changes: list[SetPort | NewSeed], duration_s: float = 2.0) -> dict[int, TryOutcome]:
     run.tell(TryMany("a1", changes, duration_s))
     ended = run.until(lambda m: isinstance(m, TryingEnded))
     assert (ended.end, ended.message) == ("complete", "")
@@ -122,6 +122,18 @@ def test_values_give_other_courses_and_the_same_value_the_same_run(past: tuple[P
         (path,) = each.paths.values()
         assert path[0][1:] == next(iter(outcomes[0].paths.values()))[0][1:]
     assert outcomes[2].distance_m < outcomes[0].distance_m < outcomes[5].distance_m
+    run.end()
+
+
+def test_the_seed_of_the_run_gives_the_run_and_others_another_course(past: tuple[Path, Replay]) -> None:
+    run = at_moment(past)
+    outcomes = tried(run, [NewSeed(3), NewSeed(11), NewSeed(12), NewSeed(11)])
+    assert {each.end for each in outcomes.values()} == {"running"}
+    as_it_is, own, one, other, again = (outcomes[index] for index in range(5))
+    assert (own.fingerprint, own.paths, own.as_before) == (as_it_is.fingerprint, as_it_is.paths, True)
+    assert len({own.fingerprint, one.fingerprint, other.fingerprint}) == 3
+    assert (one.as_before, other.as_before) == (False, False)
+    assert (again.fingerprint, again.paths) == (one.fingerprint, one.paths)
     run.end()
 
 

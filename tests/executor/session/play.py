@@ -61,6 +61,7 @@ DATA: dict[str, dict[str, Any]] = {
     "flag": {"text": "here"},
     "evaluate": {"job": "a1", "app_zip_base64": "eA==", "evaluation": "room"},
     "try_values": {"job": "a1", "node_id": "n1", "path": "Act::1", "port": "gain", "values": ["2"]},
+    "try_seeds": {"job": "a1", "seeds": [2]},
     "stop_trying": {"job": "a1"},
     "name_branch": {"run": "abc", "name": "wider"},
     "drop_branch": {"run": "abc"},

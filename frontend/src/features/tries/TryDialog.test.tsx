@@ -52,6 +52,15 @@ it('shows the values before they are tried, and refuses wrong ones', async () =>
   );
 });
 
+it('tries seeds in place of values', async () => {
+  show(<TryDialog />);
+  ask();
+  await user.selectOptions(screen.getByTestId('tries-what'), 'seeds');
+  expect(screen.queryByTestId('tries-block')).toBeNull();
+  await user.click(screen.getByTestId('tries-begin'));
+  expect(send).toHaveBeenCalledWith('try_seeds', expect.objectContaining({ seeds: [1, 2, 3, 4, 5] }));
+});
+
 it('says where no block has a port', () => {
   show(<TryDialog />);
   ask([]);

@@ -3,6 +3,7 @@ import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { closeTries, stopTries, useTryMany, type TriedBlock } from '@/store/moment/rerun/tryMany';
 import { useTries } from '@/store/session/tries';
+import { SeedsForm } from './SeedsForm';
 import { TryResults } from './TryResults';
 import { ValuesForm } from './ValuesForm';
 
@@ -37,8 +38,31 @@ interface AskedProps {
   readonly uid: number | null;
 }
 
+/** The choice between values and seeds, and the form for them. */
+function Asked(props: AskedProps) {
+  const { t } = useTranslation('axis');
+  const [what, setWhat] = useState('values');
+  return (
+    <>
+      <NativeSelect
+        size="xs"
+        w={220}
+        label={t('tries.what')}
+        value={what}
+        data={[
+          { value: 'values', label: t('tries.whatValues') },
+          { value: 'seeds', label: t('tries.whatSeeds') },
+        ]}
+        onChange={({ currentTarget }) => setWhat(currentTarget.value)}
+        data-testid="tries-what"
+      />
+      {what === 'seeds' ? <SeedsForm moment={{ run: props.run, t: props.t }} /> : <PortAsked {...props} />}
+    </>
+  );
+}
+
 /** Block and port, and the form for the values of this port. */
-function Asked({ run, t: moment, blocks, uid }: AskedProps) {
+function PortAsked({ run, t: moment, blocks, uid }: AskedProps) {
   const { t } = useTranslation('axis');
   const [chosen, setChosen] = useState(uid);
   const [name, setName] = useState('');

@@ -1,7 +1,8 @@
-import { screen } from '@testing-library/react';
+import { act, screen } from '@testing-library/react';
 import { afterEach, expect, it } from 'vitest';
-import { show } from '../../../harness/testing';
-import { place } from '../../../harness/tries';
+import { show, user } from '../../../harness/testing';
+import { outcomeOf, place } from '../../../harness/tries';
+import { hidePaths, useShownPaths } from '@/store/session/trace/shownPaths';
 import { beginJob, changeJob, useTries } from '@/store/session/tries';
 import { TryResults } from './TryResults';
 
@@ -12,4 +13,29 @@ it('shows the rows that wait once the run is at the moment', () => {
   changeJob('a1', () => ({ started: { job: 'a1', t: 3.25, at_once: 1, outlines: [] } }));
   show(<TryResults />);
   expect(screen.getByTestId('tries-row-1')).toHaveTextContent('waiting');
+});
+
+const started = { job: 'a1', t: 3.25, at_once: 1, outlines: [] };
+
+it('draws the chosen rows in 3D', async () => {
+  beginJob('a1', place, ['1', '2']);
+  const outcomes = [outcomeOf(0), outcomeOf(1), outcomeOf(2, { end: 'refused', ticks: 0, paths: {} })];
+  changeJob('a1', () => ({ started, outcomes }));
+  show(<TryResults />);
+  expect(screen.getByTestId('tries-choose-2')).toBeDisabled();
+  expect(screen.getByTestId('tries-3d')).toHaveTextContent('Show 2 paths in 3D');
+  await user.click(screen.getByTestId('tries-choose-0'));
+  await user.click(screen.getByTestId('tries-3d'));
+  expect(useShownPaths.getState().paths.map(({ label }) => label)).toEqual(['1']);
+  act(() => hidePaths('tries'));
+});
+
+it('shows seeds, of which only the run as it is can be opened', () => {
+  beginJob('a1', { run: 'a', t: 3.25 }, ['40']);
+  changeJob('a1', () => ({ started, outcomes: [outcomeOf(0), outcomeOf(1)] }));
+  show(<TryResults />);
+  expect(screen.getByTestId('tries-results')).toHaveTextContent('Results for seeds, from 3.25 s');
+  expect(screen.getByRole('columnheader', { name: 'Seed' })).toBeVisible();
+  expect(screen.getByTestId('tries-branch-0')).toBeVisible();
+  expect(screen.queryByTestId('tries-branch-1')).toBeNull();
 });

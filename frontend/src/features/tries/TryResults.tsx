@@ -1,9 +1,11 @@
-import { Button, Group, Table, Text } from '@mantine/core';
-import { useState } from 'react';
+import { Button, Checkbox, Group, Table, Text } from '@mantine/core';
+import { IconCube } from '@tabler/icons-react';
+import { type ReactNode, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { TryOutcome } from '@/generated/messages';
-import { canUse, openAsBranch, writeValue } from '@/store/moment/rerun/tryMany';
-import { useTries, type TriesJob } from '@/store/session/tries';
+import { canUse, drawTries, openAsBranch, writeValue } from '@/store/moment/rerun/tryMany';
+import { choosePath, useTries, type TriesJob } from '@/store/session/tries';
+import { showPanel } from '@/workspace/tabs';
 import { cssOf, hueOf } from '@/store/session/trace/shownPaths';
 import { TryPlan } from './TryPlan';
 import classes from './tries.module.css';
@@ -13,12 +15,33 @@ export function TryResults() {
   const { t } = useTranslation('axis');
   const job = useTries((state) => state.job);
   if (job === null || job.started === null) return null;
-  const { path, port, t: moment } = job.place;
+  const { place, hidden, outcomes } = job;
+  const moment = job.moment.t.toFixed(2);
+  const drawn = outcomes.filter(
+    ({ index, paths }) => Object.keys(paths).length > 0 && !hidden.includes(index),
+  );
   return (
     <section className={classes['results']} data-testid="tries-results">
       <Text size="sm" fw={600}>
-        {t('tries.results', { port, path, t: moment.toFixed(2) })}
+        {place
+          ? t('tries.results', { port: place.port, path: place.path, t: moment })
+          : t('tries.seedResults', { t: moment })}
       </Text>
+      {drawn.length > 0 ? (
+        <Button
+          size="compact-sm"
+          variant="default"
+          w="fit-content"
+          leftSection={<IconCube size={14} />}
+          onClick={() => {
+            drawTries(job);
+            showPanel('viewer3d');
+          }}
+          data-testid="tries-3d"
+        >
+          {t('tries.in3d', { count: drawn.length })}
+        </Button>
+      ) : null}
       <div className={classes['parts']}>
         <div className={classes['table']}>
           <Rows job={job} />
@@ -31,17 +54,19 @@ export function TryResults() {
 
 function Rows({ job }: { readonly job: TriesJob }) {
   const { t } = useTranslation('axis');
-  const columns = ['number', 'value', 'end', 'crash', 'distance', 'nodes', 'actions'] as const;
+  // The roles stay where the cells are shown as a list, in a narrow window.
   return (
-    <Table fz="xs" verticalSpacing={4}>
-      <Table.Thead>
-        <Table.Tr>
-          {columns.map((each) => (
-            <Table.Th key={each}>{t(`tries.column.${each}`)}</Table.Th>
+    <Table fz="xs" verticalSpacing={4} role="table" className={classes['rows'] ?? ''}>
+      <Table.Thead role="rowgroup">
+        <Table.Tr role="row">
+          {columnsOf(job).map((each) => (
+            <Table.Th key={each} role="columnheader">
+              {t(`tries.column.${each}`)}
+            </Table.Th>
           ))}
         </Table.Tr>
       </Table.Thead>
-      <Table.Tbody>
+      <Table.Tbody role="rowgroup">
         {[null, ...job.values].map((value, index) => (
           <Row key={index} job={job} index={index} value={value} />
         ))}
@@ -49,6 +74,9 @@ function Rows({ job }: { readonly job: TriesJob }) {
     </Table>
   );
 }
+
+const columnsOf = ({ place }: TriesJob) =>
+  ['number', place ? 'value' : 'seed', 'end', 'crash', 'distance', 'nodes', 'actions'] as const;
 
 interface RowProps {
   readonly job: TriesJob;
@@ -60,20 +88,36 @@ function Row({ job, index, value }: RowProps) {
   const { t } = useTranslation('axis');
   const outcome = job.outcomes.find((each) => each.index === index);
   const did = outcome !== undefined && outcome.ticks > 0;
-  return (
-    <Table.Tr data-testid={`tries-row-${index}`}>
-      <Table.Td className={classes['name']}>
-        <span className={classes['swatch']} style={{ background: cssOf(hueOf(index)) }} aria-hidden="true" />{' '}
+  const cells: Record<string, ReactNode> = {
+    number: (
+      <span className={classes['name']}>
+        <Checkbox
+          size="xs"
+          aria-label={t('tries.choose', { number: index })}
+          checked={did && !job.hidden.includes(index)}
+          disabled={!did}
+          onChange={({ currentTarget }) => choosePath(index, currentTarget.checked)}
+          data-testid={`tries-choose-${index}`}
+        />
+        <span className={classes['swatch']} style={{ background: cssOf(hueOf(index)) }} aria-hidden="true" />
         {index}
-      </Table.Td>
-      <Table.Td>{value ?? t('tries.asItIs')}</Table.Td>
-      <Table.Td>
-        {outcome ? <End outcome={outcome} job={job} /> : job.ended ? '–' : t('tries.waiting')}
-      </Table.Td>
-      <Table.Td>{did ? <FirstCrash outcome={outcome} /> : '–'}</Table.Td>
-      <Table.Td>{did ? `${outcome.distance_m.toFixed(2)} m` : '–'}</Table.Td>
-      <Table.Td>{outcome?.nodes.join(', ') || '–'}</Table.Td>
-      <Table.Td>{did ? <Actions job={job} index={index} value={value} /> : null}</Table.Td>
+      </span>
+    ),
+    value: value ?? t('tries.asItIs'),
+    seed: value ?? t('tries.asItIs'),
+    end: outcome ? <End outcome={outcome} job={job} /> : job.ended ? '–' : t('tries.waiting'),
+    crash: did ? <FirstCrash outcome={outcome} /> : '–',
+    distance: did ? `${outcome.distance_m.toFixed(2)} m` : '–',
+    nodes: outcome?.nodes.join(', ') || '–',
+    actions: did ? <Actions job={job} index={index} value={value} /> : null,
+  };
+  return (
+    <Table.Tr role="row" data-testid={`tries-row-${index}`}>
+      {columnsOf(job).map((each) => (
+        <Table.Td key={each} role="cell" data-label={t(`tries.column.${each}`)}>
+          {cells[each]}
+        </Table.Td>
+      ))}
     </Table.Tr>
   );
 }
@@ -112,24 +156,27 @@ function FirstCrash({ outcome: { crash, collisions } }: { readonly outcome: TryO
 function Actions({ job, index, value }: RowProps) {
   const { t } = useTranslation('axis');
   const [isUsed, setIsUsed] = useState(false);
+  const { place } = job;
+  // A run of the session has one seed: what another one did cannot be opened.
+  if (place === null && value !== null) return '–';
   return (
-    <Group gap={4} wrap="nowrap">
+    <Group gap={4}>
       <Button
         size="compact-xs"
         variant="default"
         aria-label={t('tries.branchOf', { number: index })}
-        onClick={() => void openAsBranch(job.place, value)}
+        onClick={() => void openAsBranch(job, value)}
         data-testid={`tries-branch-${index}`}
       >
         {t('tries.branch')}
       </Button>
-      {value !== null && canUse(job.place) ? (
+      {value !== null && place !== null && canUse(place) ? (
         <Button
           size="compact-xs"
           variant="default"
           aria-label={t('tries.useOf', { value })}
           onClick={() => {
-            writeValue(job.place, value);
+            writeValue(place, value);
             setIsUsed(true);
           }}
           data-testid={`tries-use-${index}`}

@@ -1,7 +1,7 @@
 import { afterEach, expect, it } from 'vitest';
 import type { ServerMessage } from '@/generated/messages';
 import { outcomeOf, place } from '../../../harness/tries';
-import { beginJob, feedTries, loseJob, useTries } from './tries';
+import { beginJob, choosePath, feedTries, loseJob, useTries } from './tries';
 
 const said = (command: string, data: unknown) =>
   feedTries({ id: '', command, data, seq: 0, t: 0 } as ServerMessage);
@@ -23,6 +23,17 @@ it('follows a job from its begin to its end', () => {
     fraction: 0,
     ended: { end: 'complete' },
   });
+});
+
+it('keeps which paths are drawn, also after its end', () => {
+  beginJob('a1', { run: 'a', t: 3 }, ['7']);
+  expect(useTries.getState().job).toMatchObject({ moment: { run: 'a', t: 3 }, place: null, hidden: [] });
+  said('trying_ended', { job: 'a1', end: 'complete', message: '' });
+  choosePath(1, false);
+  choosePath(1, false);
+  expect(useTries.getState().job?.hidden).toEqual([1]);
+  choosePath(1, true);
+  expect(useTries.getState().job?.hidden).toEqual([]);
 });
 
 it('does not listen to another job, and knows when its session is gone', () => {

@@ -7,10 +7,14 @@ import type {
   TryOutcome,
 } from '@/generated/messages';
 
-/** A block and a port, at a moment of a run. */
-export interface TriedPlace {
+/** A moment of a run. */
+export interface TriedMoment {
   readonly run: string;
   readonly t: number;
+}
+
+/** A block and a port, at a moment of a run. */
+export interface TriedPlace extends TriedMoment {
   readonly treeId: string;
   readonly nodeId: string;
   readonly path: string;
@@ -20,8 +24,13 @@ export interface TriedPlace {
 /** A job of *Try many*, and what is known of it. */
 export interface TriesJob {
   readonly id: string;
-  readonly place: TriedPlace;
+  readonly moment: TriedMoment;
+  /** The port whose values are tried; null: seeds are. */
+  readonly place: TriedPlace | null;
+  /** Values of the port, or seeds. */
   readonly values: readonly string[];
+  /** The numbers of the outcomes whose paths are not drawn in 3D. */
+  readonly hidden: readonly number[];
   readonly stage: TryingProgress['stage'];
   readonly fraction: number;
   readonly started: TryingStarted | null;
@@ -33,11 +42,13 @@ export interface TriesJob {
 /** The last job of this page; null before the first. */
 export const useTries = create<{ readonly job: TriesJob | null }>(() => ({ job: null }));
 
-export function beginJob(id: string, place: TriedPlace, values: readonly string[]): void {
+export function beginJob(id: string, at: TriedMoment | TriedPlace, values: readonly string[]): void {
   const job: TriesJob = {
     id,
-    place,
+    moment: { run: at.run, t: at.t },
+    place: 'port' in at ? at : null,
     values,
+    hidden: [],
     stage: 'going_back',
     fraction: 0,
     started: null,
@@ -51,6 +62,14 @@ export function beginJob(id: string, place: TriedPlace, values: readonly string[
 export function changeJob(id: string, change: (job: TriesJob) => Partial<TriesJob>): void {
   const { job } = useTries.getState();
   if (job?.id === id && job.ended === null) useTries.setState({ job: { ...job, ...change(job) } });
+}
+
+/** Chooses whether the path of an outcome is drawn in 3D. */
+export function choosePath(index: number, isShown: boolean): void {
+  const { job } = useTries.getState();
+  if (!job) return;
+  const others = job.hidden.filter((each) => each !== index);
+  useTries.setState({ job: { ...job, hidden: isShown ? others : [...others, index] } });
 }
 
 /** Ends the job of a session that is gone. */

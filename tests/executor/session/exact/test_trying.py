@@ -8,7 +8,7 @@ import msgspec
 import pytest
 
 from executor import messages
-from executor.child_messages import Awake, KeepSnapshots, SetPort, StartApplication, TryMany
+from executor.child_messages import Awake, KeepSnapshots, NewSeed, SetPort, StartApplication, TryMany
 from executor.session.events import ChildLooked, DropSnapshot, Kill, Send, WakeSnapshot
 from executor.session.exact.trying import SILENT_S
 from executor.session.ladder import State
@@ -66,6 +66,24 @@ def test_a_process_of_its_own_makes_the_run_again_and_tries() -> None:
     assert heard(play)[-1][1] == messages.TryingEnded("a1", "complete")
     assert not lives(play)
     assert play.session.children.get("application") is not None
+
+
+def test_seeds_are_tried_as_values_are() -> None:
+    play = recorded()
+    assert play.reply(play.command("try_seeds", job="a1", seeds=[7, 8], t=1.5, duration_s=4.0)) == "ack"
+    start, order = told(play, "trying")
+    assert isinstance(start, StartApplication)
+    assert order == TryMany("a1", [NewSeed(7), NewSeed(8)], 4.0)
+    for index in range(4):
+        outcome(play, index)
+    play.child_says("trying", "trying_ended", job="a1", end="complete")
+    assert [name for name, _ in heard(play)] == ["try_outcome"] * 3 + ["trying_ended"]
+
+
+@pytest.mark.parametrize("seeds", [[], [-1], [2**32], list(range(51))])
+def test_seeds_outside_of_the_bounds_are_refused(seeds: list[int]) -> None:
+    with pytest.raises(msgspec.ValidationError):
+        msgspec.convert({"job": "a1", "seeds": seeds}, messages.TrySeeds)
 
 
 def test_the_newest_snapshot_before_the_moment_is_used_and_makes_none() -> None:

@@ -218,3 +218,24 @@ def test_things_stand_where_they_were_dragged(make_world: "MakeWorld") -> None:
     world.reset()
     wall = next(o.id for o in world.scene.objects if o.body == "wall")
     assert world.poses()[wall][0] == 1.0
+
+
+def test_noise_follows_another_seed_from_a_moment_on_but_not_its_own(make_world: "MakeWorld") -> None:
+    def measured(new: int | None) -> list[bytes]:
+        world = make_world("walled_room", seed=5)
+        robot = world.robots[0]
+        found = []
+        for _ in range(2):
+            drive(world, 0.2, 0.1, 0.5)
+            found.append(robot.scan(robot.config.lidars[0]).ranges.tobytes())
+            found.append(repr(robot.odometry).encode())
+            if new is not None:
+                world.reseed(new)
+        return found
+
+    plain, other = measured(None), measured(6)
+    assert measured(5) == plain
+    assert other[:2] == plain[:2]
+    assert other[2] != plain[2]
+    assert other[3] != plain[3]
+    assert measured(6) == other

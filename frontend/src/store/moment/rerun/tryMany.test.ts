@@ -4,12 +4,22 @@ import * as connection from '@/store/session/connection';
 import { CommandError } from '@/store/session/control';
 import { initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
-import { useTries } from '@/store/session/tries';
+import { hidePaths, useShownPaths } from '@/store/session/trace/shownPaths';
+import { beginJob, changeJob, choosePath, useTries } from '@/store/session/tries';
 import { segmentOf } from '../../../../harness/runs';
-import { place } from '../../../../harness/tries';
+import { outcomeOf, place } from '../../../../harness/tries';
 import { ofSession, useSource } from '../source';
 import { atPresent, useMoment } from '../store';
-import { askTries, beginTries, canTry, openAsBranch, stopTries, useTryMany } from './tryMany';
+import {
+  askTries,
+  beginSeeds,
+  beginTries,
+  canTry,
+  drawTries,
+  openAsBranch,
+  stopTries,
+  useTryMany,
+} from './tryMany';
 
 let send: MockInstance<typeof connection.send>;
 
@@ -74,7 +84,9 @@ it('says why it is refused', async () => {
 });
 
 it('opens a row as a branch: back, the value, and on', async () => {
-  await openAsBranch(place, '2');
+  beginJob('a1', place, ['2']);
+  const { job } = useTries.getState();
+  await openAsBranch(job!, '2');
   expect(send.mock.calls.map(([command]) => command)).toEqual(['go_back', 'set_port', 'resume']);
   expect(send).toHaveBeenCalledWith('set_port', {
     node_id: 'n6',
@@ -84,6 +96,29 @@ it('opens a row as a branch: back, the value, and on', async () => {
   });
   expect(useMoment.getState().t).toBeNull();
   send.mockClear();
-  await openAsBranch(place, null);
+  await openAsBranch(job!, null);
   expect(send.mock.calls.map(([command]) => command)).toEqual(['go_back', 'resume']);
+});
+
+it('sends seeds', async () => {
+  await beginSeeds({ run: 'a', t: 3.25 }, ['7', '8'], 4);
+  const { job } = useTries.getState();
+  expect(job).toMatchObject({ place: null, values: ['7', '8'] });
+  const order = { job: job!.id, run: 'a', t: 3.25, seeds: [7, 8], duration_s: 4 };
+  expect(send).toHaveBeenCalledWith('try_seeds', order);
+});
+
+it('draws the chosen paths in 3D, with what was tried', () => {
+  beginJob('a1', place, ['1', '2']);
+  changeJob('a1', () => ({ outcomes: [outcomeOf(0), outcomeOf(1), outcomeOf(2)] }));
+  choosePath(1, false);
+  drawTries(useTries.getState().job!);
+  const { owner, paths } = useShownPaths.getState();
+  expect(owner).toBe('tries');
+  expect(paths.map(({ label, name, isDashed }) => [label, name, isDashed])).toEqual([
+    ['0', 'as it is', true],
+    ['2', 'lin_speed = 2', false],
+  ]);
+  expect([...paths[1]!.lines[0]!]).toEqual([0, 0, 3.25, 1, 2, 1, 7.25, 0]);
+  hidePaths('tries');
 });

@@ -6,7 +6,15 @@ import { t as text } from '@/i18n';
 import { useProjectStore } from '@/store/project';
 import { reported } from '@/store/run/commands';
 import { send } from '@/store/session/connection';
-import { beginJob, changeJob, useTries, type TriedPlace } from '@/store/session/tries';
+import {
+  beginJob,
+  changeJob,
+  useTries,
+  type TriedMoment,
+  type TriedPlace,
+  type TriesJob,
+} from '@/store/session/tries';
+import { hueOf, showPaths, type ShownPath } from '@/store/session/trace/shownPaths';
 import { beginsAgain, canGoBack } from './goBack';
 import { extent, lookNow } from '../looking';
 import { useMoment } from '../store';
@@ -60,25 +68,28 @@ const newName = () =>
   );
 
 /** Begins to try values; what comes of it is in `useTries`. */
-export async function beginTries(
-  place: TriedPlace,
+export const beginTries = (place: TriedPlace, values: readonly string[], durationS: number): Promise<void> =>
+  begun(place, values, (job) => {
+    const { run, t, nodeId, path, port } = place;
+    const order = { job, run, t, path, port, node_id: nodeId, values: [...values], duration_s: durationS };
+    return send('try_values', order);
+  });
+
+/** Begins to try seeds, in the same way. */
+export const beginSeeds = (at: TriedMoment, seeds: readonly string[], durationS: number): Promise<void> =>
+  begun(at, seeds, (job) =>
+    send('try_seeds', { job, run: at.run, t: at.t, seeds: seeds.map(Number), duration_s: durationS }),
+  );
+
+async function begun(
+  at: TriedMoment | TriedPlace,
   values: readonly string[],
-  durationS: number,
+  ask: (job: string) => Promise<unknown>,
 ): Promise<void> {
   const job = newName();
-  const { run, t, nodeId, path, port } = place;
-  beginJob(job, place, values);
+  beginJob(job, at, values);
   try {
-    await send('try_values', {
-      job,
-      run,
-      t,
-      path,
-      port,
-      node_id: nodeId,
-      values: [...values],
-      duration_s: durationS,
-    });
+    await ask(job);
   } catch (error) {
     const message = error instanceof Error ? error.message : String(error);
     const hint = error instanceof Error && 'hint' in error ? String(error.hint) : '';
@@ -93,15 +104,42 @@ export function stopTries(): void {
 }
 
 /** Takes the run of the session back to the moment, gives the port the value, and lets it run on. */
-export async function openAsBranch({ run, t, nodeId, path, port }: TriedPlace, value: string | null) {
+export async function openAsBranch({ moment: { run, t }, place }: TriesJob, value: string | null) {
   closeTries();
   lookNow();
   const doing = async () => {
     await send('go_back', { run, t });
-    if (value !== null) await send('set_port', { node_id: nodeId, path, port, value });
+    if (value !== null && place) {
+      const { nodeId, path, port } = place;
+      await send('set_port', { node_id: nodeId, path, port, value });
+    }
     await send('resume', {});
   };
   await reported(doing());
+}
+
+/** Draws the chosen paths in 3D, and closes the dialog. */
+export function drawTries({ outcomes, values, hidden, place }: TriesJob): void {
+  closeTries();
+  const chosen = outcomes.filter(
+    ({ index, paths }) => !hidden.includes(index) && Object.keys(paths).length > 0,
+  );
+  showPaths(
+    'tries',
+    chosen.map(({ index, paths }): ShownPath => {
+      const value = values[index - 1] ?? '';
+      const name =
+        index === 0
+          ? text('axis:tries.asItIs')
+          : place
+            ? text('axis:tries.pathOf', { port: place.port, value })
+            : text('axis:tries.pathOfSeed', { value });
+      const lines = Object.values(paths).map((path) =>
+        Float32Array.from(path.flatMap(([t, x, y], at) => [x, y, t, at === 0 ? 1 : 0])),
+      );
+      return { label: String(index), name, hue: hueOf(index), isDashed: index === 0, labelAt: 'end', lines };
+    }),
+  );
 }
 
 /** Whether the block is still there to take a value. */

@@ -49,6 +49,7 @@ VERBS: Final[dict[str, Verb]] = {
     "export": Verb("export", "export"),
     "projects": Verb("projects", "projects"),
     "admin": Verb("admin", "admin"),
+    "hosts": Verb("hosts", "hosts"),
     "convert": Verb("convert", "convert"),
     "backup": Verb("backup", "backup"),
     "restore": Verb("backup", "restore"),

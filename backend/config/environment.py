@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 from pathlib import Path
-from typing import Literal
+from typing import Literal, Self
 
-from pydantic import Field, SecretStr, ValidationError, field_validator
+from pydantic import Field, SecretStr, ValidationError, field_validator, model_validator
 from pydantic_settings import SettingsConfigDict, SettingsError
 
 from backend.config.object_store import ObjectStoreSettings
@@ -17,6 +17,8 @@ from backend.core.limits import LIMITS
 PREFIX = "BT_STUDIO_"
 REPOSITORY = Path(__file__).resolve().parents[2]
 MEBIBYTE = 1024 * 1024
+RELAY_PORT = 7164
+HOST_ADDRESS = re.compile(r"(?P<host>[0-9a-z]([0-9a-z.-]*[0-9a-z])?|\[[0-9a-f:]+\])(:(?P<port>\d{1,5}))?")
 
 
 class InvalidEnvironmentError(ValueError):
@@ -68,6 +70,10 @@ class Environment(ObjectStoreSettings, TeamSettings):
     keeper_folder: Path = Field(
         default=Path("/run/bt-studio-keeper"),
         description="Folder shared with the keeper, with the sockets of the executors that it started.",
+    )
+    executor_hosts: tuple[str, ...] = Field(
+        default=(),
+        description="Further machines (a JSON list of HOST or HOST:PORT) on which `docker` starts executors.",
     )
     pod_template: Path = Field(
         default=Path("/etc/bt-studio/executor-pod.yaml"),
@@ -192,12 +198,40 @@ class Environment(ObjectStoreSettings, TeamSettings):
         """
         return self.is_team and self.is_postgresql and self.launcher != "process"
 
+    @property
+    def hosts_folder(self) -> Path:
+        """The folder of the certificates of further machines."""
+        return self.data_dir / "hosts"
+
+    @field_validator("executor_hosts")
+    @classmethod
+    def _hosts(cls, value: tuple[str, ...]) -> tuple[str, ...]:
+        found = tuple(_with_port(text) for text in value)
+        if len(set(found)) < len(found):
+            raise ValueError("a host is named twice")
+        return found
+
+    @model_validator(mode="after")
+    def _hosts_have_docker(self) -> Self:
+        if self.executor_hosts and self.launcher != "docker":
+            sentence = "BT_STUDIO_EXECUTOR_HOSTS needs BT_STUDIO_LAUNCHER=docker"
+            raise MissingSettingError("launcher", sentence)
+        return self
+
     @field_validator(
         "data_dir", "frontend_dir", "templates_dir", "keeper_folder", "pod_template", "tools_template"
     )
     @classmethod
     def _absolute(cls, value: Path) -> Path:
         return value.expanduser().absolute()
+
+
+def _with_port(text: str) -> str:
+    """Returns HOST:PORT of a host as the administrator writes it."""
+    found = HOST_ADDRESS.fullmatch(text.strip().lower())
+    if found is None or not 0 < int(found["port"] or RELAY_PORT) < 65536:
+        raise ValueError(f"“{text}” is neither HOST nor HOST:PORT")
+    return f"{found['host']}:{found['port'] or RELAY_PORT}"
 
 
 def sentence(error: ValidationError) -> str:

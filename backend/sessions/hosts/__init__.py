@@ -1,0 +1,5 @@
+"""Further machines with Docker on which executors run: each has a keeper, a gate and a relay.
+
+names        the addresses of hosts in the settings
+authority    the private authority, and the certificates of web server and hosts
+"""

@@ -40,6 +40,8 @@ def other_bundle(relay, uri, path):
     """A certificate of a client that the relay's authority signed, with another role."""
     signer = (relay.authority / "authority.pem").read_bytes()
     authority, key = x509.load_pem_x509_certificate(signer), ec.generate_private_key(ec.SECP256R1())
+    signing = serialization.load_pem_private_key(signer, None)
+    assert isinstance(signing, ec.EllipticCurvePrivateKey)
     made = (
         x509.CertificateBuilder()
         .subject_name(x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, "web")]))
@@ -55,7 +57,7 @@ def other_bundle(relay, uri, path):
             ),
             critical=False,
         )
-        .sign(serialization.load_pem_private_key(signer, None), hashes.SHA256())
+        .sign(signing, hashes.SHA256())
     )
     pem = serialization.Encoding.PEM
     secret = key.private_bytes(pem, serialization.PrivateFormat.PKCS8, serialization.NoEncryption())

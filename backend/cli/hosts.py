@@ -51,3 +51,30 @@ def certificate(
         raise CliError(str(error)) from error
     sys.stdout.write(made)
     print(f"The certificate of {name} is valid until {valid_until(made):%Y-%m-%d}.", file=sys.stderr)
+
+
+@hosts.command()
+def check() -> None:
+    """Asks the keeper of each host how many executors and tools may still start there.
+
+    The exit status is 1 if a host is not reached.
+    """
+    from backend.config.environment import environment
+    from backend.sessions.errors import LaunchError
+    from backend.sessions.hosts.names import read_host
+    from backend.sessions.launchers.relayed import RelayedLauncher
+
+    if not environment().executor_hosts:
+        raise CliError("BT_STUDIO_EXECUTOR_HOSTS is empty.", status=BAD_ARGUMENTS)
+    problems = []
+    for text in environment().executor_hosts:
+        try:
+            room = RelayedLauncher(read_host(text)).room()
+        except LaunchError as error:
+            problems.append(f"{text}: {error.detail}")
+        else:
+            print(
+                f"{text}: {room.free} of {room.places} executors may start, and tools for {room.free_tools}."
+            )
+    if problems:
+        raise CliError(*problems)

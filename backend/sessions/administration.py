@@ -30,6 +30,7 @@ class Sessions(ReadOnly):
         "target",
         "state",
         "launcher",
+        "host",
         "ros_domain_id",
         "ended_at",
     )

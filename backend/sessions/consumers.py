@@ -128,7 +128,7 @@ def _is_ping(text: str) -> bool:
 async def _explained(session: Session, closed: Closed) -> Closed:
     """Adds the reason why an executor was lost; its process ends a moment after its sockets."""
     for _ in range(LOST_POLLS if closed.code == EXECUTOR_FAILED else 1):
-        session = await sync_to_async(writes.refresh)(session)
+        session = await sync_to_async(writes.seen_again)(session)
         if session.state != SessionState.READY:
             return _ended(session)
         await asyncio.sleep(LOST_POLL_S)

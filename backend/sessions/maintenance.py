@@ -180,8 +180,11 @@ def note_used(used: Mapping[UUID, float]) -> None:
 
 def maintain(*, is_for_orphans: bool = False) -> None:
     """Runs one round of maintenance for all servers."""
-    if is_for_orphans:
+    news = writes.launcher().look_at_hosts()
+    writes.fail_lost(news.lost)
+    if is_for_orphans or news.has_returned:
         writes.end_orphans()
+    if is_for_orphans:
         writes.launcher().tidy()
         end_leftovers()
     for session in ready_sessions():

@@ -59,7 +59,9 @@ class Session(models.Model):
     state = models.CharField(max_length=16, choices=SessionState.choices, default=SessionState.STARTING)
     launcher = models.CharField(max_length=32)
     launcher_state = models.JSONField(default=dict)
-    address = models.CharField(max_length=200, blank=True)
+    address = models.CharField(max_length=400, blank=True)
+    # A server of the release before, which may serve at the same time, writes no host.
+    host = models.CharField(max_length=270, blank=True, default="", db_default="")
     ros_domain_id = models.PositiveSmallIntegerField(null=True)
     error = models.TextField(blank=True)
     created_at = models.DateTimeField()

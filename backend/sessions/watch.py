@@ -150,6 +150,9 @@ class Watchmen:
 async def _look_after(session: Session) -> None:
     await until_silent(session)
     try:
+        while not await asyncio.to_thread(writes.is_reached, session):
+            # `maintenance` gives up the host if it stays away; the executor may be well.
+            await until_silent(session)
         await asyncio.to_thread(writes.fail_session, session.id, why())
     except Exception:
         # The next round of maintenance starts it again.

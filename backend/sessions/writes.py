@@ -27,16 +27,19 @@ from backend.projects.storage.access import Need
 from backend.sessions import drain, queries
 from backend.sessions.choices import SessionKind, SessionState
 from backend.sessions.errors import HostFullError, LaunchError
+from backend.sessions.hosts.names import read_host
 from backend.sessions.launchers.base import OWN_NETWORK_DOMAIN, Launcher, Spec
 from backend.sessions.launchers.docker import DockerLauncher
+from backend.sessions.launchers.hosts import LOCAL, HostsLauncher
 from backend.sessions.launchers.process import ProcessLauncher
+from backend.sessions.launchers.relayed import RelayedLauncher
 from backend.sessions.models import LIVE_STATES, RUNNING_STATES, Session
 from backend.sessions.ros_domains import domains_on_this_host
 from backend.sessions.signals import session_ends
 from backend.sessions.warm.claims import claim, key_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
     from uuid import UUID
 
     from backend.accounts.models import User
@@ -62,7 +65,9 @@ def launcher() -> Launcher:
     """Returns the launcher of this server, which lives as long as the process."""
     settings = environment()
     if settings.launcher == "docker":
-        return DockerLauncher(settings.keeper_folder)
+        local = DockerLauncher(settings.keeper_folder)
+        further = {text: RelayedLauncher(read_host(text)) for text in settings.executor_hosts}
+        return HostsLauncher({LOCAL: local, **further}) if further else local
     if settings.launcher == "kubernetes":
         from backend.sessions.launchers.kubernetes.launcher import open_cluster  # noqa: PLC0415 - large, and rarely used
 
@@ -225,6 +230,12 @@ def refresh(session: Session) -> Session:
     return session
 
 
+def seen_again(session: Session) -> Session:
+    """Checks the session as it is stored now, which another server may have ended; returns the session."""
+    _look_again(session)
+    return refresh(session)
+
+
 def end_session(session: Session, why: str = "") -> Session:
     """Ends the executor and everything that it started; may be called twice. Returns the session."""
     with _launches_lock:
@@ -283,6 +294,22 @@ def fail_session(session_id: UUID, why: str) -> None:
         _moved(session, SessionState.READY, state=SessionState.FAILED, error=why, ended_at=timezone.now())
     finally:
         connection.close()
+
+
+def fail_lost(lost: Mapping[str, str]) -> None:
+    """Gives up the sessions of hosts that are not reached, each with its host's reason.
+
+    Their executors are ended by the keeper, which hears no web server either, or when the host is reached.
+    """
+    for session in Session.objects.filter(state=SessionState.READY, host__in=list(lost)):
+        failed = {"state": SessionState.FAILED, "error": lost[session.host], "ended_at": timezone.now()}
+        if _moved(session, SessionState.READY, **failed):
+            log.warning("session %s: %s", session.id, session.error)
+
+
+def is_reached(session: Session) -> bool:
+    """Returns whether the host of a session answers; its executor cannot be judged otherwise."""
+    return launcher().is_reached(session.launcher_state)
 
 
 def end_sessions_of(sender: object, *, project_id: UUID, **_: object) -> None:
@@ -416,7 +443,7 @@ def _start_and_store(session: Session, spec: Spec) -> None:
     warm = None if session.target else claim(session.id, launcher())
     connection.close()  # many robots that start at once need no connection while they wait
     started = warm or launcher().start(spec)
-    where = {"address": started.address, "launcher_state": started.state}
+    where = {"address": started.address, "launcher_state": started.state, "host": started.host}
     ready = {"state": SessionState.READY, "used_at": timezone.now(), **where}
     if not _moved(session, SessionState.STARTING, **ready):
         launcher().stop(started.state, timeout_s=spec.stop_timeout_s)

@@ -5,6 +5,7 @@ failing   ends with status 3
 never     runs, and never comes to the gate
 waits     is good when `go_on` is set
 tools     is `executor.tools`, as a child of this process
+manager   is `executor.manager`, as a child of this process
 liar      shows a wrong token at the gate, and ends
 """
 
@@ -41,6 +42,7 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
         self.requests = []
         self.processes = {}
         self.go_on = threading.Event()
+        self.on_start = lambda: None
         self._lock = threading.Lock()
         self._gate = gate_folder
         super().__init__(str(path), _Handler)
@@ -49,6 +51,7 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
     def start(self, name):
         container = self.containers[name]
         container["State"] = {"Running": True, "ExitCode": 0, "OOMKilled": False, "FinishedAt": ""}
+        self.on_start()
         threading.Thread(target=self.run, args=(name, container), daemon=True).start()
 
     def end(self, name, status, *, out_of_memory=False, at=None):
@@ -73,10 +76,11 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
             with contextlib.suppress(OSError):
                 self.listeners[name] = fetch_listener(door, session, "wrong" + token)
             self.end(name, 1)
-        elif kind == "tools":
+        elif kind in {"tools", "manager"}:
             arguments = [str(door) if part.endswith("/gate.sock") else part for part in command]
             environment |= {"PATH": os.environ["PATH"]}
-            program = [sys.executable, *container["Entrypoint"][1:], *arguments]
+            entry = container.get("Entrypoint") or ["python", "-m", "executor.manager"]
+            program = [sys.executable, *entry[1:], *arguments]
             child = self.children[name] = subprocess.Popen(program, env=environment, cwd=REPOSITORY)
             self.end(name, child.wait())
         elif kind in {"good", "waits"}:
@@ -164,6 +168,8 @@ class _Handler(BaseHTTPRequestHandler):
             return 200, b"\x01\0\0\0" + len(line).to_bytes(4, "big") + line
         if verb == "stats":
             return 200, {"pids_stats": {"current": docker.processes.get(name, 5)}}
+        if verb in {"kill", "stop"} and name in docker.children:
+            docker.children[name].kill()
         if verb == "kill":
             docker.end(name, 137)
         if verb == "start":

@@ -58,10 +58,12 @@ def _serve(folder: Path) -> None:
     gate_folder = Path(os.environ.get("BT_STUDIO_GATE_FOLDER") or GATE_FOLDER)
     gate_source, stack = _place(docker, gate_folder)
     plan = read_plan(gate_source=gate_source, stack=stack)
-    max_sessions = int(os.environ.get("BT_STUDIO_MAX_SESSIONS") or 20)
+    places = os.environ.get("BT_STUDIO_HOST_SESSIONS") or os.environ.get("BT_STUDIO_MAX_SESSIONS")
+    max_sessions = int(places or 20)
+    silence_s = float(os.environ.get("BT_STUDIO_KEEPER_SILENCE_S") or 0)
     control = Path(os.environ.get("BT_STUDIO_GATE_CONTROL") or CONTROL_SOCKET)
     gate = Gate(control, folder / "sessions")
-    keeper = Keeper(docker, gate, plan, max_sessions=max_sessions)
+    keeper = Keeper(docker, gate, plan, max_sessions=max_sessions, silence_s=silence_s)
     max_tools = int(os.environ.get("BT_STUDIO_MAX_TOOLS") or 20)
     tools = ToolsKeeper(docker, gate, plan, max_tools=max_tools)
     server = KeeperServer(folder / "keeper.sock", keeper, tools)
@@ -72,6 +74,7 @@ def _serve(folder: Path) -> None:
     log.info("the keeper of %s starts %s, at most %d", stack, plan.image, max_sessions)
     while not ended.wait(TIDY_EVERY_S):
         try:
+            keeper.end_unheard()
             keeper.end_crowded()
             keeper.tidy(time.time())
             tools.tidy(time.time())

@@ -1,7 +1,7 @@
 """The loop of the relay: admits connections, ends TLS, and joins each stream to the socket that it names.
 
-Whoever reaches the port may connect. So a connection has a few seconds to show its certificate and to name
-its socket; those that have not are few, and the oldest gives way to a new one.
+Any program that reaches the port may connect. So a connection has a few seconds to show its certificate and
+to name its socket; those that have not are few, and the oldest gives way to a new one.
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ HOST: Final = "host"
 _CERTIFICATE: Final = re.compile(r"-----BEGIN CERTIFICATE-----\n.+?\n-----END CERTIFICATE-----\n", re.DOTALL)
 
 
-class BundleError(Exception):
+class BundleError(OSError):
     """A bundle is missing or cannot be used; the text says what to do."""
 
 
@@ -69,9 +69,7 @@ def _context(protocol: ssl._SSLMethod, bundle: Path) -> ssl.SSLContext:
     try:
         found = _CERTIFICATE.findall(bundle.read_text(encoding="ascii"))
         if len(found) != 2:
-            raise BundleError(
-                f"{bundle} has {len(found)} certificates and should have its own and the authority's."
-            )
+            raise ValueError(f"it has {len(found)} certificates, and should have its own and the authority's")
         context.load_cert_chain(bundle)
         context.load_verify_locations(cadata=found[1])
     except (OSError, ValueError) as error:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 
 from backend.cli import hosts as commands
 from backend.cli.shared.errors import CliError
+from tests.backend.sessions.hosts.conftest import authority, host_of
 
 
 def test_a_certificate_is_made_for_a_host_of_the_list(settings_of, tmp_path, capsys):
@@ -32,3 +35,20 @@ def test_a_folder_that_cannot_be_used_is_one_sentence(settings_of, tmp_path):
     settings_of(data_dir=tmp_path, launcher="docker", executor_hosts='["robots.lan"]')
     with pytest.raises(CliError, match="cannot be used"):
         commands.certificate("robots.lan")
+
+
+def test_hosts_say_how_many_executors_may_start(settings_of, host_of, capsys):
+    well, gone = host_of(2, BT_STUDIO_MAX_SESSIONS="7"), host_of(3)
+    gone.kill("relay")
+    settings_of(launcher="docker", executor_hosts=json.dumps([str(well.address), str(gone.address)]))
+    with pytest.raises(CliError, match=rf"{gone.address}: .* is not reached"):
+        commands.check()
+    assert f"{well.address}: 7 of 7 executors may start" in capsys.readouterr().out
+    settings_of(executor_hosts=json.dumps([str(well.address)]))
+    commands.check()
+    settings_of(executor_hosts="[]")
+    with pytest.raises(CliError, match="is empty"):
+        commands.check()
+
+
+__all__ = ["authority", "host_of"]

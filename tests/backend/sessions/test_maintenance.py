@@ -13,6 +13,8 @@ from django.utils import timezone
 from backend.config.environment import environment
 from backend.sessions import maintenance, writes
 from backend.sessions.errors import HostFullError
+from backend.sessions.launchers.base import News
+from backend.sessions.launchers.hosts import lost_reason
 from backend.sessions.lease import holder
 from backend.sessions.models import Session
 from tests.backend.sessions.test_writes import launched
@@ -160,3 +162,35 @@ def test_a_server_that_takes_the_lease_looks_first_for_what_the_last_holder_left
 
     async_to_sync(rounds)()
     assert looked == [True, *[False] * (maintenance.ROUNDS_TO_ORPHANS - 1), True]
+
+
+def test_the_sessions_of_a_lost_host_fail_with_its_reason_and_those_of_others_run_on(
+    api, start, fake_manager, monkeypatch
+):
+    launcher = fake_manager("echo")
+    lost, other = start("One"), start("Two")
+    for one, host in ((lost, "a.lan:7164"), (other, "b.lan:7164")):
+        launched(one["id"])
+        Session.objects.filter(id=one["id"]).update(host=host)
+    reason = lost_reason("a.lan:7164")
+    monkeypatch.setattr(launcher, "look_at_hosts", lambda: News({"a.lan:7164": reason}))
+    maintenance.maintain()
+    failed = api.get(f"sessions/{lost['id']}")
+    assert (failed["state"], failed["error"]) == ("failed", reason)
+    assert api.get(f"sessions/{other['id']}")["state"] == "ready"
+    # A page that looks at a session that another server has given up gets its reason.
+    stale = Session(id=lost["id"], state="ready")
+    assert writes.seen_again(stale).error == reason
+    for row in Session.objects.all():
+        launcher.stop(row.launcher_state, timeout_s=1)
+
+
+def test_executors_that_nobody_knows_are_ended_when_a_host_returns(start, fake_manager, monkeypatch):
+    launcher = fake_manager("echo")
+    swept = []
+    monkeypatch.setattr(writes, "end_orphans", lambda: swept.append(True))
+    maintenance.maintain()
+    assert swept == []
+    monkeypatch.setattr(launcher, "look_at_hosts", lambda: News(has_returned=True))
+    maintenance.maintain()
+    assert swept == [True]

@@ -252,6 +252,24 @@ def test_a_session_that_was_ended_meanwhile_stays_ended(session, api):  # noqa: 
     assert api.get(f"sessions/{started['id']}")["state"] == "ended"
 
 
+async def test_an_executor_on_a_host_that_is_not_reached_is_not_given_up(quick, monkeypatch):
+    asked, failed = [], asyncio.Event()
+    loop = asyncio.get_running_loop()
+
+    def is_reached(one):
+        asked.append(one.id)
+        return len(asked) > 2
+
+    monkeypatch.setattr(writes, "is_reached", is_reached)
+    monkeypatch.setattr(writes, "fail_session", lambda *_: loop.call_soon_threadsafe(failed.set))
+    monkeypatch.setattr(watch, "until_silent", lambda _: asyncio.sleep(0))
+    one: Any = SimpleNamespace(id=uuid4(), address="tls://robots.lan:7164/x")
+    keeper = watch.Watchmen()
+    keeper.keep_to([one])
+    await asyncio.wait_for(failed.wait(), 60)
+    assert asked == [one.id] * 3
+
+
 async def test_nobody_looks_after_what_has_ended():
     keeper = watch.Watchmen()
     one: Any = SimpleNamespace(id=uuid4(), address="127.0.0.1:9")

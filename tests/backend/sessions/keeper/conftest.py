@@ -23,14 +23,14 @@ from tests.fakes.docker import FakeDocker, control_of, gate_of
 class Host:
     """All services beside a web server."""
 
-    def __init__(self, folder, image, max_sessions, patience_s):
+    def __init__(self, folder, image, max_sessions, patience_s, **options):
         self.folder = folder / "keeper"
         self.start_gate()
         self.gate = Gate(control_of(folder), self.folder / "sessions", patience_s=patience_s)
         self.docker = FakeDocker(folder / "docker.sock", gate_of(folder))
         plan = Plan(image, "gate", "stack", limits=Limits(memory_mb=512, hours=2))
         engine = Docker(str(folder / "docker.sock"))
-        self.keeper = Keeper(engine, self.gate, plan, max_sessions=max_sessions)
+        self.keeper = Keeper(engine, self.gate, plan, max_sessions=max_sessions, **options)
         self.tools = ToolsKeeper(engine, self.gate, plan, max_tools=max_sessions)
         self.server = KeeperServer(self.folder / "keeper.sock", self.keeper, self.tools)
         self.launcher = DockerLauncher(self.folder)
@@ -74,8 +74,8 @@ def host_of(folder):
     """Makes a host whose executors behave as a kind does."""
     made = []
 
-    def make(image="good", max_sessions=2, patience_s=60):
-        made.append(Host(folder, image, max_sessions, patience_s))
+    def make(image="good", max_sessions=2, patience_s=60, **options):
+        made.append(Host(folder, image, max_sessions, patience_s, **options))
         return made[-1]
 
     yield make

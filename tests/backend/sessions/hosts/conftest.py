@@ -74,6 +74,12 @@ class Host:
         self.processes[program].kill()
         self.processes[program].wait(60)
 
+    def restart_keeper(self, **settings):
+        self.kill("keeper")
+        self._environment |= settings
+        self.start("keeper")
+        wait_until(self.answers, "the keeper answers again")
+
     def cut(self):
         """Nothing comes through the relay, as if the network were gone; what is sent waits."""
         self.processes["relay"].send_signal(signal.SIGSTOP)

@@ -55,7 +55,7 @@ class TrySeeds(Struct, forbid_unknown_fields=True):
 
 
 class StopTrying(Struct, forbid_unknown_fields=True):
-    """Ends a job of `try_values` or `try_seeds`, if it still runs; what is known of it stays with the client."""
+    """Ends a job of `try_values` or `try_seeds`, if it runs; what is known of it stays with the client."""
 
     job: TryingName
 

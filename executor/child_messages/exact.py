@@ -20,7 +20,7 @@ class TakeSnapshot(Message, tag="take_snapshot"):
 
 
 class NewSeed(Message, tag="new_seed"):
-    """Lets noise and random numbers follow another seed from now on."""
+    """Draws noise and random numbers from another seed from now on."""
 
     seed: int
 

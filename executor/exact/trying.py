@@ -1,4 +1,4 @@
-"""Continues a run under several values or seeds, each in a fork of this process; this process stays at the moment.
+"""Continues a run under several values or seeds, each in a fork; this process stays at the moment.
 
 A fork is the run at the moment, to the last bit: so the run is made again only once, and each continuation
 does what the run itself would have done. Forks end with this process, and this process with the manager.

@@ -89,7 +89,7 @@ class ExactWorld:
         return self._sensors.renderer_name
 
     def reseed(self, seed: int) -> None:
-        """Lets noise, and the random numbers of actions, follow another seed from now on.
+        """Draws noise, and the random numbers of actions, from another seed from now on.
 
         The seed of the run itself changes nothing: what it draws continues.
         """

@@ -185,7 +185,8 @@ TABLE: Final[dict[str, Row]] = {
     ),
     "try_seeds": _act(
         ANY,
-        "Continues a run from a moment under several seeds, beside the ladder; answers with `trying_` events.",
+        "Continues a run from a moment under several seeds, beside the ladder; answers with "
+        "`trying_` events.",
     ),
     "stop_trying": _act(ANY, "Ends these continuations."),
     "take_over": _act(ANY, "Becomes the driver; the last driver becomes a viewer.", for_viewers=True),

@@ -137,7 +137,7 @@ class World(Protocol):
         """Restores the initial state."""
 
     def reseed(self, seed: int) -> None:
-        """Lets all noise follow another seed from now on; its own seed changes nothing."""
+        """Draws all noise from another seed from now on; its own seed changes nothing."""
 
     def save(self) -> Any:
         """Returns the full state of this world, for `restore`."""

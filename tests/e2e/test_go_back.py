@@ -107,7 +107,35 @@ def test_the_touch_of_a_crate_is_undone_from_three_seconds_before(
     wait_until(lambda: studio.stat("t") > touched + 5, "it runs on past the moment of the touch")
     assert studio.stat("collisions") < before
     studio.picture("ran-on")
+    studio.at("pause").click()
+    studio.expect_state("paused")
+    compare_with_the_run_before(studio, touched)
     studio.end_session()
+
+
+def compare_with_the_run_before(studio: Studio, touched: float) -> None:
+    """Compares the branch with the run that touched the crate, at the end of that run and before it."""
+    page = studio.page
+    studio.command("Compare with")
+    panel = studio.at("axis-compared")
+    expect(panel).to_contain_text("Run 1")
+    expect(studio.at("compared-row").first).to_be_visible()
+    assert abs(float(studio.at("time-axis").get_attribute("data-shown") or "nan") - touched) < 0.5
+    mark = page.locator("[data-testid^='compared-MainTree/']").first
+    expect(mark).to_contain_text("2: ")
+    for scheme in ("dark", "light"):
+        page.evaluate("s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme)
+        expect_no_findings(page, f"two runs compared, {scheme}")
+        studio.picture(f"compared-{scheme}")
+    page.set_viewport_size({"width": 390, "height": 800})
+    expect(studio.at("compared-end")).to_be_in_viewport()
+    studio.picture("compared-narrow")
+    page.set_viewport_size({"width": 1440, "height": 900})
+    panel.get_by_role("button", name="They part at").click()
+    expect(panel).to_contain_text("All blocks have the same status in both runs.")
+    page.keyboard.press("Escape")
+    expect(panel).to_have_count(0)
+    expect(studio.at("time-axis")).to_have_attribute("data-past", "true")
 
 
 def test_a_live_run_goes_back_and_its_branch_gets_a_name_and_goes(

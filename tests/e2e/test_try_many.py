@@ -65,8 +65,13 @@ def test_five_values_are_tried_from_a_past_moment(
         expect_no_findings(page, f"the outcomes of five values, {scheme}")
         studio.picture(f"try-many-{scheme}")
     page.set_viewport_size({"width": 390, "height": 800})
+    table = studio.at("tries-results").get_by_role("table")
+    assert table.evaluate("each => each.parentElement.scrollWidth <= each.parentElement.clientWidth")
     studio.picture("try-many-narrow")
     page.set_viewport_size({"width": 1440, "height": 900})
+
+    studio.at("tries-choose-0").uncheck()
+    expect(studio.at("tries-3d")).to_contain_text("Show 5 paths in 3D")
 
     studio.at("tries-use-5").click()
     expect(studio.at("tries-row-5")).to_contain_text("written into the tree")

@@ -199,7 +199,7 @@ class BulletWorld:
         self._poses = None
 
     def reseed(self, seed: int) -> None:
-        """Lets all noise follow another seed from now on; what the universe drew stays.
+        """Draws all noise from another seed from now on; what the universe drew stays.
 
         The seed of the world itself changes nothing: its noise continues.
         """

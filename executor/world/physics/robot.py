@@ -242,7 +242,7 @@ class BulletRobot:
             self._proprioception.scale_noise(sensor, factor)
 
     def reseed(self, seed: int) -> None:
-        """Lets all noise follow another seed from now on."""
+        """Draws all noise from another seed from now on."""
         drawn = np.random.default_rng([seed, self._index])
         self._noise.bit_generator.state = drawn.bit_generator.state  # the drive has this generator, too
         self._proprioception.reseed((seed, self._index))

@@ -77,7 +77,7 @@ class Proprioception:
         return self._bumper.pressed(now_s)
 
     def reseed(self, seed: tuple[int, int]) -> None:
-        """Lets the noise of the IMUs follow another seed."""
+        """Draws the noise of the IMUs from another seed."""
         for i, imu in enumerate(self._imus.values()):
             imu.seed = (*seed, FIRST_IMU + i)
 

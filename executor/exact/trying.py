@@ -24,7 +24,7 @@ from executor.supervision.parking import PARKING
 from executor.supervision.room import processors
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from executor.child_messages import NewSeed, SetPort
 
@@ -81,7 +81,7 @@ class Trying:
     def __init__(
         self,
         job: str,
-        changes: list[Change],
+        changes: Sequence[Change],
         *,
         send: Callable[[TryingProgress | TryOutcome | TryingEnded], None],
         moved: Callable[[], None],

@@ -60,15 +60,7 @@ def test_five_values_are_tried_from_a_past_moment(
     expect(studio.at("tries-row-0")).to_contain_text("as in the run")
     expect(studio.at("tries-row-2")).to_contain_text("same as no. 0")
     expect(studio.at("tries-plan").locator("polyline")).to_have_count(6)
-    for scheme in ("dark", "light"):
-        page.evaluate("s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme)
-        expect_no_findings(page, f"the outcomes of five values, {scheme}")
-        studio.picture(f"try-many-{scheme}")
-    page.set_viewport_size({"width": 390, "height": 800})
-    table = studio.at("tries-results").get_by_role("table")
-    assert table.evaluate("each => each.parentElement.scrollWidth <= each.parentElement.clientWidth")
-    studio.picture("try-many-narrow")
-    page.set_viewport_size({"width": 1440, "height": 900})
+    outcomes_are_readable(studio)
 
     studio.at("tries-choose-0").uncheck()
     expect(studio.at("tries-3d")).to_contain_text("Show 5 paths in 3D")
@@ -82,3 +74,17 @@ def test_five_values_are_tried_from_a_past_moment(
     wait_until(lambda: studio.stat("t") > moment + 1, "the branch runs on")
     studio.at("undo").click()
     studio.end_session()
+
+
+def outcomes_are_readable(studio: Studio) -> None:
+    """In both themes, and in a narrow window without scrolling sideways."""
+    page = studio.page
+    for scheme in ("dark", "light"):
+        page.evaluate("s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme)
+        expect_no_findings(page, f"the outcomes of five values, {scheme}")
+        studio.picture(f"try-many-{scheme}")
+    page.set_viewport_size({"width": 390, "height": 800})
+    table = studio.at("tries-results").get_by_role("table")
+    assert table.evaluate("each => each.parentElement.scrollWidth <= each.parentElement.clientWidth")
+    studio.picture("try-many-narrow")
+    page.set_viewport_size({"width": 1440, "height": 900})

@@ -92,7 +92,7 @@ function Row({ job, index, value }: RowProps) {
     number: (
       <span className={classes['name']}>
         <Checkbox
-          size="xs"
+          size="md"
           aria-label={t('tries.choose', { number: index })}
           checked={did && !job.hidden.includes(index)}
           disabled={!did}

@@ -132,7 +132,7 @@ def compare_with_the_run_before(studio: Studio, touched: float) -> None:
     studio.picture("compared-narrow")
     page.set_viewport_size({"width": 1440, "height": 900})
     panel.get_by_role("button", name="They part at").click()
-    expect(panel).to_contain_text("All blocks have the same status in both runs.")
+    expect(panel).to_contain_text("both are one run")
     page.keyboard.press("Escape")
     expect(panel).to_have_count(0)
     expect(studio.at("time-axis")).to_have_attribute("data-past", "true")

@@ -121,7 +121,8 @@ def open_sync_socket(address: str, target: str, **options: Any) -> ClientConnect
 
     Raises:
         OSError: no manager listens there, or it is another one than the address names.
-        websockets.exceptions.InvalidHandshake: the manager refused.
+        websockets.exceptions.WebSocketException: the manager refused, or the relay has no such manager and
+            closes the stream while the handshake is sent.
     """
     at = read_address(address)
     opened: ClientConnection

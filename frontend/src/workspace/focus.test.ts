@@ -1,5 +1,6 @@
 import { afterEach, beforeEach, expect, it, vi } from 'vitest';
-import { focusDocument, focusInspector, letGoOfDocument } from './focus';
+import { useProjectStore } from '@/store/project';
+import { focusDocument, focusInspector, letGoOfDocument, selectionKey } from './focus';
 
 const canvas = (): HTMLElement => document.querySelector('[data-testid="canvas"]')!;
 const button = (): HTMLElement => document.querySelector('button')!;
@@ -70,13 +71,39 @@ it('is cancelled by a later request', () => {
   expect(document.activeElement).toBe(button());
 });
 
+/** The inspector with a field, as it shows a block of the tree `Main`. */
+const inspectorOf = (node: string) =>
+  `<div data-testid="inspector" data-selection="${selectionKey('Main', 1, node)}"><input /></div>`;
+
 it('is cancelled by the fields of the block, too', () => {
-  document.body.insertAdjacentHTML('beforeend', '<div data-testid="inspector"><input /></div>');
+  useProjectStore.setState({ activeTree: 'Main', selection: ['n2'] });
+  document.body.insertAdjacentHTML('beforeend', inspectorOf('n2'));
   focusDocument({ kind: 'tree', id: 'Main' });
   vi.advanceTimersByTime(50);
   focusInspector();
   vi.advanceTimersByTime(1000);
   expect(document.activeElement).toBe(document.querySelector('input'));
+});
+
+it('waits for the fields of the block that was just selected', () => {
+  useProjectStore.setState({ activeTree: 'Main', selection: ['n3'] });
+  document.body.innerHTML = inspectorOf('n2');
+  focusInspector();
+  vi.advanceTimersByTime(500);
+  expect(document.activeElement).toBe(document.body);
+  document.body.innerHTML = inspectorOf('n3');
+  vi.advanceTimersByTime(50);
+  expect(document.activeElement).toBe(document.querySelector('input'));
+});
+
+it('leaves the focus alone when the user moves on before the fields are there', () => {
+  useProjectStore.setState({ activeTree: 'Main', selection: ['n3'] });
+  document.body.innerHTML = inspectorOf('n2');
+  focusInspector();
+  window.dispatchEvent(new KeyboardEvent('keydown', { key: 'Tab' }));
+  document.body.innerHTML = inspectorOf('n3');
+  vi.advanceTimersByTime(500);
+  expect(document.activeElement).toBe(document.body);
 });
 
 it('leaves the focus to a field of the document that got it meanwhile', () => {

@@ -1,3 +1,4 @@
+import { useProjectStore } from '@/store/project';
 import type { DocumentTab } from './documents';
 
 /** The longest wait for a document's editor, which may load over a slow connection. */
@@ -67,13 +68,36 @@ export function letGoOfDocument(): void {
   pending.abort();
 }
 
-/** Moves the focus to the first property of the selected block, or to the panel itself. */
+/** Identifies a selection: the tree, and its block if there is one. */
+export const selectionKey = (tree: string | null, count: number, node: string | undefined): string =>
+  `${tree ?? ''} ${count === 1 ? (node ?? '') : count}`;
+
+/** Moves the focus to the first property of the selected block, once the inspector shows that block. */
 export function focusInspector(): void {
-  letGoOfDocument();
-  const panel = document.querySelector<HTMLElement>('[data-testid="inspector"]');
+  pending.abort();
+  const mine = new AbortController();
+  pending = mine;
+  abortOnceChosen(mine);
+  const started = performance.now();
+
+  const attempt = () => {
+    if (mine.signal.aborted) return;
+    const { activeTree, selection } = useProjectStore.getState();
+    const panel = document.querySelector<HTMLElement>('[data-testid="inspector"]');
+    // The inspector renders after the canvas: until then it shows the selection before.
+    if (panel?.dataset['selection'] === selectionKey(activeTree, selection.length, selection[0])) {
+      mine.abort();
+      focusFirstField(panel);
+    } else if (performance.now() - started < PATIENCE_MS) setTimeout(attempt, RETRY_MS);
+    else mine.abort();
+  };
+  attempt();
+}
+
+function focusFirstField(panel: HTMLElement): void {
   const field =
-    panel?.querySelector<HTMLElement>('[data-testid^="port-"]') ??
-    panel?.querySelector<HTMLElement>('input, textarea, select, button');
+    panel.querySelector<HTMLElement>('[data-testid^="port-"]') ??
+    panel.querySelector<HTMLElement>('input, textarea, select, button');
   const input = field?.matches('input, textarea, button, [contenteditable]')
     ? field
     : (field?.querySelector<HTMLElement>('input:checked') ?? field?.querySelector<HTMLElement>('input'));

@@ -28,12 +28,14 @@ def spec(**changes):
     return Spec(**values | changes)
 
 
+# The workers of the pool, and the object store of the tests, live as long as this process.
+LASTING = {"backend.workers.worker", "moto.server"}
+
+
 def children():
-    """Returns the children of this process, except the workers of the pool, which stay."""
+    """Returns the children of this process, except those that last."""
     return [
-        child
-        for child in psutil.Process().children(recursive=True)
-        if "backend.workers.worker" not in child.cmdline()
+        child for child in psutil.Process().children(recursive=True) if LASTING.isdisjoint(child.cmdline())
     ]
 
 

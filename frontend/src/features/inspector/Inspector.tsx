@@ -16,6 +16,7 @@ import { NodeHeader } from './NodeHeader';
 import { NodeProblems } from './NodeProblems';
 import { PortList } from './PortList';
 import { SilencedList } from './findings/SilencedList';
+import { selectionKey } from '@/workspace/focus';
 import { targetOf } from './target';
 import { TreeDescription } from './tree/TreeDescription';
 import { TreeField } from './TreeField';
@@ -48,9 +49,15 @@ const Fields = memo(function Fields({ diagram, count, id }: Shown) {
   const { t } = useTranslation('inspector');
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const target = count > 1 ? null : targetOf(diagram, id, vocabulary);
+  const selection = selectionKey(diagram?.id ?? null, count, id);
   if (!target) {
     return (
-      <section className={classes['inspector']} aria-label={t('empty.title')} data-testid="inspector">
+      <section
+        className={classes['inspector']}
+        aria-label={t('empty.title')}
+        data-testid="inspector"
+        data-selection={selection}
+      >
         {count === 0 && diagram && <TreeDescription key={diagram.id} diagram={diagram} />}
         <div className={classes['empty']}>
           <strong>{count > 1 ? t('empty.many', { count }) : t('empty.title')}</strong>
@@ -68,7 +75,12 @@ const Fields = memo(function Fields({ diagram, count, id }: Shown) {
   }
   const { node, spec, tree } = target;
   return (
-    <section className={classes['inspector']} aria-label={node.name ?? node.type} data-testid="inspector">
+    <section
+      className={classes['inspector']}
+      aria-label={node.name ?? node.type}
+      data-testid="inspector"
+      data-selection={selection}
+    >
       <NodeHeader {...target} />
       <NodeProblems diagram={target.diagram} id={target.id} />
       <DebugSection tree={tree} node={target.id} />

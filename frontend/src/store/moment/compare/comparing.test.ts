@@ -26,13 +26,17 @@ const overviewOf = (run: string): Overview => ({
   ...{ run, read: [[0, 9]], root: [], marks: [], lines: [], faults: [] },
 });
 
+let haltedRun = '';
+let ticksFrom = 0;
+
 /** An engine of which only the answers are known. */
 function fakeLink() {
   let run = '';
   const answers = {
     ready: () => null,
     moment: (t: number) => ({
-      ...{ t, tick: 1, tickT: t, durationMs: 1, generation: 1, files: {}, isHalted: false },
+      ...{ t, tick: 1, tickT: t < ticksFrom ? null : t, durationMs: 1, generation: 1, files: {} },
+      isHalted: run === haltedRun,
       tree: [treeNode(1, 0, 'root'), treeNode(2, 1, 'drive')].map((node) => ({ ...node, ports: {} })),
       statuses: [
         [1, 'RUNNING'],
@@ -85,6 +89,8 @@ beforeEach(() => {
   stop = followPresent();
 });
 afterEach(() => {
+  haltedRun = '';
+  ticksFrom = 0;
   endComparing();
   lookNow();
   stop();
@@ -98,7 +104,7 @@ it('compares runs that have a past in common, at the last moment of both', async
   compareWith('alone');
   expect(useComparing.getState().other).toBeNull();
   compareWith('b');
-  expect(useMoment.getState().t).toBe(7);
+  expect(useMoment.getState().t).toBeCloseTo(6.9);
   await shows('shown');
   expect(useComparing.getState()).toMatchObject({ other: 'b', partedAt: 3, otherEnd: 7 });
   expect(useComparing.getState().rows).toMatchObject([{ node: 'n2', here: 'RUNNING', there: 'FAILURE' }]);
@@ -128,6 +134,24 @@ it('says where both are one run, and where the other has ended', async () => {
   lookAt(8);
   await shows('beyond');
   lookAt(6);
+  await shows('shown');
+});
+
+it.each([
+  ['c', 'over'],
+  ['b', 'beyond'],
+])('shows no differences to a run that was halted: %s', async (run, state) => {
+  haltedRun = run;
+  compareWith('b');
+  await shows(state);
+  expect(useComparing.getState().rows).toEqual([]);
+});
+
+it('is of one run until both have ticked after they part', async () => {
+  ticksFrom = 6.95;
+  compareWith('b');
+  await shows('one');
+  lookAt(6.96);
   await shows('shown');
 });
 

@@ -18,14 +18,19 @@ interface Comparing {
   readonly partedAt: number;
   /** Where the other run ends, in s. */
   readonly otherEnd: number;
-  /** What is known of the shown moment; `beyond` if the other run ended before, `one` before both part. */
-  readonly state: 'reading' | 'one' | 'beyond' | 'shown';
+  /**
+   * What is known of the shown moment: `one` until both ticked alone; after the end of
+   * the other run `beyond`, after that of the shown one `over`.
+   */
+  readonly state: 'reading' | 'one' | 'beyond' | 'over' | 'shown';
   readonly rows: readonly Difference[];
   /** The status in the other run, of each block that differs. */
   readonly blocks: ReadonlyMap<LiveKey, StatusThere>;
   readonly failure: string;
 }
 
+/** A run that another one replaced ends with its halt, in which all its blocks are idle. */
+const BEFORE_END_S = 0.1;
 const NO_BLOCKS: ReadonlyMap<LiveKey, StatusThere> = new Map();
 const none: Comparing = {
   other: null,
@@ -99,7 +104,7 @@ export function compareWith(other: string): void {
   };
   const otherEnd = courses.there.end();
   useComparing.setState({ ...none, other, partedAt: parted, otherEnd });
-  if (useMoment.getState().t === null) lookAt(Math.max(Math.min(shown.to, otherEnd), parted));
+  if (useMoment.getState().t === null) lookAt(Math.max(Math.min(shown.to, otherEnd - BEFORE_END_S), parted));
   refresh();
 }
 
@@ -157,11 +162,17 @@ async function compareShown(): Promise<void> {
   const nothing = { rows: [], blocks: NO_BLOCKS, otherEnd };
   now.here.want(shown.t);
   now.there.want(shown.t);
-  if (shown.t < useComparing.getState().partedAt) return useComparing.setState({ ...nothing, state: 'one' });
+  const parted = useComparing.getState().partedAt;
+  // A part of a course shows nothing before its first tick: until both have ticked, both show the common past.
+  const isCommon = (tickT: number | null) => tickT === null || tickT <= parted;
+  if (isCommon(shown.tickT)) return useComparing.setState({ ...nothing, state: 'one' });
+  if (shown.isHalted) return useComparing.setState({ ...nothing, state: 'over' });
   if (shown.t > otherEnd) return useComparing.setState({ ...nothing, state: 'beyond' });
   const there = await now.there.at(shown.t);
   if (now !== courses) return;
   if (!there) return useComparing.setState({ ...nothing, state: 'reading' });
+  if (isCommon(there.tickT)) return useComparing.setState({ ...nothing, state: 'one' });
+  if (there.isHalted) return useComparing.setState({ ...nothing, state: 'beyond' });
   const here = { nodes: tree, statuses: shown.statuses, flashes: shown.flashes };
   const rows = differences(here, there);
   const blocks = rows.length > 0 ? differingBlocks(here, there) : NO_BLOCKS;

@@ -15,6 +15,13 @@ interface Reader {
   end(): void;
 }
 
+/** What a tree did, and how its part of the course stands. */
+export interface SideAt extends Side {
+  /** The time of the last tick in s; null before the first of this part. */
+  readonly tickT: number | null;
+  readonly isHalted: boolean;
+}
+
 interface Known {
   generation: number;
   nodes: readonly RecordedNode[];
@@ -65,7 +72,7 @@ export class Course {
   }
 
   /** Returns what the tree did at a time; null while that is not read. */
-  async at(t: number): Promise<Side | null> {
+  async at(t: number): Promise<SideAt | null> {
     const part = this.parts.findLast(({ piece }) => piece.from <= t);
     if (!part) return null;
     const { known, reader, source } = part;
@@ -83,7 +90,8 @@ export class Course {
     if (moment.tree) known.nodes = identified(moment.tree);
     known.generation = moment.generation;
     known.sceneId = moment.sceneId;
-    return { nodes: known.nodes, statuses: moment.statuses, flashes: moment.flashes };
+    const { statuses, flashes, tickT, isHalted } = moment;
+    return { nodes: known.nodes, statuses, flashes, tickT, isHalted };
   }
 
   /** Returns the paths of all robots, as far as they were read: x, y, time, and 1 where a path begins. */

@@ -114,13 +114,22 @@ def test_the_touch_of_a_crate_is_undone_from_three_seconds_before(
 
 
 def compare_with_the_run_before(studio: Studio, touched: float) -> None:
-    """Compares the branch with the run that touched the crate, at the end of that run and before it."""
+    """Compares the branch, which turns at once, with the run that drove on into the crate."""
     page = studio.page
     studio.command("Compare with")
     panel = studio.at("axis-compared")
     expect(panel).to_contain_text("Run 1")
-    expect(studio.at("compared-row").first).to_be_visible()
-    assert abs(float(studio.at("time-axis").get_attribute("data-shown") or "nan") - touched) < 0.5
+    shown = studio.at("time-axis")
+    wait_until(
+        lambda: abs(float(shown.get_attribute("data-shown") or "nan") - touched) < 0.5,
+        "the end of the run before is shown",
+    )
+    panel.get_by_role("button", name="They part at").click()
+    expect(panel).to_contain_text("both are one run")
+    studio.at("axis-strip").focus()
+    for _ in range(5):
+        page.keyboard.press("ArrowRight")
+    expect(studio.at("compared-row").filter(has_text="Turn")).to_be_visible()
     mark = page.locator("[data-testid^='compared-MainTree/']").first
     expect(mark).to_contain_text("2: ")
     for scheme in ("dark", "light"):
@@ -131,8 +140,6 @@ def compare_with_the_run_before(studio: Studio, touched: float) -> None:
     expect(studio.at("compared-end")).to_be_in_viewport()
     studio.picture("compared-narrow")
     page.set_viewport_size({"width": 1440, "height": 900})
-    panel.get_by_role("button", name="They part at").click()
-    expect(panel).to_contain_text("both are one run")
     page.keyboard.press("Escape")
     expect(panel).to_have_count(0)
     expect(studio.at("time-axis")).to_have_attribute("data-past", "true")

@@ -130,6 +130,7 @@ def open_sync_socket(address: str, target: str, **options: Any) -> ClientConnect
         opened = sync_unix_connect(at.path, at.url(target), **options)
     elif at.made_id:
         stream = dial(at.host, at.made_id, options.get("open_timeout") or _OPEN_S)
+        stream.settimeout(None)  # the limit was for the way to the manager, which may be silent for longer
         # The stream is encrypted already.
         opened = sync_connect(f"ws://{at.place}/{target}", proxy=None, sock=stream, **options)
     else:

@@ -2,6 +2,7 @@ import { useProjectStore } from '@/store/project';
 import { usePastLive } from '@/store/project/live';
 import { earlierSource, runsOf } from '@/store/recording/liveSource';
 import { RecordedRun, type EngineLink } from '@/store/recording/recordedRun';
+import { recordedTime } from '@/store/recording/recordedTime';
 import type { Answers, Ask, FromEngine } from '@/store/recording/engine';
 import type { ProfileSum } from '@/store/recording/profile';
 import type { Story } from '@/store/recording/story';
@@ -82,9 +83,6 @@ export function lookAt(t: number, tick: number | null = null): void {
   theRun().want(t);
   void refresh();
 }
-
-/** Returns a time as recordings have it, in whole ns: times of the session can be a little before theirs. */
-const recordedTime = (t: number): number => Math.round(t * 1e9) / 1e9;
 
 /** Shows a moment of the session's last run, also while another run is open. */
 export function lookAtPresentRun(t: number): void {

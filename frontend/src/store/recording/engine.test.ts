@@ -35,6 +35,12 @@ it('answers as soon as the part with the moment was read', () => {
   expect(ask(1.5)).toBeNull();
 });
 
+it('answers for the begin of a segment whose time is a little beside that of the recording', () => {
+  const { made, ask } = engine();
+  made.receive({ kind: 'part', segment: segment({ from_t: 0.1 + 0.2 }), bytes: bytes() });
+  expect(ask(0.3)).not.toBeNull();
+});
+
 it('answers with topics, their messages at a moment, and numbers', () => {
   const { made, told } = engine();
   const answer = (ask: Ask) => {

@@ -1,6 +1,7 @@
 import type { Segment, TopicInfo } from '@/generated/messages';
 import { Glimpse } from './glimpse';
 import type { ProfileSum } from './profile';
+import { recordedTime } from './recordedTime';
 import { RunIndex } from './runIndex';
 import { indexBegin, SeekIndex, type Range } from './seekIndex';
 import type { PresentScene } from './sceneParts';
@@ -121,7 +122,7 @@ export class Engine {
   private take({ segment, bytes, isLast = true }: ToEngine & { kind: 'part' }): void {
     const { number, from_t, to_t, complete, bytes: size } = segment;
     if (this.failed.has(number)) return;
-    const index = this.index.segment(number, from_t);
+    const index = this.index.segment(number, recordedTime(from_t));
     let reader = this.readers.get(number);
     if (!reader)
       this.readers.set(

@@ -47,6 +47,7 @@ async def test_a_manager_behind_a_relay_is_reached_in_all_ways(reached):
     def from_a_thread():
         with open_sync_socket(address, "stream", open_timeout=60) as socket:
             heard = socket.recv()
+            assert socket.socket.gettimeout() is None
             socket.send(b"x" * 500_000)
             assert socket.recv() == b"x" * 500_000
         connection = http_connection(address, 60)

@@ -31,6 +31,8 @@ interface Comparing {
 
 /** A run that another one replaced ends with its halt, in which all its blocks are idle. */
 const BEFORE_END_S = 0.1;
+/** Times of one moment differ by less: half a step of the world. */
+const SAME_S = 0.002;
 const NO_BLOCKS: ReadonlyMap<LiveKey, StatusThere> = new Map();
 const none: Comparing = {
   other: null,
@@ -164,7 +166,7 @@ async function compareShown(): Promise<void> {
   now.there.want(shown.t);
   const parted = useComparing.getState().partedAt;
   // A part of a course shows nothing before its first tick: until both have ticked, both show the common past.
-  const isCommon = (tickT: number | null) => tickT === null || tickT <= parted;
+  const isCommon = (tickT: number | null) => tickT === null || tickT < parted + SAME_S;
   if (isCommon(shown.tickT)) return useComparing.setState({ ...nothing, state: 'one' });
   if (shown.isHalted) return useComparing.setState({ ...nothing, state: 'over' });
   if (shown.t > otherEnd) return useComparing.setState({ ...nothing, state: 'beyond' });

@@ -1,6 +1,7 @@
 import type { Answers, Ask } from '@/store/recording/engine';
 import { earlierSource } from '@/store/recording/liveSource';
 import { RecordedRun } from '@/store/recording/recordedRun';
+import { recordedTime } from '@/store/recording/recordedTime';
 import type { RecordedNode } from '@/store/recording/types';
 import { POINT_NUMBERS } from '@/store/session/trace/shownTrail';
 import { askShown, extent, newLink } from '../looking';
@@ -78,7 +79,7 @@ export class Course {
     const { known, reader, source } = part;
     // A recording begins with its first message, which can be a little later than the run itself.
     const begin = Math.min(...source.segments().map(({ from_t }) => from_t), Infinity);
-    const at = Number.isFinite(begin) ? Math.max(t, begin) : t;
+    const at = recordedTime(Number.isFinite(begin) ? Math.max(t, begin) : t);
     const moment = await reader.ask({
       what: 'moment',
       t: at,

@@ -2,12 +2,18 @@ import { useProjectStore } from '@/store/project';
 import { usePastLive } from '@/store/project/live';
 import { earlierSource, runsOf } from '@/store/recording/liveSource';
 import { RecordedRun, type EngineLink } from '@/store/recording/recordedRun';
-import { recordedTime } from '@/store/recording/recordedTime';
 import type { Answers, Ask, FromEngine } from '@/store/recording/engine';
 import type { ProfileSum } from '@/store/recording/profile';
 import type { Story } from '@/store/recording/story';
 import type { RecordedTimeline } from '@/store/recording/timelineOf';
-import type { Changes, EntryName, Moment, Overview, RecordingSource, WriteAt } from '@/store/recording/types';
+import {
+  recordedTime,
+  type Changes,
+  type EntryName,
+  type Moment,
+  type Overview,
+} from '@/store/recording/types';
+import type { RecordingSource, WriteAt } from '@/store/recording/types';
 import { frames } from '@/store/session/frames';
 import { useSessionStore } from '@/store/session/store';
 import type { LogLine } from '@/store/session/types';

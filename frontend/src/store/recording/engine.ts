@@ -1,7 +1,6 @@
 import type { Segment, TopicInfo } from '@/generated/messages';
 import { Glimpse } from './glimpse';
 import type { ProfileSum } from './profile';
-import { recordedTime } from './recordedTime';
 import { RunIndex } from './runIndex';
 import { indexBegin, SeekIndex, type Range } from './seekIndex';
 import type { PresentScene } from './sceneParts';
@@ -9,7 +8,7 @@ import { SegmentReader } from './segmentReader';
 import type { Story } from './story';
 import type { RecordedTimeline } from './timelineOf';
 import type { FieldName, MessageAt, RecordedSeries, SeriesRange } from './topics/topicQueries';
-import type { Changes, Moment, Overview, TickAt, WriteAt } from './types';
+import { recordedTime, type Changes, type Moment, type Overview, type TickAt, type WriteAt } from './types';
 
 export type Ask =
   | {

@@ -1,8 +1,7 @@
 import type { Answers, Ask } from '@/store/recording/engine';
 import { earlierSource } from '@/store/recording/liveSource';
 import { RecordedRun } from '@/store/recording/recordedRun';
-import { recordedTime } from '@/store/recording/recordedTime';
-import type { RecordedNode } from '@/store/recording/types';
+import { recordedTime, type RecordedNode } from '@/store/recording/types';
 import { POINT_NUMBERS } from '@/store/session/trace/shownTrail';
 import { askShown, extent, newLink } from '../looking';
 import { identified } from '../recordedTrees';

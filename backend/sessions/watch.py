@@ -1,5 +1,7 @@
 """Watches executors: each is pinged every second, and ended if it is silent for too long.
 
+Beyond 500 sessions each is pinged less often, at least every two seconds.
+
 The web server that maintains the sessions (`maintenance.py`) watches all of them, and each server watches the
 sessions of its own open pages. The first server that finds a session silent for too long ends it, and the
 others see that it has ended. So a session without open pages is watched too, and so is a session whose server
@@ -14,8 +16,9 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections import Counter
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Final
+from weakref import WeakKeyDictionary
 
 from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidStatus
 
@@ -24,14 +27,19 @@ from backend.sessions import writes
 from backend.sessions.manager.sockets import manager_socket
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Awaitable, Iterable, Iterator
     from uuid import UUID
+
+    from websockets.asyncio.client import ClientConnection
 
     from backend.sessions.models import Session
 
 log = logging.getLogger(__name__)
 
 PING_EVERY_S: Final = 1.0
+SELDOM_S: Final = 2.0
+"""The longest time between two pings; an answer to each is never so old that silence would be noted."""
+PINGS_A_SECOND: Final = 500
 NOTED_S: Final = 3.0
 
 
@@ -72,34 +80,105 @@ class Silence:
             self.seconds += min(seconds, PING_EVERY_S)
 
 
-async def until_silent(session: Session) -> None:
-    """Waits until the session's manager has not answered for too long."""
-    silence = Silence()
-    asking = asyncio.create_task(_ask(session, silence))
-    loop = asyncio.get_running_loop()
-    try:
-        looked_s, is_noted = loop.time(), False
-        while silence.seconds < longest_s():
+class Watched:
+    """A session that is watched: its socket, and the ping that its manager has not answered yet."""
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self.silence = Silence()
+        self.is_silent: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self._socket: ClientConnection | None = None
+        self._answer: Awaitable[float] | None = None
+        self._asked_s = 0.0
+        self._is_noted = False
+
+    @contextmanager
+    def by(self, socket: ClientConnection) -> Iterator[None]:
+        """Watches by this socket, whose opening was an answer."""
+        self.silence.heard()
+        self._asked_s = asyncio.get_running_loop().time()
+        self._socket = socket
+        try:
+            yield
+        finally:
+            self._socket = self._answer = None
+
+    def look(self, passed_s: float) -> None:
+        """Takes an answer that came, or counts the time since the last look as silence."""
+        if isinstance(self._answer, asyncio.Future) and self._answer.done():
+            if not self._answer.cancelled() and self._answer.exception() is None:
+                self.silence.heard()
+            self._answer = None
+        self.silence.passed(passed_s)
+        is_noted = self.silence.seconds >= NOTED_S
+        if is_noted is not self._is_noted:
+            self._is_noted = is_noted
+            answers = "is silent" if is_noted else "answers"
+            log.warning("session %s: the executor %s", self.session.id, answers)
+        if self.silence.seconds >= longest_s() and not self.is_silent.done():
+            self.is_silent.set_result(None)
+
+    async def ask(self, now_s: float, period_s: float) -> None:
+        """Sends a ping if the last one was answered, and is old enough."""
+        if self._socket is None or self._answer is not None or now_s - self._asked_s < period_s:
+            return
+        self._asked_s = now_s
+        with suppress(ConnectionClosed):
+            self._answer = await self._socket.ping()
+
+
+class Pulse:
+    """Looks at all watched sessions of an event loop together, which costs a quarter of a task for each."""
+
+    def __init__(self) -> None:
+        self._watched: dict[Watched, None] = {}
+        self._beating: asyncio.Task[None] | None = None
+
+    async def until_silent(self, watched: Watched) -> None:
+        """Waits until a manager has been silent for too long."""
+        self._watched[watched] = None
+        if self._beating is None or self._beating.done():
+            self._beating = asyncio.create_task(self._beat())
+        try:
+            await watched.is_silent
+        finally:
+            del self._watched[watched]
+
+    async def _beat(self) -> None:
+        loop = asyncio.get_running_loop()
+        looked_s = loop.time()
+        while self._watched:
             await asyncio.sleep(PING_EVERY_S / 2)  # a look that is a little late still counts as a whole
             now_s = loop.time()
-            silence.passed(now_s - looked_s)
+            period_s = min(max(PING_EVERY_S, len(self._watched) / PINGS_A_SECOND), SELDOM_S)
+            for watched in list(self._watched):
+                watched.look(now_s - looked_s)
+                await watched.ask(now_s, period_s)
             looked_s = now_s
-            if is_noted is not (is_noted := silence.seconds >= NOTED_S):
-                log.warning("session %s: the executor %s", session.id, "is silent" if is_noted else "answers")
+
+
+_pulses: Final[WeakKeyDictionary[asyncio.AbstractEventLoop, Pulse]] = WeakKeyDictionary()
+
+
+async def until_silent(session: Session) -> None:
+    """Waits until the session's manager has not answered for too long."""
+    watched = Watched(session)
+    keeping = asyncio.create_task(_keep_open(watched))
+    try:
+        await _pulses.setdefault(asyncio.get_running_loop(), Pulse()).until_silent(watched)
     finally:
-        asking.cancel()
-        await asyncio.gather(asking, return_exceptions=True)
+        keeping.cancel()
+        await asyncio.gather(keeping, return_exceptions=True)
 
 
-async def _ask(session: Session, silence: Silence) -> None:
+async def _keep_open(watched: Watched) -> None:
+    silence = watched.silence
     while True:
         try:
-            async with manager_socket(session, "watch") as socket:
+            async with manager_socket(watched.session, "watch") as socket:
                 try:
-                    while True:
-                        silence.heard()
-                        await asyncio.sleep(PING_EVERY_S)
-                        await (await socket.ping())
+                    with watched.by(socket):
+                        await socket.wait_closed()
                 except asyncio.CancelledError:
                     if silence.seconds >= longest_s():
                         socket.transport.abort()  # it would not answer the closing either

@@ -23,6 +23,7 @@ BENCHMARKS = (
     "session",
     "recording",
     "flood",
+    "known_sessions",
     "opening",
     "browser",
     "evaluate_panel",

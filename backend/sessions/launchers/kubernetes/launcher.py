@@ -124,7 +124,7 @@ class KubernetesLauncher(Launcher):
     name = "kubernetes"
     survives_server = True
     keeps_warm = True
-    starts_at_once = 64
+    starts_at_once = 128
 
     def __init__(self, client: Client, templates: dict[Kind, dict[str, Any]]) -> None:
         self._client = client

@@ -6,6 +6,7 @@ import hashlib
 import re
 import ssl
 import time
+from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
 import httpx2
@@ -17,6 +18,7 @@ from backend.sessions.launchers.base import UNKNOWN_EXIT
 from backend.sessions.launchers.kubernetes import launcher as module
 from backend.sessions.launchers.kubernetes.bodies import Kind, pod_name
 from tests.backend.sessions.conftest import spec
+from tests.fakes.kubernetes_api import make_ready
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -69,6 +71,22 @@ def test_a_session_starts_with_a_secret_of_its_own_and_ends(
     assert cluster.names("pods") == cluster.names("secrets") == []
     launcher.stop(started.state, timeout_s=1)  # again is no error
     assert launcher.running() == []
+
+
+def test_a_hundred_sessions_start_at_once(cluster: FakeCluster, launcher: KubernetesLauncher) -> None:
+    """No pod gets ready before all are made, as where images are pulled first."""
+    pods: list[dict[str, Any]] = []
+
+    def node(_: FakeCluster, pod: dict[str, Any]) -> None:
+        pods.append(pod)
+        if len(pods) >= 100:
+            for each in pods:
+                make_ready(cluster, each)
+
+    cluster.node = node
+    with ThreadPoolExecutor(launcher.starts_at_once) as threads:
+        started = list(threads.map(lambda n: launcher.start(spec(session_id=f"s{n}")), range(100)))
+    assert len({each.state["pod"] for each in started}) == 100
 
 
 def test_only_the_verbs_of_the_role_are_used(cluster: FakeCluster, launcher: KubernetesLauncher) -> None:

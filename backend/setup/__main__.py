@@ -30,7 +30,15 @@ FRONTEND = ROOT / "frontend"
 STAMPS = ROOT / "var" / "setup"
 NEEDED_NODE = (20, 19)
 INTERFACE_PROGRAMS = ("build_interfaces", "generate_interfaces", "interface_definitions")
-TEST_PACKAGES = ("chromium", "libegl1", "libgl1-mesa-dri", "postgresql", "redis-server", "kubernetes-client")
+TEST_PACKAGES = (
+    "chromium",
+    "libegl1",
+    "libgl1-mesa-dri",
+    "postgresql",
+    "redis-server",
+    "kubernetes-client",
+    "caddy",
+)
 
 
 class Step(NamedTuple):
@@ -312,6 +320,7 @@ def test_programs() -> list[tuple[str, bool]]:
         any(Path("/usr/lib/postgresql").glob("*/bin/initdb")),
         shutil.which("redis-server") is not None,
         shutil.which("kubectl") is not None,
+        shutil.which("caddy") is not None,
     )
     return list(zip(TEST_PACKAGES, present, strict=True))
 

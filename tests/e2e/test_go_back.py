@@ -128,7 +128,9 @@ def compare_with_the_run_before(studio: Studio, touched: float) -> None:
     expect(panel).to_contain_text("both are one run")
     studio.at("axis-strip").focus()
     for _ in range(5):
+        before = shown.get_attribute("data-shown") or ""
         page.keyboard.press("ArrowRight")
+        expect(shown).not_to_have_attribute("data-shown", before)  # each step is one from what is shown
     expect(studio.at("compared-row").filter(has_text="Turn")).to_be_visible()
     mark = page.locator("[data-testid^='compared-MainTree/']").first
     expect(mark).to_contain_text("2: ")

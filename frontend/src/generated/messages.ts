@@ -680,7 +680,7 @@ export interface TrySeeds {
   t?: number | null;
 }
 
-/** Ends a job of `try_values` or `try_seeds`, if it still runs; what is known of it stays with the client. */
+/** Ends a job of `try_values` or `try_seeds`, if it runs; what is known of it stays with the client. */
 export interface StopTrying {
   job: string;
 }

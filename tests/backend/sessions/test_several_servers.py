@@ -12,22 +12,19 @@ import time
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
-import psycopg
 import pytest
-import requests
 
-from backend.sessions.lease import CARE
-from tests.backend.services import postgresql, redis
-from tests.backend.serving import REPOSITORY, TIMEOUT_S, Served, serving
-from tests.benchmarks.load import settings_of, sign_in
+from tests.backend.serving import TIMEOUT_S
+from tests.backend.sessions.several_servers import Team
 from tests.budget import count
-from tests.e2e.observer import Observer
-from tests.fakes.kubernetes_api import NAMESPACE, FakeCluster
-from tests.fakes.kubernetes_node import Node, kubeconfig
+from tests.fakes.kubernetes_api import FakeCluster
+from tests.fakes.kubernetes_node import Node
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
+
+    from tests.e2e.observer import Observer
 
 pytestmark = [pytest.mark.simulation, pytest.mark.timeout(900)]
 PATH = "notes.txt"
@@ -76,76 +73,6 @@ class Editor:
                 return
             revision = answer.json()["revision"]
             self.acknowledged.append((revision, content))
-
-
-class Team:
-    """Two servers with folders of their own, and one account that is signed in."""
-
-    def __init__(self, stack: ExitStack, folder: Path, cluster: FakeCluster) -> None:
-        self.database = stack.enter_context(postgresql(fsync="off"))
-        services = {
-            "BT_STUDIO_DATABASE_URL": self.database,
-            "BT_STUDIO_REDIS_URL": stack.enter_context(redis()),
-        }
-        config = folder / "kubeconfig"
-        config.write_text(kubeconfig(cluster.url))
-        settings, _ = settings_of(services)
-        self._settings = settings | {
-            "KUBECONFIG": str(config),
-            "BT_STUDIO_LAUNCHER": "kubernetes",
-            "BT_STUDIO_POD_TEMPLATE": str(REPOSITORY / "docker/kubernetes/executor-pod.yaml"),
-            "BT_STUDIO_TOOLS_TEMPLATE": str(REPOSITORY / "docker/kubernetes/tools-pod.yaml"),
-            "BT_STUDIO_POD_NAMESPACE": NAMESPACE,
-            "BT_STUDIO_SESSION_START_TIMEOUT_S": "60",
-            "BT_STUDIO_WORKERS": "1",
-        }
-        self._stack = stack
-        self._folders = [folder / "first", folder / "second"]
-        for own in self._folders:
-            own.mkdir()
-        self.servers = [self._serve(own) for own in self._folders]
-        self.first = 0
-        ((_, self.cookie),) = sign_in(self._folders[0], settings, 1)
-
-    def _serve(self, folder: Path) -> Served:
-        return self._stack.enter_context(serving(folder, **self._settings))
-
-    def end(self, number: int, how: signal.Signals) -> None:
-        self.servers[number].end(how)
-
-    def begin_again(self, number: int) -> None:
-        self.servers[number] = self._serve(self._folders[number])
-
-    def call(self, number: int, method: str, path: str, body: Any = None, key: str = "") -> Any:
-        base = self.servers[number].base
-        headers = {"Origin": base, "Cookie": self.cookie} | ({"Idempotency-Key": key} if key else {})
-        address = f"{base}/api/v1/{path}"
-        return requests.request(method, address, json=body, headers=headers, timeout=60)
-
-    def try_twice(self, method: str, path: str, body: Any, key: str) -> Any:
-        """Asks the preferred server, then the other; returns the last answer, or why there is none."""
-        answer: Any = ""
-        for number in (self.first, 1 - self.first):
-            try:
-                answer = self.call(number, method, path, body, key)
-            except requests.RequestException as error:
-                answer = repr(error)
-                continue
-            if answer.status_code < 500:
-                return answer
-        return answer
-
-    def watch(self, number: int, session: str) -> Observer:
-        return Observer.join(self.servers[number].base, self.cookie, session)
-
-    def lease(self) -> tuple[str, Any]:
-        """The owner of the lease for the sessions, and its end."""
-        with psycopg.connect(self.database) as connection:
-            rows = connection.execute(
-                "SELECT owner, until FROM executor_sessions_lease WHERE name = %s", [CARE]
-            )
-            found = rows.fetchone()
-            return ("", None) if found is None else (found[0], found[1])
 
 
 @pytest.fixture

@@ -15,16 +15,11 @@ import pytest
 from backend.sessions.hosts.authority import host_bundle, renew_web_bundle
 from backend.sessions.relay.hello import KEEPER, socket_of, write_hello
 from backend.sessions.relay.tls import client_context
+from tests.backend.services import free_port
 from tests.e2e.server import wait_until
 
 ROOT = Path(__file__).parents[4]
 HOST = "127.0.0.1"
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind((HOST, 0))
-        return probe.getsockname()[1]
 
 
 class Echo:

@@ -1,4 +1,4 @@
-"""What a thousand running sessions cost one web server: its watch of their managers, and its rounds.
+"""Measures the cost of a thousand running sessions for one web server: its watch, and its rounds.
 
 The managers are websocket servers in another process, which only answer pings. What the launcher knows of its
 executors is a lookup, as it is on Kubernetes, where a thread follows the pods.

@@ -178,7 +178,10 @@ def test_the_page_of_shortcuts_tells_the_truth(shared_studio: Studio) -> None:
     by_keys: dict[tuple[str, bool], set[str]] = {}
     for label, shown in rows:
         by_keys.setdefault((shown, label.startswith("Held:")), set()).add(label)
-    assert {keys for keys, labels in by_keys.items() if len(labels) > 1} <= {("Space", False), ("Escape", False)}
+    assert {keys for keys, labels in by_keys.items() if len(labels) > 1} <= {
+        ("Space", False),
+        ("Escape", False),
+    }
     studio.picture("shortcuts")
     keys.press("Escape")
     keys.press("Control+k")

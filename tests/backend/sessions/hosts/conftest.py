@@ -18,6 +18,7 @@ from backend.sessions.hosts.names import HostAddress, read_host
 from backend.sessions.launchers.docker import DockerLauncher
 from backend.sessions.launchers.hosts import LOCAL, HostsLauncher
 from backend.sessions.launchers.relayed import RelayedLauncher
+from tests.backend.services import free_port
 from tests.backend.sessions.relay.conftest import relay
 from tests.e2e.server import wait_until
 from tests.fakes.docker import FakeDocker

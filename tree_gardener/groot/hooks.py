@@ -189,6 +189,8 @@ class Hooks:
             if hook is None or not hook.enabled:
                 wanted = None
             else:
+                if hook.mode is Mode.BREAKPOINT:
+                    self._held()  # before the news: a client that hears it asks at once for the state
                 self._reached(key.uid)
                 if hook.mode is Mode.BREAKPOINT:
                     with self._waiting():
@@ -204,7 +206,6 @@ class Hooks:
     def _wait(self, hook: Hook) -> Status | None:
         """Waits until a client unlocks a breakpoint, removes it or switches it off."""
         self._waits = hook.key
-        self._held()
         try:
             while self._hooks.get(hook.key) is hook and hook.enabled:
                 if hook.key in self._unlocked:

@@ -155,6 +155,7 @@ def it_is_corrected_and_run_again(studio: Studio) -> None:
 def all_breakpoints_are_switched_off_by_a_key(studio: Studio) -> None:
     studio.at(f"node-{INVERTER}").click()
     studio.page.keyboard.press("F9")
+    expect(studio.at(f"breakpoint-{INVERTER}")).to_be_visible()
     held_at(studio, INVERTER, "before its tick")
     studio.page.keyboard.press("Control+Shift+F9")
     expect(studio.at(f"breakpoint-{INVERTER}")).to_have_attribute("data-state", "off")

@@ -132,6 +132,8 @@ def test_a_new_field_has_the_caret_and_is_blamed_only_when_it_is_left(shared_stu
     expect(field).to_be_focused()
     expect(field).to_be_in_viewport()
     expect(problems).to_contain_text("the project can run")
+    expect(field).to_have_class(re.compile("cm-content"))  # a plain field gives way to the editor
+    expect(field).to_be_focused()
     page.keyboard.press("Escape")
     expect(field).to_have_count(0)
     page.keyboard.press("Enter")

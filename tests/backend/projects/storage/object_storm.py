@@ -110,11 +110,11 @@ def main():
         child = os.fork()
         if child == 0:
             try:
+                say("pid", os.getpid())  # not by its parent, whom it could overtake
                 modes[mode](seed)
             except BaseException as error:
                 say("failed", repr(error))
             os._exit(0)
-        say("pid", child)
         os.waitpid(child, 0)
         say("end")
 

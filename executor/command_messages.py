@@ -12,6 +12,7 @@ from executor.attach_messages import Control, ServeGroot2
 from executor.debug_messages import Dap, Force, Release, SetBreakpoints, StepTo
 from executor.evaluation_events import Evaluate
 from executor.profile_messages import SetProfile
+from executor.source_events import SourceOfTick, StopSource
 from executor.trying_events import StopTrying, TrySeeds, TryValues
 
 StreamName = Literal["poses", "scan", "camera", "view"]
@@ -318,6 +319,8 @@ COMMANDS: Final[dict[str, type[Struct]]] = {
     "try_values": TryValues,
     "try_seeds": TrySeeds,
     "stop_trying": StopTrying,
+    "source_of_tick": SourceOfTick,
+    "stop_source": StopSource,
     "take_over": Empty,
     "ping": Empty,
 }

@@ -73,6 +73,15 @@ from executor.recording_events import (
     Segment,
     StopReason,
 )
+from executor.source_events import (
+    SourceCall,
+    SourceLine,
+    SourceOfTick,
+    SourceProgress,
+    SourceValue,
+    StopSource,
+    TickSource,
+)
 from executor.stream_messages import (
     FRAMES,
     Camera,
@@ -192,14 +201,21 @@ __all__ = [
     "SetSpeed",
     "SetTickRate",
     "Shape",
+    "SourceCall",
+    "SourceLine",
+    "SourceOfTick",
+    "SourceProgress",
+    "SourceValue",
     "StepTo",
     "StopReason",
+    "StopSource",
     "StopTrying",
     "StreamName",
     "Subscribe",
     "Teleop",
     "Texture",
     "Tick",
+    "TickSource",
     "TopicInfo",
     "TopicMessage",
     "TopicMismatch",
@@ -454,6 +470,8 @@ EVENTS: Final[dict[str, type[Struct]]] = {
     "trying_progress": TryingProgress,
     "try_outcome": TryOutcome,
     "trying_ended": TryingEnded,
+    "source_progress": SourceProgress,
+    "tick_source": TickSource,
 }
 
 

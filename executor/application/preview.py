@@ -6,7 +6,7 @@ import math
 import reprlib
 from typing import Any, Final
 
-__all__ = ["preview"]
+__all__ = ["preview", "text_of"]
 
 TEXT_CHARACTERS: Final = 500
 ITEMS: Final = 50
@@ -22,10 +22,15 @@ def preview(value: Any) -> tuple[Any, bool]:
     """Returns a value that can be written as JSON, and whether it is a preview of the original."""
     if _is_plain(value, depth=3):
         return value, False
+    return text_of(value), True
+
+
+def text_of(value: Any) -> str:
+    """Returns a short text that shows a value, whatever it is."""
     try:
-        return _describe(value)[:TEXT_CHARACTERS], True
+        return _describe(value)[:TEXT_CHARACTERS]
     except Exception as error:
-        return f"<{type(value).__name__}; its repr raised {type(error).__name__}>", True
+        return f"<{type(value).__name__}; its repr raised {type(error).__name__}>"
 
 
 def _is_plain(value: Any, depth: int) -> bool:

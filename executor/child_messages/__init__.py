@@ -85,6 +85,7 @@ from executor.child_messages.exact import (
     NoSnapshots,
     SnapshotTaken,
     TakeSnapshot,
+    TickSource,
     TryingEnded,
     TryingProgress,
     TryingStarted,
@@ -200,6 +201,7 @@ __all__ = [
     "TakeSnapshot",
     "Teleop",
     "Tick",
+    "TickSource",
     "ToApplication",
     "ToExact",
     "ToWorld",
@@ -313,6 +315,7 @@ FromExact = (
     | TryingProgress
     | TryOutcome
     | TryingEnded
+    | TickSource
 )
 decode_to_world: Final = msgspec.msgpack.Decoder(ToWorld).decode
 decode_from_world: Final = msgspec.msgpack.Decoder(FromWorld).decode

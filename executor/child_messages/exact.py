@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from executor import trying_events
+from executor import source_events, trying_events
 from executor.child_messages.application import SetPort  # noqa: TC001 - msgspec reads the annotations
 from executor.child_messages.common import Message
 from executor.child_messages.world import WorldCommand  # noqa: TC001 - msgspec reads the annotations
@@ -140,3 +140,7 @@ class TryOutcome(trying_events.TryOutcome, tag_field="type", tag="try_outcome"):
 
 class TryingEnded(trying_events.TryingEnded, tag_field="type", tag="trying_ended"):
     """The event `trying_ended` for clients."""
+
+
+class TickSource(source_events.TickSource, tag_field="type", tag="tick_source"):
+    """The event `tick_source` for clients."""

@@ -26,6 +26,7 @@ from executor.exact.fingerprints import Fingerprints
 from executor.exact.gate import Gate
 from executor.exact.graph import ExactGraph
 from executor.exact.keeping import Keeping
+from executor.exact.line_tracer import LineTracer
 from executor.exact.outlines import outlines_of
 from executor.exact.replaying import NotThereError, Replaying
 from executor.exact.slow_ticks import SlowTicks
@@ -83,6 +84,7 @@ class ExactApplication(Application):
         self._is_handed_over = False
         self._is_copy = False
         self._is_trial = False
+        self._tracer: LineTracer | None = None
         self._known_after = b""
         """The fingerprints of what followed, the first time, the moment up to which it was made again."""
         pulse.locate = SlowTicks(pulse.locate, self._is_waited_for, gate.send)
@@ -232,9 +234,13 @@ class ExactApplication(Application):
         self._is_in_tick = True
         if self._replaying is not None and runner.state is RunnerState.PAUSED:
             runner.resume()  # pauses are not made again
+        tracer = self._tracer if self._replaying is not None and self._replaying.is_at_moment else None
         try:
-            exact.ros.executor.drain()
-            runner.tick_now()
+            with tracer or contextlib.nullcontext():
+                exact.ros.executor.drain()
+                if tracer is not None:
+                    tracer.is_in_tick = True
+                runner.tick_now()
         finally:
             self._is_in_tick = False
         if self._fingerprints is not None and self._replaying is None:
@@ -384,6 +390,8 @@ class ExactApplication(Application):
             given=self._keeping.inputs,
             resets=self._keeping.resets,
         )
+        if replay.shows_source and self._program is not None:
+            self._tracer = LineTracer(self._locator, self._program.sources)
         speed = loop.speed
         loop.set_speed(0)
         error = ""
@@ -396,6 +404,9 @@ class ExactApplication(Application):
         finally:
             self._replaying = None
             self._gate.open()
+        if self._tracer is not None and self._tracer.has_run:
+            self._send(self._tracer.source(loop.time_s, runner.tree.tick_number))
+            return False  # the process has nothing more to do
         if error:
             hint = "Go back to an earlier moment, or press Run."
             self._channel.send(child_messages.Fault("load", error, hint))

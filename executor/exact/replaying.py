@@ -93,6 +93,7 @@ class Replaying:
         self._told_s = clock()
         self._has_differed = False
         self._ticks = len(replay.fingerprints) // FINGERPRINT_BYTES
+        self._most_ticks = self._ticks + replay.shows_source
 
     def run(self) -> WentBack:
         """Makes the run again up to the moment, and returns where it is then.
@@ -111,6 +112,13 @@ class Replaying:
             t=loop.time_s, ticks=loop.ticks, inputs=self._given, resets=self._resets, tick_hz=loop.tick_hz
         )
 
+    @property
+    def is_at_moment(self) -> bool:
+        """Whether the tick in progress, or just made, is the one at the moment."""
+        replay, loop = self._replay, self._loop
+        is_near = self._resets >= replay.resets and loop.ticks > 0
+        return replay.until_s is not None and is_near and loop.time_s >= replay.until_s - EPSILON_S
+
     def held(self, hook: int) -> None:
         """Gives the next input to a tree that the debugger holds, as the first time.
 
@@ -123,11 +131,9 @@ class Replaying:
     # --- inside -------------------------------------------------------------------------------------
 
     def _is_there(self) -> bool:
-        replay, loop = self._replay, self._loop
-        if loop.ticks >= self._ticks:
+        if self._loop.ticks >= self._most_ticks:
             return True  # a tick that did not end may be what ended the run
-        is_near = self._resets >= replay.resets and loop.ticks > 0
-        return replay.until_s is not None and is_near and loop.time_s >= replay.until_s - EPSILON_S
+        return self.is_at_moment
 
     def _between(self) -> None:
         """Gives the inputs of this step."""
@@ -166,7 +172,7 @@ class Replaying:
         number = self._loop.ticks
         at = (number - 1) * FINGERPRINT_BYTES
         known = self._replay.fingerprints[at : at + FINGERPRINT_BYTES]
-        if known == self._fingerprint() or self._has_differed:
+        if not known or known == self._fingerprint() or self._has_differed:
             return
         self._has_differed = True
         self._send(Differs(number, self._loop.time_s, NOT_REPEATED))

@@ -179,6 +179,7 @@ def _type_name(kind: Any) -> str:
         "executor.stream_messages.",
         "executor.evaluation_events.",
         "executor.trying_events.",
+        "executor.source_events.",
         "executor.attach_messages.",
         "executor.debug_messages.",
         "executor.apply_messages.",

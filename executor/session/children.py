@@ -76,7 +76,7 @@ class Children:
 
         A spare application is replaced where it is not of the kind of run that is wanted.
         """
-        is_exact = (kind == "application" and self.wants_exact) or kind == "trying"
+        is_exact = (kind == "application" and self.wants_exact) or kind in ("trying", "source")
         spare = self.living.get(kind)
         if (
             kind == "application"

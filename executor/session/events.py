@@ -58,11 +58,13 @@ __all__ = [
     "WakeSnapshot",
 ]
 
-Kind = Literal["world", "application", "exact", "node", "recorder", "evaluation", "adapter", "trying"]
+Kind = Literal[
+    "world", "application", "exact", "node", "recorder", "evaluation", "adapter", "trying", "source"
+]
 """Kind of a child process; `node` is an extra node of the launch files.
 
-`exact` is only the program of an application that has its world in it; `trying` is such a process beside the
-ladder.
+`exact` is only the program of an application that has its world in it; `trying` and `source` are such
+processes beside the ladder.
 """
 
 

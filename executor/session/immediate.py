@@ -283,6 +283,14 @@ def _stop_trying(stage: Stage, _: CommandCame, data: messages.StopTrying) -> Non
     stage.trying.stop(data.job)
 
 
+def _source_of_tick(stage: Stage, event: CommandCame, data: messages.SourceOfTick) -> None:
+    stage.sources.begin(event, data)
+
+
+def _stop_source(stage: Stage, _: CommandCame, data: messages.StopSource) -> None:
+    stage.sources.stop(data.job)
+
+
 def _take_over(stage: Stage, event: CommandCame, _: Struct) -> None:
     for client in stage.clients.take_over(event.client):
         stage.introspect(client)
@@ -339,6 +347,8 @@ IMMEDIATE: Final[dict[str, Callable[[Stage, CommandCame], None]]] = {
     "try_values": _typed(messages.TryValues, _try),
     "try_seeds": _typed(messages.TrySeeds, _try),
     "stop_trying": _typed(messages.StopTrying, _stop_trying),
+    "source_of_tick": _typed(messages.SourceOfTick, _source_of_tick),
+    "stop_source": _typed(messages.StopSource, _stop_source),
     "take_over": _typed(messages.Empty, _take_over),
     "ping": _typed(messages.Empty, _ping),
 }
@@ -375,6 +385,7 @@ ANSWER_LATER: Final = frozenset(
         "evaluate",
         "try_values",
         "try_seeds",
+        "source_of_tick",
     }
 )
 """Commands that are not acknowledged immediately: the handler or a child answers later."""

@@ -189,6 +189,12 @@ TABLE: Final[dict[str, Row]] = {
         "`trying_` events.",
     ),
     "stop_trying": _act(ANY, "Ends these continuations."),
+    "source_of_tick": _act(
+        ANY,
+        "Makes an exact run again up to a past tick, beside the ladder, and answers with `tick_source`: the "
+        "lines that it ran, and the values of names.",
+    ),
+    "stop_source": _act(ANY, "Ends that."),
     "take_over": _act(ANY, "Becomes the driver; the last driver becomes a viewer.", for_viewers=True),
     "ping": _act(
         ANY, "Is answered at once; no answer for 3 s means that the manager hangs.", for_viewers=True

@@ -11,7 +11,7 @@ from __future__ import annotations
 import contextlib
 import logging
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from executor import child_messages, messages
 from executor.child_messages import Fault, Finished
@@ -45,6 +45,7 @@ from executor.session.events import (
 from executor.session.exact import hosting
 from executor.session.exact.past import PastRuns
 from executor.session.exact.snapshots import Snapshots
+from executor.session.exact.sources import Sources
 from executor.session.exact.trying import Trying
 from executor.session.hangs import waiting, watch
 from executor.session.ladder import HAS_APPLICATION, TABLE, State, is_legal, where
@@ -62,6 +63,7 @@ if TYPE_CHECKING:
     from msgspec import Struct
 
     from executor.session.child import Child
+    from executor.session.events import Kind
     from executor.session.waits import Step
 
 __all__ = ["Session"]
@@ -80,6 +82,16 @@ class _Job:
     steps: Generator[Wait, Any, None]
     wait: Wait | None = None
     deadline_s: float = 0.0
+
+
+class _Owner(Protocol):
+    """A part of the session that has the children of a kind to itself."""
+
+    def said(self, event: ChildSaid) -> None:
+        """Handles a message of such a child."""
+
+    def exited(self, event: ChildExited) -> None:
+        """Handles the end of such a child."""
 
 
 class Session:
@@ -103,6 +115,14 @@ class Session:
         self.output.record = self.recording.tell
         self.evaluating = Evaluating(self)
         self.trying = Trying(self)
+        self.sources = Sources(self)
+        self._owners: dict[Kind, _Owner] = {
+            "recorder": self.recording,
+            "evaluation": self.evaluating,
+            "trying": self.trying,
+            "source": self.sources,
+            "adapter": self.python,
+        }
         self.sim_time_s = 0.0
         self._job: _Job | None = None
         self._archives = 0
@@ -254,14 +274,8 @@ class Session:
         self.children.leaving.discard((event.kind, event.number))
         if event.kind == "node":
             self.nodes.exited(self, event)
-        elif event.kind == "recorder":
-            self.recording.exited(event)
-        elif event.kind == "evaluation":
-            self.evaluating.exited(event)
-        elif event.kind == "trying":
-            self.trying.exited(event)
-        elif event.kind == "adapter":
-            self.python.exited(event)
+        elif (owner := self._owners.get(event.kind)) is not None:
+            owner.exited(event)
         else:
             child_exits.exited(self, event)
 
@@ -269,17 +283,8 @@ class Session:
         if event.kind == "node":
             self.nodes.said(self, event)
             return
-        if event.kind == "recorder":
-            self.recording.said(event)
-            return
-        if event.kind == "evaluation":
-            self.evaluating.said(event)
-            return
-        if event.kind == "trying":
-            self.trying.said(event)
-            return
-        if event.kind == "adapter":
-            self.python.said(event)
+        if (owner := self._owners.get(event.kind)) is not None:
+            owner.said(event)
             return
         child = self.children.of(event)
         if child is None:

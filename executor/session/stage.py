@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from executor.session.events import Unpacked
     from executor.session.exact.past import PastRuns
     from executor.session.exact.snapshots import Snapshots
+    from executor.session.exact.sources import Sources
     from executor.session.exact.trying import Trying
     from executor.session.ladder import State
     from executor.session.launch_nodes import LaunchNodes
@@ -89,6 +90,7 @@ class Stage(Protocol):
     recording: Recording
     evaluating: Evaluating
     trying: Trying
+    sources: Sources
     run: LastRun
     past: PastRuns
     snapshots: Snapshots

@@ -409,6 +409,7 @@ def _all_gone(stage: Stage) -> Step:
 
 def _disconnect(stage: Stage, _: Struct) -> Step:
     stage.trying.stop()
+    stage.sources.stop()
     yield from _end_world(stage)
     stage.children.drop("application")
     stage.children.drop("world")

@@ -1,4 +1,4 @@
-"""Five values of a port are tried from a past moment of an exact run; one is opened, and one is used."""
+"""From a past moment of an exact run: five values of a port are tried, and the code of a tick is shown."""
 
 from __future__ import annotations
 
@@ -87,4 +87,58 @@ def outcomes_are_readable(studio: Studio) -> None:
     table = studio.at("tries-results").get_by_role("table")
     assert table.evaluate("each => each.parentElement.scrollWidth <= each.parentElement.clientWidth")
     studio.picture("try-many-narrow")
+    page.set_viewport_size({"width": 1440, "height": 900})
+
+
+def test_the_code_of_a_past_tick_is_shown(
+    open_studio: Callable[[Browser], Studio], browser_without_webgl: Browser
+) -> None:
+    studio = open_studio(browser_without_webgl)
+    page = studio.page
+    studio.new_from("laser_bump_and_go")
+    studio.command("Time of the next run: exact")
+    studio.saved()
+    studio.run()
+    wait_until(lambda: studio.stat("t") > 3, "the robot drives for a while")
+    studio.at("pause").click()
+    studio.expect_state("paused")
+    studio.at("axis-strip").focus()
+    page.keyboard.press("Shift+ArrowLeft")
+    wait_until(lambda: studio.at("time-axis").get_attribute("data-shown") is not None, "the past is shown")
+
+    page.keyboard.press("Alt+j")
+    view = studio.at("past-source")
+    expect(studio.at("ran-code")).to_contain_text("class CheckObstacle", timeout=60_000)
+    expect(view).to_contain_text("Returned <Status.FAILURE")
+    updates = studio.at("source-call").locator("option", has_text="Forward.update of")
+    studio.at("source-call").select_option(updates.first.get_attribute("value"))
+    expect(studio.at("ran-code")).to_contain_text("twist = Twist()")
+    ran = studio.at("ran-code").locator(".cm-ran")
+    expect(ran).to_have_count(4)
+    expect(ran.nth(1)).to_contain_text("x=0.3")  # the value behind the line that set it
+    expect(studio.at("call-values")).to_contain_text("self.publisher")
+    expect(studio.at("ran-code").get_by_role("textbox")).to_have_attribute("aria-readonly", "true")
+    code_is_readable(studio)
+
+    studio.at("axis-strip").focus()
+    page.keyboard.press("ArrowLeft")  # another tick has other values
+    expect(studio.at("source-ask")).to_be_visible()
+    studio.at("source-ask").click()
+    expect(studio.at("ran-code")).to_be_visible(timeout=60_000)
+    page.keyboard.press("Escape")
+    expect(view).to_have_count(0)
+    studio.expect_state("paused")
+    studio.end_session()
+
+
+def code_is_readable(studio: Studio) -> None:
+    """In both themes, and in a narrow window."""
+    page = studio.page
+    for scheme in ("dark", "light"):
+        page.evaluate("s => document.documentElement.setAttribute('data-mantine-color-scheme', s)", scheme)
+        expect_no_findings(page, f"the code of a past tick, {scheme}")
+        studio.picture(f"past-source-{scheme}")
+    page.set_viewport_size({"width": 390, "height": 800})
+    expect(studio.at("ran-code")).to_be_visible()
+    studio.picture("past-source-narrow")
     page.set_viewport_size({"width": 1440, "height": 900})

@@ -13,7 +13,7 @@ from tree_gardener.document import embedded_sources, parse_document
 from tree_gardener.swap import Swap
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
     from pathlib import Path
 
     from tree_gardener.clock import Clock
@@ -43,6 +43,11 @@ class Program:
         self._folder = folder
         self._sources: dict[str, str] = {}
         self._leave: Callable[[], None] = enter(folder)
+
+    @property
+    def sources(self) -> Mapping[str, str]:
+        """The text of each action of the present program, by its name."""
+        return self._sources
 
     def load(self) -> Tree:
         """Builds the tree.

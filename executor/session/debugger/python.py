@@ -142,6 +142,7 @@ class PythonDebugger:
         stage = self._stage
         text = f"Changed by hand in Python: {change[:LONGEST_CHANGE]}"
         stage.output.emit(messages.Log("manager", "warning", text, time=stage.sim_time_s))
+        stage.past.changed_by_hand(stage.sim_time_s)
         if text == self._last_change:
             return
         self._last_change = text

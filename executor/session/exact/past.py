@@ -49,6 +49,7 @@ class PastRun:
         resets: how often its world was reset.
         refusal: why it cannot be made again, as the begin of a sentence; "" if it can.
         folders: the folders with the programs that it used.
+        by_hand_s: when the debugger has changed its program by hand, in s; None if it has not.
         changes: when a live run got another program, in s, and the folder of that.
     """
 
@@ -60,6 +61,7 @@ class PastRun:
     refusal: str = ""
     folders: tuple[str, ...] = ()
     changes: tuple[tuple[float, str], ...] = ()
+    by_hand_s: float | None = None
     input_bytes: int = 0
     has_begun: bool = False
 
@@ -110,6 +112,7 @@ class PastRun:
             inputs=self.inputs[: reached.inputs],
             fingerprints=self.fingerprints[: reached.ticks * FINGERPRINT_BYTES],
             resets=reached.resets,
+            by_hand_s=self.by_hand_s if self.by_hand_s is not None and self.by_hand_s < reached.t else None,
         )
 
     def copy(self) -> PastRun:
@@ -152,6 +155,11 @@ class PastRuns:
             run.folders += (folder,)
             if len(run.folders) > MOST_FOLDERS:
                 run.refusal, run.folders, run.changes = TOO_MANY_CHANGES, (), ()
+
+    def changed_by_hand(self, t_s: float) -> None:
+        """Notes that the debugger has changed the program of the present run."""
+        if self._runs and self._runs[-1].by_hand_s is None:
+            self._runs[-1].by_hand_s = t_s
 
     def forget(self) -> None:
         """Forgets all runs: the world in which they were is gone."""

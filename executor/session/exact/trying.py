@@ -12,31 +12,21 @@ from typing import TYPE_CHECKING, Final
 from msgspec import structs
 
 from executor import child_messages, messages
-from executor.session.events import DropSnapshot
-from executor.session.exact.going_back import found_run
-from executor.session.waits import StepFailed
+from executor.session.exact.aside import LATE, SILENT_S, Aside
 from executor.trying_events import MOST_OUTLINES, PATH_POINTS
 
 if TYPE_CHECKING:
     from msgspec import Struct
 
-    from executor.replay_messages import Replay
-    from executor.session.child import Child
     from executor.session.events import ChildExited, ChildSaid, CommandCame
-    from executor.session.exact.past import PastRun
     from executor.session.stage import Stage
     from executor.trying_events import TryingEnd
 
 __all__ = ["SILENT_S", "Trying"]
 
-SILENT_S: Final = 60.0
-"""A process that makes no progress for so long is ended."""
-LAST_LINES: Final = 3
 MOST_CHARACTERS: Final = 2000
 MOST_PATHS: Final = 8
 LIVE: Final = "A live run cannot be continued from a moment: its world and its program are not one."
-LIVE_HINT: Final = "Make the run exact in the menu beside Run, and press Run."
-LATE: Final = "The run could not be made again in time: it no longer makes progress."
 
 
 @dataclass
@@ -47,11 +37,6 @@ class _Job:
     changes: list[child_messages.SetPort | child_messages.NewSeed]
     client: str
     request: str
-    past: PastRun
-    replay: Replay
-    heard_s: float
-    is_woken: bool = False
-    is_there: bool = False
     done: set[int] = field(default_factory=set)
 
 
@@ -60,32 +45,19 @@ class Trying:
 
     def __init__(self, stage: Stage) -> None:
         self._stage = stage
+        self._aside = Aside(stage, "trying")
         self._job: _Job | None = None
 
     def begin(self, event: CommandCame, data: messages.TryValues | messages.TrySeeds) -> None:
         """Begins a job; another one that runs is ended."""
-        try:
-            past = found_run(self._stage, data.run)
-        except StepFailed as failure:
-            self._stage.output.refuse(event, failure.code, failure.message, failure.hint)
-            return
-        if not past.is_exact:
-            self._stage.output.refuse(event, "live_run", LIVE, LIVE_HINT)
+        past = self._aside.found(event, data.run, LIVE)
+        if past is None:
             return
         self.stop()
         self._stage.output.send(event.client, messages.Ack(), event.request)
+        self._job = _Job(data, _changes(data), event.client, event.request)
         replay = past.replay(data.t)
-        self._job = job = _Job(
-            data, _changes(data), event.client, event.request, past, replay, self._stage.now_s
-        )
-        snapshot = self._stage.snapshots.newest(past, replay.until_s)
-        if snapshot is None:
-            self._make_again(job)
-            return
-        job.is_woken = True
-        child = self._stage.children.wake(snapshot, "trying")
-        self._stage.children.tell_exact(child, child_messages.Awake(replay, 0.0))
-        self._stage.children.tell_exact(child, child_messages.KeepSnapshots(is_on=False))
+        self._aside.begin(past, replay, replay.until_s)
 
     def stop(self, name: str = "") -> None:
         """Ends the job, if it has this name; "" is any."""
@@ -94,72 +66,39 @@ class Trying:
 
     def said(self, event: ChildSaid) -> None:
         """Handles a message of the process."""
-        child, job = self._stage.children.of(event), self._job
-        message = event.message
-        if isinstance(message, child_messages.SnapshotTaken):
-            self._stage.output.effect(DropSnapshot(event.number, message.number))
-        if child is None or job is None:
+        message, job = self._aside.said(event), self._job
+        if message is None or job is None:
             return
         match message:
             case child_messages.GoingBack(fraction=fraction):
-                job.heard_s = self._stage.now_s
                 self._tell(job, messages.TryingProgress(job.data.job, "going_back", fraction))
-            case child_messages.ApplicationReady() if not job.is_there:
-                job.is_there, job.heard_s = True, self._stage.now_s
-                order = child_messages.TryMany(job.data.job, job.changes, job.data.duration_s)
-                self._stage.children.tell_exact(child, order)
+            case child_messages.ApplicationReady():
+                self._aside.tell(child_messages.TryMany(job.data.job, job.changes, job.data.duration_s))
             case child_messages.Fault(kind="load"):
                 self._end("failed", f"{message.message} {message.hint}".strip())
-            case _ if job.is_there:
+            case _ if self._aside.is_there:
                 self._continued(job, message)
             case _:
                 pass
 
     def exited(self, event: ChildExited) -> None:
         """Notes that the process has ended; without its last word it has failed."""
-        child, job = self._stage.children.of(event), self._job
-        if child is None:
-            return
-        del self._stage.children.living["trying"]
-        child.end(event.reason, event.last_lines)
-        if job is not None and job.is_woken and not job.is_there:
-            job.is_woken = False  # the snapshot is of no use
-            self._make_again(job)
-            return
-        self._end("failed", "\n".join([f"Its process {event.reason}.", *event.last_lines[-LAST_LINES:]]))
+        if reason := self._aside.exited(event):
+            self._end("failed", reason)
 
     def looked(self, now_s: float) -> None:
         """Ends a job whose process makes no progress."""
-        if self._job is not None and now_s - self._job.heard_s > SILENT_S:
+        if self._aside.is_silent(now_s):
             self._end("failed", LATE)
 
     # --- inside ---
-
-    def _make_again(self, job: _Job) -> None:
-        """Makes the run again from its begin, in a fresh process."""
-        start = job.past.start
-        assert start.world is not None  # noqa: S101 - an exact run has one
-        job.heard_s = self._stage.now_s
-        child: Child = self._stage.children.ensure("trying")
-        child.is_started = True
-        self._stage.children.tell_exact(
-            child,
-            structs.replace(
-                start,
-                replay=job.replay,
-                is_debugged=False,
-                groot2=0,
-                profile=None,
-                world=structs.replace(start.world, speed=0.0),
-            ),
-        )
 
     def _continued(self, job: _Job, message: Struct) -> None:
         """Handles what the process says of the continuations; users' code runs in it."""
         name = job.data.job
         match message:
             case child_messages.TryingProgress(fraction=fraction):
-                job.heard_s = self._stage.now_s
+                self._aside.heard()
                 self._tell(job, messages.TryingProgress(name, "continuing", min(1.0, max(0.0, fraction))))
             case child_messages.TryingStarted():
                 found = child_messages.event_of(message, messages.TryingStarted)
@@ -180,7 +119,7 @@ class Trying:
         job, self._job = self._job, None
         if job is None:
             return
-        self._stage.children.drop("trying")
+        self._aside.end()
         self._tell(job, messages.TryingEnded(job.data.job, end, message))
 
     def _tell(

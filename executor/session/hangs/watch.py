@@ -48,6 +48,9 @@ def looked(stage: Stage, event: ChildLooked, now_s: float) -> None:
     if event.kind == "trying":
         stage.trying.looked(now_s)
         return
+    if event.kind == "source":
+        stage.sources.looked(now_s)
+        return
     if child is None or event.kind in ("evaluation", "adapter"):  # the first bounds its runs itself
         return
     vitals = child.vitals

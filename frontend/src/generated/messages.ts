@@ -29,6 +29,10 @@ export type TryEnd = "running" | "finished" | "fault" | "refused" | "held" | "di
 
 export type TryingEnd = "complete" | "refused" | "failed" | "cancelled";
 
+export type CallEnd = "returned" | "raised" | "open";
+
+export type CallPart = "callback" | "tick";
+
 export type StopReason = "disk_full" | "disk_failed" | "recorder_died" | "recorder_hung";
 
 export type MismatchCode = "type" | "reliability" | "durability" | "qos";
@@ -760,6 +764,108 @@ export interface TryingEnded {
 }
 
 /**
+ * Makes a run again up to a past tick, and says which lines of the project's actions this tick ran.
+ *
+ * Nothing of it happens in the world of the session: a process of its own makes the run again as for
+ * `go_back`, and is ended. The tick is the first that is not earlier than `t` in s; the callbacks of ROS
+ * that ran just before it belong to it. One job runs at a time; another one ends it.
+ *
+ * Refused with `no_run`, `unknown_run`, `not_repeatable`, `live_run` for a live run, or `changed_by_hand`
+ * for a tick after the debugger has changed the program.
+ */
+export interface SourceOfTick {
+  job: string;
+  t: number;
+  run?: string;
+}
+
+/** Ends a job of `source_of_tick`, if it runs. */
+export interface StopSource {
+  job: string;
+}
+
+/** The share of the way to the tick, 0 to 1. */
+export interface SourceProgress {
+  job: string;
+  fraction: number;
+}
+
+/** A name and the beginning of its value as text; a field has the name `self.field`. */
+export interface SourceValue {
+  name: string;
+  text: string;
+}
+
+/**
+ * A line that ran in a call.
+ *
+ * Attributes:
+ *     line: its number in the file, from 1.
+ *     times: how often it ran.
+ *     values: what had another value after it ran, as it was after the last time.
+ */
+export interface SourceLine {
+  line: number;
+  times: number;
+  values: SourceValue[];
+}
+
+/**
+ * A call of a function of an action.
+ *
+ * Attributes:
+ *     file: the file in the project.
+ *     function: the name of the function with that of its class.
+ *     line: the line in which it begins.
+ *     uid: the node whose action called; 0 if it is none.
+ *     path: the path of this node.
+ *     part: `callback` if ROS called it before the tick.
+ *     end: how it ended; a generator that yields has returned. `open` if it was not followed to its end.
+ *     result: what it returned, or the exception.
+ *     lines: the lines that ran, in the order of the file.
+ *     locals: its local variables at the end.
+ *     fields: the fields of `self` at the end.
+ */
+export interface SourceCall {
+  file: string;
+  function: string;
+  line: number;
+  uid: number;
+  path: string;
+  part: CallPart;
+  end: CallEnd;
+  result: string;
+  lines: SourceLine[];
+  locals: SourceValue[];
+  fields: SourceValue[];
+}
+
+/**
+ * The end of a job of `source_of_tick`: what the code of the actions did in the tick.
+ *
+ * Attributes:
+ *     t: the time of the tick in s.
+ *     tick: the number of the tick in the run.
+ *     calls: the calls, in the order in which they began.
+ *     files: the text of each file with a call, as it ran; a file that is too long is left out.
+ *     left_out: the number of calls that are not in `calls`, since there were too many.
+ *     is_cut: whether so much happened that lines and values are missing.
+ *     differs: the tick from which the run that was made again differs from the recorded one; None if none.
+ *     problem: why nothing can be shown; "" if something can.
+ */
+export interface TickSource {
+  job: string;
+  t: number;
+  tick: number;
+  calls: SourceCall[];
+  files: Record<string, string>;
+  left_out: number;
+  is_cut: boolean;
+  differs: number | null;
+  problem: string;
+}
+
+/**
  * A part of the recording of a run: 20 s of simulated time, and an MCAP file by itself.
  *
  * It is sent again each second while it grows: `bytes` of it can be read then. `complete` tells that it has
@@ -1331,6 +1437,8 @@ export interface Commands {
   try_values: TryValues;
   try_seeds: TrySeeds;
   stop_trying: StopTrying;
+  source_of_tick: SourceOfTick;
+  stop_source: StopSource;
   take_over: Empty;
   ping: Empty;
 }
@@ -1380,6 +1488,8 @@ export interface Events {
   trying_progress: TryingProgress;
   try_outcome: TryOutcome;
   trying_ended: TryingEnded;
+  source_progress: SourceProgress;
+  tick_source: TickSource;
 }
 
 /** What the stream socket sends, told by `type`. */

@@ -129,7 +129,8 @@ class ExactRun:
             self._recorder[1].send(StartRecorder(str(self.recordings), is_whole=True))
         self.process, self.channel = _started(replace(program, environment=environment), decode_from_exact)
         self.channel.send(self.start)
-        self.until(lambda m: isinstance(m, (child_messages.ApplicationReady, child_messages.Fault)))
+        ends = (child_messages.ApplicationReady, child_messages.Fault, child_messages.TickSource)
+        self.until(lambda m: isinstance(m, ends))
         if self._recorder is not None:
             self._recorder[1].send(BeginRun("a" * 12, {}, self.start.app_dir))
             self.tell(ForWorld(child_messages.BeginRecording("a" * 12)))

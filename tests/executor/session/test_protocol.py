@@ -61,7 +61,7 @@ def test_every_command_in_every_state(state, command):
     elif command == "restart_node":
         assert play.reply(request) == "unknown_node"
         assert play.state is before
-    elif command in ("try_values", "try_seeds"):
+    elif command in ("try_values", "try_seeds", "source_of_tick"):
         assert play.reply(request) == ("live_run" if state in HAS_APPLICATION else "no_run")
         assert play.state is before
     elif command == "go_back" and state in HAS_APPLICATION:

@@ -27,7 +27,7 @@ it('has all commands of the axis, with their keys, and does them', async () => {
   expect([...AXIS_MENU.flat()].sort()).toEqual(
     [
       ...all.map(({ id }) => id),
-      ...['time.goBack', 'time.runOn', 'time.tryMany', 'time.branch', 'time.compare'],
+      ...['time.goBack', 'time.runOn', 'time.tryMany', 'time.source', 'time.branch', 'time.compare'],
     ].sort(),
   );
   show(<AxisMenu />);

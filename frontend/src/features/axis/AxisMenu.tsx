@@ -13,7 +13,7 @@ import { useSessionStore } from '@/store/session/store';
 
 /** The commands for marks, range, changes and zoom, in groups. */
 export const AXIS_MENU = [
-  ['time.goBack', 'time.runOn', 'time.tryMany', 'time.branch', 'time.compare'],
+  ['time.goBack', 'time.runOn', 'time.tryMany', 'time.source', 'time.branch', 'time.compare'],
   ['time.flag', 'time.marks', 'time.markBack', 'time.markForth'],
   ['time.markA', 'time.markB', 'time.loop', 'time.clearRange'],
   ['time.whatChanged'],

@@ -12,6 +12,7 @@ import {
   IconArrowsSplit2,
   IconGitCompare,
   IconX,
+  IconCode,
 } from '@tabler/icons-react';
 import { registerCommands, type UserCommand } from '@/commands/registry';
 import { t } from '@/i18n';
@@ -22,6 +23,7 @@ import { canGoBack, canRunOn, goBack, runOn } from '@/store/moment/rerun/goBack'
 import { extent, goTicks, goToChange, lookNow, setPlaying } from '@/store/moment/looking';
 import { askTries, canTry } from '@/store/moment/rerun/tryMany';
 import { usePastTree } from '@/store/moment/pastTree';
+import { canShowSource, showSource } from '@/store/moment/rerun/sourceOfTick';
 import { isLookingBack, useMoment } from '@/store/moment/store';
 import { useSource } from '@/store/moment/source';
 import { useProjectStore } from '@/store/project';
@@ -29,6 +31,7 @@ import { useSessionStore } from '@/store/session/store';
 import { markCommands } from './markCommands';
 import { rangeCommands } from './rangeCommands';
 import { copyLink } from '@/ui/copyLink';
+import { bringToFront } from '@/workspace/tabs';
 
 const hasRecording = () => extent() !== null;
 
@@ -84,6 +87,18 @@ const rows: readonly UserCommand[] = [
     shortcut: 'Alt+KeyY',
     enabled: canTry,
     run: () => askTries(selectedUid()),
+  },
+  {
+    id: 'time.source',
+    group: 'run',
+    labelKey: 'axis:command.source',
+    icon: IconCode,
+    shortcut: 'Alt+KeyJ',
+    enabled: canShowSource,
+    run: () => {
+      bringToFront({ kind: 'past' });
+      showSource();
+    },
   },
   {
     id: 'time.branch',

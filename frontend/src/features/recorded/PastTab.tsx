@@ -6,7 +6,7 @@ import { ReadOnlyCanvas } from '@/features/canvas/ReadOnlyCanvas';
 import type { NodeId } from '@/model/diagram';
 import type { ChangeKind } from '@/model/difference/changes';
 import { lookNow } from '@/store/moment/looking';
-import { openPastTree, selectPast, shownTree, usePastTree } from '@/store/moment/pastTree';
+import { openPastTree, selectPast, shownTree, usePastTree, type PastView } from '@/store/moment/pastTree';
 import { FOREIGN_TREE, type RecordedTree } from '@/store/moment/recordedTrees';
 import { useMoment } from '@/store/moment/store';
 import { useProjectStore } from '@/store/project';
@@ -15,6 +15,7 @@ import { Details } from './Details';
 import { NodeList } from './NodeList';
 import classes from './recorded.module.css';
 import { Since } from './Since';
+import { SourceView } from './source/SourceView';
 import { useSince } from './useSince';
 import { withRecorded } from './vocabulary';
 
@@ -55,7 +56,8 @@ function PastTree({ recorded, ids }: PastTreeProps) {
   const selected = usePastTree((state) => state.node);
   const wanted = usePastTree((state) => state.view);
   const size = Object.keys(diagram.nodes).length;
-  const view = size > MOST_BLOCKS ? 'list' : wanted;
+  const view = size > MOST_BLOCKS && wanted === 'canvas' ? 'list' : wanted;
+  const uid = nodes.find((node) => node.tree_id === diagram.id && node.node_id === selected)?.uid ?? null;
   const openBlock = (block: NodeId) => {
     const tree = diagram.nodes[block]?.tree;
     if (tree !== undefined && ids.includes(tree)) openPastTree(tree);
@@ -79,10 +81,11 @@ function PastTree({ recorded, ids }: PastTreeProps) {
           size="xs"
           aria-label={t('past.view.label')}
           value={view}
-          onChange={(value) => usePastTree.setState({ view: value === 'list' ? 'list' : 'canvas' })}
+          onChange={(value) => usePastTree.setState({ view: value as PastView })}
           data={[
             { value: 'canvas', label: t('past.view.canvas'), disabled: size > MOST_BLOCKS },
             { value: 'list', label: t('past.view.list') },
+            { value: 'source', label: t('past.view.source') },
           ]}
         />
         <CompareButton tree={diagram.id} />
@@ -91,6 +94,8 @@ function PastTree({ recorded, ids }: PastTreeProps) {
       <div className={classes['body']}>
         {view === 'list' ? (
           <NodeList tree={nodes} />
+        ) : view === 'source' ? (
+          <SourceView uid={uid} />
         ) : (
           <ReadOnlyCanvas
             diagram={diagram}

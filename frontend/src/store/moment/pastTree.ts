@@ -3,12 +3,15 @@ import type { NodeId } from '@/model/diagram';
 import { useProjectStore } from '@/store/project';
 import { useMoment } from './store';
 
+/** How the tree as it ran is shown; `source` is the code that its actions ran in the shown tick. */
+export type PastView = 'canvas' | 'list' | 'source';
+
 interface PastTree {
   /** The tree that the user chose to see; null: the active one of the project, or the main one of the run. */
   readonly tree: string | null;
   /** The selected block of it. */
   readonly node: NodeId | null;
-  readonly view: 'canvas' | 'list';
+  readonly view: PastView;
   /** Whether what changed since is marked. */
   readonly isCompared: boolean;
 }

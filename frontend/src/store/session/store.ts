@@ -7,6 +7,7 @@ import { feedDap } from './dap';
 import { feedLive, forgetPending, showDueStatuses } from './liveFeed';
 import { appendLogs, initialSession, reduceAll } from './reduce';
 import { feedTopics } from './topics';
+import { feedSource, loseSource } from './trace/tickSource';
 import { feedTries, loseJob } from './tries';
 import type { SessionData } from './types';
 import { feedValues, forgetValues } from './values/live';
@@ -42,6 +43,7 @@ export function flush(): void {
     feedTopics(message);
     feedDap(message);
     feedTries(message);
+    feedSource(message);
   }
   showDueStatuses();
   feedValues(useSessionStore.getState);
@@ -76,6 +78,7 @@ export function resetSession(change: Partial<SessionData> = {}): void {
   useSessionStore.setState({ ...initialSession, tickHz, speed, projectId, logs, nextLogId, ...change }, true);
   forgetPending();
   loseJob('');
+  loseSource();
   forgetValues();
   useLiveStore.getState().clear();
 }

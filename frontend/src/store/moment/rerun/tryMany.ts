@@ -16,6 +16,7 @@ import {
 } from '@/store/session/tries';
 import { hueOf, showPaths, type ShownPath } from '@/store/session/trace/shownPaths';
 import { beginsAgain, canGoBack } from './goBack';
+import { newJob, refusalOf } from './job';
 import { extent, lookNow } from '../looking';
 import { useMoment } from '../store';
 
@@ -62,11 +63,6 @@ export function askTries(uid: number | null): void {
 
 export const closeTries = () => useTryMany.setState({ asking: null });
 
-const newName = () =>
-  Array.from(crypto.getRandomValues(new Uint8Array(8)), (byte) => byte.toString(16).padStart(2, '0')).join(
-    '',
-  );
-
 /** Begins to try values; what comes of it is in `useTries`. */
 export const beginTries = (place: TriedPlace, values: readonly string[], durationS: number): Promise<void> =>
   begun(place, values, (job) => {
@@ -86,14 +82,12 @@ async function begun(
   values: readonly string[],
   ask: (job: string) => Promise<unknown>,
 ): Promise<void> {
-  const job = newName();
+  const job = newJob();
   beginJob(job, at, values);
   try {
     await ask(job);
   } catch (error) {
-    const message = error instanceof Error ? error.message : String(error);
-    const hint = error instanceof Error && 'hint' in error ? String(error.hint) : '';
-    changeJob(job, () => ({ ended: { job, end: 'refused', message: `${message} ${hint}`.trim() } }));
+    changeJob(job, () => ({ ended: { job, end: 'refused', message: refusalOf(error) } }));
   }
 }
 

@@ -11,6 +11,7 @@ BENCHMARKS = (
     "engine",
     "debugger",
     "python_debugger",
+    "stops",
     "debugger_page",
     "groot",
     "attached",

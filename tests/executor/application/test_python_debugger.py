@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import json
+import time
+from collections import Counter
 from typing import Any
 
 import psutil
@@ -11,6 +13,8 @@ import pytest
 
 from executor.application.python_debugger import HOST
 from executor.debug_adapter.framing import framed
+from executor.manager.allowance import BURST, COSTS, RATE_HZ
+from tests.budget import count
 from tests.executor.application.real_application import action, app, run_data, session
 
 COUNT = action("""
@@ -74,12 +78,18 @@ class Debugger:
         found = await self.ask("variables", variablesReference=reference)
         return {each["name"]: each for each in found["variables"]}
 
+    def messages(self, command: str) -> list[dict[str, Any]]:
+        found = [each["message"] for each in self.client.named("dap")]
+        return [each for each in found if each.get("command") == command]
+
     def events(self, name: str) -> list[dict[str, Any]]:
         found = [each["message"] for each in self.client.named("dap")]
         return [each["body"] for each in found if each.get("event") == name]
 
 
 PROGRAM = app(COUNT, **{"actions__Act.py": COUNT})
+AT_ONCE = 500
+"""The requests of a flood between two looks at their replies."""
 MODULES = {"adapter": "debug_adapter.process", "application": "application.process"}
 
 
@@ -249,3 +259,35 @@ async def test_a_client_that_sets_no_breakpoints_does_not_keep_the_program_from_
         await client.event("tick", lambda d: d["n"] > 3)
         assert any("was late" in each["text"] for each in client.named("log"))
         assert client.named("fault") == []
+
+
+async def test_a_flood_of_requests_is_refused_and_the_program_stays_held():
+    async with session() as client:
+        debugger = await begin(client, {"line": ADDS})
+        stop = await debugger.event("stopped")
+        codes, began_s = Counter[str](), time.monotonic()
+        answered = len(debugger.messages("threads"))
+        for start in range(0, count("dap_flood"), AT_ONCE):
+            for code in await flood(client, min(AT_ONCE, count("dap_flood") - start)):
+                codes[code] += 1
+        took_s = time.monotonic() - began_s
+        asked = codes.pop("ack")
+        assert asked <= (BURST + RATE_HZ * took_s) / COSTS["dap"] + 1
+        assert codes.keys() == {"too_fast"}
+        await client.until(lambda: len(debugger.messages("threads")) == answered + asked)
+        await asyncio.sleep(1.0)  # the refusals ask for this wait: the allowance is filled again
+        assert (await debugger.top(stop))["line"] == ADDS
+        assert (client.state, client.named("fault")) == ("held", [])
+
+
+async def flood(client: Any, number: int) -> list[str]:
+    """Sends requests at once; returns "ack" or the code of the refusal of each."""
+    at = len(client.events)
+    message = {"seq": 1, "type": "request", "command": "threads"}
+    sent = {await client.send("dap", {"message": message}) for _ in range(number)}
+
+    def replies() -> list[dict[str, Any]]:
+        return [event for event in client.events[at:] if event["id"] in sent]
+
+    await client.until(lambda: len(replies()) == number)
+    return [event["data"].get("code", "ack") for event in replies()]

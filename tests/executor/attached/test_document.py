@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import copy
 import json
+import random
+from typing import Final
+from xml.etree import ElementTree as ET
 from xml.sax.saxutils import quoteattr
 
 import pytest
 
 from executor.attached.document import document_of
+from tests.budget import seeds
 from tests.tree_gardener.groot.cpp_program import XML
+from translator.diagnostic import TranslatorError
 from translator.importer import from_xml
 from tree_gardener import Tree
 from tree_gardener.groot import GrootError
@@ -85,3 +91,85 @@ def test_two_nodes_of_one_uid_are_refused() -> None:
     two = '<Sequence _uid="1"><AlwaysSuccess _uid="2"/><AlwaysFailure _uid="2"/></Sequence>'
     with pytest.raises(GrootError, match="same uid"):
         document_of(read_tree(bytes(16), document(tree("Main", "", two))))
+
+
+TEXTS: Final = (
+    "",
+    "0",
+    "65535",
+    "65536",
+    "-1",
+    "1e3",
+    "\u0663",
+    "a/b",
+    "../x",
+    "{a",
+    "Main",
+    "x" * 300,
+    "<&>",
+)
+TAGS: Final = (
+    "BehaviorTree",
+    "SubTree",
+    "Sequence",
+    "Fallback",
+    "AlwaysSuccess",
+    "TreeNodesModel",
+    "root",
+    "_",
+)
+
+
+def test_a_changed_document_is_shown_or_refused_with_a_reason() -> None:
+    sound = published(Tree.from_xml(XML))
+    shown = refused = 0
+    today = seeds("groot_hostile_trees")
+    for seed in today:
+        data = changed(sound, random.Random(seed))  # noqa: S311 - reproducible, no secret
+        try:
+            remote = read_tree(bytes(16), data)
+            found = document_of(remote)
+        except (GrootError, TranslatorError) as error:
+            refused += bool(str(error))
+        else:
+            shown += 1
+            assert [node.path for node in found.nodes] == [node.path for node in remote.nodes], seed
+            diagrams = [json.loads(data) for path, data in found.files.items() if path.startswith("trees/")]
+            blocks = {(each["id"], block) for each in diagrams for block in each["nodes"]}
+            assert {(node.tree_id, node.node_id) for node in found.nodes} <= blocks, seed
+    assert min(shown, refused) > 5
+    assert shown + refused == len(today), "each refusal has its reason"
+
+
+def changed(sound: bytes, chance: random.Random) -> bytes:
+    """Returns a document of which some elements, attributes or bytes are others."""
+    if chance.random() < 0.2:
+        data = bytearray(sound)
+        for _ in range(chance.choice((1, 1, 4))):
+            at = chance.randrange(len(data))
+            data[at : at + chance.choice((0, 1, 8, 99))] = chance.choice((b"", b"<", b'"', b"\xff", b"&a;"))
+        return bytes(data)
+    root = ET.fromstring(sound)  # noqa: S314 - our own
+    for _ in range(chance.choice((1, 1, 2, 5))):
+        change(root, chance)
+    return ET.tostring(root)
+
+
+def change(root: ET.Element, chance: random.Random) -> None:
+    """Changes one element, its attributes or its place."""
+    every = list(root.iter())
+    one, other = chance.choice(every), chance.choice(every)
+    match chance.randrange(6):
+        case 0:
+            other.insert(chance.randrange(len(other) + 1), copy.deepcopy(one))
+        case 1 if len(other):
+            other.remove(chance.choice(list(other)))
+        case 2:
+            one.tag = chance.choice((*TAGS, other.tag))
+        case 3 if other.attrib:
+            name = chance.choice(list(other.attrib))
+            one.set(name, chance.choice((*TEXTS, other.get(name, ""))))
+        case 4 if one.attrib:
+            del one.attrib[chance.choice(list(one.attrib))]
+        case _:
+            one.text = chance.choice(TEXTS)

@@ -15,6 +15,7 @@ from executor import child_messages, messages
 from executor.attached.process import Follower
 from executor.child_messages import decode_from_application, decode_to_application
 from executor.supervision.channel import Channel, ChannelClosed, socket_pair
+from tests.budget import seeds
 from tests.fakes.groot2_publisher import wrong_publisher
 from tests.tree_gardener.debugging.hooked import free_port
 from tests.tree_gardener.groot.cpp_program import XML, cpp_program
@@ -165,7 +166,7 @@ def test_a_tree_of_4000_nodes_is_shown(tmp_path: Path) -> None:
         assert {status for _, status in past} == {"SUCCESS"}
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", seeds("groot_hostile_programs", 0))
 def test_any_answers_of_a_hostile_program_are_dropped_or_told(tmp_path: Path, seed: int) -> None:
     """The tree is well-formed; statuses, blackboards and transitions are any bytes, or an error."""
     chosen = random.Random(seed)  # noqa: S311 - reproducible

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import random
 import socket
 import struct
 import threading
@@ -11,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 import zmq
 
-from tests.budget import count
+from tests.budget import count, seeds
 from tests.tree_gardener.debugging import hooked
 from tests.tree_gardener.debugging.hooked import free_port
 from tests.tree_gardener.fuzz.compare import reference_traces
@@ -24,7 +26,7 @@ from tree_gardener.groot import Groot2Publisher, GrootError, publisher
 from tree_gardener.groot.mirror import Mirror
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
 XML = """<root BTCPP_format="4"><BehaviorTree ID="Main"><Sequence>
 <Script code="first := 1"/><Script code="second := 1"/><Sleep msec="60000"/>
@@ -268,3 +270,75 @@ def test_requests_of_any_bytes_get_an_answer(followed: Followed) -> None:
     ):
         assert followed.client.request.ask(*parts)
     assert len(followed.statuses()) == 4
+
+
+STATUSES = ("SUCCESS", "FAILURE", "SKIPPED", "RUNNING", "IDLE", "", 2, None)
+CONTENTS: dict[str, Callable[[random.Random], Any]] = {
+    "I": lambda chance: [any_hook(chance) for _ in range(chance.choice((1, 1, 3)))],
+    "R": lambda chance: {"uid": any_uid(chance), "position": any_number(chance)},
+    "U": lambda chance: {
+        "uid": any_uid(chance),
+        "position": any_number(chance),
+        "desired_status": chance.choice(STATUSES),
+        "remove_when_done": chance.choice((True, False, 1, None)),
+    },
+}
+
+
+def any_uid(chance: random.Random) -> Any:
+    return chance.choice((1, FIRST, SECOND, 4, 0, -1, 5, 70_000, 1 << 70, 2.0, "2", None))
+
+
+def any_number(chance: random.Random) -> Any:
+    return chance.choice((0, 1, 0, 1, 2, -1, 0.5, True, "0", None, []))
+
+
+def any_hook(chance: random.Random) -> Any:
+    hook = {
+        "enabled": chance.choice((True, False, True, "x")),
+        "uid": any_uid(chance),
+        "mode": any_number(chance),
+        "once": chance.choice((True, False)),
+        "desired_status": chance.choice(STATUSES),
+        "position": any_number(chance),
+    }
+    if chance.random() < 0.2:
+        del hook[chance.choice(list(hook))]
+    return chance.choice((hook, hook, hook, [hook], None))
+
+
+def any_request(chance: random.Random) -> list[bytes]:
+    """Returns a request that is sound, or wrong in its type, length or content."""
+    kind = chance.choice("TSBIRADXUrtNIRUIRU\0\xff")
+    content = json.dumps(CONTENTS[kind](chance)).encode() if kind in CONTENTS else b"Main;x"
+    if kind == "r":
+        content = chance.choice((b"start", b"stop", b""))
+    header = struct.pack("<BBI", chance.choice((2, 2, 2, 2, 2, 1, 0)), ord(kind), chance.randrange(1 << 32))
+    if chance.random() < 0.2:
+        at = chance.randrange(len(content) + 1)
+        content = content[:at] + chance.randbytes(chance.randrange(9)) + content[at + chance.randrange(9) :]
+    if chance.random() < 0.05:
+        header = header[: chance.randrange(6)] or b"\0"
+    parts = [header, content, b"more"]
+    return parts[: chance.choice((1, 2, 2, 2, 2, 3) if kind not in "TSADXt" else (1, 1, 1, 2))]
+
+
+def test_random_requests_are_answered_and_leave_the_tree_as_it_was(followed: Followed) -> None:
+    """A tree that ticks meanwhile is held and forced by them; without their hooks it runs as before."""
+    followed.thread.start()
+    done = refused = 0
+    for seed in seeds("groot_hostile_requests"):
+        chance = random.Random(seed)  # noqa: S311 - reproducible, no secret
+        parts = any_request(chance)
+        first, *rest = followed.client.request.ask(*parts)
+        if first == b"error":
+            refused += 1
+            assert len(rest) == 1, (seed, parts)
+            assert rest[0], (seed, parts)
+        else:
+            done += 1
+            assert first[:6] == parts[0], (seed, parts)
+    assert min(done, refused) > 20
+    followed.client.ask("A")
+    followed.until(lambda statuses: statuses == {1: 1, FIRST: 2, SECOND: 2, 4: 1})
+    assert followed.client.hooks() == []

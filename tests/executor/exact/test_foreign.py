@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from executor.exact.foreign import Foreign, Threads
 from executor.supervision.threads import own
+from tests.e2e.server import wait_until
 
 if TYPE_CHECKING:
     import pytest
@@ -24,7 +25,7 @@ def test_a_thread_of_an_action_is_named() -> None:
     assert Foreign().refusal("") == ""  # it was there before
     end.set()
     thread.join()
-    assert foreign.refusal("") == ""
+    wait_until(lambda: foreign.refusal("") == "", "the kernel has ended it, too")
 
 
 def test_our_own_threads_do_not_count() -> None:

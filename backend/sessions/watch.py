@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Final
 from weakref import WeakKeyDictionary
 
 from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidStatus
+from websockets.protocol import State
 
 from backend.config.environment import environment
 from backend.sessions import writes
@@ -119,8 +120,13 @@ class Watched:
             self.is_silent.set_result(None)
 
     async def ask(self, now_s: float, period_s: float) -> None:
-        """Sends a ping if the last one was answered, and is old enough."""
-        if self._socket is None or self._answer is not None or now_s - self._asked_s < period_s:
+        """Sends a ping if the last one was answered, and is old enough.
+
+        A socket that closes is left alone: a ping would wait for its end, and all other sessions with it.
+        """
+        if self._socket is None or self._socket.state is not State.OPEN:
+            return
+        if self._answer is not None or now_s - self._asked_s < period_s:
             return
         self._asked_s = now_s
         with suppress(ConnectionClosed):
@@ -152,8 +158,11 @@ class Pulse:
             now_s = loop.time()
             period_s = min(max(PING_EVERY_S, len(self._watched) / PINGS_A_SECOND), SELDOM_S)
             for watched in list(self._watched):
-                watched.look(now_s - looked_s)
-                await watched.ask(now_s, period_s)
+                try:
+                    watched.look(now_s - looked_s)
+                    await watched.ask(now_s, period_s)
+                except Exception:  # one session must not end the watch of the others
+                    log.exception("session %s: its executor was not asked", watched.session.id)
             looked_s = now_s
 
 

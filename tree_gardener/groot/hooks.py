@@ -191,11 +191,11 @@ class Hooks:
             else:
                 if hook.mode is Mode.BREAKPOINT:
                     self._held()  # before the news: a client that hears it asks at once for the state
-                self._reached(key.uid)
-                if hook.mode is Mode.BREAKPOINT:
+                    self._reached(key.uid)
                     with self._waiting():
                         wanted = self._wait(hook)
                 else:
+                    self._reached(key.uid)
                     wanted = hook.desired_status
                 if hook.once and self._hooks.get(key) is hook and hook.enabled:
                     del self._hooks[key]

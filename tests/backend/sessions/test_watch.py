@@ -15,6 +15,7 @@ from uuid import uuid4
 import psutil
 import pytest
 from websockets.exceptions import ConnectionClosed
+from websockets.protocol import State
 
 from backend.sessions import maintenance, watch, writes
 from backend.sessions.consumers import EXECUTOR_SILENT, _is_ping, _noting
@@ -170,6 +171,41 @@ async def test_what_counts_as_an_answer(kind, is_given_up, launcher_of, quick, m
         else:
             await until(lambda: len(heard) > 5)
             assert not task.done()
+
+
+class Breaking:
+    """A connection whose ping fails, or that closes and would hold the task that pings it."""
+
+    def __init__(self, state):
+        self.state, self.pings = state, 0
+
+    async def __aenter__(self):
+        return self
+
+    async def __aexit__(self, *_):
+        pass
+
+    async def wait_closed(self):
+        await asyncio.Event().wait()
+
+    async def ping(self):
+        self.pings += 1
+        raise RuntimeError("no ping")
+
+    @property
+    def transport(self):
+        return SimpleNamespace(abort=lambda: None)
+
+
+async def test_a_socket_that_fails_or_closes_does_not_hold_the_watch_of_others(quick, monkeypatch, caplog):
+    failing, closing = opened_one_after_another = [Breaking(State.OPEN), Breaking(State.CLOSING)]
+    monkeypatch.setattr(watch, "manager_socket", lambda *_: opened_one_after_another.pop(0))
+    one: Any = SimpleNamespace(id=uuid4())
+    async with watched(one) as first, watched(one) as second, asyncio.timeout(60):
+        await asyncio.gather(first, second)
+    assert "was not asked" in caplog.text
+    assert failing.pings > 0
+    assert closing.pings == 0
 
 
 # --- sessions -------------------------------------------------------------------------------------

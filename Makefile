@@ -68,6 +68,7 @@ generate: setup-test ## writes the generated sources and reference pages again
 lock: setup-test ## writes the locks again, with the newest versions that pyproject.toml admits
 	@$(BIN)/uv pip compile pyproject.toml $(LOCK) -o requirements.lock
 	@$(BIN)/uv pip compile pyproject.toml --group dev -c requirements.lock $(LOCK) -o requirements-dev.lock
+	@$(BIN)/uv pip compile docker/evaluation.in -c requirements.lock -c requirements-dev.lock $(LOCK) -o docker/evaluation.lock
 
 lock-images: ## asks the registry for the digests of the base images (needs Docker and a registry)
 	@bash docker/bases/lock.sh

@@ -6,11 +6,14 @@ import os
 import secrets
 import threading
 from pathlib import Path  # noqa: TC003 - read at run time
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from backend.cli.shared.errors import CliError
+
+if TYPE_CHECKING:
+    from backend.config.environment import Environment
 
 
 def serve(  # noqa: PLR0913, PLR0917 - one parameter an option
@@ -70,7 +73,7 @@ def serve_page(page: str, *, browser: bool, ready_file: Path | None) -> None:
             )
         judge_workers(settings)
         if settings.launcher == "kubernetes":
-            _check_cluster(settings.pod_template, settings.tools_template)
+            _check_cluster(settings)
         _serve(page, open_browser=browser, ready_file=ready_file)
     except InvalidEnvironmentError as error:
         raise CliError(str(error), status=2) from error
@@ -78,14 +81,14 @@ def serve_page(page: str, *, browser: bool, ready_file: Path | None) -> None:
         raise CliError(str(error)) from error
 
 
-def _check_cluster(template: Path, tools_template: Path) -> None:
+def _check_cluster(settings: Environment) -> None:
     from django.core.exceptions import ImproperlyConfigured
 
     from backend.config.server import ServeError
-    from backend.sessions.launchers.kubernetes.launcher import read_settings
+    from backend.sessions.launchers.kubernetes.launcher import Files, read_settings
 
     try:
-        read_settings(template, tools_template)
+        read_settings(Files(settings.pod_template, settings.tools_template, settings.rayjob_file))
     except ImproperlyConfigured as error:
         raise ServeError(str(error)) from error
 

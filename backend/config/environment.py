@@ -87,6 +87,22 @@ class Environment(ObjectStoreSettings, TeamSettings):
     pod_namespace: str = Field(
         default="bt-studio-sessions", description="The namespace in which `kubernetes` makes these pods."
     )
+    evaluations: Literal["session", "rayjob"] = Field(
+        default="session",
+        description="Where evaluations run: `session` in an executor as those of projects, `rayjob` each in "
+        "a Ray cluster of its own, which the KubeRay operator makes (needs `kubernetes`).",
+    )
+    rayjob_template: Path = Field(
+        default=Path("/etc/bt-studio/evaluation-rayjob.yaml"),
+        description="The RayJob that `rayjob` makes for each evaluation, with the network policy of its pods "
+        "(docker/kubernetes-evaluations/evaluation-rayjob.yaml).",
+    )
+    evaluation_namespace: str = Field(
+        default="bt-studio-evaluations", description="The namespace in which `rayjob` makes RayJobs."
+    )
+    rayjob_start_timeout_s: float = Field(
+        default=300.0, gt=0, description="How long the Ray cluster of an evaluation may take to be complete."
+    )
     max_sessions: int = Field(
         default=0, ge=0, description="How many executors may run at once; further ones wait. 0: no limit."
     )
@@ -203,6 +219,11 @@ class Environment(ObjectStoreSettings, TeamSettings):
         """The folder of the certificates of further machines."""
         return self.data_dir / "hosts"
 
+    @property
+    def rayjob_file(self) -> Path | None:
+        """The file of the RayJob of evaluations; None if they run as sessions do."""
+        return self.rayjob_template if self.evaluations == "rayjob" else None
+
     @field_validator("executor_hosts")
     @classmethod
     def _hosts(cls, value: tuple[str, ...]) -> tuple[str, ...]:
@@ -212,14 +233,23 @@ class Environment(ObjectStoreSettings, TeamSettings):
         return found
 
     @model_validator(mode="after")
-    def _hosts_have_docker(self) -> Self:
+    def _launcher_fits(self) -> Self:
         if self.executor_hosts and self.launcher != "docker":
             sentence = "BT_STUDIO_EXECUTOR_HOSTS needs BT_STUDIO_LAUNCHER=docker"
+            raise MissingSettingError("launcher", sentence)
+        if self.evaluations == "rayjob" and self.launcher != "kubernetes":
+            sentence = "BT_STUDIO_EVALUATIONS=rayjob needs BT_STUDIO_LAUNCHER=kubernetes"
             raise MissingSettingError("launcher", sentence)
         return self
 
     @field_validator(
-        "data_dir", "frontend_dir", "templates_dir", "keeper_folder", "pod_template", "tools_template"
+        "data_dir",
+        "frontend_dir",
+        "templates_dir",
+        "keeper_folder",
+        "pod_template",
+        "tools_template",
+        "rayjob_template",
     )
     @classmethod
     def _absolute(cls, value: Path) -> Path:

@@ -34,12 +34,13 @@ class Result(TextChoices):
 
 
 class WaitsFor(TextChoices):
-    """The reason for which an evaluation waits: processor hours of its user, users who work, or its turn."""
+    """The reason for which an evaluation waits: processor hours, users who work, its turn, or its cluster."""
 
     NOTHING = "", "nothing"
     HOURS = "hours"
     USERS = "users"
     TURN = "turn"
+    CLUSTER = "cluster"
 
 
 class Obstacle(TextChoices):

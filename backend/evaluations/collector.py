@@ -33,6 +33,7 @@ from backend.sessions.models import Session
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from uuid import UUID
 
     from websockets.sync.client import ClientConnection
 
@@ -73,6 +74,7 @@ class Collector:
         self._lease = f"eval {session.id.hex}"
         self._held_s = 0.0
         self._socket: ClientConnection | None = None
+        self._begun: UUID | None = None
 
     def run(self) -> None:
         """Works until there is nothing to do; then the session ends."""
@@ -95,6 +97,8 @@ class Collector:
         while time.monotonic() - idle_s < LINGER_S:
             self._look()
             item = work.next_of(self._place)
+            if self._is_over(item):
+                return
             if item is None:
                 time.sleep(LOOK_S)
                 continue
@@ -107,6 +111,18 @@ class Collector:
             idle_s = time.monotonic()
             if not done and work.next_of(self._place) is None:
                 return  # it was cancelled, so its runs are to end now
+
+    def _is_over(self, item: Replay | Evaluation | None) -> bool:
+        """Returns whether this session is not to do what comes next: a Ray cluster has one evaluation.
+
+        A replay that is wished for meanwhile runs on the head of that cluster.
+        """
+        if item is None or isinstance(item, Replay):
+            return item is None and self._session.own_cluster and self._begun is not None
+        if self._session.own_cluster:
+            self._begun = self._begun or item.id
+            return self._begun != item.id
+        return work.has_own_cluster(item)
 
     def _look(self) -> None:
         """Renews the lease, and sees whether the session continues.

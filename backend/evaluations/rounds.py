@@ -24,6 +24,7 @@ from backend.evaluations.choices import LIVE, JobState
 from backend.evaluations.collector import Collector
 from backend.evaluations.models import Evaluation, Replay
 from backend.evaluations.work import Place
+from backend.sessions import queries as session_queries
 from backend.sessions import writes as sessions
 from backend.sessions.choices import SessionKind, SessionState
 from backend.sessions.drain import current as current_drain
@@ -127,10 +128,12 @@ def _end(session: Session, place: Place) -> None:
 def _start(place: Place) -> Session | None:
     """Starts a session; without a right, what waits for it fails."""
     user = User.objects.get(id=place.user)
-    if work.next_of(place) is None:
+    item = work.next_of(place)
+    if item is None:
         return None  # the user has no processor hours left
     try:
-        return sessions.start_evaluation_session(place.project, acting_user=user)
+        own_cluster = work.has_own_cluster(item)
+        return sessions.start_evaluation_session(place.project, acting_user=user, own_cluster=own_cluster)
     except (HostFullError, DrainingError) as error:
         log.info("an evaluation waits: %s", error)
     except StudioError as error:
@@ -143,7 +146,7 @@ def _start(place: Place) -> Session | None:
 
 def _is_ready(session: Session, place: Place) -> bool:
     """Waits until a session has started; one that does not start counts as lost."""
-    until_s = time.monotonic() + 2 * environment().session_start_timeout_s
+    until_s = time.monotonic() + 2 * session_queries.start_timeout_s(session)
     while time.monotonic() < until_s:
         session.refresh_from_db()
         if session.state != SessionState.STARTING:

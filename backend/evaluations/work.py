@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from django.db.models import Max
 
+from backend.config.environment import environment
 from backend.evaluations import queries
 from backend.evaluations.choices import LIVE, NOT_COUNTED, JobState, WaitsFor
 from backend.evaluations.models import Evaluation, Replay
@@ -45,6 +46,11 @@ def next_of(place: Place) -> Replay | Evaluation | None:
     return found if found is not None and hours_left(found.user) else None
 
 
+def has_own_cluster(item: Replay | Evaluation) -> bool:
+    """Returns whether something is to be done in a Ray cluster of its own; one run needs none."""
+    return environment().evaluations == "rayjob" and isinstance(item, Evaluation)
+
+
 def has_replay(place: Place) -> bool:
     """Returns whether somebody waits for a replay."""
     rows = Replay.objects.filter(user=place.user, evaluation__project=place.project, state__in=LIVE)
@@ -73,7 +79,17 @@ def waits_for(rows: Iterable[Evaluation]) -> dict[UUID, WaitsFor]:
         return {}
     has_hours = {user.pk: hours_left(user) for user in {row.user for row in waiting}}
     free = WaitsFor.USERS if somebody_waits_for_place() else WaitsFor.TURN
-    return {row.id: free if has_hours[row.user_id] else WaitsFor.HOURS for row in waiting}
+    found = {row.id: free if has_hours[row.user_id] else WaitsFor.HOURS for row in waiting}
+    return found | {each: WaitsFor.CLUSTER for each in _with_starting_cluster() if each in found}
+
+
+def _with_starting_cluster() -> list[UUID]:
+    """Returns the evaluations for which a Ray cluster starts now."""
+    if environment().evaluations != "rayjob":
+        return []
+    rows = Session.objects.filter(kind=SessionKind.EVALUATION, state=SessionState.STARTING, own_cluster=True)
+    items = [next_of(Place(project, user)) for project, user in rows.values_list("project", "user")]
+    return [item.id for item in items if isinstance(item, Evaluation)]
 
 
 def somebody_waits_for_place() -> bool:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 from django.db.models import Count
 
+from backend.config.environment import environment
 from backend.core.problems import NotFoundError
 from backend.sessions.choices import SessionKind, SessionState
 from backend.sessions.models import LIVE_STATES, Session
@@ -61,3 +62,9 @@ def counts() -> dict[str, int]:
     """Returns the number of sessions that wait, start and run."""
     found = dict(Session.objects.filter(state__in=LIVE_STATES).values_list("state").annotate(n=Count("id")))
     return {state.value: found.get(state.value, 0) for state in LIVE_STATES}
+
+
+def start_timeout_s(session: Session) -> float:
+    """Returns how long the executor of a session may take to start."""
+    limits = environment()
+    return limits.rayjob_start_timeout_s if session.own_cluster else limits.session_start_timeout_s

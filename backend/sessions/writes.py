@@ -69,9 +69,10 @@ def launcher() -> Launcher:
         further = {text: RelayedLauncher(read_host(text)) for text in settings.executor_hosts}
         return HostsLauncher({LOCAL: local, **further}) if further else local
     if settings.launcher == "kubernetes":
-        from backend.sessions.launchers.kubernetes.launcher import open_cluster  # noqa: PLC0415 - large, and rarely used
+        from backend.sessions.launchers.kubernetes.launcher import Files, open_cluster  # noqa: PLC0415 - large, and rarely used
 
-        return open_cluster(settings.pod_template, settings.tools_template, settings.pod_namespace)
+        files = Files(settings.pod_template, settings.tools_template, settings.rayjob_file)
+        return open_cluster(files, settings.pod_namespace, settings.evaluation_namespace)
     return ProcessLauncher(settings.data_dir / "logs", recordings=settings.data_dir / "recordings")
 
 
@@ -106,8 +107,10 @@ def start_session(project_id: UUID, *, acting_user: User) -> Session:
     return begin(project, SessionKind.INTERACTIVE, acting_user)
 
 
-def start_evaluation_session(project_id: UUID, *, acting_user: User) -> Session:
+def start_evaluation_session(project_id: UUID, *, acting_user: User, own_cluster: bool = False) -> Session:
     """Starts an executor for evaluations of the project, or returns the one that already runs or starts.
+
+    With `own_cluster`, one that starts gets a Ray cluster of its own.
 
     Raises:
         HostFullError: no place is free beside the one that is kept for users who work.
@@ -118,7 +121,7 @@ def start_evaluation_session(project_id: UUID, *, acting_user: User) -> Session:
     if running is not None and refresh(running).state in LIVE_STATES:
         return running
     drain.require_open()
-    return begin(project, SessionKind.EVALUATION, acting_user)
+    return begin(project, SessionKind.EVALUATION, acting_user, own_cluster=own_cluster)
 
 
 def has_room_for_evaluations() -> bool:
@@ -127,7 +130,14 @@ def has_room_for_evaluations() -> bool:
     return not limit or limit > KEPT_PLACES
 
 
-def begin(project: Project | None, kind: SessionKind, acting_user: User, target: str = "") -> Session:
+def begin(
+    project: Project | None,
+    kind: SessionKind,
+    acting_user: User,
+    target: str = "",
+    *,
+    own_cluster: bool = False,
+) -> Session:
     """Starts a session, which waits if there is no place for it.
 
     Raises:
@@ -146,6 +156,7 @@ def begin(project: Project | None, kind: SessionKind, acting_user: User, target:
                     user=acting_user,
                     kind=kind,
                     target=target,
+                    own_cluster=own_cluster,
                     launcher=launcher().name,
                     state=SessionState.STARTING if has_place else SessionState.QUEUED,
                     ros_domain_id=_domain_for(kind) if has_place else None,
@@ -403,7 +414,7 @@ def end_orphans() -> None:
 
 def _is_overdue(session: Session) -> bool:
     """Returns whether a session has been starting for so long that no web server can still be at work."""
-    longest = timedelta(seconds=2 * environment().session_start_timeout_s)
+    longest = timedelta(seconds=2 * queries.start_timeout_s(session))
     return timezone.now() - session.created_at > longest
 
 
@@ -413,9 +424,10 @@ def _launch(session: Session) -> None:
         session_id=str(session.id),
         token=manager_token(session),
         ros_domain_id=session.ros_domain_id or (0 if launcher().shares_network else OWN_NETWORK_DOMAIN),
-        start_timeout_s=limits.session_start_timeout_s,
+        start_timeout_s=queries.start_timeout_s(session),
         stop_timeout_s=limits.session_stop_timeout_s,
         target=session.target,
+        own_cluster=session.own_cluster,
     )
     try:
         with held_by_process(_launch_lock(session.id)):
@@ -440,7 +452,7 @@ def _start_and_store(session: Session, spec: Spec) -> None:
     """Starts the executor of a session that has not ended before; the caller holds the lock of the launch."""
     if not Session.objects.filter(id=session.id, state=SessionState.STARTING).exists():
         return
-    warm = None if session.target else claim(session.id, launcher())
+    warm = None if session.target or session.own_cluster else claim(session.id, launcher())
     connection.close()  # many robots that start at once need no connection while they wait
     started = warm or launcher().start(spec)
     where = {"address": started.address, "launcher_state": started.state, "host": started.host}

@@ -90,6 +90,7 @@ class ManagerSettings:
         recordings: a folder for them that stays; None is a folder of the session.
         keeps_whole: whether they are kept whole, without budgets.
         groot2: the port at which Groot2 can look at the tree that runs; 0 for none.
+        cluster: the address of the Ray cluster that runs evaluations; "" is this machine.
         attach: the address HOST:PORT of the program to follow, in place of an application; "" for none, and
             `LATER` for the one that the server writes to our standard input, with the folder for recordings.
         origins: pages that may connect; without a token, local pages may connect too.
@@ -107,6 +108,7 @@ class ManagerSettings:
     recordings: Path | None = None
     keeps_whole: bool = False
     groot2: int = 0
+    cluster: str = ""
     attach: str = ""
     origins: tuple[str, ...] = ()
     programs: dict[Kind, Program] | None = None
@@ -150,7 +152,9 @@ class Manager:
         )
         self.session = Session(about, now_s=loop.time())
         made = attached_programs() if settings.attach else None
-        self._programs = settings.programs or made or session_programs(self.domain_id, settings.groot2)
+        self._programs = (
+            settings.programs or made or session_programs(self.domain_id, settings.groot2, settings.cluster)
+        )
         self._supervisor = Supervisor(self._programs, self.take, self._on_frame, reaps_all=True)
         self._server: SessionServer | RamServer | None = None
         self._folders: Folders | None = None
@@ -407,6 +411,7 @@ def main(arguments: list[str] | None = None) -> int:
         records=not options.no_recording,
         recordings=options.recordings,
         attach=options.attach,
+        cluster=options.cluster,
         origins=tuple(options.allow_origin),
         listener=listener,
         tls=tls,
@@ -460,6 +465,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--tls-cert", help="certificate, as PEM, with which connections are encrypted")
     parser.add_argument("--tls-key", help="its private key, as PEM")
+    parser.add_argument(
+        "--cluster", default="", help="address of a Ray cluster that runs evaluations; `auto` is this one's"
+    )
     parser.add_argument("--gate", type=Path, help="unix socket that hands out the session's own")
     parser.add_argument("--session", default="", help="the session's id, for the gate")
     return parser

@@ -23,8 +23,15 @@ NO_PLUGINS: Final = {"PYDANTIC_DISABLE_PLUGINS": "__all__"}
 FEW_THREADS: Final = {"OPENCV_FOR_THREADS_NUM": "1", "LP_NUM_THREADS": "2"}
 
 
-def session_programs(domain_id: int, groot2: int = 0) -> dict[Kind, Program]:
-    """Returns the programs of world, application and recorder, with their limits."""
+def session_programs(domain_id: int, groot2: int = 0, cluster: str = "") -> dict[Kind, Program]:
+    """Returns the programs of world, application and recorder, with their limits.
+
+    Args:
+        domain_id: the ROS domain of the session.
+        groot2: the port at which Groot2 can look at the tree; 0 for none.
+        cluster: the address of the Ray cluster that runs evaluations; "" for this machine.
+    """
+    clustered = (f"--cluster={cluster}",) if cluster else ()
     shown = {PORT_VARIABLE: str(groot2)} if groot2 else {}
     threads = {name: os.environ.get(name, count) for name, count in FEW_THREADS.items()}
     link = {ADDRESS_VARIABLE: f"bt-studio-recorder-{secrets.token_hex(16)}"}
@@ -49,7 +56,7 @@ def session_programs(domain_id: int, groot2: int = 0) -> dict[Kind, Program]:
         "recorder": Program((sys.executable, "-m", "executor.recorder.process"), link),
         "adapter": Program((sys.executable, "-m", "executor.debug_adapter.process")),
         "evaluation": Program(
-            (sys.executable, "-m", "executor.evaluation.served.process"),
+            (sys.executable, "-m", "executor.evaluation.served.process", *clustered),
             dict(SINGLE_THREADED),
             Limits(file_bytes=limits.file_bytes),
         ),

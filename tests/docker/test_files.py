@@ -14,12 +14,13 @@ import yaml
 from backend.config.environment import Environment
 from backend.sessions.hosts.contact import LOST_S
 from tests.docker.engine import REPOSITORY
-from tests.fakes.kubernetes_api import ALLOWED
+from tests.fakes.kubernetes_api import ALLOWED, ALLOWED_OF_EVALUATIONS
 
 DOCKER = REPOSITORY / "docker"
 HOW_TO = REPOSITORY / "docs/how-to/run-on-several-hosts.md"
 OVERLAY_OF_ALL = DOCKER / "kubernetes" / "kustomization.yaml"
 MANIFESTS = sorted(set((DOCKER / "kubernetes").glob("*.yaml")) - {OVERLAY_OF_ALL})
+EVALUATIONS = DOCKER / "kubernetes-evaluations"
 OVERLAY = DOCKER / "compose.proxy.yaml"
 HOST = DOCKER / "compose.host.yaml"
 COMPOSE = sorted(set(DOCKER.glob("compose*.yaml")) - {OVERLAY})
@@ -52,6 +53,7 @@ def test_what_is_applied_is_what_kubernetes_takes_with_the_templates_as_they_are
     found = list(yaml.safe_load_all(rendered))
     for document in found:
         kubernetes_validate.validate(document, KUBERNETES, strict=True)
+    assert "evaluations" not in rendered, "they are sessions, unless kubernetes-evaluations is applied"
     (templates,) = (document for document in found if document["kind"] == "ConfigMap")
     assert templates["metadata"]["name"] == "bt-studio-pod"
     assert set(templates["data"]) == {"executor-pod.yaml", "tools-pod.yaml"}
@@ -61,6 +63,46 @@ def test_what_is_applied_is_what_kubernetes_takes_with_the_templates_as_they_are
     web, scaler = by_kind["Deployment"], by_kind["HorizontalPodAutoscaler"]
     assert "replicas" not in web["spec"], "the autoscaler sets it"
     assert scaler["spec"]["scaleTargetRef"]["name"] == web["metadata"]["name"]
+
+
+def test_the_overlay_of_evaluations_adds_a_closed_namespace_the_template_and_the_setting():
+    command = [shutil.which("kubectl"), "kustomize", str(EVALUATIONS)]
+    rendered = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    found = list(yaml.safe_load_all(rendered))
+    for document in found:
+        kubernetes_validate.validate(document, KUBERNETES, strict=True)
+    (templates,) = (document for document in found if document["kind"] == "ConfigMap")
+    file = EVALUATIONS / "evaluation-rayjob.yaml"
+    assert set(templates["data"]) == {"executor-pod.yaml", "tools-pod.yaml", file.name}
+    assert list(yaml.safe_load_all(templates["data"][file.name])) == list(
+        yaml.safe_load_all(file.read_text())
+    )
+    assert Environment.model_fields["rayjob_template"].default.name == file.name
+    (web,) = (document for document in found if document["kind"] == "Deployment")
+    assert {"name": "BT_STUDIO_EVALUATIONS", "value": "rayjob"} in web["spec"]["template"]["spec"][
+        "containers"
+    ][0]["env"]
+
+
+def test_the_web_servers_may_do_in_the_namespace_of_evaluations_what_the_launcher_does_and_no_more():
+    documents_ = list(yaml.safe_load_all((EVALUATIONS / "evaluations.yaml").read_text()))
+    name = Environment.model_fields["evaluation_namespace"].default
+    (namespace,) = (each for each in documents_ if each["kind"] == "Namespace")
+    assert namespace["metadata"]["name"] == name
+    assert namespace["metadata"]["labels"]["pod-security.kubernetes.io/enforce"] == "restricted"
+    assert {each["metadata"]["namespace"] for each in documents_ if each["kind"] != "Namespace"} == {name}
+    (role,) = (each for each in documents_ if each["kind"] == "Role")
+    given = {(verb, kind) for rule in role["rules"] for verb in rule["verbs"] for kind in rule["resources"]}
+    assert given == ALLOWED_OF_EVALUATIONS
+    policies = {
+        each["metadata"]["name"]: each["spec"] for each in documents_ if each["kind"] == "NetworkPolicy"
+    }
+    closed = policies["bt-studio-closed"]
+    assert (closed["podSelector"], closed["ingress"], closed["egress"]) == ({}, [], [])
+    ports = {port["port"] for rule in policies["bt-studio-heads"]["ingress"] for port in rule["ports"]}
+    assert ports == {7163, 8265}
+    names = {port["port"] for rule in policies["bt-studio-workers"]["egress"] for port in rule["ports"]}
+    assert names == {53}
 
 
 def test_the_images_of_all_pods_are_renamed_by_one_command():

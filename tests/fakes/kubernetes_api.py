@@ -1,8 +1,8 @@
-"""A strict part of Kubernetes' API for pods and secrets of one namespace, with a node that obeys the test.
+"""A strict part of Kubernetes' API for our two namespaces, with a node and an operator that obey the test.
 
-Every body is validated against the schemas of Kubernetes, pods also against Pod Security `restricted`. Only
-the verbs of our Role are allowed. A watch that is too old gets 410, a secret goes with the pod that owns it,
-and a pod that is deleted has its time to end.
+Every body is validated against the schemas of Kubernetes and KubeRay, pods also against Pod Security
+`restricted`. Only the verbs of our Roles are allowed. A watch that is too old gets 410, a secret goes with
+the pod or RayJob that owns it, and what is deleted has its time to end.
 """
 
 from __future__ import annotations
@@ -16,18 +16,32 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import TYPE_CHECKING, Any, Self
 from urllib.parse import parse_qs, urlsplit
 
+import jsonschema
 import kubernetes_validate
+
+from tests.fakes import kuberay
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 VERSION = "1.31.0"
 NAMESPACE = "robots"
-_PATH = re.compile(rf"/api/v1/namespaces/{NAMESPACE}/(?P<kind>\w+)(?:/(?P<name>[a-z0-9.-]+))?$")
+EVALUATIONS = "evaluations"
+_PATH = re.compile(
+    r"/(?:api/v1|apis/(?P<group>[a-z0-9.]+)/v1)/namespaces/(?P<namespace>[a-z-]+)/(?P<kind>\w+)"
+    r"(?:/(?P<name>[a-z0-9.-]+))?$"
+)
+_GROUPS = {"pods": None, "secrets": None, "networkpolicies": "networking.k8s.io", "rayjobs": kuberay.GROUP}
 ALLOWED = {
     (verb, kind) for kind in ("pods", "secrets") for verb in ("create", "get", "list", "watch", "delete")
 }
 """The verbs of the Role in `docker/kubernetes/sessions.yaml`."""
+ALLOWED_OF_EVALUATIONS = {(verb, "rayjobs") for verb in ("create", "list", "watch", "delete")} | {
+    ("create", "secrets"),
+    ("create", "networkpolicies"),
+}
+"""The verbs of the Role in `docker/kubernetes-evaluations/evaluations.yaml`."""
+_ROLES = {NAMESPACE: ALLOWED, EVALUATIONS: ALLOWED_OF_EVALUATIONS}
 READY = {"type": "Ready", "status": "True"}
 
 
@@ -48,6 +62,9 @@ class FakeCluster:
 
     Attributes:
         node: is called with each new pod that has its secret, in a thread; it sets the pod's status.
+        operator: is called with each new RayJob that has its secret and network policy, as `node` is.
+        has_kuberay: whether RayJobs are known.
+        namespaces: the namespaces that exist.
         quota: the largest number of pods.
         busy: the number of requests to create that are still refused with 429.
         asked: the verb and kind of each request.
@@ -56,6 +73,9 @@ class FakeCluster:
 
     def __init__(self, node: Callable[[FakeCluster, dict[str, Any]], None] | None = None) -> None:
         self.node = node or make_ready
+        self.operator = kuberay.make_running
+        self.has_kuberay = True
+        self.namespaces = set(_ROLES)
         self.quota = 1000
         self.busy = 0
         self.asked: list[tuple[str, str]] = []
@@ -117,14 +137,16 @@ class FakeCluster:
         with self.changed:
             self._objects.pop(("pods", name))
 
-    def set_status(self, name: str, **status: Any) -> None:
+    def set_status(self, name: str, kind: str = "pods", **status: Any) -> None:
         with self.changed:
-            pod = self._objects["pods", name]
-            pod["status"] = {**pod.get("status", {}), **status}
-            self._note("MODIFIED", "pods", pod)
+            found = self._objects[kind, name]
+            found["status"] = {**found.get("status", {}), **status}
+            if kind == "rayjobs":
+                kuberay.validate(found)
+            self._note("MODIFIED", kind, found)
 
     def when_removed(self, name: str, do: Callable[[], None]) -> None:
-        """Registers what a node does when a pod is gone."""
+        """Registers what a node or operator does when a pod or RayJob is gone."""
         with self.changed:
             self._removals[name] = do
 
@@ -133,7 +155,7 @@ class FakeCluster:
             found = self._objects.pop((kind, name), None)
             if found is None:
                 return
-            if kind == "pods" and (do := self._removals.pop(name, None)):
+            if do := self._removals.pop(name, None):
                 do()
             self._note("DELETED", kind, found)
             uid = found["metadata"]["uid"]
@@ -143,12 +165,12 @@ class FakeCluster:
 
     # --- requests ---------------------------------------------------------------------------------
 
-    def create(self, kind: str, body: dict[str, Any]) -> dict[str, Any]:
+    def create(self, kind: str, body: dict[str, Any], namespace: str = NAMESPACE) -> dict[str, Any]:
         with self.changed:
             if self.busy > 0:
                 self.busy -= 1
                 raise ApiError(429, "TooManyRequests", "the server has received too many requests", 1)
-            _validate(body)
+            _validate(kind, body)
             name = body["metadata"]["name"]
             if (kind, name) in self._objects:
                 raise ApiError(409, "AlreadyExists", f'{kind} "{name}" already exists')
@@ -156,15 +178,15 @@ class FakeCluster:
                 _require_restricted(body)
                 if len(self.names("pods")) >= self.quota:
                     raise ApiError(403, "Forbidden", f'pods "{name}" is forbidden: exceeded quota: robots')
-            body["metadata"] |= {"namespace": NAMESPACE, "uid": str(uuid.uuid4())}
+            body["metadata"] |= {"namespace": namespace, "uid": str(uuid.uuid4())}
             if kind == "pods":
                 body["status"] = {"phase": "Pending"}
             self._objects[kind, name] = body
             self._note("ADDED", kind, body)
-            if kind == "secrets":
-                pod = self._objects.get(("pods", name))
-                if pod is not None:
-                    threading.Thread(target=self.node, args=(self, pod), daemon=True).start()
+            if kind == "secrets" and (pod := self._objects.get(("pods", name))) is not None:
+                threading.Thread(target=self.node, args=(self, pod), daemon=True).start()
+            if kind == "networkpolicies" and (job := self._objects.get(("rayjobs", name))) is not None:
+                threading.Thread(target=self.operator, args=(self, job), daemon=True).start()
             return body
 
     def delete(self, kind: str, name: str, grace_s: float | None) -> dict[str, Any]:
@@ -237,10 +259,16 @@ def _has(found: dict[str, Any], label: str) -> bool:
     return not label or label in found["metadata"].get("labels", {})
 
 
-def _validate(body: dict[str, Any]) -> None:
+def _validate(kind: str, body: dict[str, Any]) -> None:
     try:
+        if kind == "rayjobs":
+            kuberay.validate(body)
+            for pod in kuberay.pods_of(body):
+                _validate("pods", pod)
+                _require_restricted(pod)
+            return
         kubernetes_validate.validate(body, VERSION, strict=True)
-    except kubernetes_validate.ValidationError as error:
+    except (kubernetes_validate.ValidationError, jsonschema.ValidationError) as error:
         raise ApiError(422, "Invalid", f"{body.get('kind')} is invalid: {error.message}") from error
     for container in body.get("spec", {}).get("containers", []):
         if not container.get("image"):
@@ -285,16 +313,21 @@ class _Handler(BaseHTTPRequestHandler):
         body = json.loads(self.rfile.read(length)) if length else {}
         try:
             found = _PATH.fullmatch(split.path)
-            if found is None:
-                raise ApiError(404, "NotFound", f"the server could not find {split.path}")
-            kind, name = found["kind"], found["name"]
+            if found is None or not self._knows(found["group"], found["kind"]):
+                raise ApiError(404, "NotFound", "the server could not find the requested resource")
+            kind, name, namespace = found["kind"], found["name"], found["namespace"]
             verb = self._verb(name, query)
             self.api.asked.append((verb, kind))
-            if (verb, kind) not in ALLOWED:
+            if (verb, kind) not in _ROLES.get(namespace, set()):
                 raise ApiError(403, "Forbidden", f"cannot {verb} resource {kind}")
             if verb == "watch":
                 return self._stream(kind, query)
-            self._send(*self._do(verb, kind, name, query, body))
+            if namespace not in self.api.namespaces:
+                raise ApiError(404, "NotFound", f'namespaces "{namespace}" not found')
+            if verb == "create":
+                self._send(201, self.api.create(kind, body, namespace))
+            else:
+                self._send(200, self._do(verb, kind, name, query))
         except ApiError as error:
             self._send(error.code, error.body, error.retry_after_s)
 
@@ -305,18 +338,18 @@ class _Handler(BaseHTTPRequestHandler):
             return "watch" if query.get("watch") in {"true", "True", "1"} else "list"
         return {"GET": "get", "POST": "create", "DELETE": "delete"}.get(self.command, self.command.lower())
 
-    def _do(
-        self, verb: str, kind: str, name: str | None, query: dict[str, str], body: dict[str, Any]
-    ) -> tuple[int, dict[str, Any]]:
+    def _knows(self, group: str | None, kind: str) -> bool:
+        known = kind in _GROUPS and _GROUPS[kind] == group
+        return known and (kind != "rayjobs" or self.api.has_kuberay)
+
+    def _do(self, verb: str, kind: str, name: str | None, query: dict[str, str]) -> dict[str, Any]:
         api = self.api
-        if verb == "create":
-            return 201, api.create(kind, body)
         if verb == "list":
-            return 200, api.list(kind, query.get("labelSelector", ""))
+            return api.list(kind, query.get("labelSelector", ""))
         if verb == "get":
-            return 200, api.read(kind, name or "")
+            return api.read(kind, name or "")
         grace = query.get("gracePeriodSeconds")
-        return 200, api.delete(kind, name or "", None if grace is None else float(grace))
+        return api.delete(kind, name or "", None if grace is None else float(grace))
 
     def _send(self, code: int, body: dict[str, Any], retry_after_s: int | None = None) -> None:
         data = json.dumps(body).encode()

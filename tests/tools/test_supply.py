@@ -42,7 +42,7 @@ def test_the_notices_of_an_image_have_every_package_with_its_licence():
     said = dict(heads)
     assert said["Django"] == "BSD-3-Clause"
     assert "Redistribution and use in source and binary forms" in done.stdout
-    for name in ("web", "executor", "keeper"):
+    for name in ("web", "executor", "keeper", "evaluation"):
         assert (
             "notices.py > /opt/bt-studio/THIRD-PARTY-NOTICES"
             in (ROOT / f"docker/{name}.Dockerfile").read_text()
@@ -62,13 +62,26 @@ def images():
         stages = set()
         for line in path.read_text().splitlines():
             if found := re.match(r"FROM (\S+)(?: AS (\S+))?", line):
-                if found[1] not in stages:
+                if found[1] not in stages and not found[1].startswith("bt-studio-"):
                     yield found[1]
                 stages.add(found[2])
     services = yaml.safe_load((ROOT / "docker" / "compose.yaml").read_text())["services"]
     yield from (
         service["image"] for service in services.values() if not service["image"].startswith("bt-studio-")
     )
+
+
+def test_the_image_of_evaluations_has_the_versions_of_the_others():
+    text = (ROOT / "docker" / "evaluation.lock").read_text()
+    added = dict(re.findall(r"^([a-z0-9._-]+)==(\S+)", text, re.MULTILINE))
+    assert "aiohttp" in added, "without its dashboard Ray takes no jobs"
+    ours = (ROOT / "requirements-dev.lock").read_text()
+    others = dict(re.findall(r"^([a-z0-9._-]+)==(\S+)", ours, re.MULTILINE)) | locked()
+    assert {name: others[name] for name in added.keys() & others.keys()} == {
+        name: added[name] for name in added.keys() & others.keys()
+    }
+    job = (ROOT / "docker" / "kubernetes-evaluations" / "evaluation-rayjob.yaml").read_text()
+    assert f"rayVersion: {added['ray']}\n" in job
 
 
 def test_dependabot_looks_after_every_kind_of_dependency():

@@ -65,6 +65,8 @@ class Spec:
     stop_timeout_s: float
     target: str = ""
     """HOST:PORT of the program that an attached session follows."""
+    own_cluster: bool = False
+    """Whether it is an evaluation that has a Ray cluster of its own."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -56,8 +56,12 @@ def run_batch(parcel: bytes, seeds: Sequence[int], limits: Limits | None) -> Bat
 
 
 def _environment() -> dict[str, str]:
-    """Returns the environment of the supervisor: that of the worker, without the packages that Ray brings."""
-    found = {**os.environ, **SINGLE_THREADED}
+    """Returns the environment of the supervisor: that of the worker, without what Ray brings.
+
+    The token of the cluster is of no use to the user's code.
+    """
+    mine = {name: value for name, value in os.environ.items() if not name.startswith("RAY_")}
+    found = {**mine, **SINGLE_THREADED}
     paths = [path for path in found.pop("PYTHONPATH", "").split(os.pathsep) if path and "/ray/" not in path]
     return found | ({"PYTHONPATH": os.pathsep.join(paths)} if paths else {})
 

@@ -121,14 +121,11 @@ class RayPool:
 
         if self._run_batches([left[:1]], first):
             size = max(1, round(BATCH_S / self._cost_s))
-            size = min(size, max(1, -(-len(left[1:]) // self._processors())))
+            size = min(size, max(1, -(-len(left[1:]) // _processors(self._ray))))
             rest = left[1:]
             self._run_batches([rest[at : at + size] for at in range(0, len(rest), size)], told)
 
     # --- inside ---
-
-    def _processors(self) -> int:
-        return max(1, int(self._ray.cluster_resources().get("CPU", 1)))
 
     def _run_batches(self, batches: list[list[int]], told: Callable[[Done], bool]) -> bool:
         """Runs batches; returns whether further runs are wanted."""
@@ -172,6 +169,24 @@ class RayPool:
             if left:
                 under_way[self._start(left)] = left
         return done
+
+
+def processors_of(address: str) -> int:
+    """Returns how many runs a cluster takes at a time.
+
+    Raises:
+        ClusterError: there is no such cluster, or Ray is not installed.
+    """
+    ray = import_ray(is_own=False)
+    connect(ray, address)
+    try:
+        return _processors(ray)
+    finally:
+        ray.shutdown()
+
+
+def _processors(ray: Any) -> int:
+    return max(1, int(ray.cluster_resources().get("CPU", 1)))
 
 
 def has_cluster() -> bool:

@@ -2,6 +2,8 @@
 
 It gets one job, runs its seeds with the pool of this machine, and sends each outcome to the manager. It has
 one thread, since it forks its runs: it writes to its channel itself, and its forks close that.
+
+With `--cluster ADDRESS` a Ray cluster runs the seeds; the recording of a run is made here all the same.
 """
 
 from __future__ import annotations
@@ -51,10 +53,17 @@ class _RefusedError(Exception):
     """The evaluation cannot be run; the text has a line for each reason."""
 
 
-def run_job(job: StartEvaluation, say: Callable[[FromEvaluation], None]) -> None:
-    """Runs a job, and says what becomes of it."""
+def run_job(job: StartEvaluation, say: Callable[[FromEvaluation], None], cluster: str = "") -> None:
+    """Runs a job, and says what becomes of it.
+
+    Args:
+        job: the job.
+        say: called with each message to the manager.
+        cluster: the address of a Ray cluster that runs the seeds; "" is this machine.
+    """
     try:
         plan = _plan(job)
+        workers = 1 if job.record_to else _workers(cluster)
     except _RefusedError as refused:
         say(Refused(str(refused)))
         return
@@ -63,7 +72,7 @@ def run_job(job: StartEvaluation, say: Callable[[FromEvaluation], None]) -> None
     evaluation = plan.evaluation
     say(
         Started(
-            workers=1 if job.record_to else processors(),
+            workers=workers,
             seed=evaluation.seed,
             wanted=evaluation.most_runs,
             sequential=evaluation.until is not None,
@@ -71,10 +80,32 @@ def run_job(job: StartEvaluation, say: Callable[[FromEvaluation], None]) -> None
             plan=plan_of(plan.universe),
         )
     )
-    say(_recorded(job, plan, say) if job.record_to else _evaluated(job, plan, say))
+    try:
+        say(_recorded(job, plan, say) if job.record_to else _evaluated(job, plan, say, cluster, workers))
+    except _RefusedError as refused:
+        say(Refused(str(refused)))
 
 
-def _evaluated(job: StartEvaluation, plan: Plan, say: Callable[[FromEvaluation], None]) -> EvaluationDone:
+def _workers(cluster: str) -> int:
+    """Returns how many runs take place at a time.
+
+    Raises:
+        _RefusedError: there is no such cluster.
+    """
+    if not cluster:
+        return processors()
+    from executor.evaluation.cluster.ray_pool import ClusterError, processors_of  # noqa: PLC0415 - rarely used
+
+    try:
+        return processors_of(cluster)
+    except ClusterError as error:
+        raise _RefusedError(str(error)) from error
+
+
+def _evaluated(
+    job: StartEvaluation, plan: Plan, say: Callable[[FromEvaluation], None], cluster: str, workers: int
+) -> EvaluationDone:
+    from executor.evaluation.cluster.ray_pool import ClusterError  # noqa: PLC0415 - as above
     from executor.evaluation.evaluate import ThreadsError, evaluate  # noqa: PLC0415 - as above
     from executor.evaluation.outcome import Outcome  # noqa: PLC0415 - as above
 
@@ -89,7 +120,9 @@ def _evaluated(job: StartEvaluation, plan: Plan, say: Callable[[FromEvaluation],
     wanted = job.seeds or range(first, first + plan.evaluation.most_runs)
     seeds = sorted({*wanted, *(seed for seed, _ in job.known)})
     try:
-        progress = evaluate(plan, seeds, workers=processors(), kept=known, told=told)
+        progress = evaluate(plan, seeds, workers=workers, cluster=cluster or None, kept=known, told=told)
+    except ClusterError as error:
+        raise _RefusedError(str(error)) from error
     except ThreadsError as error:
         raise SystemExit(f"{error}") from error
     return EvaluationDone(progress.wanted)
@@ -194,17 +227,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the process; returns its exit status."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--channel-fd", type=int, required=True)
-    fd = parser.parse_args(arguments).channel_fd
+    parser.add_argument("--cluster", default="")
+    options = parser.parse_args(arguments)
     die_with_parent()
     os.nice(NICE)
-    with socket.socket(fileno=fd) as channel:
+    with socket.socket(fileno=options.channel_fd) as channel:
         channel.settimeout(None)
         job = _receive(channel)
         if job is None:
             return 0
         # A run has no way to the manager; what it says, its worker reads.
         os.register_at_fork(after_in_child=channel.close)
-        run_job(job, lambda message: channel.sendall(encode(message)))
+        run_job(job, lambda message: channel.sendall(encode(message)), options.cluster)
     return 0
 
 

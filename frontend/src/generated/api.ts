@@ -2688,7 +2688,7 @@ export interface components {
             max_run_bytes: number;
         };
         /** @enum {string} */
-        WaitsForEnum: "hours" | "users" | "turn";
+        WaitsForEnum: "hours" | "users" | "turn" | "cluster";
         /** @description All that is known of one run. */
         WholeOutcome: {
             /** @description Its line of runs.jsonl. */

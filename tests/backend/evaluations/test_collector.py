@@ -65,9 +65,9 @@ def collect(people, monkeypatch):
     monkeypatch.setattr(collector, "LINGER_S", 0.6)
     monkeypatch.setattr(sessions.launcher(), "stop", lambda *_, **__: None)
 
-    def run(script):
+    def run(script, **more):
         with manager(script) as (address, asked):
-            session = session_for(people, address=address, launcher_state={"pid": 1})
+            session = session_for(people, address=address, launcher_state={"pid": 1}, **more)
             Collector(session, Place(people.project.id, people.owner.user.pk), lambda: True).run()
             session.refresh_from_db()
             return session, asked
@@ -98,6 +98,24 @@ def test_a_sealed_evaluation_is_asked_for_as_one(people, collect):
     writes.start(people.project.id, "room", 0, acting_user=people.owner.user, sealed=True)
     _, asked = collect(whole)
     assert [data["sealed"] for data in asked] == [False, True]
+
+
+def test_a_ray_cluster_has_one_evaluation(people, collect, settings_of):
+    settings_of(launcher="kubernetes", evaluations="rayjob")
+    first, second = wish(people), wish(people)
+    session, asked = collect(whole, own_cluster=True)
+    first.refresh_from_db()
+    second.refresh_from_db()
+    assert (first.state, second.state, session.state) == ("done", "waiting", "ended")
+    assert len(asked) == 1
+
+
+def test_an_executor_without_a_ray_cluster_leaves_evaluations_to_those_with_one(people, collect, settings_of):
+    settings_of(launcher="kubernetes", evaluations="rayjob")
+    found = wish(people)
+    session, asked = collect(whole)
+    found.refresh_from_db()
+    assert (found.state, session.state, asked) == ("waiting", "ended", [])
 
 
 def test_after_a_lost_connection_the_rest_alone_is_asked_for(people, collect):

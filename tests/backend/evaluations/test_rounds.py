@@ -14,8 +14,9 @@ from backend.projects.sharing import memberships
 from backend.projects.storage import writes as projects
 from backend.sessions import writes as sessions
 from backend.sessions.models import Drain, Session
+from backend.sessions.queries import start_timeout_s
 from backend.workers.aside import sweeps
-from tests.backend.evaluations.conftest import ROOM, begin, session_for, wish
+from tests.backend.evaluations.conftest import ROOM, begin, done, session_for, store, wish
 
 
 @pytest.fixture(autouse=True)
@@ -139,3 +140,26 @@ def test_a_round_is_asked_for_only_if_there_is_something_to_do(people, monkeypat
     writes.finish(found, JobState.DONE)
     rounds.round_soon()
     assert len(asked) == 1
+
+
+def test_an_evaluation_gets_a_ray_cluster_of_its_own_where_the_server_is_set_so(people, settings_of):
+    wish(people)
+    rounds.one_round()
+    [session] = live()
+    assert (session.own_cluster, start_timeout_s(session)) == (False, 30)
+    Session.objects.update(state="ended")
+    settings_of(launcher="kubernetes", evaluations="rayjob")
+    rounds.one_round()
+    [session] = live()
+    assert (session.own_cluster, start_timeout_s(session)) == (True, 300)
+
+
+def test_a_replay_needs_no_ray_cluster(people, settings_of):
+    settings_of(launcher="kubernetes", evaluations="rayjob")
+    found = wish(people)
+    begin(found)
+    store(found, done(0))
+    writes.finish(found, JobState.DONE)
+    writes.ask_replay(people.project.id, found.id, found.revision, 0, acting_user=people.owner.user)
+    rounds.one_round()
+    assert [session.own_cluster for session in live()] == [False]

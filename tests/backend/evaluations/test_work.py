@@ -75,6 +75,14 @@ def test_an_evaluation_says_what_it_waits_for(people, settings_of):
     assert work.waits_for([running]) == {}
 
 
+def test_an_evaluation_waits_for_the_ray_cluster_that_starts_for_it(people, settings_of):
+    first, second = wish(people), wish(people)
+    session_for(people, state="starting", own_cluster=True)
+    assert work.waits_for([first, second])[first.id] == WaitsFor.TURN  # this server makes none
+    settings_of(launcher="kubernetes", evaluations="rayjob")
+    assert work.waits_for([first, second]) == {first.id: WaitsFor.CLUSTER, second.id: WaitsFor.TURN}
+
+
 def test_the_older_revision_runs_the_seeds_that_counted_after_the_newer_one(people):
     found = wish(people)
     assert work.next_side(found) == work.Side(1, [], [])

@@ -28,6 +28,9 @@ def test_a_session_has_its_programs() -> None:
     }
     assert len(addresses) == 1
     assert programs["evaluation"].environment["PYTHONHASHSEED"] == "0"  # equal seeds are equal runs
+    assert not [part for part in programs["evaluation"].arguments if part.startswith("--cluster")]
+    clustered = session_programs(domain_id, cluster="auto")["evaluation"].arguments
+    assert clustered == (*programs["evaluation"].arguments, "--cluster=auto")
     assert PORT_VARIABLE not in programs["application"].environment
     shown = session_programs(domain_id, groot2=1667)
     with_port = [name for name, each in shown.items() if PORT_VARIABLE in each.environment]

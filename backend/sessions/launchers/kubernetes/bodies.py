@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import copy
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import msgspec
 import yaml
@@ -20,13 +20,18 @@ if TYPE_CHECKING:
 __all__ = [
     "DIGEST",
     "KIND_LABEL",
+    "POD",
     "PORT",
     "Kind",
+    "ObjectKind",
     "TemplateError",
     "id_label",
+    "lost_field",
+    "owner_of",
     "pod_body",
     "pod_name",
     "read_template",
+    "renamed",
     "secret_body",
 ]
 
@@ -38,6 +43,16 @@ KIND_LABEL: Final = "bt-studio/kind"
 DIGEST: Final = "bt-studio/certificate"
 """The annotation with the SHA-256 of a pod's certificate."""
 _SECRET: Final = "SESSION"  # noqa: S105 - the name of the secret in the template
+
+
+class ObjectKind(NamedTuple):
+    """A kind of object of Kubernetes."""
+
+    version: str
+    name: str
+
+
+POD: Final = ObjectKind("v1", "Pod")
 
 
 class Kind(StrEnum):
@@ -74,7 +89,7 @@ def read_template(text: str) -> dict[str, Any]:
     containers = (found.get("spec") or {}).get("containers")
     if not isinstance(containers, list) or len(containers) != 1:
         raise TemplateError("its pod does not have one container")
-    if _renamed(found, "") == found:
+    if renamed(found, "") == found:
         raise TemplateError(
             f"its container does not name the secret {_SECRET}, which holds token and certificate"
         )
@@ -82,7 +97,7 @@ def read_template(text: str) -> dict[str, Any]:
         kept = msgspec.to_builtins(msgspec.convert(found, Pod))
     except msgspec.ValidationError as error:
         raise TemplateError(f"it is no pod: {error}") from error
-    if lost := _lost(found, kept):
+    if lost := lost_field(found, kept):
         raise TemplateError(f"Kubernetes knows no field {lost}")
     return found
 
@@ -100,7 +115,7 @@ def id_label(kind: Kind) -> str:
 def pod_body(template: dict[str, Any], kind: Kind, made_id: str, digest: str) -> dict[str, Any]:
     """Returns a pod; `digest` is the SHA-256 of the certificate that will be in its secret."""
     name = pod_name(kind, made_id)
-    body: dict[str, Any] = _renamed(copy.deepcopy(template), name)
+    body: dict[str, Any] = renamed(copy.deepcopy(template), name)
     metadata = body.setdefault("metadata", {})
     metadata["name"] = name
     metadata["labels"] = {**metadata.get("labels", {}), KIND_LABEL: kind.value, id_label(kind): made_id}
@@ -111,38 +126,50 @@ def pod_body(template: dict[str, Any], kind: Kind, made_id: str, digest: str) ->
     return body
 
 
-def secret_body(name: str, token: str, made: Certificate, pod_uid: str) -> dict[str, Any]:
-    """Returns the secret of a pod: its token, certificate and key. It goes with its pod."""
-    owner = {"apiVersion": "v1", "kind": "Pod", "name": name, "uid": pod_uid}
+def secret_body(name: str, token: str, made: Certificate, owner: ObjectKind, uid: str) -> dict[str, Any]:
+    """Returns the secret of a pod or RayJob: its token, certificate and key. It goes with its owner.
+
+    Args:
+        name: the name of both.
+        token: the token.
+        made: the certificate with its key.
+        owner: the kind of the owner.
+        uid: the uid of the owner.
+    """
     return {
         "apiVersion": "v1",
         "kind": "Secret",
-        "metadata": {"name": name, "ownerReferences": [owner]},
+        "metadata": {"name": name, "ownerReferences": [owner_of(owner, name, uid)]},
         "immutable": True,
         "stringData": {"token": token, "tls.crt": made.certificate, "tls.key": made.key},
     }
 
 
-def _lost(asked: Any, kept: Any, at: str = "") -> str:
+def owner_of(kind: ObjectKind, name: str, uid: str) -> dict[str, Any]:
+    """Returns the reference to the object with which another one goes."""
+    return {"apiVersion": kind.version, "kind": kind.name, "name": name, "uid": uid}
+
+
+def lost_field(asked: Any, kept: Any, at: str = "") -> str:
     """Returns the place of the first field of a template that its pod does not have; "" if it has all."""
     if isinstance(asked, dict) and isinstance(kept, dict):
         for key, value in asked.items():
             place = f"{at}.{key}".removeprefix(".")
             if key not in kept and value is not None:
                 return place
-            if lost := _lost(value, kept.get(key), place):
+            if lost := lost_field(value, kept.get(key), place):
                 return lost
     if isinstance(asked, list) and isinstance(kept, list):
         for number, (part, other) in enumerate(zip(asked, kept, strict=True)):
-            if lost := _lost(part, other, f"{at}[{number}]"):
+            if lost := lost_field(part, other, f"{at}[{number}]"):
                 return lost
     return ""
 
 
-def _renamed(value: Any, name: str) -> Any:
+def renamed(value: Any, name: str) -> Any:
     """Returns a part of a template with the name of the secret in place of the template's."""
     if isinstance(value, dict):
-        return {key: _renamed(part, name) for key, part in value.items()}
+        return {key: renamed(part, name) for key, part in value.items()}
     if isinstance(value, list):
-        return [_renamed(part, name) for part in value]
+        return [renamed(part, name) for part in value]
     return name if value == _SECRET else value

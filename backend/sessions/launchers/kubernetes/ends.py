@@ -11,13 +11,13 @@ from enum import Enum
 from typing import TYPE_CHECKING, Final
 
 from backend.sessions.launchers.base import UNKNOWN_EXIT
-from backend.sessions.launchers.kubernetes.bodies import DIGEST
+from backend.sessions.launchers.kubernetes.bodies import DIGEST, PORT
 
 if TYPE_CHECKING:
     from lightkube.models.core_v1 import ContainerState, PodCondition, PodStatus
     from lightkube.resources.core_v1 import Pod
 
-__all__ = ["Cause", "Seen", "Trouble", "read_pod"]
+__all__ = ["OF_WAITING", "Cause", "Seen", "Trouble", "address_of", "read_pod"]
 
 
 class Cause(Enum):
@@ -31,7 +31,12 @@ class Cause(Enum):
     PREEMPTED = "The cluster gave the executor's place to something more important."
     NODE_LOST = "The machine on which the executor ran is gone."
     DEADLINE = "The executor reached the longest time that a robot may run."
-    DELETED = "Somebody deleted the executor's pod."
+    DELETED = "Somebody deleted the executor in the cluster."
+    JOB_FAILED = "The program of the evaluation's RayJob failed."
+    JOB_INVALID = "The KubeRay operator refuses the RayJob of the evaluation."
+    JOB_LATE = "The evaluation reached the longest time that its RayJob may run."
+    JOB_LOST = "The KubeRay operator lost the evaluation's Ray cluster."
+    JOB_PODS = "The cluster refuses the pods of the evaluation."
 
     @property
     def is_final(self) -> bool:
@@ -61,6 +66,7 @@ class Seen:
         digest: the SHA-256 of its certificate.
         is_ready: whether its manager listens.
         exit_status: how its container ended, or `UNKNOWN_EXIT`; None while it has not.
+        lacks: what it waits for before it is ready, if that is known.
     """
 
     uid: str
@@ -69,6 +75,7 @@ class Seen:
     is_ready: bool = False
     exit_status: int | None = None
     trouble: Trouble | None = None
+    lacks: str = ""
 
     @property
     def is_decided(self) -> bool:
@@ -94,7 +101,7 @@ _OF_REASONS: Final = {
     "TerminationByKubelet": Cause.EVICTED,
 }
 """Causes by the reason of a pod's status, and of its condition `DisruptionTarget`."""
-_OF_WAITING: Final = {
+OF_WAITING: Final = {
     "ImagePullBackOff": Cause.IMAGE,
     "InvalidImageName": Cause.IMAGE,
     "ErrImageNeverPull": Cause.IMAGE,
@@ -146,9 +153,15 @@ def _trouble(
         return Trouble(cause, disruption.message or "")
     if state and state.terminated:
         return Trouble(Cause.MEMORY) if state.terminated.reason == "OOMKilled" else None
-    if state and state.waiting and (cause := _OF_WAITING.get(state.waiting.reason or "")):
+    if state and state.waiting and (cause := OF_WAITING.get(state.waiting.reason or "")):
         return Trouble(cause, state.waiting.message or "")
     scheduled = conditions.get("PodScheduled")
     if scheduled and scheduled.status == "False" and scheduled.reason == "Unschedulable":
         return Trouble(Cause.NO_ROOM, scheduled.message or "")
     return None
+
+
+def address_of(seen: Seen) -> str:
+    """Returns the address of the manager in a pod, with the digest of its certificate."""
+    host = f"[{seen.address}]" if ":" in seen.address else seen.address
+    return f"wss://{host}:{PORT}#{seen.digest}"

@@ -28,6 +28,7 @@ it.each([
   ['hours', 'processor hours'],
   ['users', 'users who work go first'],
   ['turn', 'a free place'],
+  ['cluster', 'Ray cluster'],
 ] as const)('says that it waits for %s', (waits_for, text) => {
   show(<RateBar evaluation={evaluation({ state: 'waiting', waits_for })} side={side} />);
   expect(screen.getByRole('status')).toHaveTextContent(text);

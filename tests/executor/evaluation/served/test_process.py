@@ -122,6 +122,14 @@ def test_what_cannot_be_run_is_refused_with_its_place(job, text):
     assert text in refused.message
 
 
+def test_a_cluster_that_is_not_there_is_refused_by_name():
+    found: list = []
+    run_job(StartEvaluation(archive(), "quick", [], []), found.append, "127.0.0.1:1")
+    [refused] = found
+    assert isinstance(refused, Refused)
+    assert "127.0.0.1:1: nothing answers there" in refused.message
+
+
 def test_a_line_that_is_too_long_loses_what_code_of_the_user_made_long():
     plain = Outcome(3, "success", "fine", drawn={"a": 1})
     assert shortened(plain) == plain.to_line()

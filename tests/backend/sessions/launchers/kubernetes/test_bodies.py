@@ -9,6 +9,7 @@ import yaml
 from backend.sessions.launchers.kubernetes.bodies import (
     DIGEST,
     KIND_LABEL,
+    POD,
     PORT,
     Kind,
     TemplateError,
@@ -44,7 +45,7 @@ def test_a_pod_is_the_template_with_names_of_its_own() -> None:
 
 def test_a_secret_goes_with_its_pod_and_never_changes() -> None:
     made = make_certificate("s1")
-    secret = secret_body("bt-studio-session-s1", "t0ken", made, "the uid")
+    secret = secret_body("bt-studio-session-s1", "t0ken", made, POD, "the uid")
     kubernetes_validate.validate(secret, VERSION, strict=True)
     assert secret["immutable"] is True
     assert secret["metadata"]["ownerReferences"][0]["uid"] == "the uid"

@@ -16,6 +16,7 @@ from lightkube import Client
 from backend.sessions.errors import HostFullError, LaunchError
 from backend.sessions.launchers.base import UNKNOWN_EXIT
 from backend.sessions.launchers.kubernetes import launcher as module
+from backend.sessions.launchers.kubernetes import objects
 from backend.sessions.launchers.kubernetes.bodies import Kind, pod_name
 from tests.backend.sessions.conftest import spec
 from tests.fakes.kubernetes_api import make_ready
@@ -168,19 +169,6 @@ def test_what_the_cluster_refuses_is_said(
     assert cluster.names("pods") == []
 
 
-def test_a_busy_cluster_is_asked_again(
-    cluster: FakeCluster, launcher: KubernetesLauncher, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    pauses: list[float] = []
-    monkeypatch.setattr(module, "sleep", pauses.append)
-    cluster.busy = 2
-    launcher.start(spec())
-    assert pauses == [1.0, 1.0]
-    cluster.busy = 10**6
-    with pytest.raises(LaunchError, match="too many requests"):
-        launcher.start(spec(session_id="s2", start_timeout_s=0.1))
-
-
 def test_a_cluster_that_does_not_answer_is_said_and_ends_no_session(
     cluster: FakeCluster, launcher: KubernetesLauncher
 ) -> None:
@@ -262,7 +250,7 @@ def test_a_pod_that_somebody_deletes_ends_its_session(
     state = launcher.start(spec()).state
     cluster.remove("pods", NAME)
     until(launcher, state, UNKNOWN_EXIT)
-    assert launcher.explain(state) == "Somebody deleted the executor's pod."
+    assert launcher.explain(state) == "Somebody deleted the executor in the cluster."
 
 
 def test_a_pod_on_a_lost_node_has_ended_although_it_is_still_there(
@@ -281,7 +269,7 @@ def test_the_pod_of_another_server_counts_as_running_until_it_is_surely_unknown(
     state = {"pod": pod_name(Kind.SESSION, "other")}
     launcher._pods.wait("none", lambda _: launcher._pods.are_listed, time.monotonic() + 20)
     assert launcher.poll(state) is None
-    monkeypatch.setattr(module, "UNKNOWN_S", -1.0)
+    monkeypatch.setattr(objects, "UNKNOWN_S", -1.0)
     assert launcher.poll(state) == UNKNOWN_EXIT
 
 

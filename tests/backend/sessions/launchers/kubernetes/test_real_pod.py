@@ -15,7 +15,7 @@ from django.core.exceptions import ImproperlyConfigured
 
 from backend.sessions import writes
 from backend.sessions.launchers.kubernetes.bodies import PORT
-from backend.sessions.launchers.kubernetes.launcher import KubernetesLauncher, open_cluster
+from backend.sessions.launchers.kubernetes.launcher import Files, KubernetesLauncher, open_cluster
 from backend.sessions.manager.address import http_connection
 from backend.sessions.manager.sockets import manager_socket
 from backend.sessions.models import Session
@@ -71,7 +71,7 @@ def test_the_cluster_of_kubeconfig_is_used_over_connections_that_notice_their_lo
     config = tmp_path / "config"
     config.write_text(kubeconfig(cluster.url))
     monkeypatch.setenv("KUBECONFIG", str(config))
-    launcher = open_cluster(TEMPLATE, TOOLS_TEMPLATE, NAMESPACE)
+    launcher = open_cluster(Files(TEMPLATE, TOOLS_TEMPLATE), NAMESPACE)
     try:
         assert launcher._pods.wait("none", lambda _: launcher._pods.are_listed, time.monotonic() + 20)[1]
         ours = [found for found in map(socket_of, gc.get_objects()) if found and to(found) == cluster.port]
@@ -106,12 +106,12 @@ def test_settings_that_cannot_work_are_refused_by_name(
     if template is not None:
         file.write_text(template)
     with pytest.raises(ImproperlyConfigured, match=sentence):
-        open_cluster(file, TOOLS_TEMPLATE, "robots")
+        open_cluster(Files(file, TOOLS_TEMPLATE), "robots")
 
 
 def test_a_file_that_is_no_pod_of_tools_is_refused_by_name(tmp_path: Path) -> None:
     with pytest.raises(ImproperlyConfigured, match=r"BT_STUDIO_TOOLS_TEMPLATE: .* cannot be used"):
-        open_cluster(TEMPLATE, tmp_path / "missing.yaml", "robots")
+        open_cluster(Files(TEMPLATE, tmp_path / "missing.yaml"), "robots")
 
 
 @pytest.mark.parametrize("lacking", ["current-context: fake\n", "user: fake"])
@@ -122,10 +122,10 @@ def test_a_kubeconfig_without_a_cluster_or_a_user_is_refused(
     config.write_text(kubeconfig("http://127.0.0.1:1").replace(lacking, ""))
     monkeypatch.setenv("KUBECONFIG", str(config))
     with pytest.raises(ImproperlyConfigured, match=r"[Nn]o current context"):
-        open_cluster(TEMPLATE, TOOLS_TEMPLATE, "robots")
+        open_cluster(Files(TEMPLATE, TOOLS_TEMPLATE), "robots")
 
 
 def test_a_server_outside_of_any_cluster_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("KUBECONFIG", str(tmp_path / "missing"))
     with pytest.raises(ImproperlyConfigured, match="KUBECONFIG names none"):
-        open_cluster(TEMPLATE, TOOLS_TEMPLATE, "robots")
+        open_cluster(Files(TEMPLATE, TOOLS_TEMPLATE), "robots")

@@ -6,7 +6,7 @@ import time
 from typing import TYPE_CHECKING
 
 from backend.sessions.launchers.base import UNKNOWN_EXIT
-from backend.sessions.launchers.kubernetes import pods as module
+from backend.sessions.launchers.kubernetes import objects as module
 from backend.sessions.launchers.kubernetes.bodies import Kind, pod_name
 from tests.backend.sessions.conftest import spec
 

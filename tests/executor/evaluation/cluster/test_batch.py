@@ -30,3 +30,14 @@ def test_a_supervisor_that_fails_says_why():
     batch = run_batch(b"no parcel", [1], None)
     assert batch.done == ()
     assert batch.lost.startswith("its supervisor ended with status 1: msgspec")
+
+
+@pytest.mark.simulation
+@pytest.mark.timeout(200)
+def test_the_runs_of_a_batch_do_not_see_the_token_of_the_cluster(monkeypatch):
+    monkeypatch.setenv("RAY_AUTH_TOKEN", "secret")
+    monkeypatch.setenv("RAYS_OF_LIGHT", "7")
+    names = 'sorted(name for name in os.environ if name.startswith("RAY"))'
+    tells = DRIVE.replace("twist = Twist()", f"import os\n        raise RuntimeError({names})")
+    (done,) = run_batch(pack(make_plan(project(TEXT, action=tells), "main")), [4], Limits(30.0)).done
+    assert "['RAYS_OF_LIGHT']" in done.outcome.why

@@ -73,7 +73,7 @@ class FakeCluster:
 
     def __init__(self, node: Callable[[FakeCluster, dict[str, Any]], None] | None = None) -> None:
         self.node = node or make_ready
-        self.operator = kuberay.make_running
+        self.operator: Callable[[FakeCluster, dict[str, Any]], None] = kuberay.make_running
         self.has_kuberay = True
         self.namespaces = set(_ROLES)
         self.quota = 1000

@@ -1,4 +1,4 @@
-"""What KubeRay knows of RayJobs: the schema of its resource, its further rules, and an operator."""
+"""The part of KubeRay that concerns RayJobs: schema, further rules, and an operator."""
 
 from __future__ import annotations
 

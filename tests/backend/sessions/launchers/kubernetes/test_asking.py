@@ -1,4 +1,4 @@
-"""What is asked of a cluster: again while it is busy, and with a reason where it refuses."""
+"""Requests to a cluster: repeated while it is busy, and refused with a reason."""
 
 from __future__ import annotations
 

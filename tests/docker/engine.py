@@ -73,15 +73,30 @@ def engine(folder: Path) -> Iterator[Engine]:
         yield _engine(SOCKET)
         return
     DATA.mkdir(parents=True, exist_ok=True)
-    ours = _engine(folder / "docker.sock")
-    command = ["dockerd", "--data-root", str(DATA), "--exec-root", str(folder / "exec")]
-    command += ["--host", f"unix://{ours.socket}", "--pidfile", str(folder / "dockerd.pid")]
-    with (folder / "dockerd.log").open("wb") as log:
+    with new_engine(folder, "docker", DATA) as ours:
+        yield ours
+
+
+@contextmanager
+def new_engine(folder: Path, name: str, data: Path, *options: str) -> Iterator[Engine]:
+    """Starts an engine of its own, and ends it at the end.
+
+    Args:
+        folder: where its socket and its log are.
+        name: the name of these.
+        data: where its images and containers are stored.
+        options: further options of `dockerd`.
+    """
+    ours = _engine(folder / f"{name}.sock")
+    command = ["dockerd", "--data-root", str(data), "--exec-root", str(folder / f"{name}.exec")]
+    command += ["--host", f"unix://{ours.socket}", "--pidfile", str(folder / f"{name}.pid"), *options]
+    log_file = folder / f"{name}d.log"
+    with log_file.open("wb") as log:
         daemon = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
     try:
         deadline = time.monotonic() + DEADLINE_S
         while ours.run("info", check=False).returncode:
-            assert daemon.poll() is None, (folder / "dockerd.log").read_text()[-4000:]
+            assert daemon.poll() is None, log_file.read_text()[-4000:]
             assert time.monotonic() < deadline, "dockerd does not answer"
             time.sleep(0.2)
         yield ours

@@ -19,7 +19,7 @@ from executor.manager.programs import session_programs
 from executor.recorder.link import ADDRESS_VARIABLE
 from executor.recorder_messages import BeginRun, StartRecorder, decode_from_recorder
 from executor.supervision.channel import Channel, ChannelClosed, socket_pair
-from tests.executor.session_client import ROOT
+from tests.executor.session_client import ROOT, app_zip
 from translator import load, to_app_zip
 
 if TYPE_CHECKING:
@@ -64,6 +64,19 @@ def hashing_forward(more: str = "") -> str:
         assert old in source
         source = source.replace(old, new, 1)
     return source
+
+
+def working_app(tick_work_s: float) -> str:
+    """Returns the app of *Laser bump and go* whose action *Forward* computes for so long in each tick."""
+    source = (ROOT / "examples/laser_bump_and_go/actions/Forward.py").read_text()
+    begin = "    def update(self):\n"
+    assert begin in source
+    work = f"""        import time
+        until_s = time.thread_time() + {tick_work_s}
+        while time.thread_time() < until_s:
+            pass
+"""
+    return app_zip(Forward=source.replace(begin, begin + work))
 
 
 def hashing_app(more: str = "") -> str:

@@ -32,13 +32,34 @@ def test_the_room_is_a_share_of_the_limit_less_what_is_used(tmp_path: Path) -> N
     assert memory_room(tmp_path) == -100
 
 
+def test_the_room_is_known_in_version_1_of_control_groups_too(tmp_path: Path) -> None:
+    memory = tmp_path / "memory"
+    memory.mkdir()
+    (memory / "memory.usage_in_bytes").write_text("700\n")
+    (memory / "memory.stat").write_text("inactive_file 5\ntotal_inactive_file 100\n")
+    (memory / "memory.limit_in_bytes").write_text("9223372036854771712\n")
+    assert memory_room(tmp_path) is None
+    (memory / "memory.limit_in_bytes").write_text("1000\n")
+    assert memory_room(tmp_path) == 0
+
+
 def test_a_container_has_the_processors_of_its_quota(tmp_path: Path) -> None:
     quota = tmp_path / "cpu.max"
     there = len(os.sched_getaffinity(0))
-    assert processors(quota) == there
+    assert processors(tmp_path) == there
     quota.write_text("max 100000\n")
-    assert processors(quota) == there
+    assert processors(tmp_path) == there
     quota.write_text("100000 100000\n")
-    assert processors(quota) == 1
+    assert processors(tmp_path) == 1
     quota.write_text("5000 100000\n")
-    assert processors(quota) == 1
+    assert processors(tmp_path) == 1
+
+
+def test_the_quota_is_known_in_version_1_of_control_groups_too(tmp_path: Path) -> None:
+    group = tmp_path / "cpu"
+    group.mkdir()
+    (group / "cpu.cfs_period_us").write_text("100000\n")
+    (group / "cpu.cfs_quota_us").write_text("-1\n")
+    assert processors(tmp_path) == len(os.sched_getaffinity(0))
+    (group / "cpu.cfs_quota_us").write_text("150000\n")
+    assert processors(tmp_path) == 1

@@ -18,7 +18,13 @@ from typing import Final
 
 ROOT: Final = Path(__file__).resolve().parents[2]
 # The browser's tests take less time than the others: these folders run before them.
-WITH_THE_BROWSER: Final = ["tests/translator", "tests/tree_gardener", "tests/contracts", "tests/tools"]
+WITH_THE_BROWSER: Final = [
+    "tests/translator",
+    "tests/tree_gardener",
+    "tests/contracts",
+    "tests/tools",
+    "tests/executor/exact",
+]
 # The arguments of each lane for pytest.
 LANES: Final = {
     "browser": ["tests/e2e", *WITH_THE_BROWSER],

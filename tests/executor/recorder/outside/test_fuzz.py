@@ -232,3 +232,69 @@ def test_triggers_do_not_run(tmp_path):
     before = path.read_bytes()
     assert outcome(path) is None
     assert path.read_bytes() == before
+
+
+def many_channels(path, number):
+    """An MCAP file whose channels have the 65,535 numbers that there are again and again."""
+    with path.open("wb") as file:
+        writer = Writer(file, use_chunking=False)
+        writer.start(profile="ros2", library="rosbag2")
+        schema = writer.register_schema(NAV, "ros2msg", b"uint8 nothing_that_is_read")
+        for channel in range(number):
+            name = b"/log%d" % channel
+            numbers = struct.pack("<HHI", 1 + channel % 65_535, schema, len(name))
+            body = numbers + name + struct.pack("<I", 3) + b"cdr" + struct.pack("<I", 0)
+            file.write(b"\x04" + struct.pack("<Q", len(body)) + body)
+        writer.finish()
+
+
+def many_topics(path, number):
+    bag_tables(path, MESSAGES)
+    database = sqlite3.connect(path)
+    rows = ((key, f"/log{key}", NAV) for key in range(100, 100 + number))
+    database.executemany("INSERT INTO topics VALUES (?, ?, ?, 'cdr', '')", rows)
+    database.commit()
+    database.close()
+
+
+def many_of(kind, sql):
+    """Returns what writes an SQLite bag with so many views or triggers."""
+
+    def write(path, number):
+        bag_tables(path, MESSAGES)
+        database = sqlite3.connect(path)
+        database.execute("PRAGMA writable_schema = ON")
+        rows = ((kind, f"a{key}", "messages", sql.format(f"a{key}")) for key in range(number))
+        database.executemany("INSERT INTO sqlite_master VALUES (?, ?, ?, 0, ?)", rows)
+        database.commit()
+        database.close()
+
+    return write
+
+
+MANY = {
+    "channels": many_channels,
+    "topics": many_topics,
+    "views": many_of("view", "CREATE VIEW {} AS SELECT data FROM messages"),
+    "triggers": many_of(
+        "trigger", "CREATE TRIGGER {} AFTER INSERT ON messages BEGIN DELETE FROM topics; END"
+    ),
+}
+
+
+@pytest.mark.parametrize("what", MANY)
+@pytest.mark.timeout(600)
+def test_very_many_of_a_thing_are_refused_or_harmless(what, tmp_path):
+    """The child has 256 MB and 60 s: more ends it, with an error that has a place and a hint."""
+    path = tmp_path / "f.log"
+    MANY[what](path, count("executor_outside_many"))
+    try:
+        made = convert_apart(path, tmp_path / "f.mcap")
+    except OutsideError as error:
+        refusal = error
+    else:
+        assert made.messages == len(read((tmp_path / "f.mcap").read_bytes()))
+        return
+    assert str(refusal).startswith("f.log")
+    assert refusal.hint
+    assert refusal.code in {"too_large", "too_long", "damaged"}

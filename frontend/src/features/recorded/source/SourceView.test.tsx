@@ -118,6 +118,7 @@ it('does not show the code of another tick', async () => {
 it.each([
   ['live', { liveRuns: ['a'] }, /live run cannot be made again/],
   ['unrepeatable', { repeatableRuns: ['b'] }, /too long ago/],
+  ['byHand', { runsByHand: { a: 0 } }, /changed by hand/],
   ['viewer', { introspection: { role: 'viewer' } as Introspection }, /take over first/],
 ])('refuses what is %s', (_, change, words) => {
   useSessionStore.setState(change);

@@ -399,7 +399,7 @@ class ExactApplication(Application):
             resets=self._keeping.resets,
         )
         if replay.shows_source and self._program is not None:
-            self._tracer = LineTracer(self._locator, self._program.sources)
+            self._tracer = LineTracer(self._locator, self._program)
         speed = loop.speed
         loop.set_speed(0)
         error = ""

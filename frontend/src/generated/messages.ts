@@ -776,7 +776,7 @@ export interface TryingEnded {
 }
 
 /**
- * Makes a run again up to a past tick, and says which lines of the project's actions this tick ran.
+ * Makes a run again up to a past tick, and says which lines of the project's Python this tick ran.
  *
  * Nothing of it happens in the world of the session: a process of its own makes the run again as for
  * `go_back`, and is ended. The tick is the first that is not earlier than `t` in s; the callbacks of ROS
@@ -823,7 +823,7 @@ export interface SourceLine {
 }
 
 /**
- * A call of a function of an action.
+ * A call of a function of the project: of an action, or of a module that actions import.
  *
  * Attributes:
  *     file: the file in the project.
@@ -853,7 +853,7 @@ export interface SourceCall {
 }
 
 /**
- * The end of a job of `source_of_tick`: what the code of the actions did in the tick.
+ * The end of a job of `source_of_tick`: what the code of the project did in the tick.
  *
  * Attributes:
  *     t: the time of the tick in s.

@@ -105,7 +105,7 @@ it('says why there is none, and lets the user try again', async () => {
 
 it('says that no action ran', async () => {
   await answered({ calls: [], files: {} });
-  expect(screen.getByText('No action ran any Python in this tick.')).toBeInTheDocument();
+  expect(screen.getByText('This tick ran no Python of the project.')).toBeInTheDocument();
 });
 
 it('does not show the code of another tick', async () => {

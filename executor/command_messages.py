@@ -242,11 +242,22 @@ class GoBack(Struct, forbid_unknown_fields=True):
     its begin, and the events `going_back` say how far it is. The world of a live run goes back to its last
     recorded state that is not later (they are 5 s apart), and its tree begins again, with the recorded
     blackboard; a line of the console names the entries that are left empty. What follows is recorded as a run
-    of its own (`branch`). Refused with `no_run`, `unknown_run`, `not_repeatable`, or `not_recorded`.
+    of its own (`branch`). Refused with `no_run`, `unknown_run`, `not_repeatable`, `not_recorded`, or
+    `changed_by_hand` for a moment after which the debugger had changed the program of an exact run.
     """
 
     run: Annotated[str, Meta(max_length=64)] = ""
     t: Annotated[float, Meta(ge=0)] | None = None
+
+
+class TickBack(Struct, forbid_unknown_fields=True):
+    """Takes the present exact run back to the begin of its last whole tick, where it is paused.
+
+    A tick in which the debugger holds the tree is not whole: it is undone, too. What entered before the begin
+    of that tick is done again, the tick is not. What follows is a branch, as for `go_back`; one in which
+    nothing else happened than in its parent is thrown away. Refused with `live_run`, `first_tick` where there
+    is no earlier tick, `not_repeatable`, or `changed_by_hand`.
+    """
 
 
 class NameBranch(Struct, forbid_unknown_fields=True):
@@ -277,6 +288,7 @@ COMMANDS: Final[dict[str, type[Struct]]] = {
     "resume": Empty,
     "step": Empty,
     "go_back": GoBack,
+    "tick_back": TickBack,
     "run_on": RunOn,
     "branches": Empty,
     "name_branch": NameBranch,

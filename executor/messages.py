@@ -417,6 +417,8 @@ class Snapshot(Struct):
     """The runs in which one can go back."""
     live_runs: list[str] = []
     """Those of them that are live: their world goes back, and their tree begins again."""
+    runs_by_hand: dict[str, float] = {}
+    """When the debugger changed those that it did, in s: one can go back only to an earlier moment."""
     held: Held | None = None
     forced: Forced | None = None
     attached: Attached | None = None

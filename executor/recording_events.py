@@ -68,11 +68,14 @@ class Branch(Struct):
 class RepeatableRuns(Struct):
     """The runs of this session in which one can go back, the present or last one at the end.
 
-    Of those that are `live`, the world goes back to a recorded state, and the tree begins again there.
+    Of those that are `live`, the world goes back to a recorded state, and the tree begins again there. In
+    those of `by_hand` the Python debugger has changed the program, at a moment in s: one can go back only to
+    an earlier one.
     """
 
     runs: list[str]
     live: list[str] = []
+    by_hand: dict[str, float] = {}
 
 
 class GoingBack(Struct):

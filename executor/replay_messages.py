@@ -37,7 +37,7 @@ class Replay(Struct):
         fingerprints: those of the ticks that ended, each of `FINGERPRINT_BYTES`. No more ticks are made.
         until_s: the simulated time in s; with None the run is made again to its end, with all inputs.
         resets: the number of times that the world was reset before the moment.
-        shows_source: whether the code of the actions is followed through the tick at the moment. The tick may
+        shows_source: whether the code of the project is followed through the tick at the moment. The tick may
             be one that did not end: its begin is no less of interest.
     """
 

@@ -17,7 +17,7 @@ CallPart = Literal["callback", "tick"]
 
 
 class SourceOfTick(Struct, forbid_unknown_fields=True):
-    """Makes a run again up to a past tick, and says which lines of the project's actions this tick ran.
+    """Makes a run again up to a past tick, and says which lines of the project's Python this tick ran.
 
     Nothing of it happens in the world of the session: a process of its own makes the run again as for
     `go_back`, and is ended. The tick is the first that is not earlier than `t` in s; the callbacks of ROS
@@ -67,7 +67,7 @@ class SourceLine(Struct):
 
 
 class SourceCall(Struct):
-    """A call of a function of an action.
+    """A call of a function of the project: of an action, or of a module that actions import.
 
     Attributes:
         file: the file in the project.
@@ -97,7 +97,7 @@ class SourceCall(Struct):
 
 
 class TickSource(Struct):
-    """The end of a job of `source_of_tick`: what the code of the actions did in the tick.
+    """The end of a job of `source_of_tick`: what the code of the project did in the tick.
 
     Attributes:
         t: the time of the tick in s.

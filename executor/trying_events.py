@@ -26,7 +26,8 @@ class TryValues(Struct, forbid_unknown_fields=True):
     `go_back`, then continued for `duration_s` once as it is (index 0), and once with each of `values`. Each
     value is what `set_port` would take; null removes the text. One job runs at a time; another one ends it.
 
-    Refused with `no_run`, `unknown_run`, `not_repeatable`, or with `live_run` for a live run.
+    Refused with `no_run`, `unknown_run`, `not_repeatable`, with `live_run` for a live run, or with
+    `changed_by_hand` for a moment after which the debugger had changed the program.
     """
 
     job: TryingName

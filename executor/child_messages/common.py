@@ -71,12 +71,14 @@ class Beat(Message, tag="beat"):
         task: the name of the thing that the main thread loads; "" after loading, while it runs its loop.
         clocks: number of times that simulated time was published (world) or received (application).
         place: the place of the main thread, if it has not completed its loop for a while.
+        ticks: number of ticks that an exact run has begun.
     """
 
     turns: int
     task: str = ""
     clocks: int = 0
     place: Place | None = None
+    ticks: int = 0
 
 
 class Log(Message, tag="log"):

@@ -1,4 +1,4 @@
-"""Follows the code of the user's actions through one tick: its calls, its lines, and the values of its names.
+"""Follows the code of the user's project through one tick: its calls, its lines, and the values of its names.
 
 It is only for a run that is made again out of sight, in a process that ends afterwards: `repr` of the user's
 classes runs, and each line of an action costs.
@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
-from executor.application.locate import is_action_file
 from executor.application.preview import text_of
 from executor.child_messages import TickSource
 from executor.source_events import (
@@ -24,7 +23,6 @@ from executor.source_events import (
 from tree_gardener.errors import describe
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
     from types import CodeType, FrameType, TracebackType
 
     from executor.application.locate import Locator
@@ -41,6 +39,16 @@ LONGEST_TEXT: Final = 200
 ENGINE_FIELD: Final = "tree_gardener_node"
 SIMPLE: Final = (bool, int, float, complex, str, bytes, type(None))
 """Values of these types do not change in place."""
+
+
+class Files(Protocol):
+    """The files of the program, as they are used here."""
+
+    def file_of(self, path: str) -> str:
+        """Returns the name in the project of a file; "" for one outside of it."""
+
+    def text_of(self, path: str, most_bytes: int) -> str | None:
+        """Returns the text of a file of the project; None if it is longer."""
 
 
 @dataclass
@@ -61,12 +69,13 @@ class LineTracer:
 
     Args:
         locator: finds the node of a stack frame.
-        sources: the text of each action by its name.
+        files: the files of the program.
     """
 
-    def __init__(self, locator: Locator, sources: Mapping[str, str]) -> None:
+    def __init__(self, locator: Locator, files: Files) -> None:
         self._locator = locator
-        self._sources = sources
+        self._files = files
+        self._names: dict[str, str] = {}
         self._open: dict[FrameType, _Open] = {}
         self._hidden: dict[type[Any], frozenset[str]] = {}
         self._earlier: Any = None
@@ -97,41 +106,45 @@ class LineTracer:
             t=t_s,
             tick=tick,
             calls=self.calls,
-            files=self._files(),
+            files=self._texts_of_files(),
             left_out=self.left_out,
             is_cut=self.is_cut,
         )
 
-    def _files(self) -> dict[str, str]:
+    def _texts_of_files(self) -> dict[str, str]:
         """Returns the text of each file with a call, as far as there is room for it."""
         found: dict[str, str] = {}
         left = MOST_SOURCE_BYTES // 2
-        for name in dict.fromkeys(call.file for call in self.calls):
-            text = self._sources.get(name.removeprefix("actions/").removesuffix(".py"))
-            if text is None:
-                continue
-            size = len(text.encode(errors="replace"))
-            if size <= left:
+        called = {call.file for call in self.calls}
+        for path, name in self._names.items():
+            if name in called and (text := self._files.text_of(path, left)) is not None:
                 found[name] = text
-                left -= size
+                left -= len(text.encode(errors="replace"))
         return found
+
+    def _name_of(self, path: str) -> str:
+        """Returns the name in the project of a file; "" for one outside of it."""
+        if path not in self._names:
+            self._names[path] = self._files.file_of(path)
+        return self._names[path]
 
     # --- what Python calls ----------------------------------------------------------------------------
 
     def _begin(self, frame: FrameType, _event: str, _arg: Any) -> LocalTrace:
         """Begins a call; Python calls this for each new frame."""
         code = frame.f_code
-        if self.is_cut or not is_action_file(code.co_filename):
+        file = "" if self.is_cut else self._name_of(code.co_filename)
+        if not file:
             return None
         outer = self._open.get(frame.f_back) if frame.f_back is not None else None
-        if code.co_name.startswith("<") and outer is not None and outer.call.file == code.co_filename:
+        if code.co_name.startswith("<") and outer is not None and outer.call.file == file:
             return self._follow_part(outer)  # a comprehension is a part of the function that holds it
         if len(self.calls) >= MOST_CALLS:
             self.left_out += not code.co_name.startswith("<")
             return None
         node = self._locator.node_of(frame)
         call = SourceCall(
-            file=code.co_filename,
+            file=file,
             function=code.co_qualname,
             line=code.co_firstlineno,
             uid=node.uid if node is not None else 0,
@@ -203,7 +216,7 @@ class LineTracer:
     def _note(self, it: _Open, frame: FrameType) -> list[SourceValue]:
         """Takes the values of all names; returns those that are not what they were."""
         changed: list[SourceValue] = []
-        for name, value in self._names(it, frame):
+        for name, value in self._values_of(it, frame):
             before = it.known.get(name)
             if before is not None and before[0] is value and isinstance(value, SIMPLE):
                 continue
@@ -213,7 +226,7 @@ class LineTracer:
                 changed.append(SourceValue(name, text))
         return changed
 
-    def _names(self, it: _Open, frame: FrameType) -> list[tuple[str, Any]]:
+    def _values_of(self, it: _Open, frame: FrameType) -> list[tuple[str, Any]]:
         found = [
             (name, value)
             for name, value in frame.f_locals.items()
@@ -232,7 +245,7 @@ class LineTracer:
             it.call.end, it.call.result = "raised", it.raised
         else:
             it.call.end, it.call.result = "returned", self._text(result)
-        for name, _ in self._names(it, frame):
+        for name, _ in self._values_of(it, frame):
             value = SourceValue(name, it.known[name][1]) if name in it.known else SourceValue(name, "…")
             (it.call.fields if name.startswith("self.") else it.call.locals).append(value)
         del self._open[frame]
@@ -248,11 +261,11 @@ class LineTracer:
         return text
 
     def _hidden_of(self, kind: type[Any]) -> frozenset[str]:
-        """Returns the fields that base classes outside of the actions set, such as those of py_trees."""
+        """Returns the fields that base classes outside of the project set, such as those of py_trees."""
         if kind not in self._hidden:
             starts = [getattr(vars(base).get("__init__"), "__code__", None) for base in kind.__mro__]
             codes: list[CodeType] = [start for start in starts if start is not None]
-            names = {name for code in codes if not is_action_file(code.co_filename) for name in code.co_names}
+            names = {name for code in codes if not self._name_of(code.co_filename) for name in code.co_names}
             self._hidden[kind] = frozenset({*names, ENGINE_FIELD})
         return self._hidden[kind]
 

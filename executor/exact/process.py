@@ -147,6 +147,7 @@ class ExactApplication(Application):
                 self._for_world.answering(command, lambda: self._for_world.obey(command))
             case child_messages.StepTick():
                 self._guarded(self._step)
+                self._tell_fingerprints()
                 self._reporter.flush(now=True)
                 self._channel.send(child_messages.Stepped())
             case child_messages.SetTickRate(tick_hz=tick_hz):
@@ -179,6 +180,12 @@ class ExactApplication(Application):
         now_s = time.monotonic()
         self._loop.streams.send_due(now_s)
         self._exact_world.recorder.look(now_s)
+
+    def show_held(self) -> None:
+        """Reports what the tick in progress has written so far, and the ticks before it."""
+        if self._replaying is None:
+            self._tell_fingerprints()  # the session counts the ticks that have ended
+        super().show_held()
 
     def note_input(self, command: str, data: Any, tick: int, hook: int) -> None:
         """Records what a person did, unless it is done again."""
@@ -231,6 +238,7 @@ class ExactApplication(Application):
         runner, exact = self._runner, self._exact_world
         assert runner is not None  # noqa: S101 - time passes only after `ready`
         self._pulse.moved()
+        self._pulse.ticks = exact.loop.ticks
         self._is_in_tick = True
         if self._replaying is not None and runner.state is RunnerState.PAUSED:
             runner.resume()  # pauses are not made again
@@ -391,7 +399,7 @@ class ExactApplication(Application):
             resets=self._keeping.resets,
         )
         if replay.shows_source and self._program is not None:
-            self._tracer = LineTracer(self._locator, self._program.sources)
+            self._tracer = LineTracer(self._locator, self._program)
         speed = loop.speed
         loop.set_speed(0)
         error = ""

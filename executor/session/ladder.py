@@ -116,6 +116,11 @@ TABLE: Final[dict[str, Row]] = {
     "go_back": _move(
         RUNNABLE, State.PAUSED, "Takes world and program of an exact run back to a moment, and pauses there."
     ),
+    "tick_back": _move(
+        frozenset({State.PAUSED, State.HELD}),
+        State.PAUSED,
+        "Takes an exact run back to the begin of the last whole tick, and pauses there.",
+    ),
     "run_on": _move(
         frozenset({State.PAUSED}), State.APPLICATION_RUNNING, "Resumes with a changed tree, which continues."
     ),

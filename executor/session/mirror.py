@@ -89,8 +89,7 @@ class Mirror:
         self.flags: dict[str, FlagSet] = {}
         self.stops: deque[RecordingStopped] = deque(maxlen=STOPS)
         self.branches: deque[Branch] = deque(maxlen=BRANCHES)
-        self.repeatable_runs: list[str] = []
-        self.live_runs: list[str] = []
+        self.repeatable = RepeatableRuns([])
         self.runs = 0
         self._logged = 0
         self._run_starts: deque[tuple[int, int]] = deque(maxlen=LOG_LINES)
@@ -145,7 +144,7 @@ class Mirror:
             case Branch():
                 self._apply_branch(event)
             case RepeatableRuns():
-                self.repeatable_runs, self.live_runs = event.runs, event.live
+                self.repeatable = event
             case Held():
                 self.held = event
             case Released():
@@ -198,8 +197,9 @@ class Mirror:
             flags=list(self.flags.values()),
             stops=list(self.stops),
             branches=list(self.branches),
-            repeatable_runs=self.repeatable_runs,
-            live_runs=self.live_runs,
+            repeatable_runs=self.repeatable.runs,
+            live_runs=self.repeatable.live,
+            runs_by_hand=self.repeatable.by_hand,
             held=self.held,
             forced=self.forced,
             attached=self.attached,

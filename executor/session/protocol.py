@@ -70,7 +70,9 @@ __all__ = ["Session"]
 
 _log = logging.getLogger(__name__)
 
-_CLIMBING: Final = frozenset({"launch_universe", "run_application", "run", "restart_application", "go_back"})
+_CLIMBING: Final = frozenset(
+    {"launch_universe", "run_application", "run", "restart_application", "go_back", "tick_back"}
+)
 
 
 @dataclass
@@ -162,9 +164,9 @@ class Session:
         self._advance()
         self._expire()
         self.python.follow()
-        names, live = self.past.names, self.past.live_names
-        if names != self.mirror.repeatable_runs or live != self.mirror.live_runs:
-            self.output.emit(messages.RepeatableRuns(names, live))
+        repeatable = messages.RepeatableRuns(self.past.names, self.past.live_names, self.past.by_hand)
+        if repeatable != self.mirror.repeatable:
+            self.output.emit(repeatable)
         application = self.children.get("application")
         if application is None or not application.is_started:
             self.nodes.stop(self)

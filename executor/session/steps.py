@@ -15,7 +15,7 @@ from executor import child_messages, messages
 from executor.apply_messages import Apply, RunOn
 from executor.child_messages import ApplicationReady, Failed, Fault, StartWorld, WorldReady
 from executor.session import streaming
-from executor.session.exact.going_back import go_back
+from executor.session.exact.going_back import go_back, tick_back
 from executor.session.exact.hosting import choose, expect, host, state_of_world
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.live.going_back import go_back_live
@@ -438,6 +438,7 @@ STEPS: Final[dict[str, Callable[[Stage, Struct], Step]]] = {
     "apply": _typed(Apply, _apply),
     "run_on": _typed(RunOn, _run_on),
     "go_back": _typed(messages.GoBack, _go_back),
+    "tick_back": tick_back,
     "restart_application": restart_application,
     "pause": pause,
     "resume": resume,

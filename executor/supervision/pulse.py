@@ -53,6 +53,7 @@ class Pulse:
 
     Attributes:
         clocks: number of times that the process received or published simulated time.
+        ticks: number of ticks that an exact run has begun.
         locate: returns the place of a frame of the main thread.
         current: the number of the tree node that is being ticked; the manager reads it from the file.
     """
@@ -62,7 +63,7 @@ class Pulse:
         self._main = threading.main_thread().ident or 0
         self._turns = 0
         self._task = "starting"
-        self.clocks = 0
+        self.clocks = self.ticks = 0
         self.locate: Callable[[FrameType | None], Place] = place_in_our_code
         self.current = _take_notes(int(os.environ.pop(NOTES_VARIABLE, "-1")))
         own(threading.Thread(target=self._beat, name="pulse", daemon=True)).start()
@@ -103,7 +104,7 @@ class Pulse:
                     if self._turns != turns:
                         turns, since_s = self._turns, now_s
                     place = self._place() if now_s - since_s >= AWAY_S else None
-                    self._send(Beat(turns, self._task, self.clocks, place))
+                    self._send(Beat(turns, self._task, self.clocks, place, self.ticks))
                 time.sleep(BEAT_S)
 
     def _place(self) -> Place:

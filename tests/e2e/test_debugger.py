@@ -46,6 +46,7 @@ def it_is_held_by_the_mouse(studio: Studio) -> None:
     held_at(studio, CHECK, "before its tick")
     expect(studio.at(f"node-{ROOT}")).to_have_attribute("data-held", "path")
     expect(studio.at("stop-obs_dist")).to_contain_text("50")
+    expect(studio.at("held-banner").get_by_test_id("tick-back")).to_be_disabled()  # it is a live run
     studio.picture("held")
     studio.at("debug-over").click()
     held_at(studio, CHECK, "it returned SUCCESS")  # an obstacle, at any distance

@@ -56,6 +56,7 @@ def test_an_exact_run_goes_back_and_runs_on(
     page.set_viewport_size({"width": 390, "height": 800})
     studio.picture("gone-back-narrow")
     page.set_viewport_size({"width": 1440, "height": 900})
+    one_tick_back(studio)
 
     studio.at("resume").click()
     studio.expect_state("application_running")
@@ -70,6 +71,21 @@ def test_an_exact_run_goes_back_and_runs_on(
     wait_until(lambda: studio.stat("t") > moment + 2, "the run before is at its end again")
     studio.expect_state("paused")
     studio.end_session()
+
+
+def one_tick_back(studio: Studio) -> None:
+    """By its key and by its button, tick by tick; the one that follows is made again."""
+    begin = studio.stat("t")
+    studio.page.keyboard.press("Control+Shift+F10")
+    wait_until(lambda: abs(studio.stat("t") - begin + 0.05) < 0.01, "the run is one tick back")
+    studio.expect_state("paused")
+    studio.at("tick-back").click()
+    wait_until(lambda: abs(studio.stat("t") - begin + 0.1) < 0.01, "and one more")
+    studio.expect_state("paused")
+    expect(studio.at("axis-run").locator("option")).to_have_count(2)  # the run, and one branch of it
+    studio.at("step").click()
+    wait_until(lambda: abs(studio.stat("t") - begin + 0.05) < 0.01, "the tick is made again")
+    studio.picture("one-tick-back")
 
 
 def test_the_touch_of_a_crate_is_undone_from_three_seconds_before(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from executor.application.host import enter
@@ -13,8 +14,7 @@ from tree_gardener.document import embedded_sources, parse_document
 from tree_gardener.swap import Swap
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-    from pathlib import Path
+    from collections.abc import Callable
 
     from tree_gardener.clock import Clock
 
@@ -41,13 +41,28 @@ class Program:
     def __init__(self, folder: Path, clock: Clock) -> None:
         self._clock = clock
         self._folder = folder
+        self._folders = [folder]
         self._sources: dict[str, str] = {}
         self._leave: Callable[[], None] = enter(folder)
 
-    @property
-    def sources(self) -> Mapping[str, str]:
-        """The text of each action of the present program, by its name."""
-        return self._sources
+    def file_of(self, path: str) -> str:
+        """Returns the name in the project of a file that the program runs; "" for one outside of it.
+
+        A module that has not changed since an earlier program is still the one of its folder.
+        """
+        if path.startswith(f"{PACKAGE}/"):
+            return path
+        found = (path.removeprefix(f"{folder}/") for folder in self._folders if path.startswith(f"{folder}/"))
+        return next(found, "")
+
+    def text_of(self, path: str, most_bytes: int) -> str | None:
+        """Returns the text of such a file; None if it is longer, or is not there any more."""
+        name = self.file_of(path).removeprefix(f"{PACKAGE}/").removesuffix(".py")
+        if path.startswith(f"{PACKAGE}/") and name in self._sources:
+            data = self._sources[name].encode(errors="replace")
+        else:
+            data = _head(path, most_bytes + 1)
+        return data.decode(errors="replace") if 0 < len(data) <= most_bytes else None
 
     def load(self) -> Tree:
         """Builds the tree.
@@ -70,6 +85,7 @@ class Program:
         if not (folder / DOCUMENT).is_file():
             raise NoTreeError
         before = (self._folder, self._sources, self._leave)
+        folders = self._folders
         forget_actions = remember_actions()
         removed: dict[str, Any] = {}
         self._leave()
@@ -79,6 +95,7 @@ class Program:
             forget_actions()
             sys.modules.update(removed)
             self._folder, self._sources, _ = before
+            self._folders = folders
             self._leave = enter(self._folder)
 
         self._leave = enter(folder)
@@ -93,6 +110,7 @@ class Program:
             undo()
             raise
         self._folder, self._sources = folder, sources
+        self._folders = [folder, *folders]
         return Change(swap, undo)
 
 
@@ -107,6 +125,17 @@ class Change:
     def __init__(self, swap: Swap, undo: Callable[[], None]) -> None:
         self.swap = swap
         self.undo = undo
+
+
+def _head(path: str, most_bytes: int) -> bytes:
+    """Returns the begin of a file; nothing if it is no file that can be read."""
+    try:
+        if not Path(path).is_file():  # a pipe would wait
+            return b""
+        with Path(path).open("rb") as file:
+            return file.read(most_bytes)
+    except (OSError, ValueError):
+        return b""
 
 
 def _others(folder: Path) -> dict[str, str]:

@@ -31,6 +31,8 @@ __all__ = ["HELD_IN_PYTHON", "HELD_IN_PYTHON_HINT", "HELD_IN_PYTHON_TEXT", "Pyth
 HELD_IN_PYTHON: Final = "held_in_python"
 HELD_IN_PYTHON_TEXT: Final = "The program is held at a line of Python, and answers nothing."
 HELD_IN_PYTHON_HINT: Final = "Continue it first."
+CHANGES: Final = frozenset({"evaluate", "setVariable"})
+"""What may change a program, in the midst of whatever it does if it is not stopped."""
 STEPS: Final = frozenset({"next", "stepIn", "stepOut"})
 LONGEST_CHANGE: Final = 200
 GOODBYE_S: Final = 2.0
@@ -93,6 +95,8 @@ class PythonDebugger:
             self._answer(request, "No program is connected with the debugger.")
         elif request.command == "configurationDone" and self._is_configured:
             self._answer(request)
+        elif request.command in CHANGES and not self.is_stopped:
+            self._answer(request, "The program is not held at a line of Python.")
         else:
             self._pass_on(request)
 
@@ -118,7 +122,7 @@ class PythonDebugger:
             self._stepping_from = application.vitals.turns if is_step and application is not None else None
         self._follow_breakpoints(request)
         change = made_by_hand(request)
-        if change and self.is_stopped:
+        if change:
             self._note_change(change)
         self._request(request.command, request.arguments, request.seq)
 
@@ -142,7 +146,9 @@ class PythonDebugger:
         stage = self._stage
         text = f"Changed by hand in Python: {change[:LONGEST_CHANGE]}"
         stage.output.emit(messages.Log("manager", "warning", text, time=stage.sim_time_s))
-        stage.past.changed_by_hand(stage.sim_time_s)
+        application = stage.children.get("application")
+        whole = max(0, application.vitals.ticks - 1) if application is not None else 0
+        stage.past.changed_by_hand(stage.sim_time_s, whole)
         if text == self._last_change:
             return
         self._last_change = text

@@ -13,7 +13,8 @@ from msgspec import structs
 
 from executor import child_messages
 from executor.session.events import DropSnapshot
-from executor.session.exact.going_back import found_run
+from executor.session.exact.going_back import LIVE_HINT, found_run, refuse_by_hand
+from executor.session.exact.snapshots import ticks_of
 from executor.session.waits import StepFailed
 
 if TYPE_CHECKING:
@@ -24,12 +25,11 @@ if TYPE_CHECKING:
     from executor.session.exact.past import PastRun
     from executor.session.stage import Stage
 
-__all__ = ["LATE", "LIVE_HINT", "SILENT_S", "Aside"]
+__all__ = ["LATE", "SILENT_S", "Aside"]
 
 SILENT_S: Final = 60.0
 """A process that makes no progress for so long is ended."""
 LAST_LINES: Final = 3
-LIVE_HINT: Final = "Make the run exact in the menu beside Run, and press Run."
 LATE: Final = "The run could not be made again in time: it no longer makes progress."
 
 
@@ -60,23 +60,22 @@ class Aside:
         """Whether the run is at the moment."""
         return self._work is not None and self._work.is_there
 
-    def found(self, event: CommandCame, run: str, live: str) -> PastRun | None:
+    def found(self, event: CommandCame, run: str, until_s: float | None, live: str) -> PastRun | None:
         """Returns the run of a command, or refuses the command; `live` is the text for a live run."""
-        refuse = self._stage.output.refuse
         try:
             past = found_run(self._stage, run)
+            if not past.is_exact:
+                raise StepFailed("live_run", live, LIVE_HINT)
+            refuse_by_hand(past, until_s)
         except StepFailed as failure:
-            refuse(event, failure.code, failure.message, failure.hint)
-            return None
-        if not past.is_exact:
-            refuse(event, "live_run", live, LIVE_HINT)
+            self._stage.output.refuse(event, failure.code, failure.message, failure.hint)
             return None
         return past
 
     def begin(self, past: PastRun, replay: Replay, after_s: float | None) -> None:
         """Begins to make the run again; no snapshot that is later than `after_s` is used."""
         self._work = work = _Work(past, replay, self._stage.now_s)
-        snapshot = self._stage.snapshots.newest(past, after_s)
+        snapshot = self._stage.snapshots.newest(past, after_s, ticks_of(replay))
         if snapshot is None:
             self._make_again(work)
             return

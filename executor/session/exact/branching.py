@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from executor.session.events import CommandCame
     from executor.session.stage import Stage
 
-__all__ = ["branches", "drop_branch", "name_branch"]
+__all__ = ["branches", "drop_branch", "name_branch", "throw_away"]
 
 
 def branches(stage: Stage, event: CommandCame, _: messages.Empty) -> None:
@@ -33,16 +33,22 @@ def name_branch(stage: Stage, event: CommandCame, data: messages.NameBranch) -> 
 
 def drop_branch(stage: Stage, event: CommandCame, data: messages.DropBranch) -> None:
     """Throws a branch away, with its recording and all that is needed to go back in it."""
-    if (branch := _found(stage, event, data.run)) is None:
+    if _found(stage, event, data.run) is None:
         return
     if stage.recording.run == data.run:
         text = "This branch is the run of the present."
         stage.output.refuse(event, "present_run", text, "Go back in another run first, or press Run.")
         return
-    stage.past.drop(data.run)
-    stage.children.tell_recorder(recorder_messages.DropRun(data.run))
-    stage.output.emit(structs.replace(branch, is_gone=True))
+    throw_away(stage, data.run)
     stage.output.send(event.client, messages.Ack(), event.request)
+
+
+def throw_away(stage: Stage, run: str) -> None:
+    """Throws a branch away that is not the run of the present."""
+    stage.past.drop(run)
+    stage.children.tell_recorder(recorder_messages.DropRun(run))
+    for branch in [each for each in stage.mirror.branches if each.run == run]:
+        stage.output.emit(structs.replace(branch, is_gone=True))
 
 
 def _found(stage: Stage, event: CommandCame, run: str) -> Branch | None:

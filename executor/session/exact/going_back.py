@@ -1,4 +1,4 @@
-"""The command `go_back`: world and program of an exact run are taken back to a moment, and held there.
+"""The commands `go_back` and `tick_back`: an exact run is taken back to a moment, and paused there.
 
 The run is made again from the newest snapshot before the moment, or from its begin, as fast as the machine
 can; what came from outside enters at the same places. What was before the moment belongs to both runs; what
@@ -7,25 +7,31 @@ follows is a branch, with its own recording.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Final
 
 from msgspec import structs
 
 from executor import child_messages, messages
 from executor.child_messages import ApplicationReady, Fault, GoingBack, WentBack
+from executor.session.exact.branching import throw_away
 from executor.session.exact.hosting import host
-from executor.session.exact.snapshots import keep_present
+from executor.session.exact.snapshots import keep_present, ticks_of
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.running import hold_world, terminate_application
-from executor.session.waits import Answered, Step, StepFailed, Wait, is_spare_lost, taken
+from executor.session.waits import Answered, Step, StepFailed, Wait, gone, is_spare_lost, taken
 
 if TYPE_CHECKING:
+    from collections.abc import Generator
+
+    from msgspec import Struct
+
     from executor.replay_messages import Replay
     from executor.session.child import Child
     from executor.session.exact.past import PastRun
     from executor.session.stage import Stage
 
-__all__ = ["found_run", "go_back"]
+__all__ = ["LIVE_HINT", "found_run", "go_back", "refuse_by_hand", "tick_back"]
 
 SILENT_S: Final = 60.0
 SILENT_COPY_S: Final = 10.0
@@ -33,20 +39,53 @@ NO_RUN: Final = "There is no run to go back in."
 NO_RUN_HINT: Final = "Press Run first."
 UNKNOWN: Final = "This run cannot be made again: it is too long ago, or was in another world."
 UNKNOWN_HINT: Final = "Go back in a later run."
+BY_HAND: Final = (
+    "The program was changed by hand with the Python debugger at {:.2f} s: "
+    "from there on the run cannot be made again."
+)
+BY_HAND_HINT: Final = "Choose an earlier moment, or press Run."
+LIVE: Final = "A live run has no way back by one tick: its world and its program are not one."
+LIVE_HINT: Final = "Make the run exact in the menu beside Run, and press Run."
+FIRST: Final = "This is the begin of the run: there is no tick before."
+RESET: Final = "The world was reset here: there is no tick before in this run."
+BEAT_S: Final = 2.0
 
 
 def go_back(stage: Stage, data: messages.GoBack) -> Step:
     """Takes the present run, or an earlier one in this world, back to a moment."""
     past = found_run(stage, data.run)
+    refuse_by_hand(past, data.t)
     if stage.state in HAS_APPLICATION:
         yield from keep_present(stage)
         yield from terminate_application(stage, data)
-    stage.output.emit(messages.GoingBack(0.0))
-    try:
-        reached = yield from _from_snapshot(stage, past, past.replay(data.t))
-    finally:
-        stage.output.emit(messages.GoingBack(1.0))
-    _tell(stage, reached)
+    reached = yield from _to(stage, past, past.replay(data.t))
+    text = f"World and program are back at {reached.t:.2f} s. Resume lets them run on from there."
+    stage.output.emit(messages.Log("manager", "info", text, time=reached.t))
+
+
+def tick_back(stage: Stage, data: Struct) -> Step:
+    """Takes the present run back to the begin of its last whole tick.
+
+    A branch that is a part of its parent is thrown away: else each press would leave one behind.
+    """
+    if stage.children.host is None:
+        raise StepFailed("live_run", LIVE, LIVE_HINT)
+    past = found_run(stage, "")
+    is_spare = _is_spare(stage, past)
+    if not is_spare:
+        yield from keep_present(stage)  # it tells all ticks, too
+    ticks = (yield from _whole_ticks(stage, past)) - 1
+    if ticks < past.reset_ticks:
+        raise StepFailed("first_tick", RESET if past.resets else FIRST)
+    if past.by_hand_s is not None and ticks > past.by_hand_ticks:
+        refuse_by_hand(past, None)
+    yield from terminate_application(stage, data)
+    course = replace(past, run=past.parent) if is_spare else past
+    reached = yield from _to(stage, course, course.replay(None, ticks))
+    if is_spare:
+        throw_away(stage, past.run)
+    text = f"One tick back, to {reached.t:.2f} s: a step makes this tick again."
+    stage.output.emit(messages.Log("manager", "info", text, time=reached.t))
 
 
 def found_run(stage: Stage, run: str) -> PastRun:
@@ -65,9 +104,48 @@ def found_run(stage: Stage, run: str) -> PastRun:
     return past
 
 
+def refuse_by_hand(past: PastRun, until_s: float | None) -> None:
+    """Refuses a moment before which the debugger has changed the program of a run; None is its end.
+
+    Raises:
+        StepFailed: it is one.
+    """
+    if past.by_hand_s is not None and (until_s is None or until_s >= past.by_hand_s):
+        raise StepFailed("changed_by_hand", BY_HAND.format(past.by_hand_s), BY_HAND_HINT)
+
+
+def _is_spare(stage: Stage, past: PastRun) -> bool:
+    """Returns whether a branch holds nothing that its parent has not, and nobody has marked it."""
+    parent = stage.past.find(past.parent) if past.parent else None
+    if parent is None or not past.is_part_of(parent):
+        return False
+    is_named = any(branch.run == past.run and branch.name for branch in stage.mirror.branches)
+    return not is_named and all(flag.run != past.run for flag in stage.mirror.flags.values())
+
+
+def _whole_ticks(stage: Stage, past: PastRun) -> Generator[Wait, Any, int]:
+    """Returns how many ticks of the present run have ended, also while it stands at a line of Python."""
+    application = stage.children.get("application")
+    if application is None or not stage.python.is_stopped:
+        return past.ticks
+    vitals, beats = application.vitals, application.vitals.beats
+    late = "The program gives no sign of life."
+    yield Wait(lambda: vitals.beats > beats or gone(application)(), BEAT_S, late)
+    return vitals.ticks - 1
+
+
+def _to(stage: Stage, past: PastRun, replay: Replay) -> Answered[WentBack]:
+    """Takes a run back, and says how far it is on its way."""
+    stage.output.emit(messages.GoingBack(0.0))
+    try:
+        return (yield from _from_snapshot(stage, past, replay))
+    finally:
+        stage.output.emit(messages.GoingBack(1.0))
+
+
 def _from_snapshot(stage: Stage, past: PastRun, replay: Replay) -> Answered[WentBack]:
     """Makes a run again from its newest snapshot before the moment; from its begin where that fails."""
-    snapshot = stage.snapshots.newest(past, replay.until_s)
+    snapshot = stage.snapshots.newest(past, replay.until_s, ticks_of(replay))
     if snapshot is None:
         return (yield from _make_again(stage, past, replay))
     _prepare(stage, past)
@@ -160,11 +238,6 @@ def _take_over(stage: Stage, past: PastRun, application: Child, reached: WentBac
     stage.enter(State.PAUSED)
     if (differs := application.said(child_messages.Differs)) is not None:
         _tell_differs(stage, differs)
-
-
-def _tell(stage: Stage, reached: WentBack) -> None:
-    text = f"World and program are back at {reached.t:.2f} s. Resume lets them run on from there."
-    stage.output.emit(messages.Log("manager", "info", text, time=reached.t))
 
 
 def _tell_differs(stage: Stage, found: child_messages.Differs) -> None:

@@ -8,6 +8,7 @@ It is kept here, not in the run, since a run may die of what it does.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from itertools import takewhile
 from typing import TYPE_CHECKING, Final
 
 import msgspec
@@ -31,6 +32,7 @@ MOST_INPUT_BYTES: Final = 32 << 20
 OWN_BYTES: Final = 256
 """The memory that an input takes beside its message, about."""
 MOST_TICKS: Final = 2_000_000
+_OF_HOLDS: Final = (child_messages.SetBreakpoints, child_messages.Continue)
 TOO_MUCH: Final = "More was done by hand in this run than is kept"
 TOO_MANY_CHANGES: Final = f"The tree of this run was changed more than {MOST_FOLDERS - 1} times"
 DAMAGED: Final = "What this run had from outside cannot be read"
@@ -50,6 +52,9 @@ class PastRun:
         refusal: why it cannot be made again, as the begin of a sentence; "" if it can.
         folders: the folders with the programs that it used.
         by_hand_s: when the debugger has changed its program by hand, in s; None if it has not.
+        by_hand_ticks: the number of ticks that had ended before.
+        reset_ticks: the number of ticks that had ended when its world was reset last.
+        parent: the name of the run that it continues; "" if it is no branch.
         changes: when a live run got another program, in s, and the folder of that.
     """
 
@@ -62,6 +67,9 @@ class PastRun:
     folders: tuple[str, ...] = ()
     changes: tuple[tuple[float, str], ...] = ()
     by_hand_s: float | None = None
+    by_hand_ticks: int = 0
+    reset_ticks: int = 0
+    parent: str = ""
     input_bytes: int = 0
     has_begun: bool = False
 
@@ -74,9 +82,30 @@ class PastRun:
         """Returns the folder of the program that a live run had at a moment in s."""
         return next((folder for at_s, folder in reversed(self.changes) if at_s <= t_s), self.start.app_dir)
 
-    def replay(self, until_s: float | None) -> Replay:
-        """Returns how it is made again up to a moment in s; with None, to its end."""
-        return Replay(list(self.inputs), bytes(self.fingerprints), until_s, self.resets)
+    @property
+    def ticks(self) -> int:
+        """The number of its ticks that have ended, as far as it has told them."""
+        return len(self.fingerprints) // FINGERPRINT_BYTES
+
+    def replay(self, until_s: float | None, ticks: int | None = None) -> Replay:
+        """Returns how it is made again up to a moment in s, and at most so many ticks; with None, to its end.
+
+        No tick is made again in which, or after which, the program was changed by hand.
+        """
+        most = self.ticks if ticks is None else ticks
+        if self.by_hand_s is not None:
+            most = min(most, self.by_hand_ticks)
+        prints = bytes(self.fingerprints[: most * FINGERPRINT_BYTES])
+        return Replay(list(self.inputs), prints, until_s, self.resets)
+
+    def is_part_of(self, parent: PastRun) -> bool:
+        """Returns whether this branch is as its parent was; at what the debugger holds does not count."""
+        if self.by_hand_s is not None or not parent.fingerprints.startswith(self.fingerprints):
+            return False
+        pairs = zip(self.inputs, parent.inputs, strict=False)
+        at = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))  # most need no second look
+        own, others = _effective(self.inputs[at:]), _effective(parent.inputs[at:])
+        return others[: len(own)] == own and all(each.tick >= self.ticks for each in others[len(own) :])
 
     def enter(self, entered: Entered) -> None:
         """Takes something that came from outside."""
@@ -94,6 +123,7 @@ class PastRun:
             return
         if isinstance(command, child_messages.Reset):
             self.resets += 1
+            self.reset_ticks = entered.input.tick
         elif isinstance(command, child_messages.ApplyApplication):
             self.folders += (command.app_dir,)
             if len(self.folders) > MOST_FOLDERS:
@@ -106,13 +136,17 @@ class PastRun:
             self._give_up(TOO_LONG)
 
     def until(self, reached: WentBack) -> PastRun:
-        """Returns the run as it was at a moment at which another branch begins."""
+        """Returns the run as it was at a moment at which another branch begins.
+
+        That is never later than a change by hand.
+        """
         return replace(
             self,
             inputs=self.inputs[: reached.inputs],
             fingerprints=self.fingerprints[: reached.ticks * FINGERPRINT_BYTES],
             resets=reached.resets,
-            by_hand_s=self.by_hand_s if self.by_hand_s is not None and self.by_hand_s < reached.t else None,
+            by_hand_s=None,
+            by_hand_ticks=0,
         )
 
     def copy(self) -> PastRun:
@@ -122,6 +156,11 @@ class PastRun:
     def _give_up(self, refusal: str) -> None:
         self.refusal = refusal
         self.inputs, self.fingerprints, self.folders = [], bytearray(), ()
+
+
+def _effective(inputs: list[Input]) -> list[Input]:
+    """Returns the inputs that change more than where the debugger holds."""
+    return [each for each in inputs if not isinstance(decode_to_exact(each.message), _OF_HOLDS)]
 
 
 class PastRuns:
@@ -140,13 +179,17 @@ class PastRuns:
             self._runs[-1].run, self._runs[-1].has_begun = run, True
 
     def reset(self, run: str) -> None:
-        """Begins another recording of the present run, whose world was reset."""
+        """Begins another recording of the present run, whose world was reset.
+
+        Of a program that was changed by hand before, all of it is later.
+        """
         if self._runs:
-            self._add(replace(self._runs[-1].copy(), run=run))
+            begun = replace(self._runs[-1].copy(), run=run, parent="")
+            self._add(begun if begun.by_hand_s is None else replace(begun, by_hand_s=0.0))
 
     def branch(self, run: PastRun, reached: WentBack) -> None:
         """Adds a run that continues another one from a moment."""
-        self._add(replace(run.until(reached), run=""))
+        self._add(replace(run.until(reached), run="", parent=run.run))
 
     def changed(self, t_s: float, folder: str) -> None:
         """Notes that a live present run has another program; an exact one says so itself."""
@@ -156,10 +199,10 @@ class PastRuns:
             if len(run.folders) > MOST_FOLDERS:
                 run.refusal, run.folders, run.changes = TOO_MANY_CHANGES, (), ()
 
-    def changed_by_hand(self, t_s: float) -> None:
-        """Notes that the debugger has changed the program of the present run."""
-        if self._runs and self._runs[-1].by_hand_s is None:
-            self._runs[-1].by_hand_s = t_s
+    def changed_by_hand(self, t_s: float, ticks: int) -> None:
+        """Notes that the debugger has changed the program of the present run, after so many whole ticks."""
+        if self._runs and (run := self._runs[-1]).by_hand_s is None:
+            run.by_hand_s, run.by_hand_ticks = t_s, ticks
 
     def forget(self) -> None:
         """Forgets all runs: the world in which they were is gone."""
@@ -198,6 +241,15 @@ class PastRuns:
     def live_names(self) -> list[str]:
         """Those of them that are live: only their world goes back."""
         return [run.run for run in self._runs if run.run and not run.refusal and not run.is_exact]
+
+    @property
+    def by_hand(self) -> dict[str, float]:
+        """When exact ones were changed by hand, in s: one can go back only to a moment before."""
+        return {
+            run.run: run.by_hand_s
+            for run in self._runs
+            if run.run and not run.refusal and run.is_exact and run.by_hand_s is not None
+        }
 
     @property
     def folders(self) -> frozenset[str]:

@@ -14,12 +14,13 @@ from executor.session.waits import StepFailed, Wait, message_of
 
 if TYPE_CHECKING:
     from executor.child_messages import NoSnapshots, SnapshotTaken, StartApplication
+    from executor.replay_messages import Replay
     from executor.session.child import Child
     from executor.session.exact.past import PastRun
     from executor.session.stage import Stage
     from executor.session.waits import Step
 
-__all__ = ["Snapshots", "keep_present"]
+__all__ = ["Snapshots", "keep_present", "ticks_of"]
 
 EPSILON_S: Final = 1e-6
 TIP_S: Final = 2.0
@@ -98,9 +99,13 @@ class Snapshots:
             if is_short:
                 self._tell(NO_MEMORY)
 
-    def newest(self, past: PastRun, until_s: float | None) -> tuple[int, int] | None:
-        """Returns the key of the newest snapshot of a run that is not after a moment; None without one."""
-        found = [each for each in self._there if each.is_before(until_s) and _belongs(each, past, until_s)]
+    def newest(self, past: PastRun, until_s: float | None, most_ticks: int) -> tuple[int, int] | None:
+        """Returns the key of the newest snapshot up to a moment and so many ticks; None without one."""
+        found = [
+            each
+            for each in self._there
+            if each.taken.ticks <= most_ticks and each.is_before(until_s) and _belongs(each, past)
+        ]
         best = max(found, key=lambda each: (each.taken.ticks, each.taken.inputs, each.taken.t), default=None)
         return best.kept.key if best is not None else None
 
@@ -156,5 +161,10 @@ def _begin(past: PastRun, taken: SnapshotTaken) -> bytes | None:
     return digest.digest()
 
 
-def _belongs(snapshot: _Snapshot, past: PastRun, until_s: float | None) -> bool:
+def ticks_of(replay: Replay) -> int:
+    """Returns how many ticks are made again at most."""
+    return len(replay.fingerprints) // FINGERPRINT_BYTES
+
+
+def _belongs(snapshot: _Snapshot, past: PastRun) -> bool:
     return snapshot.start is past.start and snapshot.begin == _begin(past, snapshot.taken)

@@ -26,8 +26,6 @@ BEFORE_S: Final = 1e-3
 MOST_BYTES: Final = 2 * MOST_SOURCE_BYTES
 MOST_CHARACTERS: Final = 2000
 LIVE: Final = "A live run cannot be made again, so nobody knows which lines a past tick ran."
-BY_HAND: Final = "The debugger has changed the program by hand before this tick: it cannot be made again."
-BY_HAND_HINT: Final = "Look at an earlier tick, or press Run."
 NO_TICK: Final = "The run has no tick at this moment that could be made again."
 TOO_LARGE: Final = "The tick did too much to be shown."
 CANCELLED: Final = "It was stopped."
@@ -53,11 +51,8 @@ class Sources:
 
     def begin(self, event: CommandCame, data: messages.SourceOfTick) -> None:
         """Begins a job; another one that runs is ended."""
-        past = self._aside.found(event, data.run, LIVE)
+        past = self._aside.found(event, data.run, data.t, LIVE)
         if past is None:
-            return
-        if past.by_hand_s is not None and data.t >= past.by_hand_s:
-            self._stage.output.refuse(event, "changed_by_hand", BY_HAND, BY_HAND_HINT)
             return
         self.stop()
         self._stage.output.send(event.client, messages.Ack(), event.request)

@@ -50,7 +50,7 @@ class Trying:
 
     def begin(self, event: CommandCame, data: messages.TryValues | messages.TrySeeds) -> None:
         """Begins a job; another one that runs is ended."""
-        past = self._aside.found(event, data.run, LIVE)
+        past = self._aside.found(event, data.run, data.t, LIVE)
         if past is None:
             return
         self.stop()

@@ -45,6 +45,8 @@ class Vitals:
         task: the long task of the main thread, such as loading; "" while it should run its loop.
         place: the place of the main thread, if it has not completed its loop for a moment.
         state: the kernel's letter for the state of the process.
+        beats: the number of beats that came.
+        ticks: the number of ticks that an exact run had begun at the last beat.
     """
 
     def __init__(self, now_s: float) -> None:
@@ -52,8 +54,7 @@ class Vitals:
         self.task = STARTING
         self.place = Place()
         self.state = ""
-        self.clocks = 0
-        self.has_beaten = False
+        self.clocks = self.ticks = self.beats = 0
         self._turns = -1
         self._looked_s = now_s
 
@@ -65,7 +66,8 @@ class Vitals:
 
     def beat(self, message: Beat) -> None:
         """Notes a beat."""
-        self.has_beaten = True
+        self.beats += 1
+        self.ticks = message.ticks
         self.task = message.task
         self.place = message.place or Place()
         if message.turns != self._turns:
@@ -73,6 +75,11 @@ class Vitals:
             self.stuck_s = self.idle_s = 0.0
         if message.clocks != self.clocks:
             self.clocks, self.deaf_s = message.clocks, 0.0
+
+    @property
+    def has_beaten(self) -> bool:
+        """Whether a beat came."""
+        return self.beats > 0
 
     @property
     def turns(self) -> int:

@@ -540,12 +540,23 @@ export interface Flag {
  * its begin, and the events `going_back` say how far it is. The world of a live run goes back to its last
  * recorded state that is not later (they are 5 s apart), and its tree begins again, with the recorded
  * blackboard; a line of the console names the entries that are left empty. What follows is recorded as a run
- * of its own (`branch`). Refused with `no_run`, `unknown_run`, `not_repeatable`, or `not_recorded`.
+ * of its own (`branch`). Refused with `no_run`, `unknown_run`, `not_repeatable`, `not_recorded`, or
+ * `changed_by_hand` for a moment after which the debugger had changed the program of an exact run.
  */
 export interface GoBack {
   run?: string;
   t?: number | null;
 }
+
+/**
+ * Takes the present exact run back to the begin of its last whole tick, where it is paused.
+ *
+ * A tick in which the debugger holds the tree is not whole: it is undone, too. What entered before the begin
+ * of that tick is done again, the tick is not. What follows is a branch, as for `go_back`; one in which
+ * nothing else happened than in its parent is thrown away. Refused with `live_run`, `first_tick` where there
+ * is no earlier tick, `not_repeatable`, or `changed_by_hand`.
+ */
+export type TickBack = Record<string, never>;
 
 /** Gives a branch a name, or none; the event `branch` follows. Refused with `unknown_branch`. */
 export interface NameBranch {
@@ -656,7 +667,8 @@ export interface EvaluationEnded {
  * `go_back`, then continued for `duration_s` once as it is (index 0), and once with each of `values`. Each
  * value is what `set_port` would take; null removes the text. One job runs at a time; another one ends it.
  *
- * Refused with `no_run`, `unknown_run`, `not_repeatable`, or with `live_run` for a live run.
+ * Refused with `no_run`, `unknown_run`, `not_repeatable`, with `live_run` for a live run, or with
+ * `changed_by_hand` for a moment after which the debugger had changed the program.
  */
 export interface TryValues {
   job: string;
@@ -764,7 +776,7 @@ export interface TryingEnded {
 }
 
 /**
- * Makes a run again up to a past tick, and says which lines of the project's actions this tick ran.
+ * Makes a run again up to a past tick, and says which lines of the project's Python this tick ran.
  *
  * Nothing of it happens in the world of the session: a process of its own makes the run again as for
  * `go_back`, and is ended. The tick is the first that is not earlier than `t` in s; the callbacks of ROS
@@ -811,7 +823,7 @@ export interface SourceLine {
 }
 
 /**
- * A call of a function of an action.
+ * A call of a function of the project: of an action, or of a module that actions import.
  *
  * Attributes:
  *     file: the file in the project.
@@ -841,7 +853,7 @@ export interface SourceCall {
 }
 
 /**
- * The end of a job of `source_of_tick`: what the code of the actions did in the tick.
+ * The end of a job of `source_of_tick`: what the code of the project did in the tick.
  *
  * Attributes:
  *     t: the time of the tick in s.
@@ -923,11 +935,14 @@ export interface Branch {
 /**
  * The runs of this session in which one can go back, the present or last one at the end.
  *
- * Of those that are `live`, the world goes back to a recorded state, and the tree begins again there.
+ * Of those that are `live`, the world goes back to a recorded state, and the tree begins again there. In
+ * those of `by_hand` the Python debugger has changed the program, at a moment in s: one can go back only to
+ * an earlier one.
  */
 export interface RepeatableRuns {
   runs: string[];
   live: string[];
+  by_hand: Record<string, number>;
 }
 
 /** A run is made again up to a moment; `fraction` is 0 to 1, and 1 also where that failed. */
@@ -1216,6 +1231,7 @@ export interface Snapshot {
   branches: Branch[];
   repeatable_runs: string[];
   live_runs: string[];
+  runs_by_hand: Record<string, number>;
   held: Held | null;
   forced: Forced | null;
   attached: Attached | null;
@@ -1395,6 +1411,7 @@ export interface Commands {
   resume: Empty;
   step: Empty;
   go_back: GoBack;
+  tick_back: TickBack;
   run_on: RunOn;
   branches: Empty;
   name_branch: NameBranch;

@@ -7,11 +7,19 @@ import { usePressed } from './hooks/usePressed';
 interface CommandButtonProps extends Pick<ActionIconProps, 'color' | 'variant' | 'size'> {
   readonly command: string;
   readonly isDisabled?: boolean;
+  /** Why the command is not possible now; the button stays focusable, so that its tooltip can say it. */
+  readonly reason?: string | null;
   readonly testId?: string;
 }
 
 /** A button for a user command, with its icon and tooltip. */
-export function CommandButton({ command: id, isDisabled = false, testId, ...look }: CommandButtonProps) {
+export function CommandButton({
+  command: id,
+  isDisabled = false,
+  reason = null,
+  testId,
+  ...look
+}: CommandButtonProps) {
   const { t } = useTranslation();
   const command = useCommandTable((table) => table.commands[id]);
   const { isPressed, handlers } = usePressed();
@@ -20,11 +28,17 @@ export function CommandButton({ command: id, isDisabled = false, testId, ...look
   const keys = keysOf(command);
   const Icon = command.icon;
   return (
-    <Tooltip label={keys ? `${label} (${keys})` : label} disabled={isPressed}>
+    <Tooltip
+      label={reason ?? (keys ? `${label} (${keys})` : label)}
+      disabled={isPressed && reason === null}
+      events={{ hover: true, focus: reason !== null, touch: reason !== null }}
+      {...(reason === null ? {} : { multiline: true, maw: 340 })}
+    >
       <ActionIcon
         size="lg"
         aria-label={label}
         disabled={isDisabled}
+        {...(reason === null ? {} : { 'data-disabled': true, 'aria-disabled': true })}
         onClick={() => perform(id)}
         {...handlers}
         {...look}

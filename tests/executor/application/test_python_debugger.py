@@ -47,12 +47,16 @@ class Debugger:
         return str(await self.client.ask("dap", {"message": message}))
 
     async def ask(self, command: str, **arguments: Any) -> dict[str, Any]:
+        answer = await self.message_of(command, **arguments)
+        assert answer["success"], answer
+        return dict(answer.get("body") or {})
+
+    async def message_of(self, command: str, **arguments: Any) -> dict[str, Any]:
+        """Returns the whole answer to a request, also one that is refused."""
         at = len(self.client.events)
         assert await self.sent(command, **arguments) == "ack"
         seq = self.seq
-        answer = await self.message(lambda m: m.get("request_seq") == seq, after=at)
-        assert answer["success"], answer
-        return dict(answer.get("body") or {})
+        return await self.message(lambda m: m.get("request_seq") == seq, after=at)
 
     async def message(self, wanted: Any, after: int = 0) -> dict[str, Any]:
         event = await self.client.event("dap", lambda d: wanted(d["message"]), after=after)

@@ -16,10 +16,12 @@ from msgspec import structs
 from executor import child_messages, messages
 from executor.child_messages import ForWorld, StartApplication
 from executor.replay_messages import FINGERPRINT_BYTES, Replay
+from executor.run_inputs import input_of
 from tests.budget import count
 from tests.executor.exact.exact_runs import ExactRun, app_folder, hashing_app, start_message
 from tests.executor.exact.test_process import exact, ready
 from tests.executor.session_client import ROOT, SessionClient, manager_process
+from tests.executor.test_run_inputs import CHANGE, CHANGE_WORLD
 from translator import load, to_app_zip
 
 if TYPE_CHECKING:
@@ -27,7 +29,6 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.simulation
 
-FORWARD = "bump and go/Forward::6"
 KINDS = 8
 
 
@@ -172,6 +173,48 @@ def test_what_enters_while_the_debugger_holds_enters_at_the_same_stop() -> None:
         copy = again(run)
         assert reached(copy).inputs == 10
         assert copy.said_of(child_messages.Differs) == []
+        assert copy.end() == state
+
+
+def test_each_kind_of_change_by_hand_is_made_again_at_its_place() -> None:
+    twist = {"linear": {"x": 0.1}, "angular": {"z": 0.5}}
+    stop = messages.SetBreakpoints([messages.Breakpoint("MainTree", "n6")])
+    with app_folder() as folder, app_folder("        #\n") as other:
+        for_world: list[Any] = [
+            child_messages.Teleop(0.2, 0.7),
+            child_messages.MoveBody(id="robot", pose=(0.4, -0.3, 0.05, 0.0, 0.0, 1.2)),
+            child_messages.PublishTopic("/cmd_vel", "geometry_msgs/msg/Twist", twist),
+            child_messages.StopRobot(),
+            child_messages.Reset(),
+        ]
+        for_tree: list[Any] = [
+            child_messages.SetTickRate(tick_hz=33.0),
+            child_messages.SetPort(node_id="n6", path="Forward::6", port="lin_speed", value="0.2"),
+            child_messages.SetBlackboard("", "nudge", 0.5),
+            child_messages.ForceResult(force=messages.Force(5, "Turn::5", status="RUNNING")),
+            child_messages.ReleaseForced(),
+            child_messages.ApplyApplication(app_dir=str(other)),
+            child_messages.SetBreakpoints(wanted=stop),
+        ]
+        run = ExactRun(start_message(folder))
+        for message in [*map(ForWorld, for_world), *for_tree]:
+            run.run_ticks(5)
+            run.pause()
+            run.tell(message)
+        run.resume()
+        run.until(lambda m: isinstance(m, child_messages.Held))
+        run.tell(child_messages.SetBlackboard("", "nudge", 0.7))
+        run.tell(child_messages.Continue(off=True))
+        run.run_ticks(10)
+        run.pause_after_tick()
+        state = run.end()
+        refused = [m.error for m in run.said_of(child_messages.Answer) if m.error is not None]
+        assert refused == []
+        kinds = {type(input_of(child_messages.decode_to_exact(each.message))) for each in run.inputs}
+        assert kinds == {type(command) for command in [*CHANGE, *CHANGE_WORLD]}, "no kind is left out"
+        copy = again(run)
+        assert copy.said_of(child_messages.Differs) == []
+        assert reached(copy).inputs == len(run.inputs)
         assert copy.end() == state
 
 

@@ -39,6 +39,31 @@ def helped(value):
 """
 
 
+HELP = """\
+class Base:
+    def __init__(self):
+        self.scale = 2
+
+    def scaled(self, value):
+        factor = self.scale
+        return factor * value
+"""
+
+
+class Files:
+    """A project with one action and a module beside it."""
+
+    def __init__(self, source: str = ACT) -> None:
+        self.texts = {"actions/Act.py": source, "/run/1/lib/help.py": HELP}
+
+    def file_of(self, path: str) -> str:
+        return path.removeprefix("/run/1/") if path in self.texts else ""
+
+    def text_of(self, path: str, most_bytes: int) -> str | None:
+        text = self.texts[path]
+        return text if len(text) <= most_bytes else None
+
+
 def loaded(source: str = ACT, file: str = "actions/Act.py") -> dict[str, Any]:
     names: dict[str, Any] = {}
     exec(compile(source, file, "exec"), names)  # noqa: S102 - an action
@@ -47,7 +72,7 @@ def loaded(source: str = ACT, file: str = "actions/Act.py") -> dict[str, Any]:
 
 def followed(run: Any, source: str = ACT) -> TickSource:
     """Returns what is found while a function runs."""
-    tracer = LineTracer(Locator(), {"Act": source})
+    tracer = LineTracer(Locator(), Files(source))
     with suppress(ValueError), tracer:
         tracer.is_in_tick = True
         run()
@@ -100,10 +125,25 @@ def test_an_exception_ends_the_calls_that_do_not_handle_it() -> None:
     assert (call.end, call.result) == ("returned", "7")
 
 
-def test_only_the_actions_are_followed_and_callbacks_say_so() -> None:
+def test_modules_of_the_project_are_followed_too() -> None:
+    names = loaded(HELP, "/run/1/lib/help.py")
+    source = "class Act(Base):\n    def update(self):\n        return self.scaled(21)\n"
+    exec(compile(source, "actions/Act.py", "exec"), names)  # noqa: S102 - an action
+    act = names["Act"]()
+    found = followed(act.update, source)
+    update, scaled = found.calls
+    assert (update.file, update.result) == ("actions/Act.py", "42")
+    assert (scaled.file, scaled.function, scaled.line) == ("lib/help.py", "Base.scaled", 5)
+    assert lines(scaled) == {5: 0, 6: 1, 7: 1}
+    assert values(scaled, 6) == {"factor": "2"}
+    assert named(scaled.fields) == {"self.scale": "2"}, "the field of a base class of the project"
+    assert found.files == {"actions/Act.py": source, "lib/help.py": HELP}
+
+
+def test_only_the_project_is_followed_and_callbacks_say_so() -> None:
     other = loaded("def other(call):\n    return call()\n", "/usr/lib/other.py")["other"]
     helped = loaded()["helped"]
-    tracer = LineTracer(Locator(), {"Act": ACT})
+    tracer = LineTracer(Locator(), Files())
     helped(2)
     with tracer:
         other(lambda: helped(2))

@@ -119,6 +119,39 @@ def test_a_run_that_differs_says_from_which_tick_on(past: Past) -> None:
     assert [each.tick for each in run.said_of(child_messages.Differs)] == [6]
 
 
+HELPER = """class Scale:
+    def __init__(self):
+        self.calls = 0
+
+    def of(self, number):
+        self.calls += 1
+        doubled = 2 * number
+        return doubled
+"""
+HELPED = """        from lib.scale import Scale
+        self.scale = getattr(self, "scale", None) or Scale()
+        self.scale.of(self.number)
+"""
+
+
+def test_a_module_that_an_action_imports_is_shown_too() -> None:
+    with app_folder(HELPED) as folder:
+        (folder / "lib").mkdir()
+        (folder / "lib/__init__.py").touch()
+        (folder / "lib/scale.py").write_text(HELPER)
+        past = Past(folder)
+        source, run = past.source(past.written[2][0])
+        (call,) = [each for each in source.calls if each.function == "Scale.of"]
+        number = past.written[2][1].split()[0]
+        assert (call.file, call.result) == ("lib/scale.py", str(2 * int(number)))
+        assert named(call.locals) == {"doubled": str(2 * int(number)), "number": number}
+        assert named(call.fields) == {"self.calls": number}
+        assert call.path.endswith("Forward::6"), "it belongs to the block whose action called it"
+        assert source.files["lib/scale.py"] == HELPER
+        assert "actions/Forward.py" in source.files
+        assert run.said_of(child_messages.Differs) == []
+
+
 async def test_a_session_shows_the_source_of_a_tick_and_continues() -> None:
     async with manager_process() as manager:
         client = await SessionClient(manager.ready["port"]).open()

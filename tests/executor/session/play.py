@@ -9,6 +9,7 @@ from msgspec import convert
 from executor import child_messages, recorder_messages
 from executor.child_messages import FromExact, FromWorld, name_of
 from executor.messages import COMMANDS
+from executor.replay_messages import FINGERPRINT_BYTES
 from executor.session.events import (
     ChildExited,
     ChildSaid,
@@ -166,7 +167,9 @@ class Play:
                 return [self._said(effect, "answer", request=request)] if request else []
             case Tell(message=child_messages.StartApplication(replay=replay)) if replay is not None:
                 t_s = 9.0 if replay.until_s is None else replay.until_s
-                fields = {"t": t_s, "ticks": 1, "inputs": 0, "resets": 0, "tick_hz": 20.0}
+                ticks = 1 if replay.until_s is not None else len(replay.fingerprints) // FINGERPRINT_BYTES
+                inputs = sum(each.tick <= ticks for each in replay.inputs) if replay.until_s is None else 0
+                fields = {"t": t_s, "ticks": ticks, "inputs": inputs, "resets": 0, "tick_hz": 20.0}
                 return [self._said(effect, "went_back", **fields), self._said(effect, "ready")]
             case Tell(kind="application", message=child_messages.Stop()) if self.session.children.host:
                 left = self._said(effect, "world_state", data=b"as it was left")

@@ -64,6 +64,9 @@ def test_every_command_in_every_state(state, command):
     elif command in ("try_values", "try_seeds", "source_of_tick"):
         assert play.reply(request) == ("live_run" if state in HAS_APPLICATION else "no_run")
         assert play.state is before
+    elif command == "tick_back":
+        assert play.reply(request) == "live_run"
+        assert play.state is before
     elif command == "go_back" and state in HAS_APPLICATION:
         assert play.reply(request) == "not_recorded"
         assert play.state is before

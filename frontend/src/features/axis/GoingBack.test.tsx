@@ -53,6 +53,25 @@ it('says of a live run that its program begins again', async () => {
   unregister();
 });
 
+it('says where the program was changed by hand that there is no way back', async () => {
+  const unregister = registerAxisCommands();
+  useSessionStore.setState({
+    ...{ connection: 'open', introspection: driver, repeatableRuns: ['a'], runsByHand: { a: 1.5 } },
+    segments: [segmentOf({ run: 'a', to_t: 8 })],
+  });
+  useMoment.setState({ t: 2 });
+  show(<GoBackButton />);
+  const button = screen.getByRole('button', { name: 'Go back to here' });
+  expect(button).toHaveAttribute('aria-disabled', 'true');
+  await user.click(button);
+  expect(send).not.toHaveBeenCalled();
+  await user.hover(button);
+  expect(await screen.findByText(/changed by hand .* at 1.50 s/)).toBeVisible();
+  act(() => useMoment.setState({ t: 1.25 }));
+  expect(button).toHaveAttribute('aria-disabled', 'false');
+  unregister();
+});
+
 it('offers to run on where the run is paused, for the driver', () => {
   const unregister = registerAxisCommands();
   useSessionStore.setState({ connection: 'open', introspection: driver });

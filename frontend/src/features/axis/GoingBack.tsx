@@ -4,7 +4,14 @@ import type { ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
 import { perform, useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
-import { beginsAgain, canGoBack, cancelGoBack, canRunOn, mayGoBack } from '@/store/moment/rerun/goBack';
+import {
+  beginsAgain,
+  canGoBack,
+  cancelGoBack,
+  canRunOn,
+  changedByHandAt,
+  mayGoBack,
+} from '@/store/moment/rerun/goBack';
 import { useMoment } from '@/store/moment/store';
 import { useSource } from '@/store/moment/source';
 import { useRunStore } from '@/store/run/store';
@@ -58,15 +65,27 @@ interface AxisButtonProps {
 function AxisButton({ isOffered, command: id, words, testId, icon }: AxisButtonProps) {
   const { t } = useTranslation('axis');
   const command = useCommandTable(({ commands }) => commands[id]);
-  const help = useSessionStore(beginsAgain) ? t('goBack.helpLive') : t(`${words}.help`);
+  useMoment((state) => state.t);
+  const byHand = useSessionStore(changedByHandAt);
+  const isLive = useSessionStore(beginsAgain);
   if (!command) return null;
+  const help = isLive ? t('goBack.helpLive') : t(`${words}.help`);
+  const why = byHand === null ? null : t('goBack.byHand', { t: byHand.toFixed(2) });
   return (
-    <Tooltip label={`${help} (${keysOf(command)})`} multiline w={280}>
+    <Tooltip
+      label={why ?? `${help} (${keysOf(command)})`}
+      multiline
+      w={280}
+      events={{ hover: true, focus: why !== null, touch: why !== null }}
+    >
       <Button
         size="compact-xs"
         variant="default"
         className={classes['goBack']}
-        style={isOffered ? undefined : { visibility: 'hidden' }}
+        style={isOffered || why !== null ? undefined : { visibility: 'hidden' }}
+        // The button stays focusable, so that its tooltip can say why it is disabled.
+        data-disabled={why !== null}
+        aria-disabled={why !== null}
         aria-label={t(`${words}.label`)}
         leftSection={icon}
         data-testid={testId}

@@ -66,7 +66,8 @@ it('says where and why the tree is held, and opens the block', async () => {
   expect(screen.getByTestId('debug-to')).toBeDisabled();
   await user.click(screen.getByTestId('held-node'));
   expect(openTree).toHaveBeenCalledWith('Main');
-  expect(screen.getAllByRole('button')).toHaveLength(7);
+  expect(screen.getAllByRole('button')).toHaveLength(8);
+  expect(screen.getByTestId('tick-back')).toBeEnabled();
   expect(screen.getByTestId('debug-to')).toBeEnabled(); // the block is selected now
 });
 

@@ -32,6 +32,7 @@ it.each([
   ['F10', {}, 'debug.over'],
   ['F11', {}, 'debug.into'],
   ['F11', { shiftKey: true }, 'debug.out'],
+  ['F10', { ctrlKey: true, shiftKey: true }, 'debug.tickBack'],
 ])('%s %o of a held tree is %s', (key, more, id) => {
   hold();
   expect(press(key, more)).toEqual([id]);
@@ -43,6 +44,14 @@ it.each([
 ])('%s of a running tree is %s', (key, id) => {
   useSessionStore.setState({ executor: 'application_running' });
   expect(press(key)).toEqual([id]);
+});
+
+it('a key takes a paused run one tick back, and a running one not', () => {
+  useSessionStore.setState({ executor: 'paused', introspection: { role: 'driver' } as never });
+  expect(press('F10', { ctrlKey: true, shiftKey: true })).toEqual(['debug.tickBack']);
+  undo.splice(0).forEach((each) => each());
+  useSessionStore.setState({ executor: 'application_running' });
+  expect(press('F10', { ctrlKey: true, shiftKey: true })).toEqual([]);
 });
 
 it('a key switches all breakpoints off and on', () => {

@@ -5,6 +5,7 @@ import {
   IconCircleOff,
   IconPlayerPlayFilled,
   IconPlayerTrackNext,
+  IconPlayerTrackPrev,
   IconHandOff,
 } from '@tabler/icons-react';
 import { registerCommands, type UserCommand } from '@/commands/registry';
@@ -21,6 +22,7 @@ import {
   stepOver,
   stepTick,
 } from '@/store/debug/debugger';
+import { canTickBack, tickBack } from '@/store/debug/tickBack';
 import { useSessionStore } from '@/store/session/store';
 
 const whenHeld = { group: 'run', when: 'held', inTextFields: true, enabled: canDebug } as const;
@@ -73,6 +75,16 @@ export const heldCommands: readonly UserCommand[] = [
 ];
 
 const others: readonly UserCommand[] = [
+  {
+    id: 'debug.tickBack',
+    group: 'run',
+    labelKey: 'debug:command.tickBack',
+    icon: IconPlayerTrackPrev,
+    shortcut: '$mod+Shift+F10',
+    inTextFields: true,
+    enabled: canTickBack,
+    run: () => void tickBack(),
+  },
   {
     id: 'debug.switchBreakpoints',
     group: 'run',

@@ -5,6 +5,7 @@ import { perform } from '@/commands/registry';
 import { shortcutLabel } from '@/commands/shortcuts';
 import { CommandButton } from '@/ui/CommandButton';
 import { usePressed } from '@/ui/hooks/usePressed';
+import { TickBackButton } from '@/features/debug/TickBackButton';
 import { useRunStore } from '@/store/run/store';
 import { doesWorldRunAlone } from '@/store/session/clock';
 import { useSessionStore } from '@/store/session/store';
@@ -77,6 +78,9 @@ export function RunControls() {
         testId="step"
         isDisabled={!hasApplication || isHeld || isGoingBack || isBlocked}
       />
+      <div className={classes['tickBack']}>
+        <TickBackButton />
+      </div>
       <RunMenu isDisabled={isBlocked} />
       <CommandButton
         command="run.stop"

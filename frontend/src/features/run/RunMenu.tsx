@@ -13,6 +13,7 @@ const COMMANDS = [
   'run.restart',
   'run.apply',
   'run.step10',
+  'debug.tickBack',
   'run.resetWorld',
   'run.world',
   'run.teleop',

@@ -51,6 +51,7 @@ const snapshot = (more: Partial<Snapshot> = {}): Snapshot => ({
   branches: [],
   repeatable_runs: [],
   live_runs: [],
+  runs_by_hand: {},
   held: null,
   forced: null,
   attached: null,

@@ -87,6 +87,8 @@ export interface SessionData {
   repeatableRuns: string[];
   /** Those of them that are live: their world goes back, and their tree begins again. */
   liveRuns: string[];
+  /** When the debugger changed those that it did, in s: one can go back only to an earlier moment. */
+  runsByHand: Record<string, number>;
   /** How far a run is on its way back to a moment, 0 to 1; null while none is. */
   goingBack: number | null;
   /** Where the debugger holds the tree; null while it does not. */

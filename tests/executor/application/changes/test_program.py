@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 
@@ -79,6 +80,37 @@ def test_a_change_that_is_undone_leaves_folder_modules_and_classes(program, tmp_
     assert (sys.modules["actions.Act"], sys.modules["helper"], sys.path, sys.meta_path) == before
     assert Path.cwd() == tmp_path / "1"
     assert tree.tick_exactly_once().name == "RUNNING"
+
+
+def test_files_have_the_names_and_texts_of_the_project(program, tmp_path: Path):
+    first = written(tmp_path / "1", helper="WAITS = True\n", Act=HELPED, Other=ENDS)
+    running = program(first)
+    tree = running.load()
+    module = sys.modules["helper"].__file__
+    assert module == str(first / "helper.py")
+    assert (running.file_of(module), running.text_of(module, 100)) == ("helper.py", "WAITS = True\n")
+    assert running.file_of("actions/Act.py") == "actions/Act.py"
+    assert running.text_of("actions/Act.py", 1000) == HELPED
+    assert running.text_of("actions/Act.py", 10) is None
+    assert running.text_of(module, 5) is None
+    for other in (os.__file__, f"{first}2/x.py", "<string>"):
+        assert running.file_of(other) == ""
+
+    change = running.change(written(tmp_path / "2", helper="WAITS = True\n", Act=HELPED, Other=RUNS), tree)
+    assert sys.modules["helper"].__file__ == module, "it has not changed"
+    assert (running.file_of(module), running.text_of(module, 100)) == ("helper.py", "WAITS = True\n")
+    assert running.text_of("actions/Other.py", 1000) == RUNS.replace("class Act(", "class Other(")
+    assert running.file_of(str(tmp_path / "2/lib/x.py")) == "lib/x.py"
+    change.undo()
+    assert running.file_of(str(tmp_path / "2/lib/x.py")) == ""
+    assert running.text_of("actions/Other.py", 1000) == ENDS.replace("class Act(", "class Other(")
+
+
+def test_a_file_that_is_gone_or_no_file_has_no_text(program, tmp_path: Path):
+    running = program(written(tmp_path / "1", Act=RUNS, Other=ENDS))
+    os.mkfifo(tmp_path / "1/pipe.py")
+    for name in ("pipe.py", "gone.py", ".", "a\0b.py"):
+        assert running.text_of(str(tmp_path / "1" / name), 100) is None
 
 
 @pytest.mark.parametrize(

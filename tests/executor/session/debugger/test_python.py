@@ -9,9 +9,18 @@ import pytest
 
 from executor import adapter_messages
 from executor.session.debugger.python import HELD_IN_PYTHON
-from executor.session.events import ChildLooked, ChildSaid, ClientJoined, Retire, Tell
+from executor.session.events import (
+    ChildLooked,
+    ChildSaid,
+    ClientJoined,
+    RecordingWanted,
+    Retire,
+    Tell,
+)
 from executor.session.ladder import State
 from tests.executor.session.play import APPLICATION, HELD, UNIVERSE, Play
+
+EXACT: dict[str, Any] = {"universe": {**UNIVERSE, "time": "exact"}, "application": APPLICATION}
 
 
 class Debugged(Play):
@@ -51,6 +60,10 @@ class Debugged(Play):
 
     def stop(self) -> None:
         self.adapter_tells("stopped", reason="breakpoint", threadId=1)
+
+
+def told(play: Play, kind: str) -> list[Any]:
+    return [each.message for each in play.effects if isinstance(each, Tell) and each.kind == kind]
 
 
 def test_each_application_gets_an_adapter_of_its_own():
@@ -238,6 +251,58 @@ def test_what_is_changed_by_hand_is_said():
     play.stop()
     play.ask("setVariable", name="n", value="3", variablesReference=1)
     assert play.sent("log")[-1].text == "Changed by hand in Python: n = 3"
+
+
+@pytest.mark.parametrize(
+    ("command", "arguments", "is_change"),
+    [
+        ("setVariable", {"name": "n", "value": "3", "variablesReference": 1}, True),
+        ("evaluate", {"expression": "self.n.clear()", "frameId": 1, "context": "watch"}, True),
+        ("evaluate", {"expression": "n = 3", "context": "repl"}, True),
+        ("evaluate", {"expression": "self.n", "frameId": 1, "context": "hover"}, False),
+        ("variables", {"variablesReference": 1}, False),
+        ("completions", {"text": "self.", "column": 6, "frameId": 1}, False),
+        ("next", {"threadId": 1}, False),
+    ],
+)
+def test_each_kind_of_change_in_python_ends_the_way_back(
+    command: str, arguments: dict[str, Any], is_change: bool
+):
+    play = Debugged()
+    play.happens(RecordingWanted("/records"))
+    assert play.reply(play.command("run", **EXACT)) == "ack"
+    play.ask("initialize")
+    play.adapter_tells("initialized")
+    play.ask("configurationDone")
+    play.child_says("application", "fingerprints", data=b"12345678" * 9)
+    play.child_says("application", "tick", n=7, t=0.5, changed=[], flashed=[], duration_ms=1.0)
+    play.child_says("application", "beat", turns=7, ticks=8)
+    play.stop()
+    assert play.ask(command, **arguments) == "ack"
+    run = play.session.recording.run
+    assert play.sent("repeatable_runs")[-1].by_hand == ({run: 0.5} if is_change else {})
+    assert play.session.snapshot().runs_by_hand == play.sent("repeatable_runs")[-1].by_hand
+    for t_s in (0.5, None):
+        reply = play.reply(play.command("go_back", t=t_s))
+        assert reply == ("changed_by_hand" if is_change else "ack")
+        if not is_change:
+            return
+    assert play.reply(play.command("go_back", t=0.49)) == "ack"
+    [again] = [m for m in told(play, "application") if getattr(m, "replay", None) is not None]
+    assert len(again.replay.fingerprints) == 7 * 8, "the eighth tick is the changed one"
+
+
+def test_a_program_that_runs_evaluates_nothing():
+    play = Debugged()
+    play.begin()
+    for command in ("evaluate", "setVariable"):
+        assert play.ask(command, expression="n = 3", context="repl") == "ack"
+        answer = play.messages()[-1]
+        assert (answer["success"], answer["message"]) == (
+            False,
+            "The program is not held at a line of Python.",
+        )
+    assert "evaluate" not in [each["command"] for each in play.passed_on()]
 
 
 def test_an_attach_that_fails_is_said():

@@ -140,8 +140,8 @@ def test_runs_that_cannot_be_made_again_are_refused() -> None:
 
 def test_ticks_after_a_change_by_the_debugger_are_refused() -> None:
     play = recorded()
-    play.session.past.changed_by_hand(1.0)
-    play.session.past.changed_by_hand(4.0)
+    play.session.past.changed_by_hand(1.0, 20)
+    play.session.past.changed_by_hand(4.0, 80)
     assert play.reply(play.command("source_of_tick", job="a1", t=1.0)) == "changed_by_hand"
     assert play.reply(play.command("source_of_tick", job="a1", t=0.95)) == "ack"
 

@@ -55,6 +55,8 @@ it.each([
   [{ key: 'ContextMenu', shiftKey: false }, true],
   [{ key: 'F10', shiftKey: true }, true],
   [{ key: 'F10', shiftKey: false }, false],
+  [{ key: 'F10', shiftKey: true, ctrlKey: true }, false],
+  [{ key: 'F10', shiftKey: true, metaKey: true }, false],
   [{ key: 'F1', shiftKey: true }, false],
 ])('isMenuKey of %o is %s', (event, expected) => {
   expect(isMenuKey(event as KeyboardEvent)).toBe(expected);

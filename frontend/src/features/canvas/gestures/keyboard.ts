@@ -105,8 +105,8 @@ function onBlockKey(event: KeyboardEvent, diagram: Diagram, id: NodeId): boolean
 }
 
 /** Returns whether a key opens the context menu: the menu key, or Shift+F10 for keyboards without one. */
-export const isMenuKey = ({ key, shiftKey }: KeyboardEvent): boolean =>
-  key === 'ContextMenu' || (key === 'F10' && shiftKey);
+export const isMenuKey = ({ key, shiftKey, ctrlKey, metaKey }: KeyboardEvent): boolean =>
+  key === 'ContextMenu' || (key === 'F10' && shiftKey && !ctrlKey && !metaKey);
 
 /** Handles the keys of the canvas. Keys with Ctrl that apply to the whole page are in the command table. */
 export function onCanvasKey(event: KeyboardEvent): void {

@@ -105,7 +105,7 @@ it('says why there is none, and lets the user try again', async () => {
 
 it('says that no action ran', async () => {
   await answered({ calls: [], files: {} });
-  expect(screen.getByText('No action ran any Python in this tick.')).toBeInTheDocument();
+  expect(screen.getByText('This tick ran no Python of the project.')).toBeInTheDocument();
 });
 
 it('does not show the code of another tick', async () => {
@@ -118,6 +118,7 @@ it('does not show the code of another tick', async () => {
 it.each([
   ['live', { liveRuns: ['a'] }, /live run cannot be made again/],
   ['unrepeatable', { repeatableRuns: ['b'] }, /too long ago/],
+  ['byHand', { runsByHand: { a: 0 } }, /changed by hand/],
   ['viewer', { introspection: { role: 'viewer' } as Introspection }, /take over first/],
 ])('refuses what is %s', (_, change, words) => {
   useSessionStore.setState(change);

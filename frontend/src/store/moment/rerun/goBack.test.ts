@@ -7,7 +7,7 @@ import { useSessionStore } from '@/store/session/store';
 import { useRunStore } from '@/store/run/store';
 import { fakeServer, openProject } from '../../../../harness/testing';
 import { segmentOf } from '../../../../harness/runs';
-import { canGoBack, cancelGoBack, canRunOn, goBack, runOn } from './goBack';
+import { canGoBack, cancelGoBack, canRunOn, changedByHandAt, goBack, runOn } from './goBack';
 import { ofSession, useSource } from '../source';
 import { atPresent, useMoment } from '../store';
 
@@ -55,6 +55,19 @@ it('is possible at a past moment of an exact run, for its driver, while none is 
   useMoment.setState({ t: 1 });
   useSource.setState({ kept: { id: 'k', name: 'kept' } });
   expect(canGoBack()).toBe(false);
+});
+
+it('is not possible from the moment on at which the debugger changed the program', async () => {
+  useSessionStore.setState({ runsByHand: { a: 3.25, b: 0 } });
+  expect(changedByHandAt()).toBe(3.25);
+  expect(canGoBack()).toBe(false);
+  await goBack();
+  expect(send).not.toHaveBeenCalled();
+  useMoment.setState({ t: 3.2 });
+  expect(changedByHandAt()).toBeNull();
+  expect(canGoBack()).toBe(true);
+  useMoment.setState({ t: null });
+  expect(changedByHandAt()).toBeNull();
 });
 
 it('sends nothing where it is not possible', async () => {

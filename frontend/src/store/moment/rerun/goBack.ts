@@ -14,13 +14,23 @@ export function mayGoBack(): boolean {
   return isDriver && useSource.getState().kept === null && repeatableRuns.length > 0;
 }
 
+/**
+ * Returns when the debugger changed the program of the shown run, in s, if that was not after the shown moment:
+ * from then on it cannot be made again. Else null.
+ */
+export function changedByHandAt(): number | null {
+  const { t } = useMoment.getState();
+  const at = useSessionStore.getState().runsByHand[extent()?.run ?? ''];
+  return t !== null && at !== undefined && t >= at ? at : null;
+}
+
 /** Whether world and program can go back to the shown moment. */
 export function canGoBack(): boolean {
   const { repeatableRuns, goingBack } = useSessionStore.getState();
   const run = extent()?.run;
   if (!mayGoBack() || goingBack !== null || useMoment.getState().t === null || run === undefined)
     return false;
-  return repeatableRuns.includes(run);
+  return repeatableRuns.includes(run) && changedByHandAt() === null;
 }
 
 /** Whether the shown run is live: then only its world goes back, and the tree begins again. */

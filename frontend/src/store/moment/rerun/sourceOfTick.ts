@@ -6,11 +6,11 @@ import { extent } from '../looking';
 import { usePastTree } from '../pastTree';
 import { useSource } from '../source';
 import { useMoment } from '../store';
-import { beginsAgain, canGoBack } from './goBack';
+import { beginsAgain, canGoBack, changedByHandAt } from './goBack';
 import { newJob, refusalOf } from './job';
 
 /** Why the code of the shown tick cannot be shown. */
-export type NoSource = 'present' | 'kept' | 'viewer' | 'live' | 'unrepeatable' | 'noTick';
+export type NoSource = 'present' | 'kept' | 'viewer' | 'live' | 'byHand' | 'unrepeatable' | 'noTick';
 
 /** Returns why the code of the shown tick cannot be asked for; null if it can. */
 export function whyNoSource(): NoSource | null {
@@ -19,6 +19,7 @@ export function whyNoSource(): NoSource | null {
   if (useSource.getState().kept) return 'kept';
   if (useSessionStore.getState().introspection?.role !== 'driver') return 'viewer';
   if (beginsAgain()) return 'live';
+  if (changedByHandAt() !== null) return 'byHand';
   if (!canGoBack()) return 'unrepeatable';
   return shown.tickT === null ? 'noTick' : null;
 }

@@ -157,7 +157,7 @@ def test_breakpoints_that_an_application_does_not_take_before_its_end_are_those_
     assert begun_with(play) == ["n1"]
 
 
-def test_an_application_that_hangs_gets_breakpoints_once_it_goes_on() -> None:
+def test_an_application_that_hangs_gets_breakpoints_once_it_continues() -> None:
     play = Play()
     play.climb(State.APPLICATION_RUNNING)
     application = play.session.children.living["application"]

@@ -51,7 +51,7 @@ def test_the_world_goes_back_and_the_tree_begins_again(state: State) -> None:
     assert play.state is State.APPLICATION_RUNNING
 
 
-def test_breakpoints_that_are_set_on_the_way_are_there_when_it_stands_still() -> None:
+def test_breakpoints_that_are_set_on_the_way_are_there_when_it_pauses() -> None:
     play = recorded()
     play.obedient = False
     play.command("go_back", t=1.5)
